@@ -8,7 +8,7 @@
 (* l a label; w a world. Its kappa and sigma are the variables control and store. *)
 (* S is the shared part <store, A, B, N>, with what sensors have shown in the     *)
 (* step, with the residuals beside the part that takes it, with those that may    *)
-(* come after it, and with the whole residual.                                    *)
+(* come after it, with the whole residual, and with who was recruited for it.     *)
 (*                                                                                *)
 (* Steps(S, r, E) is the steps of the residual r: those that need no event, and   *)
 (* those on the events E; the leftmost first. A step is a sequence of its         *)
@@ -36,7 +36,7 @@ VARIABLES
   N         \* the tuple space
 
 Shared == [ store |-> store, A |-> A, B |-> B, N |-> N, sees |-> NothingSeen, beside |-> << >>, around |-> << >>,
-            whole |-> << >> ]
+            whole |-> << >>, recruits |-> << >> ]
 
 (* kappa *)
 Script(M) == [ at |-> "script", M |-> M ]
@@ -81,7 +81,7 @@ Act(r) ==
   CASE r.op = "seq" -> [ r EXCEPT !.first = Act(@) ]
     [] r.op = "par" -> [ r EXCEPT !.branches = Each(@, Act) ]
     [] r.op \in { "allOf", "repeat" } -> [ r EXCEPT !.runs = Each(@, Act) ]
-    [] r.op \in { "until", "watch", "hold" } -> [ r EXCEPT !.body = Act(@) ]
+    [] r.op \in { "until", "watch", "hold", "recruited" } -> [ r EXCEPT !.body = Act(@) ]
     [] r.op = "during" -> IF Is(r.time, "closure") THEN r ELSE [ r EXCEPT !.started = TRUE, !.body = Act(@) ]
     [] OTHER -> r
 
@@ -92,7 +92,7 @@ Running(r) ==
     [] r.op = "seq" -> Running(r.first)
     [] r.op = "par" -> Flatten(Each(r.branches, Running))
     [] r.op \in { "allOf", "repeat" } -> Flatten(Each(r.runs, Running))
-    [] r.op \in { "until", "watch", "hold" } -> Running(r.body)
+    [] r.op \in { "until", "watch", "hold", "recruited" } -> Running(r.body)
     [] r.op = "during" -> IF r.started THEN Running(r.body) ELSE << >>
     [] OTHER -> << >>
 
@@ -105,9 +105,25 @@ Timers(r) ==
     [] r.op = "seq" -> Timers(r.first)
     [] r.op = "par" -> Flatten(Each(r.branches, Timers))
     [] r.op \in { "allOf", "repeat" } -> Flatten(Each(r.runs, Timers))
-    [] r.op \in { "until", "watch", "hold" } -> Timers(r.body)
+    [] r.op \in { "until", "watch", "hold", "recruited" } -> Timers(r.body)
     [] r.op = "during" -> IF r.started THEN << [ i |-> r.timer, time |-> r.time ] >> \o Timers(r.body) ELSE << >>
     [] OTHER -> << >>
+
+(* recruits(r): the vehicles that r has recruited and has still. *)
+RECURSIVE Recruits(_)
+Recruits(r) ==
+  CASE r.op = "recruited" -> << r.v >> \o Recruits(r.body)
+    [] r.op = "seq" -> Recruits(r.first)
+    [] r.op = "par" -> Flatten(Each(r.branches, Recruits))
+    [] r.op \in { "allOf", "repeat" } -> Flatten(Each(r.runs, Recruits))
+    [] r.op \in { "until", "watch", "hold" } -> Recruits(r.body)
+    [] r.op = "during" -> IF r.started THEN Recruits(r.body) ELSE << >>
+    [] OTHER -> << >>
+
+RecruitsOf(kappa) == IF kappa.at = "exec" THEN Recruits(kappa.r) ELSE << >>
+
+(* Those that were picked, and those that were recruited. *)
+Bound == Range(B) \cup Range(RecruitsOf(control))
 
 IsQuestion(timer) == "prompt" \in DOMAIN timer
 
@@ -115,7 +131,8 @@ IsQuestion(timer) == "prompt" \in DOMAIN timer
 Deepest == 100
 
 -----------------------------------------------------------------------------
-(* r is the residual of a task whose vehicles are in B, in normal form; what runs in it is in A, and only an active part
+(* r is the residual of a task whose vehicles are bound, in normal form; what runs in it is in A,
+  and only an active part
    has begun. *)
 (* No vehicle, and no timer, is in both. *)
 AreApart(r1, r2) ==
@@ -124,7 +141,7 @@ AreApart(r1, r2) ==
 RECURSIVE IsResidual(_, _)
 IsResidual(r, active) ==
   LET areChoices(bs) == \A j \in DOMAIN bs : Is(bs[j].guard, "closure") /\ IsResidual(bs[j].body, FALSE)
-  IN CASE r.op = "ready" -> r.p.op = "platform" /\ r.v \in Range(B)
+  IN CASE r.op = "ready" -> r.p.op = "platform" /\ r.v \in Bound
        [] r.op = "running" -> active /\ r.v \in DOMAIN A /\ A[r.v] = r.p
        [] r.op \in { "action", "condition" } -> Is(r.code, "closure")
        [] r.op = "seq" ->
@@ -155,7 +172,9 @@ IsResidual(r, active) ==
        [] r.op = "made" -> Is(r.code, "closure") /\ r.place \in Nat \ { 0 } /\ r.depth \in 0 .. Deepest
        [] r.op = "unallocated" -> active /\ r.place \in Nat \ { 0 } /\ r.depth \in 0 .. Deepest
        [] r.op = "hold" ->
-            active /\ r.vehicles # << >> /\ Range(r.vehicles) \subseteq Range(B) /\ IsResidual(r.body, active)
+            active /\ r.vehicles # << >> /\ Range(r.vehicles) \subseteq Bound /\ IsResidual(r.body, active)
+       [] r.op = "recruit" -> r.timer \in Nat \ { 0 } /\ r.place \in Nat \ { 0 } /\ Is(r.code, "closure")
+       [] r.op = "recruited" -> active /\ r.v \notin Range(B) /\ IsResidual(r.body, active)
        [] OTHER -> FALSE
 
 -----------------------------------------------------------------------------
@@ -169,6 +188,8 @@ FailedOn(v, m) == << "failed", v, m >>
 Expired(i) == << "expired", i >>
 (* The question i is answered by y: << "yes" >>, << "no" >>, or << "nobody", m >>. *)
 Confirmed(i, y) == << "confirmed", i, y >>
+(* v is there for the recruit i; whether somebody must come, of all those who may; whether v surely is there. *)
+Recruited(i, v, isOwed, isSure) == << "recruited", i, v, isOwed, isSure >>
 AnsweredWith(text) == << "answered", text >>
 NobodyAnswers(m) == << "nobody answers", m >>
 Replied(y) == << "replied", y >>
@@ -194,9 +215,12 @@ SetTimers(timers) ==
 CancelTimers(timers) ==
   Each(timers, LAMBDA timer : << IF IsQuestion(timer) THEN "withdraw question" ELSE "cancel timer", timer.i >>)
 
-(* cut(rs): the timers of these residuals are cancelled, then their vehicles stop. *)
+Releasing(V) == IF V = << >> THEN << >> ELSE << << "release", V >> >>
+
+(* cut(rs): the timers of these residuals are cancelled, then their vehicles stop, then those recruited are released. *)
 Cut(rs) ==
   CancelTimers(Flatten(Each(rs, Timers))) \o Each(Flatten(Each(rs, Running)), LAMBDA v : << "stop", v >>)
+  \o Releasing(Flatten(Each(rs, Recruits)))
 
 EffectOf(d) ==
   CASE d.did = "message" -> << << "say", d.text >> >>
@@ -272,24 +296,24 @@ Lack(p, v) ==
 
 Permitted(leaf, v) == leaf.allowed = << >> \/ v \in Range(leaf.allowed[1])
 
-(* The places in B of those that can run it. *)
-Candidates(leaf) == { j \in DOMAIN B : Permitted(leaf, B[j]) /\ Lack(leaf.p, B[j]) = << >> }
+(* The places in V, the vehicles that are bound for the part, of those that can run it. *)
+Candidates(leaf, V) == { j \in DOMAIN V : Permitted(leaf, V[j]) /\ Lack(leaf.p, V[j]) = << >> }
 
 (* How much farther it is from v to where p begins than from the nearest place of a vehicle, in millimetres. *)
 Farther(p, v, sees) ==
   IF p.plan = 0 \/ ~IsKnown(v) THEN 0 ELSE Plans[p.plan].farther[FoundAt(VehicleOf(v), sees)]
 
-(* f[n] is the place in B of the vehicle of the n-th platform task. *)
-RECURSIVE Feasible(_, _, _)
-Feasible(leaves, exclusive, n) ==
+(* f[n] is the place in V of the vehicle of the n-th platform task. *)
+RECURSIVE Feasible(_, _, _, _)
+Feasible(leaves, exclusive, n, V) ==
   IF n = 0 THEN { << >> }
-  ELSE { f \in { Append(f, j) : f \in Feasible(leaves, exclusive, n - 1), j \in Candidates(leaves[n]) } :
+  ELSE { f \in { Append(f, j) : f \in Feasible(leaves, exclusive, n - 1, V), j \in Candidates(leaves[n], V) } :
            \A i \in 1 .. n - 1 : << i, n >> \in exclusive => f[i] # f[n] }
 
-RECURSIVE Total(_, _, _)
-Total(leaves, f, sees) ==
+RECURSIVE Total(_, _, _, _)
+Total(leaves, f, sees, V) ==
   IF f = << >> THEN 0
-  ELSE Farther(leaves[Len(f)].p, B[Last(f)], sees) + Total(leaves, SubSeq(f, 1, Len(f) - 1), sees)
+  ELSE Farther(leaves[Len(f)].p, V[Last(f)], sees) + Total(leaves, SubSeq(f, 1, Len(f) - 1), sees, V)
 
 LeastBy(F, Measure(_)) == LET least == Minimum({ Measure(f) : f \in F }) IN { f \in F : Measure(f) = least }
 
@@ -297,8 +321,8 @@ RECURSIVE FirstInPickOrder(_, _)
 FirstInPickOrder(F, n) ==
   IF Cardinality(F) = 1 THEN Only(F) ELSE FirstInPickOrder(LeastBy(F, LAMBDA f : f[n]), n + 1)
 
-Best(leaves, F, sees) ==
-  FirstInPickOrder(LeastBy(LeastBy(F, LAMBDA f : Cardinality(Range(f))), LAMBDA f : Total(leaves, f, sees)), 1)
+Best(leaves, F, sees, V) ==
+  FirstInPickOrder(LeastBy(LeastBy(F, LAMBDA f : Cardinality(Range(f))), LAMBDA f : Total(leaves, f, sees, V)), 1)
 
 (* Whether the handler of this watch may run its task anew, or another one in its place. *)
 Recovers(t) == Lambdas[t.handler[2]].recovers
@@ -309,6 +333,7 @@ Recovers(t) == Lambdas[t.handler[2]].recovers
 RECURSIVE TimerCount(_, _)
 TimerCount(t, first) ==
   CASE t.op \in { "idle", "confirm" } -> 1
+    [] t.op = "recruit" -> IF first THEN 2 ELSE 1
     [] t.op = "made" -> IF first THEN 1 ELSE 0
     [] t.op = "during" -> 1 + TimerCount(t.body, first)
     [] t.op = "watch" -> (IF first /\ Recovers(t) THEN 1 ELSE 0) + TimerCount(t.body, first)
@@ -330,14 +355,14 @@ FreshFrom(i, used, count) ==
     [] OTHER -> << i >> \o FreshFrom(i + Generation, used, count - 1)
 FreshTimers(place, used, count) == FreshFrom(place + Generation, used, count)
 
-(* What the parts of a task get besides vehicles: q.numbers, if it is made at its turn, are its timers. *)
-Executed == [ allowed |-> << >>, place |-> 0, depth |-> 0, numbers |-> << >> ]
+(* What the parts of a task get besides vehicles of q.bound: q.numbers, if it is made at its turn, are its timers. *)
+Executed == [ allowed |-> << >>, place |-> 0, depth |-> 0, numbers |-> << >>, bound |-> B ]
 IsExecuted(q) == q.place = 0
 TimerOf(i, q) == IF IsExecuted(q) THEN i ELSE q.numbers[i]
 
 RECURSIVE Assigned(_, _, _, _, _)
 Assigned(t, f, n, i, q) ==
-  CASE t.op = "platform" -> [ op |-> "ready", p |-> t, v |-> B[f[n + 1]] ]
+  CASE t.op = "platform" -> [ op |-> "ready", p |-> t, v |-> q.bound[f[n + 1]] ]
     [] t.op = "seq" ->
          Sequence(Assigned(t.left, f, n, i, q),
                   Parts(Assigned(t.right, f, n + LeafCount(t.left), i + TimerCount(t.left, IsExecuted(q)), q)))
@@ -360,6 +385,9 @@ Assigned(t, f, n, i, q) ==
     [] t.op = "until" -> [ t EXCEPT !.body = Assigned(@, f, n, i, q) ]
     [] t.op = "idle" -> [ op |-> "idle", timer |-> TimerOf(i + 1, q), time |-> t.time ]
     [] t.op = "confirm" -> [ op |-> "confirm", timer |-> TimerOf(i + 1, q), prompt |-> t.prompt, at |-> t.at ]
+    [] t.op = "recruit" ->
+         [ op |-> "recruit", timer |-> TimerOf(i + 1, q), asked |-> t.asked, code |-> t.code, depth |-> q.depth,
+           place |-> IF IsExecuted(q) THEN i + 2 ELSE q.place ]
     [] t.op = "during" ->
          [ op |-> "during", timer |-> TimerOf(i + 1, q), time |-> t.time, started |-> FALSE, fails |-> t.fails,
            body |-> Assigned(t.body, f, n, i + 1, q) ]
@@ -375,10 +403,10 @@ Assigned(t, f, n, i, q) ==
          IN [ op |-> "repeat", runs |-> << each >>, left |-> left, until |-> t.until, each |-> each, at |-> t.at ]
     [] t.op \in { "action", "condition" } -> t
 
-NoCandidate(leaf) ==
-  LET permitted == SelectSeq(B, LAMBDA v : Permitted(leaf, v))
+NoCandidate(leaf, V) ==
+  LET permitted == SelectSeq(V, LAMBDA v : Permitted(leaf, v))
       why(v) == v \o ": " \o Lack(leaf.p, v)[1]
-      reason == CASE B = << >> -> "no vehicle is bound to the program: pick one first"
+      reason == CASE V = << >> -> "no vehicle is bound to the program: pick one first"
                   [] leaf.allowed = << << >> >> -> "the vehicle set given to it is empty"
                   [] permitted = << >> ->
                        "none of the vehicles given to it is bound to the program: " \o Join(leaf.allowed[1], ", ")
@@ -386,18 +414,19 @@ NoCandidate(leaf) ==
   IN Fault("no vehicle can run task '" \o leaf.p.name \o "': " \o reason, leaf.p.at)
 
 (* As few tasks as can be that cannot all have vehicles. *)
-Conflict(leaves, exclusive) ==
+Conflict(leaves, exclusive, V) ==
   LET numbers == 1 .. Len(leaves)
       ordered(X) == SelectSeq([ n \in numbers |-> n ], LAMBDA n : n \in X)
       excludes(X) == { << i, j >> \in (1 .. Cardinality(X)) \X (1 .. Cardinality(X)) :
                          i < j /\ << ordered(X)[i], ordered(X)[j] >> \in exclusive }
-      impossible(X) == Feasible(Each(ordered(X), LAMBDA n : leaves[n]), excludes(X), Cardinality(X)) = { }
+      impossible(X) == Feasible(Each(ordered(X), LAMBDA n : leaves[n]), excludes(X), Cardinality(X), V) = { }
       few == LeastBy({ X \in SUBSET numbers : impossible(X) }, Cardinality)
       those == FirstInPickOrder({ ordered(X) : X \in few }, 1)
-      competing == SelectSeq([ j \in DOMAIN B |-> j ], LAMBDA j : \E n \in Range(those) : j \in Candidates(leaves[n]))
+      competing == SelectSeq([ j \in DOMAIN V |-> j ], LAMBDA j : \E n \in Range(those) : j \in Candidates(leaves[n],
+        V))
   IN Fault("tasks " \o Join(Each(those, LAMBDA n : "'" \o leaves[n].p.name \o "'"), ", ")
            \o " run side by side and need different vehicles, but there is only "
-           \o Join(Each(competing, LAMBDA j : B[j]), ", "), leaves[those[1]].p.at)
+           \o Join(Each(competing, LAMBDA j : V[j]), ", "), leaves[those[1]].p.at)
 
 (* Whether it matters to the allocation of t where vehicles are. *)
 DependsOnPlaces(t) == \E leaf \in Range(Leaves(t, << >>)) : leaf.p.plan # 0
@@ -406,14 +435,14 @@ DependsOnPlaces(t) == \E leaf \in Range(Leaves(t, << >>)) : leaf.p.plan # 0
    has>>, or <<"wrong", fault>>. *)
 AllocWithin(t, allowed, q, sees) ==
   LET leaves == Leaves(t, allowed)
-      hopeless == SelectSeq(leaves, LAMBDA leaf : Candidates(leaf) = { })
+      hopeless == SelectSeq(leaves, LAMBDA leaf : Candidates(leaf, q.bound) = { })
       exclusive == Exclusive(t, 0)
-      feasible == Feasible(leaves, exclusive, Len(leaves))
-  IN CASE hopeless # << >> -> Bad(NoCandidate(hopeless[1]))
-       [] feasible = { } -> Bad(Conflict(leaves, exclusive))
+      feasible == Feasible(leaves, exclusive, Len(leaves), q.bound)
+  IN CASE hopeless # << >> -> Bad(NoCandidate(hopeless[1], q.bound))
+       [] feasible = { } -> Bad(Conflict(leaves, exclusive, q.bound))
        [] OTHER -> Only({ Ok([ r |-> Assigned(t, f, 0, 0, q),
-                               vehicles |-> SelectSeq(B, LAMBDA v : \E j \in Range(f) : B[j] = v) ]) :
-                          f \in { Best(leaves, feasible, sees) } })
+                               vehicles |-> SelectSeq(q.bound, LAMBDA v : \E j \in Range(f) : q.bound[j] = v) ]) :
+                          f \in { Best(leaves, feasible, sees, q.bound) } })
 
 Alloc(t, sees) == AllocWithin(t, << >>, Executed, sees)
 
@@ -730,12 +759,14 @@ InHold(s, r) ==
     [] IsErr(s) -> HOLD_ERR(s)
     [] OTHER -> s
 
-(* alloc(t, V) for those V of B that nobody holds; an error, if not even all of B would do; or it waits. *)
+(* alloc(t, V) for those V of B that nobody holds; an error, if not even all of B would do; or it waits. Those that were
+   recruited for the part are in its B. *)
 AllocateSteps(S, r) ==
   LET held == HeldBy(S.beside)
-      free == SelectSeq(B, LAMBDA v : v \notin held)
+      bound == B \o S.recruits
+      free == SelectSeq(bound, LAMBDA v : v \notin held)
       within(V) == << IF r.allowed = << >> THEN V ELSE Intersection(r.allowed[1], V) >>
-      q == [ allowed |-> r.allowed, place |-> r.place, depth |-> r.depth,
+      q == [ allowed |-> r.allowed, place |-> r.place, depth |-> r.depth, bound |-> bound,
              numbers |-> FreshTimers(r.place, NumbersIn(S.whole), TimerCount(r.task, FALSE)) ]
       in(V, sees) == AllocWithin(r.task, within(V), q, sees)
       outcome(S2, found, any) ==
@@ -744,8 +775,27 @@ AllocateSteps(S, r) ==
           [] OTHER -> << ALLOCATE_ERR(S2, any[2]) >>
       at(sees) == Only({ outcome(Knowing(S, sees), found, AllocWithin(r.task, r.allowed, q, sees)) :
                          found \in { in(free, sees) } })
-      outcomes == Flatten(Each(Placings(S.sees, IF DependsOnPlaces(r.task) THEN B ELSE << >>), at))
+      outcomes == Flatten(Each(Placings(S.sees, IF DependsOnPlaces(r.task) THEN bound ELSE << >>), at))
   IN IF outcomes = << >> THEN << >> ELSE << outcomes >>
+
+(* {2 Recruits} *)
+
+(* The event is there only for vehicles that fit, and that no part of the task names: DolphinEnvironment. *)
+RECRUIT(S, r, e) ==
+  LET made == [ op |-> "made", code |-> r.code, given |-> << Vehicles(<< e[3] >>) >>, allowed |-> << << e[3] >> >>,
+                place |-> r.place, depth |-> r.depth ]
+  IN Step("RECRUIT", "recruit(" \o e[3] \o ")", e, S, Next_([ op |-> "recruited", v |-> e[3], body |-> made ]),
+          << << "bind", << e[3] >> >> >>)
+
+RECRUIT_1(s, r) == By(s, "RECRUIT-1", Next_([ r EXCEPT !.body = s.out[2] ]))
+RECRUIT_2(s, r) == Asking(By(s, "RECRUIT-2", Done_), Releasing(<< r.v >>))
+RECRUIT_ERR(s, r) == Asking(By(s, "RECRUIT-ERR", s.out), Releasing(<< r.v >>))
+
+InRecruited(s, r) ==
+  CASE GoesOn(s) -> RECRUIT_1(s, r)
+    [] IsDone(s) -> RECRUIT_2(s, r)
+    [] IsErr(s) -> RECRUIT_ERR(s, r)
+    [] OTHER -> s
 
 (* {2 All steps of r} *)
 
@@ -845,6 +895,10 @@ Steps(S, r, E) ==
     [] r.op = "until" -> In(Steps(S, r.body, E), LAMBDA s : InUntil(s, r))
     [] r.op = "unallocated" -> AllocateSteps(S, r)
     [] r.op = "hold" -> In(Steps(S, r.body, E), LAMBDA s : InHold(s, r))
+    [] r.op = "recruit" ->
+         OnThose(E, LAMBDA e : e[1] = "recruited" /\ e[2] = r.timer, LAMBDA e : RECRUIT(S, r, e))
+    [] r.op = "recruited" ->
+         In(Steps([ S EXCEPT !.recruits = Append(@, r.v) ], r.body, E), LAMBDA s : InRecruited(s, r))
     [] r.op = "idle" -> ExpiresOn(S, r, E)
     [] r.op = "confirm" -> AnswersOn(S, r, E)
     [] r.op = "during" /\ r.started -> ExpiresOn(S, r, E) \o In(Steps(S, r.body, E), LAMBDA s : InDuring(s, r))
@@ -865,16 +919,19 @@ Becoming(s, kappa) ==
   [ rules |-> s.rules, label |-> s.label, event |-> s.event, control |-> kappa, S |-> s.S, effects |-> s.effects,
     deeds |-> s.deeds ]
 
-(* ended(S, e) by the step s: it cancels the timers that s does not cancel, stops all vehicles, releases all of B. *)
-EndedBy(s, timers) ==
-  LET running == SelectSeq(CancelTimers(timers), LAMBDA cancel : cancel \notin Range(s.effects))
-      stops == Each(SelectSeq(s.S.B, LAMBDA v : v \in DOMAIN s.S.A), LAMBDA v : << "stop", v >>)
-      released == IF s.S.B = << >> THEN << >> ELSE << << "release", s.S.B >> >>
+(* ended(S, e) by the step s: it cancels the timers that s does not cancel, stops all vehicles, releases all of B, and
+   those of V, who were recruited, that s does not release. *)
+EndedBy(s, timers, V) ==
+  LET gone == UNION { IF e[1] = "release" THEN Range(e[2]) ELSE { } : e \in Range(s.effects) }
+      bound == s.S.B \o SelectSeq(V, LAMBDA v : v \notin gone)
+      running == SelectSeq(CancelTimers(timers), LAMBDA cancel : cancel \notin Range(s.effects))
+      stops == Each(SelectSeq(bound, LAMBDA v : v \in DOMAIN s.S.A), LAMBDA v : << "stop", v >>)
+      released == Releasing(bound)
       asking == Asking(s, running \o stops \o released \o << << "end", s.out[2] >> >>)
   IN Becoming([ asking EXCEPT !.S.A = << >>, !.S.B = << >> ], Ended(s.out[2]))
 
 (* The same where no timer runs any more. *)
-EndStep(rule, label, event, S, ending) == EndedBy(Step(rule, label, event, S, Ends(ending), << >>), << >>)
+EndStep(rule, label, event, S, ending) == EndedBy(Step(rule, label, event, S, Ends(ending), << >>), << >>, << >>)
 
 (* Of the outcomes of a step, the first of those with the same label and the same result. *)
 Different(ts) ==
@@ -940,25 +997,28 @@ EndOfLeaving(S) == EndStep("END", "end", Program, S, Interrupted)
 FAULT(S, fault) == EndStep("FAULT", "fault(" \o fault.message \o ")", Program, S, Failed(fault))
 
 (* HALT is with the rules of tasks: by the script nothing else is done in its step. *)
-HaltOfScript(S, m) == EndedBy(HALT([ value |-> m, S |-> S, deeds |-> << >> ]), << >>)
+HaltOfScript(S, m) == EndedBy(HALT([ value |-> m, S |-> S, deeds |-> << >> ]), << >>, << >>)
 
 TimersOf(kappa) ==
   CASE kappa.at = "exec" -> Timers(kappa.r)
     [] kappa.at = "wait" /\ kappa.request[1] \in { "pick", "pause" } -> << [ i |-> ScriptTimer ] >>
     [] OTHER -> << >>
 
-(* What runs is cut off; what onInterrupt declares gets the vehicles of B. *)
+(* What runs is cut off; what onInterrupt declares gets the vehicles of B, and those that were recruited. *)
 ON_INTERRUPT(kappa) ==
-  LET stops == Each(SelectSeq(B, LAMBDA v : v \in DOMAIN A), LAMBDA v : << "stop", v >>)
-  IN Transition("ON-INTERRUPT", "interrupt", Interruption, Script(Call(OnInterrupt[1], << Vehicles(B) >>)),
-                [ Shared EXCEPT !.A = << >> ], CancelTimers(TimersOf(kappa)) \o stops)
+  LET bound == B \o RecruitsOf(kappa)
+      stops == Each(SelectSeq(bound, LAMBDA v : v \in DOMAIN A), LAMBDA v : << "stop", v >>)
+  IN Transition("ON-INTERRUPT", "interrupt", Interruption, Script(Call(OnInterrupt[1], << Vehicles(bound) >>)),
+                [ Shared EXCEPT !.A = << >>, !.B = bound ], CancelTimers(TimersOf(kappa)) \o stops)
 
 INTERRUPT(kappa) ==
-  EndedBy(Step("INTERRUPT", "interrupt", Interruption, Shared, Ends(Interrupted), << >>), TimersOf(kappa))
+  EndedBy(Step("INTERRUPT", "interrupt", Interruption, Shared, Ends(Interrupted), << >>), TimersOf(kappa),
+          RecruitsOf(kappa))
 
 (* Of a configuration that is no end. *)
 Interrupt(kappa) ==
-  IF OnInterrupt # << >> /\ B # << >> /\ ~IsLeaving(kappa.M) THEN ON_INTERRUPT(kappa) ELSE INTERRUPT(kappa)
+  IF OnInterrupt # << >> /\ B \o RecruitsOf(kappa) # << >> /\ ~IsLeaving(kappa.M) THEN ON_INTERRUPT(kappa)
+  ELSE INTERRUPT(kappa)
 
 (* {2 Inputs} *)
 
@@ -1075,13 +1135,13 @@ CALL_ERR(M, call, m) ==
 EXECUTE_DONE(M, s) == LET t == By(s, "EXECUTE-DONE", Done_) IN Becoming(t, Script(GoOn(M, Null)))
 
 (* The failure has cut off all that ran. *)
-EXECUTE_ERR(s) == EndedBy(By(s, "EXECUTE-ERR", Ends(Failed(s.out[2]))), << >>)
+EXECUTE_ERR(s) == EndedBy(By(s, "EXECUTE-ERR", Ends(Failed(s.out[2]))), << >>, << >>)
 
 InExecute(M, r, s) ==
   CASE GoesOn(s) -> Becoming(s, Executing(M, s.out[2]))
     [] IsDone(s) -> EXECUTE_DONE(M, s)
     [] IsErr(s) -> EXECUTE_ERR(s)
-    [] OTHER -> EndedBy(s, Timers(r))
+    [] OTHER -> EndedBy(s, Timers(r), Recruits(r))
 
 (* Those that need no event, and those on the events E. *)
 ExecutingSteps(M, r, E) ==

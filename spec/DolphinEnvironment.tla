@@ -73,8 +73,38 @@ EndsOfTimer(timer) ==
   IF IsQuestion(timer) THEN Each(Confirmations(timer.prompt), LAMBDA y : Confirmed(timer.i, y))
   ELSE << Expired(timer.i) >>
 
+(* The recruits that wait in the active part of r. *)
+RECURSIVE Waiting_(_)
+Waiting_(r) ==
+  CASE r.op = "recruit" -> << r >>
+    [] r.op = "seq" -> Waiting_(r.first)
+    [] r.op = "par" -> Flatten(Each(r.branches, Waiting_))
+    [] r.op \in { "allOf", "repeat" } -> Flatten(Each(r.runs, Waiting_))
+    [] r.op \in { "until", "watch", "hold", "recruited" } -> Waiting_(r.body)
+    [] r.op = "during" -> IF r.started THEN Waiting_(r.body) ELSE << >>
+    [] OTHER -> << >>
+
+(* Who is lost, or may be late, may stay away; so may all of V, if no more of them are late for the first time than may
+   be. *)
+MayStayAway(v) == v \in outside.lost \/ (Latecomers # 0 /\ v \in MayBeLate)
+MayAllStayAway(V) ==
+  /\ \A v \in V : MayStayAway(v)
+  /\ Latecomers = -1 \/ Cardinality(V \ (outside.lost \cup outside.late)) <= Latecomers - Cardinality(outside.late)
+
+MayBeIn(q, vehicle) == q.region = << >> \/ \E place \in Range(vehicle.places) : Within(q.region[1], place)
+
+(* The vehicles that fit and that no part of r names, each for each recruit that waits. *)
+RecruitsFor(r) ==
+  LET waiting == Waiting_(r)
+      named == HeldBy(<< r >>)
+      wanted(q) == SelectSeq(Fleet, LAMBDA vehicle : /\ Accepts(q, vehicle) /\ vehicle.id \notin Range(B) \cup named
+                                                     /\ MayBeIn(q, vehicle))
+      pairs == Flatten(Each(waiting, LAMBDA w : Each(wanted(w.asked), LAMBDA vehicle : << w.timer, vehicle.id >>)))
+      isOwed == ~MayAllStayAway({ pair[2] : pair \in Range(pairs) })
+  IN Each(pairs, LAMBDA pair : Recruited(pair[1], pair[2], isOwed, ~MayStayAway(pair[2])))
+
 (* The events that may come while r executes. *)
-Events(r) == Flatten(Each(Running(r), EndsOf)) \o Flatten(Each(Timers(r), EndsOfTimer))
+Events(r) == Flatten(Each(Running(r), EndsOf)) \o Flatten(Each(Timers(r), EndsOfTimer)) \o RecruitsFor(r)
 
 (* Failures and losses are counted where their number is bounded. Of a vehicle whose task ends otherwise than by a loss
    something was heard. *)
@@ -86,7 +116,11 @@ AfterEnd(event) ==
        [] v \in outside.lost -> outside
        [] OTHER -> [ outside EXCEPT !.lost = @ \cup { v }, !.losses = IF Losses = -1 THEN @ ELSE @ + 1 ]
 
-AfterStep(event) == IF event[1] \in { "done", "failed" } THEN AfterEnd(event) ELSE outside
+(* Something was heard of a vehicle that is recruited. *)
+AfterStep(event) ==
+  CASE event[1] \in { "done", "failed" } -> AfterEnd(event)
+    [] event[1] = "recruited" -> [ outside EXCEPT !.lost = @ \ { event[3] } ]
+    [] OTHER -> outside
 
 ExecutingTransitions(M, r) ==
   LET of(E) == Each(ExecutingSteps(M, r, E), LAMBDA t : Remembering(t, AfterStep(t.event)))
@@ -269,8 +303,8 @@ Next == \E j \in DOMAIN Transitions : Becomes(Transitions[j])
 
 (* {2 Events by kind} *)
 
-(* Nobody need ever interrupt, or post what is not certain. *)
-IsOwed(event) == event # Interruption /\ (event[1] = "input" => event[4])
+(* Nobody need ever interrupt, or post what is not certain; who is recruited may stay away. *)
+IsOwed(event) == event # Interruption /\ (event[1] \in { "input", "recruited" } => event[4])
 IsProgram(event) == event = Program
 IsTimer(event) == event[1] \in { "expired", "confirmed" }
 IsEndOf(v, event) == event[1] \in { "done", "failed" } /\ event[2] = v
@@ -314,12 +348,16 @@ TypeOK ==
   /\ \A i \in DOMAIN Inputs : outside.sent[i] \in 0 .. Inputs[i].times
   /\ outside.late \subseteq MayBeLate
 
-AllocationWithinBound == DOMAIN A \subseteq Range(B)
+AllocationWithinBound == DOMAIN A \subseteq Bound
 
 (* A is exactly what runs, and no vehicle runs two tasks. *)
 OneTaskEach ==
   LET running == IF control.at = "exec" THEN Running(control.r) ELSE << >>
   IN Range(running) = DOMAIN A /\ Cardinality(Range(running)) = Len(running)
+
+(* Nobody is picked and recruited, or recruited twice. *)
+RecruitedOnce ==
+  LET V == RecruitsOf(control) IN Cardinality(Range(V)) = Len(V) /\ Range(V) \cap Range(B) = { }
 
 EmptyAfterEnd == HasEnded => A = << >> /\ B = << >>
 
@@ -342,5 +380,6 @@ ConservesTuples(t) ==
   AllPairs(t.S.N) (+) Tally(PairsOf(t.deeds, "consume")) = AllPairs(N) (+) Tally(PairsOf(t.deeds, "post"))
 
 (* Of every program. TLC checks it on every program that it is given: `dolphin tla --run`, crosscheck.exe. *)
-THEOREM Invariants == Init /\ [][Next]_vars => [](TypeOK /\ AllocationWithinBound /\ OneTaskEach /\ EmptyAfterEnd)
+THEOREM Invariants ==
+  Init /\ [][Next]_vars => [](TypeOK /\ AllocationWithinBound /\ OneTaskEach /\ RecruitedOnce /\ EmptyAfterEnd)
 ==============================================================================

@@ -137,18 +137,19 @@ Nodes(rs) ==
           [] r.op = "allOf" -> r.runs \o Each(r.choices, LAMBDA b : b.body)
           [] r.op = "repeat" -> Append(r.runs, r.each)
           [] r.op = "oneOf" -> Each(r.choices, LAMBDA b : b.body)
-          [] r.op \in { "until", "during", "watch", "hold" } -> << r.body >>
+          [] r.op \in { "until", "during", "watch", "hold", "recruited" } -> << r.body >>
           [] OTHER -> << >>
   IN Flatten(Each(rs, LAMBDA r : << r >> \o Nodes(below(r))))
 
 (* The vehicles that they name: on which their platform tasks run, or which they hold. *)
 HeldBy(rs) ==
-  UNION { CASE r.op \in { "ready", "running" } -> { r.v }
+  UNION { CASE r.op \in { "ready", "running", "recruited" } -> { r.v }
             [] r.op = "hold" -> Range(r.vehicles)
             [] OTHER -> { } : r \in Range(Nodes(rs)) }
 
-(* The timers that they name, and the questions. *)
-NumbersIn(rs) == { r.timer : r \in { r \in Range(Nodes(rs)) : r.op \in { "idle", "confirm", "during" } } }
+(* The timers that they name, the questions, and the recruits. *)
+NumbersIn(rs) ==
+  { r.timer : r \in { r \in Range(Nodes(rs)) : r.op \in { "idle", "confirm", "during", "recruit" } } }
 
 (* {1 Machines} *)
 
@@ -954,6 +955,10 @@ Perform(before, n, xs) ==
             ELSE Settle(m, Expected("a function or closure to call", xs[1]))
        [] op.op = "setting" -> Result(m, AddSetting(op, xs, n))
        [] op.op = "branch" -> Result(m, AddSetting([ name |-> "when", names |-> << "", "" >> ], xs, n))
+       [] op.op = "recruit" ->
+            LET q == ReadPick(AnyVehicle, xs[1][2])
+            IN IF IsOk(q) THEN Result(m, TaskValue([ op |-> "recruit", asked |-> q[2], code |-> xs[2] ]))
+               ELSE Settle(m, q)
        [] op.op = "build" -> Build(m, op, xs[1][2])
        [] op.op = "element" -> Settle(m, Element(xs[1], xs[2]))
        [] op.op = "replaceElement" -> Settle(m, ReplaceElement(xs[1], xs[2], xs[3]))

@@ -70,7 +70,7 @@ NoneRefused == due # << >> => ENABLED Happens(Head(due))
 (* The refinement mapping. *)
 Mapped ==
   due = << >> => /\ abstractA = A
-                 /\ abstractB = Range(B)
+                 /\ abstractB = Bound
                  /\ abstractN = AllPairs(N)
                  /\ over = HasEnded
 

@@ -265,6 +265,7 @@ TaskText(t, level) ==
          LET rounds == IF t.rounds = << >> THEN "" ELSE ToString(t.rounds[1]) \o ", "
              until == IF t.until = << >> THEN "" ELSE " until { ... }"
          IN Parenthesised(0, level, "repeat " \o rounds \o TaskText(t.body, 1) \o until)
+    [] t.op = "recruit" -> Parenthesised(0, level, "recruit { ... } then { ... }")
     [] t.op = "made" -> "{ " \o LambdaNames[t.code[2]] \o " }"
 
 HasCorners(area) == area[3] = -1

@@ -76,6 +76,7 @@ ItemOf(event) ==
     [] event[1] = "confirmed" -> Question(event[2])
     [] event[1] \in { "answered", "nobody answers", "replied", "host failed" } -> Word
     [] event[1] = "input" -> Posting(event[2])
+    [] event[1] = "recruited" -> << >>  \* at once, or at any time
     [] event \in { Program, Interruption } -> << >>
 
 (* All that is awaited in a state. *)
@@ -158,7 +159,9 @@ MayWait(t) ==
   /\ t.rules # << >> /\ t.rules[1] \in { "CONDITION", "ALLOF-WHEN", "ONEOF-WHEN", "UNTIL-CUT", "ASSURE-CUT" }
 
 (* The program does it now. *)
-IsUrgent(t) == t.event = Program /\ ~ComesLate(t) /\ ~MayWait(t)
+(* Whoever surely is there is recruited at once. *)
+IsByItself(event) == IF event[1] = "recruited" THEN event[5] ELSE event = Program
+IsUrgent(t) == IsByItself(t.event) /\ ~ComesLate(t) /\ ~MayWait(t)
 
 (* The order to a vehicle that is lost waits for the link, as long as the program does. *)
 DoneWithin(v, b) ==
@@ -204,7 +207,7 @@ Timely(ts) ==
   LET dues == Each(ts, Due)
       possible == SelectSeq([ j \in DOMAIN ts |-> j ], LAMBDA j : IF dues[j] = << >> THEN TRUE ELSE dues[j][2] # << >>)
       urgent == SelectSeq(possible, LAMBDA j : IsUrgent(ts[j]))
-      own == SelectSeq(possible, LAMBDA j : ts[j].event = Program)
+      own == SelectSeq(possible, LAMBDA j : IsByItself(ts[j].event))
       holdsBack == urgent # << >> /\ \A j \in Range(possible) : ~ComesLate(ts[j])
   IN Only({ [ steps |-> Each(js, LAMBDA j : [ t |-> ts[j], due |-> dues[j] ]), urgent |-> holdsBack ] :
             js \in { IF holdsBack THEN own ELSE possible } })

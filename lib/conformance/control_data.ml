@@ -44,6 +44,9 @@ let rec of_residual budget (r : Residual.t) : json =
   | Made { code = c; given; request } -> tagged "made" [ code c; of_list (of_value budget) given; of_made request ]
   | Unallocated { task; request } -> tagged "unallocated" [ of_task budget task; of_made request ]
   | Hold (vs, a) -> tagged "hold" [ of_vehicles vs; part a ]
+  | Recruit { number; asked; code = c; place; depth; site } ->
+    tagged "recruit" [ `Int site; `Int number; of_filter budget asked; code c; `Int place; `Int depth ]
+  | Recruited (v, a) -> tagged "recruited" [ `String v; part a ]
 
 let rec residual nodes (json : json) : Residual.t =
   let part = residual nodes and code = closure nodes in
@@ -82,6 +85,10 @@ let rec residual nodes (json : json) : Residual.t =
     Made { code = code c; given = list (value nodes) given; request = made request }
   | `List [ `String "unallocated"; t; request ] -> Unallocated { task = task nodes t; request = made request }
   | `List [ `String "hold"; vs; a ] -> Hold (list text vs, part a)
+  | `List [ `String "recruit"; site; number; asked; c; place; depth ] ->
+    Recruit { number = whole number; asked = filter nodes asked; code = code c; place = whole place;
+              depth = whole depth; site = whole site }
+  | `List [ `String "recruited"; v; a ] -> Recruited (text v, part a)
   | json -> wrong "a residual" json
 
 (* {1 Machines} *)

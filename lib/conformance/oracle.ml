@@ -127,6 +127,7 @@ let patterns (c : Configuration.t) (awaited : Transition.awaited) : members list
   | Answer_to (question, prompt), _ ->
     let of_it = [ ("question", `Int question); ("prompt", `String prompt) ] in
     [ named "confirmation" of_it; named "no-confirmation" of_it ]
+  | Recruit_for _, _ -> []  (* they are among [recruited] *)
   | Answer, Waiting (_, Ask prompt) -> [ named "answer" [ ("prompt", `String prompt) ]; named "no-answer" [] ]
   | Answer, (Waiting _ | Script _ | Executing _ | Ended _) -> []
   | Reply, _ -> [ named "reply" []; named "no-reply" [] ]
@@ -135,15 +136,20 @@ let patterns (c : Configuration.t) (awaited : Transition.awaited) : members list
 let is_awaited g world c (awaited : Transition.awaited) =
   match awaited with
   | Expiry_of timer -> Result.is_ok (Transition.accept g.program world c (Timer_expired timer))
-  | End_of _ | Answer_to _ | Answer | Reply -> true
+  | End_of _ | Answer_to _ | Recruit_for _ | Answer | Reply -> true
 
 let has_ended (c : Configuration.t) =
   match c.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false
 
 let awaited g world c = List.filter (is_awaited g world c) (Transition.awaited c)
 
-let of_awaited (g : given) c events : json =
-  let all = List.concat_map (patterns c) events in
+(* Those of vehicles that are there. *)
+let recruited g world c =
+  let is_accepted event = Result.is_ok (Transition.accept g.program world c event) in
+  List.map Event.of_event (List.filter is_accepted (List.of_seq (Transition.recruitable g.program world c)))
+
+let of_awaited (g : given) c events recruits : json =
+  let all = List.concat_map (patterns c) events @ List.map Event.members recruits in
   let input key = [ ("event", `String "input"); ("key", `String key) ] in
   let all = if has_ended c then all else all @ List.map input g.program.inputs in
   let all = if has_ended c then all else all @ [ [ ("event", `String "interruption") ] ] in
@@ -154,7 +160,7 @@ let plain events : Event.t list =
   let of_awaited : Transition.awaited -> Event.t option = function
     | End_of v -> Some (Done v)
     | Expiry_of timer -> Some (Timer timer)
-    | Answer_to _ | Answer | Reply -> None
+    | Answer_to _ | Recruit_for _ | Answer | Reply -> None
   in
   List.filter_map of_awaited events
 
@@ -178,11 +184,11 @@ let deliver g world c event =
 let step_of g world c events =
   let* internal = bounded most_transitions (Transition.internal g.program world c) in
   let* internal = Results.map (of_transition g c None) internal in
-  let there = awaited g world c in
-  let* delivered = Results.map (deliver g world c) (Option.value events ~default:(plain there)) in
+  let there = awaited g world c and recruits = recruited g world c in
+  let* delivered = Results.map (deliver g world c) (Option.value events ~default:(plain there @ recruits)) in
   let caused, refused = List.partition_map Fun.id delivered in
   let refused = if refused = [] then [] else [ ("refused", `List refused) ] in
-  Ok ([ ("transitions", `List (internal @ caused)); ("awaited", of_awaited g c there) ] @ refused)
+  Ok ([ ("transitions", `List (internal @ caused)); ("awaited", of_awaited g c there recruits) ] @ refused)
 
 let step g found =
   let bad result = error (fun why -> Bad_request why) result in

@@ -72,6 +72,11 @@ and of_task budget (t : task) : json =
     let rounds = of_option (fun n : json -> `Int n) rounds in
     tagged "repeat" [ `Int site; rounds; of_option code until; part body ]
   | Made c -> tagged "made" [ code c ]
+  | Recruit { asked; code = c; site } -> tagged "recruit" [ `Int site; of_filter budget asked; code c ]
+
+and of_filter budget (q : Vehicle_filter.t) : json =
+  let text = of_option of_text and area a = of_value budget (Area a) in
+  `List [ text q.id; text q.kind; of_list of_text q.payload; of_option area q.region ]
 
 and of_branch budget (b : branch) : json = `List [ of_closure budget b.guard; of_task budget b.body ]
 
@@ -161,7 +166,15 @@ and task nodes (json : json) : task =
   | `List [ `String "repeat"; site; rounds; until; body ] ->
     Repeat { rounds = option whole rounds; until = option code until; body = part body; site = whole site }
   | `List [ `String "made"; c ] -> Made (code c)
+  | `List [ `String "recruit"; site; asked; c ] ->
+    Recruit { asked = filter nodes asked; code = code c; site = whole site }
   | json -> wrong "a task" json
+
+and filter nodes : json -> Vehicle_filter.t = function
+  | `List [ id; kind; payload; region ] ->
+    let area json = match value nodes json with Area a -> a | _ -> wrong "an area" json in
+    { id = option text id; kind = option text kind; payload = list text payload; region = option area region }
+  | json -> wrong "what a recruit asks of a vehicle" json
 
 and branch nodes json : branch =
   let guard, body = pair (closure nodes) (task nodes) json in

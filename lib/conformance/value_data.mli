@@ -14,6 +14,9 @@ val of_platform_task : Data.budget -> Core.platform_task -> Data.json
 val of_duration : Data.budget -> Core.duration -> Data.json
 val of_task : Data.budget -> Core.task -> Data.json
 
+val of_filter : Data.budget -> Vehicle_filter.t -> Data.json
+(** What a [recruit] asks of a vehicle. *)
+
 (** {1:read Reading}
 
     @raise Data.Wrong if this program has no such part. *)
@@ -23,3 +26,4 @@ val closure : Nodes.t -> Data.json -> Core.closure
 val platform_task : Nodes.t -> Data.json -> Core.platform_task
 val duration : Nodes.t -> Data.json -> Core.duration
 val task : Nodes.t -> Data.json -> Core.task
+val filter : Nodes.t -> Data.json -> Vehicle_filter.t

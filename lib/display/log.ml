@@ -107,6 +107,7 @@ let of_label ?(stuck = false) (s : Transition.t) =
     by_program ~how:Trouble ((if stuck then "is stuck" else "is interrupted") ^ ": executes onInterrupt")
   | Input (k, x) -> by_program (Format.asprintf "gets %a" Value.pp_tuple (k, x))
   | No_vehicles why when List.mem Rule.Pick_else s.rules -> by_program (why ^ "; goes on without")
+  | Recruit v -> [ of_vehicle v "is recruited" ]
   | Start _ | Make | Silent | Pick _ | Bind _ | No_vehicles _ | Ask _ | Answer _ | No_answer | Resume | No_reply _
   | Execute | Cannot_execute _ | End | Halt _ | Fault _ | Interrupt -> []
 
@@ -125,6 +126,7 @@ let told_by_label (label : Label.t) =
   match label with
   | Did d -> if has_effect d then 1 else 0
   | Check ds | Act ds | Cut ds -> List.length (List.filter has_effect ds)
+  | Recruit _ -> 1
   | Start _ | Done _ | Fail _ | Time_out | Set_time _ | Make | Allocate _ | Broken _ | Silent | Pick _
   | Bind _ | No_vehicles _ | Ask _
   | Answer _ | No_answer | Pause _ | Resume | Call _ | Reply _ | No_reply _ | Input _ | Execute | Cannot_execute _

@@ -109,6 +109,9 @@ let list program ~source world (c : Configuration.t) =
     let question : Residual.t -> t option = function
       | Confirm { prompt; site; _ } ->
         Some { what = "yes or no to " ^ words prompt; at = location program site; lacking = None }
+      | Recruit { asked; site; _ } ->
+        let what = Format.asprintf "a vehicle%a to recruit" Settings.pp_filter asked in
+        Some { what; at = location program site; lacking = None }
       | _ -> None
     in
     let questions = Residual.fold_active (fun found r -> found @ Option.to_list (question r)) [] r in

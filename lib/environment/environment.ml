@@ -99,6 +99,8 @@ let renamed f e =
 let add v vs = List.sort_uniq String.compare (v :: vs)
 let less v vs = List.filter (fun v' -> not (String.equal v v')) vs
 
+let heard_of v e = if List.mem v e.lost then { e with lost = less v e.lost } else e
+
 (* {1 Ends of tasks} *)
 
 let failure = "failure"
@@ -213,7 +215,7 @@ let upcoming options program e =
 
 (* {1 Transitions} *)
 
-let events options program e (c : Configuration.t) (awaited : Transition.awaited) =
+let events options program world e (c : Configuration.t) (awaited : Transition.awaited) =
   match awaited, c.control with
   | End_of v, _ -> (
       match Vehicle_map.find_opt v c.shared.allocation with
@@ -225,6 +227,12 @@ let events options program e (c : Configuration.t) (awaited : Transition.awaited
   | Expiry_of timer, _ -> [ (Ok (Transition.Timer_expired timer), e) ]
   | Answer_to (question, prompt), _ ->
     List.map (fun reply -> (Ok (Transition.Confirmed (question, reply)), e)) (confirmations options prompt)
+  | Recruit_for (number, _), _ ->
+    let for_it : Transition.event -> bool = function Recruited (number', _) -> number = number' | _ -> false in
+    let come (event : Transition.event) =
+      (Ok event, match event with Recruited (_, v) -> heard_of v e | _ -> e)
+    in
+    List.of_seq (Seq.map come (Seq.filter for_it (Transition.recruitable program world c)))
   | (Answer | Reply), (Script _ | Waiting _ | Executing _ | Ended _) -> []
 
 type choice = { transition : Transition.t; outside : t; on : Transition.event option }
@@ -244,7 +252,7 @@ let in_world options program world e c : choice Seq.t =
     | Ok event -> List.concat_map (of_result (Some event)) (clear (Transition.accept_all program world c event))
     | Error refusal -> of_result None (Error refusal)
   in
-  let on_event event = List.to_seq (List.concat_map (accept e) (events options program e c event)) in
+  let on_event event = List.to_seq (List.concat_map (accept e) (events options program world e c event)) in
   Seq.append (internal program world e c) (Seq.flat_map on_event (List.to_seq (Transition.awaited c)))
 
 (* {1 Who is there} *)
@@ -392,5 +400,30 @@ let rec find p (choices : _ Seq.t) =
 
 let is_voluntary (t : Transition.t) = match t.label with Interrupt | Input _ -> true | _ -> false
 
-let is_stuck options program e choices =
-  Option.is_none (find (fun (t, _) -> not (is_voluntary t)) choices) && not (owes options program e)
+let may_stay_away options e v =
+  List.mem v e.lost || (Faults.is_possible options.faults.join && options.may_be_late v)
+
+(* Those who were late already may be so again. *)
+let may_all_stay_away options e vs =
+  let is_new v = not (List.mem v e.lost || List.mem v e.late) in
+  List.for_all (may_stay_away options e) vs
+  && match options.faults.join with
+  | Never | Any_number -> true
+  | At_most n -> List.length (List.filter is_new (List.sort_uniq String.compare vs)) <= n - List.length e.late
+
+let only_recruits options e ts =
+  let rec recruits found (ts : Transition.t list) =
+    match ts with
+    | [] -> Some found
+    | t :: rest when is_voluntary t -> recruits found rest
+    | { label = Recruit v; _ } :: rest -> recruits (v :: found) rest
+    | _ :: _ -> None
+  in
+  match recruits [] ts with None -> false | Some vs -> may_all_stay_away options e vs
+
+let is_stuck options (program : Core.program) e choices =
+  let goes_on =
+    if program.recruits then not (only_recruits options e (List.of_seq (Seq.map fst choices)))
+    else Option.is_some (find (fun (t, _) -> not (is_voluntary t)) choices)
+  in
+  not (goes_on || owes options program e)

@@ -160,6 +160,16 @@ val may_leave : options -> Core.program -> bool
 val is_voluntary : Transition.t -> bool
 (** Whether it is an interruption or an input. *)
 
+val heard_of : Core.vehicle -> t -> t
+(** [heard_of v e] is [e] after [v] was heard of: it is not lost. *)
+
+val may_stay_away : options -> t -> Core.vehicle -> bool
+(** [may_stay_away o e v] is whether [v], which is there, may never come to a [recruit]: it is lost, or may be late. *)
+
+val only_recruits : options -> t -> Transition.t list -> bool
+(** [only_recruits o e ts] is whether none of the transitions [ts] must happen: all are {!is_voluntary}, or wait for
+    vehicles that may all stay away. *)
+
 val is_stuck : options -> Core.program -> t -> (Transition.t * 'state) Seq.t -> bool
 (** [is_stuck o p e choices] is whether there is nothing among [choices], those of a state with memory [e], but
     interruptions, and inputs that are not certain: nobody need ever interrupt, or post. *)

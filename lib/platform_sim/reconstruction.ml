@@ -50,8 +50,8 @@ let same (event : Transition.event) (told : Platform.event) =
   | Vehicle_failed (v, why), Task_failed (w, why') -> v = w && why = why'
   | Timer_expired timer, Timer timer' -> timer = timer'
   | Input (k, x), Input (k', x') -> k = k' && Value.compare x x' = 0
-  | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Confirmed _ | Answered _ | Nobody_answers _ | Replied _
-      | Host_failed _ | Input _ | Interruption ),
+  | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Confirmed _ | Recruited _ | Answered _ | Nobody_answers _
+      | Replied _ | Host_failed _ | Input _ | Interruption ),
       (Vehicle _ | Task_done _ | Task_failed _ | Timer _ | Input _ | Quiet) ) -> false
 
 let happen time (event : Transition.event) s =
@@ -73,7 +73,7 @@ let happen time (event : Transition.event) s =
   | Vehicle_done v | Vehicle_failed (v, _) -> comes ("the end of a task of " ^ v)
   | Timer_expired _ -> comes "the end of a timer"
   | Input _ -> Ok (Option.value (told ~last:time) ~default:s)  (* of the fleet, or else of somebody *)
-  | Confirmed _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Interruption -> Ok s
+  | Confirmed _ | Recruited _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Interruption -> Ok s
 
 let command ~announce_period s : Effect.t -> state = function
   | Start (v, task) -> { s with f = Fleet.start v task s.f }

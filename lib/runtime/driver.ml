@@ -9,7 +9,7 @@ let guards r =
     | Check closure -> Some closure
     | Take closure -> Some closure
     | Start _ | Perform _ | Refute _ | Decide _ | Measure _ | Make _ | Allocate _ | End_of _ | Expiry_of _
-    | Answer_to _ -> None
+    | Answer_to _ | Recruit_for _ -> None
   in
   List.of_seq (Seq.filter_map guard (Task_rules.steps r))
 
@@ -179,7 +179,8 @@ module Make (P : Platform.S) = struct
 
   let take s ~cause (t : Transition.t) =
     s.since_pause <- (match t.label with Silent -> most_without_pause | _ -> s.since_pause + 1);
-    s.rounds <- (if cause <> None then 0 else if begins_round t then s.rounds + 1 else s.rounds);
+    let is_news = match cause with Some (Transition.Recruited _) | None -> false | Some _ -> true in
+    s.rounds <- (if is_news then 0 else if begins_round t then s.rounds + 1 else s.rounds);
     let time = P.now s.platform in
     Log.transition ~time ~cause t;
     s.observer.transition ~time ~cause t;
@@ -311,7 +312,7 @@ module Make (P : Platform.S) = struct
   let tell_unknown s =
     let c = s.configuration in
     let has_not_told v = match World.find v s.world with Some { battery = None; _ } -> true | Some _ | None -> false in
-    if List.exists has_not_told c.shared.bound then begin
+    if List.exists has_not_told (c.shared.bound @ Configuration.recruits c) then begin
       let told fault = List.mem fault s.unknown in
       let news = List.filter (fun fault -> not (told fault)) (Transition.unknown s.program s.world c) in
       s.unknown <- news @ s.unknown;
@@ -342,7 +343,10 @@ module Make (P : Platform.S) = struct
     | Script _ | Waiting _ | Executing _ -> (
         match Transition.internal s.program s.world s.configuration () with
         | Seq.Cons (t, _) -> take s ~cause:None t; continue s advance
-        | Seq.Nil -> pass s)
+        | Seq.Nil -> (
+            match Transition.recruited s.program s.world s.configuration with
+            | Some (event, t) -> take s ~cause:(Some event) t; continue s advance
+            | None -> pass s))
 
   (* The program cannot go on; what it executes when it is interrupted, it does. *)
   and give_up s outcome =

@@ -55,12 +55,14 @@ module Make (P : Platform.S) = struct
     match event, told with
     | (Vehicle_done v | Vehicle_failed (v, _)), (Task_done w | Task_failed (w, _)) -> String.equal v w
     | Timer_expired timer, Timer other -> timer = other
-    | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Confirmed _ | Answered _ | Nobody_answers _ | Replied _
-        | Host_failed _ | Input _ | Interruption ), _ ) -> false
+    | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Confirmed _ | Recruited _ | Answered _
+        | Nobody_answers _
+        | Replied _ | Host_failed _ | Input _ | Interruption ), _ ) -> false
 
   let has_time : Transition.event -> bool = function
     | Vehicle_done _ | Vehicle_failed _ | Timer_expired _ -> true
-    | Confirmed _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Input _ | Interruption -> false
+    | Confirmed _ | Recruited _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Input _ | Interruption ->
+      false
 
   let rec await s event =
     match List.partition (fits event) s.held with

@@ -119,7 +119,8 @@ let entry r (e : History.entry) =
   | Happened (Vehicle_failed (v, _) | Vehicle_done v) -> keep { r with g = over v r.g } e.what
   | Noted _
   | Happened
-      ( Timer_expired _ | Confirmed _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Input _
+      ( Timer_expired _ | Confirmed _ | Recruited _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _
+      | Input _
       | Interruption ) -> keep r e.what
 
 let replay fences history =

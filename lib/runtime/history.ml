@@ -27,7 +27,9 @@ let part ~vehicles ~timers history =
     | Noted (v, _) | Happened (Vehicle_done v | Vehicle_failed (v, _)) -> keep (vehicles v)
     | Happened (Timer_expired _) -> keep timers
     | Happened
-        (Confirmed _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Input _ | Interruption) -> Some e
+        (Confirmed _ | Recruited _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Input _
+        | Interruption) ->
+      Some e
     | Asked effects -> Some { e with what = Asked (List.filter_map effect_of effects) }
   in
   List.filter_map entry history
@@ -83,7 +85,9 @@ let outstanding ~announce_period history =
     | Happened (Vehicle_done v | Vehicle_failed (v, _)) -> { s with tasks = List.remove_assoc v s.tasks }
     | Happened (Timer_expired timer) -> { s with timers = List.remove_assoc timer s.timers }
     | Happened
-        (Confirmed _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Input _ | Interruption) -> s
+        (Confirmed _ | Recruited _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Input _
+        | Interruption) ->
+      s
     | Asked effects -> List.fold_left (ask ~announce_period time) s effects
   in
   List.fold_left add nothing history

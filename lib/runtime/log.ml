@@ -10,6 +10,7 @@ let pp_event ppf : Transition.event -> unit = function
   | Timer_expired timer -> Fmt.pf ppf "timer %d expires" timer
   | Confirmed (question, Ok yes) -> Fmt.pf ppf "question %d: %s" question (if yes then "yes" else "no")
   | Confirmed (question, Error why) -> Fmt.pf ppf "question %d: no answer: %s" question why
+  | Recruited (number, v) -> Fmt.pf ppf "%s comes to recruit %d" v number
   | Answered { text; _ } -> Fmt.pf ppf "answer %S" text
   | Nobody_answers why -> Fmt.pf ppf "no answer: %s" why
   | Replied x -> Fmt.pf ppf "the host replies %a" Value.pp x

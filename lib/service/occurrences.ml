@@ -93,6 +93,9 @@ let rec expression env e =
   | Pick_else (settings, otherwise) ->
     statements { env with settings = Builtins.settings Pick; top = false } settings;
     block env otherwise
+  | Recruit (settings, c) ->
+    statements { env with settings = Builtins.settings Recruit; top = false } settings;
+    closure env c
   | When (c, e) | Wait_for (c, e) | Until (_, c, e) -> closure env c; expression env e
   | During (_, a, b) -> expression env a; expression env b
   | Watch (e, c) -> expression env e; closure env c

@@ -114,6 +114,8 @@ let blocks =
       "pos", "pos { lat 41.18; lon 8.7.west }", "A position.";
       "allOf", "allOf { when { C } then T ... }", "Each task runs once its condition holds; done when all are.";
       "oneOf", "oneOf { when { C } then T ... }", "The task whose condition holds first runs; the others never do.";
+      "recruit", "recruit { type 'UAV' } then { v -> T }",
+      "A task that waits for such a vehicle, has it run the task made of it, and releases it then.";
       "choose", "choose { when { C } then T ... }", "Another word for `oneOf`." ]
 
 let of_pick =
@@ -197,6 +199,7 @@ let items =
 
 let settings : Dolphin_syntax.Ast.builder -> entry list = function
   | Pick -> of_pick
+  | Recruit -> List.filter (fun e -> e.name <> "count" && e.name <> "timeout") of_pick
   | Pos -> of_position
   | Imc_plan -> of_plan @ maneuvers
   | Mission -> of_mission @ items

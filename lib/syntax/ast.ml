@@ -30,6 +30,7 @@ type builder =
   | Pos
   | All_of
   | One_of                                      (* also spelt [choose] *)
+  | Recruit                                     (* the settings of {!constructor-Recruit} *)
 
 (** What a task that is cut off is: done, by [until] and [during], or failed, by [assure] and [within]. *)
 type on_cut = Completes | Fails
@@ -60,6 +61,7 @@ and expression_node =
   | Index of expression * expression            (* [e[e']]: element, or allocation [T[V]] *)
   | Builder of builder * statement list
   | Pick_else of statement list * statement list  (* [pick { ... } else { ... }] *)
+  | Recruit of statement list * closure         (* [recruit { ... } then { v -> T }] *)
   | When of closure * expression                (* [when { C } then T], in [allOf] and [oneOf] *)
   | Wait_for of closure * expression            (* [waitFor { C } then T], also [.. run T] *)
   | Until of on_cut * closure * expression      (* [until { C } run T]; [assure { C } run T] *)

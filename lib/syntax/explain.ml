@@ -189,11 +189,14 @@ let timed on_cut =
   let word = Spelling.during on_cut in
   (word ^ " time run task", "task " ^ word ^ " time")
 
+let recruit = "recruit { type 'UAV' } then { vehicle -> task }"
+
 let missing_word place =
   let missing word form = Some (Printf.sprintf "'%s' is missing here" word, "write " ^ form) in
   let before_closure = word_before_closure place in
   match before_closure, construct before_closure with
   | (WHEN | WAIT_FOR), Some (_, form) -> missing "then" form
+  | RECRUIT, _ -> missing "then" recruit
   | UNTIL _, Some (_, form) -> missing "run" form
   | AFTER_UNTIL _, Some (word, form) when not (is_closer (this place) || this place = SEPARATOR) ->
     missing "run" (Printf.sprintf "%s, or task %s { condition }" form word)
@@ -228,6 +231,7 @@ let missing_brace place =
 
 let missing_block place =
   match before place 1 with
+  | THEN when not (place.acceptable (INTEGER 0)) -> Some ("a '{' is missing after 'then'", "write " ^ recruit)
   | OTHERWISE -> Some ("a '{' is missing after 'else'", "write pick { ... } else { what to do without }")
   | _ -> None
 
@@ -249,7 +253,7 @@ let misplaced_word place =
   | ELSE | OTHERWISE ->
     Some ("'else' without an 'if'",
           "an 'else' follows the body of an 'if', or the settings of a pick: pick { ... } else { ... }")
-  | THEN -> Some ("'then' cannot stand here", "'then' follows when { ... } and waitFor { ... }")
+  | THEN -> Some ("'then' cannot stand here", "'then' follows when { ... }, waitFor { ... } and recruit { ... }")
   | RUN ->
     Some ("'run' cannot stand here",
           "'run' follows until { ... }, assure { ... }, waitFor { ... }, during time and within time")

@@ -18,6 +18,7 @@ let expression place it = located place it
 %token <string> TEXT
 %token WILDCARD TRUE FALSE NULL
 %token PARAMETER                         (* before [n = 3] at the start of a statement *)
+%token RECRUIT                           (* before a brace *)
 %token OTHERWISE                         (* the [else] of a [pick] *)
 %token DEF IF ELSE WHILE FOR IN RETURN BREAK CONTINUE
 %token WHEN WATCH WAIT_FOR REPEAT THEN RUN ON_ERROR
@@ -226,6 +227,8 @@ expression:
     { expression $loc (Until (on_cut, c, settle t)) }
   | on_cut = DURING; d = item; RUN; t = item
     { expression $loc (During (on_cut, settle d, settle t)) }
+  | RECRUIT; BLOCK; settings = statements; RBRACE; THEN; c = closure
+    { expression $loc (Recruit (settings, c)) }
   | WATCH; t = item; ON_ERROR; c = closure
     { expression $loc (Watch (settle t, c)) }
   | REPEAT; t = item                                                         %prec repeated

@@ -7,7 +7,7 @@ let is_incomplete = function
   | RANGE | RANGE_LESS | POWER | STAR | SLASH | PERCENT | PLUS | MINUS | SHIFT_LEFT | SHIFT_RIGHT | LESS
   | LESS_EQUAL | GREATER | GREATER_EQUAL | EQUAL | NOT_EQUAL | AMPERSAND | CARET | BAR | AND | OR | IN | NOT
   | COMMA | COLON | ARROW | DOT | SAFE_DOT | QUESTION | ELVIS | ASSIGN | ASSIGN_OPERATOR _
-  | LPAREN | LBRACKET | LBRACE | TRAILING | BLOCK | HOLE_OPEN | SEPARATOR | BUILDER _ | COMMAND _
+  | LPAREN | LBRACKET | LBRACE | TRAILING | BLOCK | HOLE_OPEN | SEPARATOR | BUILDER _ | RECRUIT | COMMAND _
   | PARAMETER | DEF | IF | ELSE | OTHERWISE | WHILE | FOR | WHEN | WATCH | WAIT_FOR | REPEAT | UNTIL _ | DURING _
   | AFTER_UNTIL _ | AFTER_DURING _ | THEN | RUN | ON_ERROR -> true
   | NAME _ | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN | TEMPLATE_CLOSE | HOLE_CLOSE | TEXT _ | WILDCARD
@@ -19,7 +19,7 @@ let continues = function
   | GREATER | GREATER_EQUAL | EQUAL | NOT_EQUAL | AMPERSAND | CARET | BAR | AND | OR | IN
   | COMMA | COLON | DOT | SAFE_DOT | QUESTION | ELVIS | THEN | RUN | ON_ERROR | ELSE | OTHERWISE
   | RPAREN | RBRACKET | RBRACE | HOLE_CLOSE | SEPARATOR | EOF -> true
-  | NAME _ | COMMAND _ | BUILDER _ | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN | TEMPLATE_CLOSE
+  | NAME _ | COMMAND _ | BUILDER _ | RECRUIT | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN | TEMPLATE_CLOSE
   | HOLE_OPEN | TEXT _ | WILDCARD | TRUE | FALSE | NULL | PARAMETER | DEF | IF | WHILE | FOR | RETURN | BREAK | CONTINUE
   | WHEN | WATCH | WAIT_FOR | REPEAT | UNTIL _ | DURING _ | AFTER_UNTIL _ | AFTER_DURING _ | LPAREN | LBRACKET
   | LBRACE | TRAILING | BLOCK | ARROW | ASSIGN | ASSIGN_OPERATOR _ | STEP _ | PLUS | MINUS | NOT -> false
@@ -133,7 +133,7 @@ let brace state i =
   | SEPARATOR | LBRACE | TRAILING | BLOCK | ARROW when begins_parameters state i -> LBRACE, Value
   | SEPARATOR | LBRACE | TRAILING | BLOCK | ARROW | ELSE -> BLOCK, Body
   | BUILDER Pick -> BLOCK, Picking
-  | BUILDER _ | OTHERWISE -> BLOCK, Value
+  | BUILDER _ | RECRUIT | OTHERWISE -> BLOCK, Value
   | RPAREN when state.last_is_header -> BLOCK, Body
   | last when takes_closure last && same_line -> TRAILING, Value
   | _ -> LBRACE, Value
@@ -172,6 +172,7 @@ let classify state i (token : Token.t) =
   | NAME x as name ->
     if after_point state || raw_token state (i + 1) <> LBRACE then
       if same_line state (i + 1) && begins_argument state (i + 1) && state.last <> DEF then COMMAND x else name
+    else if x = "recruit" then RECRUIT
     else Option.fold (builder x) ~none:name ~some:(fun builder -> BUILDER builder)
   | kind -> kind
 

@@ -103,7 +103,7 @@ let ends_with_builder out =
   let ends word =
     let n = String.length word in
     length >= n && Buffer.sub out.buffer (length - n) n = word in
-  List.exists ends [ "pick"; "imcPlan"; "mission"; "pos"; "allOf"; "oneOf"; "choose" ]
+  List.exists ends [ "pick"; "imcPlan"; "mission"; "pos"; "allOf"; "oneOf"; "choose"; "recruit" ]
 
 (* What comes between a statement and the next, before the end of the line. *)
 let finish_before out next = if is_block next && ends_with_builder out then put out ";"
@@ -193,6 +193,12 @@ and bare out e =
     braces out "" settings;
     put out " else ";
     braces out "" otherwise
+  | Recruit (settings, c) ->
+    put out (builder Recruit);
+    put out " ";
+    braces out "" settings;
+    put out " then ";
+    closure out c
   | When (c, t) -> guarded out "when" c "then" t
   | Wait_for (c, t) -> guarded out "waitFor" c "then" t
   | Until (on_cut, c, t) -> guarded out (until on_cut) c "run" t

@@ -21,6 +21,7 @@ and node f = function
   | Index (e, i) -> Index (expression f e, expression f i)
   | Builder (b, body) -> Builder (b, program f body)
   | Pick_else (settings, otherwise) -> Pick_else (program f settings, program f otherwise)
+  | Recruit (settings, c) -> Recruit (program f settings, closure f c)
   | When (c, t) -> When (closure f c, expression f t)
   | Wait_for (c, t) -> Wait_for (closure f c, expression f t)
   | Until (on_cut, c, t) -> Until (on_cut, closure f c, expression f t)

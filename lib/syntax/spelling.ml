@@ -28,7 +28,7 @@ let range = level_of_operator Sequence
 
 let level e =
   match e.it with
-  | When _ | Wait_for _ | Until _ | During _ | Watch _ | Repeat _ -> whole
+  | When _ | Wait_for _ | Until _ | During _ | Watch _ | Repeat _ | Recruit _ -> whole
   | Conditional _ | Elvis _ -> conditional
   | Binary (operator, _, _) -> level_of_operator operator
   | Range _ -> range
@@ -71,6 +71,7 @@ let builder = function
   | Pos -> "pos"
   | All_of -> "allOf"
   | One_of -> "oneOf"
+  | Recruit -> "recruit"
 
 (* {1 Words and texts} *)
 

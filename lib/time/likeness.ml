@@ -104,7 +104,7 @@ let rec spell s (r : Residual.t) =
     let left = Option.fold left ~none:"" ~some:string_of_int in
     let optional f x = beside "" (List.map f (Option.to_list x)) in
     ordered ("repeat" ^ left) [ optional (code s "") until; optional (spell s) round; spell s each ]
-  | Made _ | Unallocated _ | Hold _ -> invalid_arg "Likeness: a task that is made at its turn"
+  | Made _ | Unallocated _ | Hold _ | Recruit _ | Recruited _ -> invalid_arg "Likeness: a task that is made at its turn"
 
 (* Of each [within] it is said when it is missed, by its place. *)
 and on_cut : Core.on_cut -> _ = function Completes -> "" | Fails site -> string_of_int site
@@ -243,9 +243,10 @@ let closures r =
     | Action c | Condition c | Until (_, c, _) | During { duration = Given_by c; _ } -> (false, c) :: found
     | Watch (_, { code; _ }) -> (true, code) :: found
     | All_of (_, bs) | One_of bs -> List.map of_branch bs @ found
-    | Repeat { again = { until = Some c; _ }; _ } | Made { code = c; _ } -> (false, c) :: found
+    | Repeat { again = { until = Some c; _ }; _ } | Made { code = c; _ } | Recruit { code = c; _ } ->
+      (false, c) :: found
     | Ready _ | Running _ | Sequence _ | Parallel _ | Idle _ | Confirm _ | During _ | Repeat _ | Unallocated _ | Hold _
-      -> found
+    | Recruited _ -> found
   in
   Residual.fold_all add [] r
 

@@ -18,7 +18,7 @@ let with_tolerance tolerance r = { r with tolerance }
 
 (* People and suppliers take their time, and post when they like. *)
 let is_timed (p : Timed.pending) =
-  match p.item with Task _ | Timer _ -> true | Question _ | Answer | Reply | Posting _ | Course _ -> false
+  match p.item with Task _ | Timer _ -> true | Question _ | Recruit _ | Answer | Reply | Posting _ | Course _ -> false
 
 let is_lost = String.starts_with ~prefix:Dolphin_environment.Environment.loss
 

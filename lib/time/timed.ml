@@ -12,6 +12,7 @@ type item =
   | Task of Core.vehicle
   | Timer of Residual.timer
   | Question of Residual.timer
+  | Recruit of Residual.timer
   | Answer
   | Reply
   | Posting of string
@@ -53,16 +54,17 @@ let hash s = (Configuration.hash s.configuration * 31) + Environment.hash s.outs
 let is_same (a : item) (b : item) =
   match a, b with
   | Task v, Task w -> String.equal v w
-  | Timer m, Timer n | Question m, Question n -> Int.equal m n
+  | Timer m, Timer n | Question m, Question n | Recruit m, Recruit n -> Int.equal m n
   | Answer, Answer | Reply, Reply -> true
   | Posting k, Posting l -> String.equal k l
   | Course v, Course w -> String.equal v w
-  | (Task _ | Timer _ | Question _ | Answer | Reply | Posting _ | Course _), _ -> false
+  | (Task _ | Timer _ | Question _ | Recruit _ | Answer | Reply | Posting _ | Course _), _ -> false
 
 let of_awaited : Transition.awaited -> item = function
   | End_of v -> Task v
   | Expiry_of timer -> Timer timer
   | Answer_to (question, _) -> Question question
+  | Recruit_for (number, _) -> Recruit number
   | Answer -> Answer
   | Reply -> Reply
 
@@ -70,10 +72,15 @@ let of_event : Transition.event -> item option = function
   | Vehicle_done v | Vehicle_failed (v, _) -> Some (Task v)
   | Timer_expired timer -> Some (Timer timer)
   | Confirmed (question, _) -> Some (Question question)
+  | Recruited (number, _) -> Some (Recruit number)
   | Answered _ | Nobody_answers _ -> Some Answer
   | Replied _ | Host_failed _ -> Some Reply
   | Input (k, _) -> Some (Posting k)
   | Interruption -> None
+
+let may_wait_for_recruits o =
+  let { Environment.faults; _ } = o.environment in
+  Faults.is_possible faults.join || Faults.is_possible faults.loss || o.program.reads_sensors
 
 let place o elsewhere v =
   match List.assoc_opt v elsewhere with Some place -> place | None -> o.durations.place v
@@ -186,7 +193,8 @@ type step = {
 (* A guard that holds if a sensor shows this or that may go on not to hold. *)
 let may_wait (t : Transition.t) =
   t.assumed <> []
-  && match t.rules with (Condition | Allof_when | Oneof_when | Until_cut | Assure_cut) :: _ -> true | _ -> false
+  && match t.rules with (Condition | Recruit | Allof_when | Oneof_when | Until_cut | Assure_cut) :: _ -> true
+                      | _ -> false
 
 let comes_late (t : Transition.t) = List.exists (function World.Late _ -> true | _ -> false) t.assumed
 
@@ -213,6 +221,14 @@ let ends_of o s v =
   in
   (done_, failed, lost)
 
+(* Whoever is there is recruited at once, as if the program did it by itself. *)
+let is_event o s (choice : Environment.choice) =
+  match choice.on with
+  | None -> false
+  | Some (Recruited (_, v)) ->
+    choice.transition.assumed <> [] || Environment.may_stay_away o.environment s.outside v
+  | Some _ -> true
+
 let due o s (choice : Environment.choice) =
   let is_pick = match s.configuration.control with Waiting (_, Pick _) -> true | _ -> false in
   let with_bounds change = Option.map (fun item -> (item, change (bounds_of s item))) in
@@ -221,6 +237,7 @@ let due o s (choice : Environment.choice) =
   | Some (Vehicle_failed (v, why)) ->
     let _, failed, lost = ends_of o s v in
     Some (Task v, if why = Environment.loss then lost else failed)
+  | Some (Recruited _) when not (is_event o s choice) -> None
   | Some event -> with_bounds Fun.id (of_event event)
   | None when is_pick && comes_late choice.transition ->
     with_bounds Bounds.from_the_start (Some (Timer Residual.script_timer))
@@ -233,7 +250,7 @@ let step o s (choice : Environment.choice) =
   let elsewhere = elsewhere_after s t choice.on in
   let pending, is_fresh = pending o elsewhere ~before:s.pending ~over t.effects t.next choice.outside in
   { transition = t; due = due o s choice;
-    urgent = choice.on = None && (not (may_wait t)) && not (comes_late t);
+    urgent = (not (is_event o s choice)) && (not (may_wait t)) && not (comes_late t);
     fresh = fresh pending is_fresh;
     next =
       { configuration = t.next; outside = choice.outside; pending; elsewhere; patience = patience_after o s t } }
@@ -257,7 +274,7 @@ let all_steps o s =
   else if List.exists (fun step -> comes_late step.transition) all then
     List.map (fun step -> { step with urgent = false }) all
   else
-    let own ((choice : Environment.choice), step) = if choice.on = None then Some step else None in
+    let own (choice, step) = if is_event o s choice then None else Some step in
     List.filter_map own choices
 
 let steps o s =
@@ -281,5 +298,5 @@ let holds_up steps =
 let is_stuck o s steps =
   let c = s.configuration in
   let is_over = match c.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false in
-  let must step = not (Environment.is_voluntary step.transition) in
-  (not is_over) && (not (List.exists must steps)) && not (Environment.owes o.environment o.program s.outside)
+  let waits = Environment.only_recruits o.environment s.outside (List.map (fun step -> step.transition) steps) in
+  (not is_over) && waits && not (Environment.owes o.environment o.program s.outside)

@@ -16,6 +16,7 @@ type item =
   | Task of Core.vehicle
   | Timer of Residual.timer
   | Question of Residual.timer  (** the answer to a task's question *)
+  | Recruit of Residual.timer  (** a vehicle that may stay away *)
   | Answer
   | Reply
   | Posting of string  (** of a pair with this key *)
@@ -70,6 +71,9 @@ val taken : options -> state -> on:Transition.event option -> Transition.t -> st
 val holds_up : step list -> (item * int) list
 (** [holds_up steps] is until when time may pass in a state with [steps], none of which is urgent: not longer than so
     many milliseconds after each [item] began. *)
+
+val may_wait_for_recruits : options -> bool
+(** Whether nobody knows how long a vehicle that a [recruit] asks for stays away. *)
 
 val is_stuck : options -> state -> step list -> bool
 (** [is_stuck o s steps] is whether [s], with [steps], is no end and nothing that must happen is left to happen. *)

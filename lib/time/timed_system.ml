@@ -80,7 +80,8 @@ let note_one t date task moment =
 let note_unknown t (s : Timed.state) =
   let note (p : Timed.pending) =
     let same (q : Timed.pending) = q.item = p.item && q.prompt = p.prompt && Option.equal ( == ) q.task p.task in
-    if p.bounds = Some_time && not (List.exists same t.unknown) then t.unknown <- p :: t.unknown
+    let is_sure = match p.item with Recruit _ -> not (Timed.may_wait_for_recruits t.options) | _ -> false in
+    if p.bounds = Some_time && (not is_sure) && not (List.exists same t.unknown) then t.unknown <- p :: t.unknown
   in
   List.iter note s.pending
 

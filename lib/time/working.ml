@@ -22,11 +22,11 @@ let rec longest cost v (r : Residual.t) =
   | Parallel rs -> sum rs
   | All_of (a, bs) -> sum (Option.to_list a @ bodies bs)
   | One_of bs -> List.fold_left (fun n r -> max n (longest cost v r)) 0 (bodies bs)
-  | Until (_, _, a) | During { body = a; _ } | Watch (a, _) | Hold (_, a) -> longest cost v a
+  | Until (_, _, a) | During { body = a; _ } | Watch (a, _) | Hold (_, a) | Recruited (_, a) -> longest cost v a
   | Repeat { round; again = { left = Some n; each; _ } } ->
     sum (Option.to_list round) ++ times n (longest cost v each)
   | Action _ | Condition _ | Idle _ | Confirm _ -> 0
-  | Repeat { again = { left = None; _ }; _ } | Made _ | Unallocated _ -> unknown
+  | Repeat { again = { left = None; _ }; _ } | Made _ | Unallocated _ | Recruit _ -> unknown
 
 let at_start (o : Timed.options) execution (c : Configuration.t) =
   match c.control with
@@ -53,7 +53,7 @@ let ended (before : Timed_place.t) zone (step : Timed.step) (p : Timed.pending) 
       && not (is_inert p.item || is_mapped before.execution (label v task)) ->
     let since = Option.bind (List.assoc_opt p.item before.clocks) (fun clock -> Zone.most clock zone) in
     Some (v, Option.value since ~default:unknown)
-  | (Task _ | Timer _ | Question _ | Answer | Reply | Posting _ | Course _), _ -> None
+  | (Task _ | Timer _ | Question _ | Recruit _ | Answer | Reply | Posting _ | Course _), _ -> None
 
 let begun execution (step : Timed.step) (i : Inert.item) =
   match Happening.ending step.next i with

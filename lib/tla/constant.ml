@@ -6,8 +6,8 @@ let is_computation : operation -> bool = function
   | Build ((Pos | Imc_plan | Mission), _)
   | Builtin (Location_of | Area_of | Math _ | Geometry _) -> true
   | Replace_element | Replace_member _ | Call _ | Method _
-  | Build ((Pick | All_of | One_of), _) | Pick_if_any
-  | Builtin _ | Make_branch -> false
+  | Build ((Pick | All_of | One_of | Recruit), _) | Pick_if_any
+  | Builtin _ | Make_branch | Make_recruit -> false
 
 (* Locals that [e] itself has set before count as its own. *)
 let is_closed e =

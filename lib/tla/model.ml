@@ -230,7 +230,8 @@ let constants (environment : Environment.options) =
   ^ Format.asprintf "  Interruptions = %a\n" Tla.pp (Boolean environment.faults.interrupt)
   ^ "  ScriptFuel = 10000\n  AtomicFuel = 2000000\n  MaximumCalls = 10000\n"
 
-let invariants = [ "TypeOK"; "AllocationWithinBound"; "OneTaskEach"; "EmptyAfterEnd"; "TuplesConserved"; "NoDeadlock" ]
+let invariants = [ "TypeOK"; "AllocationWithinBound"; "OneTaskEach"; "RecruitedOnce"; "EmptyAfterEnd";
+                   "TuplesConserved"; "NoDeadlock" ]
 
 let check environment =
   "SPECIFICATION Spec\nVIEW View\n" ^ constants environment ^ "INVARIANTS " ^ String.concat " " invariants

@@ -11,7 +11,8 @@ let properties ~strict =
   let invariant name = { name; of_runs = false } in
   List.map invariant [ "NoDeadlock"; "NoError"; "Assertions"; "EnoughVehicles" ]
   @ (if strict then List.map invariant [ "NoHalt"; "NoLeftover" ] else [])
-  @ List.map invariant [ "TypeOK"; "AllocationWithinBound"; "OneTaskEach"; "EmptyAfterEnd"; "TuplesConserved" ]
+  @ List.map invariant [ "TypeOK"; "AllocationWithinBound"; "OneTaskEach"; "RecruitedOnce"; "EmptyAfterEnd";
+                         "TuplesConserved" ]
   @ [ { name = "Termination"; of_runs = true } ]
 
 (* MC.cfg, up to the properties that it checks. *)

@@ -197,7 +197,8 @@ and operation t ~known site op : Tla.t =
   | Pick_if_any -> record "build" [ ("builder", String "pick if any") ]
   | Build (All_of, _) -> record "build" [ ("builder", String "allOf") ]
   | Build (One_of, _) -> record "build" [ ("builder", String "oneOf") ]
-  | Build ((Pos | Imc_plan | Mission), _) ->
+  | Make_recruit -> record "recruit" []
+  | Build ((Pos | Imc_plan | Mission | Recruit), _) ->
     refuse t site "a position or plan whose settings are not constants"
       ~hint:"the translator computes it once, so its settings may not depend on variables";
     record "list" []
@@ -395,7 +396,7 @@ and plan_number t builder site settings =
   let built =
     match (builder : Dolphin_syntax.Ast.builder) with
     | Mission -> Result.map (fun m -> Inline_plan.Mission m) (Mission_builder.build ~name:"plan" site settings)
-    | Imc_plan | Pick | Pos | All_of | One_of ->
+    | Imc_plan | Pick | Recruit | Pos | All_of | One_of ->
       Result.map (fun p -> Inline_plan.Maneuvers p) (Plan_builder.build ~name:"plan" site settings)
   in
   match built with

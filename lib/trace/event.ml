@@ -8,6 +8,7 @@ type t =
   | Timer of int
   | Confirmation of { question : int; yes : bool }
   | No_confirmation of { question : int; why : string }
+  | Recruited of { recruit : int; vehicle : string }
   | Answer of string
   | No_answer of string
   | Reply of Yojson.Safe.t
@@ -24,6 +25,7 @@ let of_event : Transition.event -> t = function
   | Timer_expired timer -> Timer timer
   | Confirmed (question, Ok yes) -> Confirmation { question; yes }
   | Confirmed (question, Error why) -> No_confirmation { question; why }
+  | Recruited (recruit, vehicle) -> Recruited { recruit; vehicle }
   | Answered { text; _ } -> Answer text
   | Nobody_answers why -> No_answer why
   | Replied x -> Reply (json_of x)
@@ -45,6 +47,7 @@ let to_event program c : t -> (Transition.event, fault) result = function
   | Timer timer -> Ok (Timer_expired timer)
   | Confirmation { question; yes } -> Ok (Confirmed (question, Ok yes))
   | No_confirmation { question; why } -> Ok (Confirmed (question, Error why))
+  | Recruited { recruit; vehicle } -> Ok (Recruited (recruit, vehicle))
   | Answer text -> answer program c text
   | No_answer why -> Ok (Nobody_answers why)
   | Reply json -> (
@@ -67,6 +70,7 @@ let members h : members =
   | Confirmation { question; yes } -> event "confirmation" [ ("question", `Int question); ("yes", `Bool yes) ]
   | No_confirmation { question; why } ->
     event "no-confirmation" [ ("question", `Int question); ("why", `String why) ]
+  | Recruited { recruit; vehicle } -> event "recruited" [ ("recruit", `Int recruit); ("vehicle", `String vehicle) ]
   | Answer text -> event "answer" [ ("text", `String text) ]
   | No_answer why -> event "no-answer" [ ("why", `String why) ]
   | Reply json -> event "reply" [ ("value", json) ]
@@ -89,6 +93,9 @@ let of_members found =
   | "no-confirmation" ->
     let* question = get whole "question" found in
     Result.map (fun why -> No_confirmation { question; why }) (get text "why" found)
+  | "recruited" ->
+    let* recruit = get whole "recruit" found in
+    Result.map (fun vehicle -> Recruited { recruit; vehicle }) (get text "vehicle" found)
   | "answer" -> Result.map (fun text -> Answer text) (get text "text" found)
   | "no-answer" -> Result.map (fun why -> No_answer why) (get text "why" found)
   | "reply" -> Result.map (fun json -> Reply json) (get any "value" found)
@@ -109,6 +116,7 @@ let pp ppf h =
   | Timer timer -> print "the end of timer %d" timer
   | Confirmation { yes; _ } -> print "the answer %s" (if yes then "yes" else "no")
   | No_confirmation _ -> print "no answer"
+  | Recruited { vehicle; _ } -> print "the coming of %s" vehicle
   | Answer text -> print "the answer %s" text
   | No_answer _ -> print "no answer"
   | Reply json -> print "the host's reply %s" (Canonical.to_string json)

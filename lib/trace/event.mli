@@ -8,6 +8,7 @@ type t =
   | Timer of int
   | Confirmation of { question : int; yes : bool }  (** of a task's question *)
   | No_confirmation of { question : int; why : string }
+  | Recruited of { recruit : int; vehicle : string }  (** for a task's [recruit], by its number *)
   | Answer of string
   | No_answer of string
   | Reply of Yojson.Safe.t  (** a value as {!Dolphin_json.Host_value} writes it *)

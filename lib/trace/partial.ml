@@ -84,6 +84,13 @@ let events p (c : Configuration.t) label =
           let yes = Option.bind (inside "answer(" label) Answer.confirmation in
           Option.to_list (Option.map (fun yes -> Transition.Confirmed (question, Ok yes)) yes)
         | None -> [ Confirmed (question, Ok true); Confirmed (question, Ok false) ])
+    | Recruit_for (number, _) -> (
+        match Option.map (inside "recruit(") label with
+        | Some (Some v) -> [ Recruited (number, v) ]
+        | Some None -> []
+        | None ->
+          let is_it : Transition.event -> bool = function Recruited (i, _) -> i = number | _ -> false in
+          List.of_seq (Seq.filter is_it (Transition.recruitable p.program p.world c)))
     | Answer -> (
         match label with
         | None -> []

@@ -57,6 +57,7 @@ let awaited r =
     | End_of v -> Format.asprintf "%a" Event.pp (Done v)
     | Expiry_of timer -> Format.asprintf "%a" Event.pp (Timer timer)
     | Answer_to (_, prompt) -> Printf.sprintf "an answer to '%s'" prompt
+    | Recruit_for (_, asked) -> Format.asprintf "a vehicle%a to recruit" Settings.pp_filter asked
     | Answer -> "an answer"
     | Reply -> "a reply of the host"
   in
@@ -81,7 +82,7 @@ let false_guards r =
       | Check c -> if_false c
       | Take c -> if_false c
       | Start _ | Perform _ | Refute _ | Decide _ | Measure _ | Make _ | Allocate _ | End_of _ | Expiry_of _
-      | Answer_to _ -> None
+      | Answer_to _ | Recruit_for _ -> None
     in
     first most_shown (Seq.filter_map is_false (Task_rules.internal_steps residual))
 

@@ -37,10 +37,13 @@ let vehicles vs = String.concat ", " vs
 
 let amount = Dolphin_semantics.Value.amount
 
-let of_request : Request.t -> _ = function
+let of_request cause : Request.t -> _ = function
   | Start { vehicle; plan } -> [ (Vehicle vehicle, "┌ " ^ plan) ]
   | Stop v -> [ (Vehicle v, "└ stopped") ]
-  | Bind vs -> (Program, "picks " ^ vehicles vs) :: List.map (fun v -> (Vehicle v, "picked")) vs
+  | Bind vs -> (
+      match cause with
+      | Some (Event.Recruited _) -> List.map (fun v -> (Vehicle v, "recruited")) vs
+      | Some _ | None -> (Program, "picks " ^ vehicles vs) :: List.map (fun v -> (Vehicle v, "picked")) vs)
   | Release vs -> (Program, "releases " ^ vehicles vs) :: List.map (fun v -> (Vehicle v, "released")) vs
   | Say text -> [ (Program, "says: " ^ text) ]
   | Ask prompt -> [ (Program, "asks: " ^ prompt) ]
@@ -65,6 +68,7 @@ let of_cause : Event.t option -> _ = function
   | Some (Input { key; value }) ->
     [ (Program, Printf.sprintf "gets %s: %s" key (Dolphin_json.Canonical.to_string value)) ]
   | Some Interruption -> [ (Program, "is interrupted") ]
+  | Some (Recruited { vehicle; _ }) -> [ (Program, "recruits " ^ vehicle) ]
   | Some (Timer _) | None -> []
 
 (* Conditions and timers are seen by what comes of them; where nothing does, they are named. *)
@@ -100,7 +104,7 @@ let of_step t time (s : Step.t) =
   List.iter of_bound s.requests;
   let cells =
     of_cause t.cause @ of_label s @ pairs "consumes" s.consumed @ pairs "posts" s.posted
-    @ List.concat_map of_request s.requests
+    @ List.concat_map (of_request t.cause) s.requests
   in
   t.cause <- None;
   List.iter (add t time) (rows_of cells)

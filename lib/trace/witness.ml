@@ -31,7 +31,7 @@ let confirmations (c : Configuration.t) (t : Transition.t) : Transition.event li
   in
   let to_question : Transition.awaited -> Transition.event option = function
     | Answer_to (question, _) -> Some (Confirmed (question, reply))
-    | End_of _ | Expiry_of _ | Answer | Reply -> None
+    | End_of _ | Expiry_of _ | Recruit_for _ | Answer | Reply -> None
   in
   List.filter_map to_question (Transition.awaited c)
 
@@ -40,11 +40,17 @@ let candidates program (c : Configuration.t) (t : Transition.t) : Transition.eve
   let of_awaited : Transition.awaited -> Transition.event option = function
     | End_of v -> Some (Vehicle_done v)
     | Expiry_of timer -> Some (Timer_expired timer)
-    | Answer_to _ | Answer | Reply -> None
+    | Answer_to _ | Recruit_for _ | Answer | Reply -> None
   in
   match t.label with
   | Fail (v, _, why) -> [ Vehicle_failed (v, why) ]
   | (Answer _ | No_answer) when is_executing c -> confirmations c t
+  | Recruit v ->
+    let of_recruit : Transition.awaited -> Transition.event option = function
+      | Recruit_for (number, _) -> Some (Recruited (number, v))
+      | End_of _ | Expiry_of _ | Answer_to _ | Answer | Reply -> None
+    in
+    List.filter_map of_recruit (Transition.awaited c)
   | Answer text -> Option.to_list (Result.to_option (Answer.event program text))
   | No_answer -> [ Nobody_answers "none is given" ]
   | Reply _ -> (match t.next.control with Script { focus = Give x; _ } -> [ Replied x ] | _ -> [])

@@ -86,6 +86,17 @@ let tasks =
        two ^ "execute repeat 2, watch ((confirm('go?') | { confirm(\"go $a?\") }) within 5.seconds) onError { ignore() }");
       ("a question beside a timer, both in a task that is made",
        two ^ "execute watch { confirm('go?') | idle(1.seconds) } onError { e -> confirm(e) >> task('p')[a] }");
+      ("two rounds of whoever comes, beside a task that waits for a vehicle",
+       "a = pick { id 'a' }\n\
+        execute repeat 2, watch recruit { type 'UUV' } then { v -> task('p')[v] } onError { ignore() } | { task('q') }");
+      ("nobody is recruited twice, and what cuts a task off releases whom it has",
+       "execute (recruit { } then { task('p') } | recruit { type 'UUV' } then { idle(2.seconds) }) within 5.seconds");
+      ("what is made runs on its own vehicle only, its timers and recruits are new",
+       "a = pick { id 'a' }\n\
+        execute watch { recruit { id 'b' } then { (task('p') >> idle(1.seconds)) | task('q') } } onError { why -> message why; ignore() }\n\
+        | { recruit { type 'UAV' } then { idle(1.seconds) } }");
+      ("whom a task recruited is free for the next one",
+       "a = pick { id 'a' }\nexecute (recruit { id 'b' } then { task('p') }) >> recruit { id 'b' } then { task('q') }\nrelease a");
       ("within a time, and not",
        two ^ "execute watch ((task('p')[a] | task('q')[b]) within 10.seconds) onError { why -> message why; ignore() }");
       ("rounds by number, of parts that run together",

@@ -647,6 +647,43 @@ let conclusion =
         {|before @ List.filter (function Effect.Stop _ -> false | _ -> true) (cut waits s) @ released @|} );
     ]
 
+let recruits =
+  in_file "lib/semantics/rules/task_rules.ml" ~noticed_by:"semantics/test_rules"
+    [
+      ( "who was recruited is not released at the end of its task",
+        {|on_finished = (fun c -> undoing (Leave v) (plain.on_finished c));
+    on_failed|},
+        {|on_finished = plain.on_finished;
+    on_failed|} );
+      ( "who was recruited is not released by an error",
+        {|on_failed = (fun fault c -> undoing (Leave v) (plain.on_failed fault c)) }|},
+        {|on_failed = plain.on_failed }|} );
+      ( "what a recruit makes may run on others",
+        {|{ allowed = Some [ v ]; place; depth }|},
+        {|{ allowed = None; place; depth }|} );
+    ]
+  @ in_file "lib/semantics/rules/local_step.ml" ~noticed_by:"semantics/test_rules"
+    [
+      ( "what is cut off releases nobody",
+        {|List.map (fun v -> Effect.Stop v) stopped @ released recruits|},
+        {|List.map (fun v -> Effect.Stop v) stopped @ List.filter (fun _ -> false) (released recruits)|} );
+      ( "who was recruited is in no allocation",
+        {|let bound = bound @ Residual.recruited_for around in|},
+        {|let bound = bound @ List.filter (fun _ -> false) (Residual.recruited_for around) in|} );
+    ]
+  @ in_file "lib/semantics/rules/local_step.ml" ~noticed_by:"semantics/test_invariants"
+    [
+      ( "who was recruited is recruited again",
+        {|if List.mem v (Residual.named_around surroundings) then|},
+        {|if List.mem v (Residual.named_around surroundings) && false then|} );
+    ]
+  @ in_file "lib/semantics/rules/script_rules.ml" ~noticed_by:"semantics/test_invariants"
+    [
+      ( "an interruption does not release whom a task recruited",
+        {|  | None -> Conclusion.ending ~waits ~recruits [ Interrupt ]|},
+        {|  | None -> Conclusion.ending ~waits ~recruits:(List.filter (fun _ -> false) recruits) [ Interrupt ]|} );
+    ]
+
 let allocation =
   in_file "lib/semantics/rules/allocation.ml" ~noticed_by:"semantics/test_rules"
     [
@@ -821,7 +858,7 @@ let on_interrupt =
   in_file "lib/semantics/rules/script_rules.ml" ~noticed_by:"semantics/test_rules"
     [
       ( "a way home is executed though nobody is bound",
-        {|when s.bound <> [] && not|},
+        {|when bound <> [] && not|},
         {|when not|} );
     ]
   @ in_file "lib/semantics/rules/script_rules.ml" ~noticed_by:"semantics/test_language"
@@ -833,8 +870,8 @@ let on_interrupt =
   @ in_file "lib/explore/steps/space.ml" ~noticed_by:"reduction/test_traps"
     [
       ( "what an interruption executes is the same in all orders",
-        {|if Environment.may_leave options program then|},
-        {|if Environment.may_leave options program && reduction = Whole then|} );
+        {|let is_whole = Environment.may_leave options program || program.recruits in|},
+        {|let is_whole = (Environment.may_leave options program && reduction = Whole) || program.recruits in|} );
     ]
 
 let driver =
@@ -850,7 +887,7 @@ let driver =
     ]
 
 let pick_rules_in_traps =
-  in_file "lib/semantics/rules/pick_rules.ml" ~noticed_by:"reduction/test_traps"
+  in_file "lib/semantics/rules/fit.ml" ~noticed_by:"reduction/test_traps"
     [
       ( "bound vehicles are picked again",
         {|not (Vehicle_set.mem v.id bound) in|},
@@ -875,8 +912,8 @@ let fair_cycles =
         {|begins_with (repeat @ [ Space.inside ]) at) renewed|},
         {|begins_with [] at && repeat <> []) renewed|} );
       ( "nothing is owed",
-        {|List.filter (fun k -> not (Hashtbl.mem taken k)) (owed t edges members)|},
-        {|List.filter (fun k -> not (Hashtbl.mem taken k) && false) (owed t edges members)|} );
+        {|List.filter (fun k -> not (Hashtbl.mem taken k || may_never_come t k)) (owed t edges members)|},
+        {|List.filter (fun k -> not (Hashtbl.mem taken k || may_never_come t k) && false) (owed t edges members)|} );
     ]
 
 let missions =
@@ -1036,8 +1073,8 @@ let timed =
         {|    | Within { most; _ }, Within { least; _ } -> Within { least; most }|},
         {|    | Within { most; _ }, Within _ -> Within { least = 0; most }|} );
       ( "no look ends a task at the moment at which something happens at once",
-        {|if choice.on = None then Some step else None in|},
-        {|if choice.on = None && step.urgent then Some step else None in|} );
+        {|if is_event o s choice then None else Some step in|},
+        {|if (not (is_event o s choice)) && step.urgent then Some step else None in|} );
       ( "the order to a lost vehicle does not wait",
         {|if List.mem v (Environment.lost s.outside) then put_off silence bounds else bounds in|},
         {|ignore put_off; bounds in|} );
@@ -1289,7 +1326,7 @@ let all =
       vehicle_orbits; canonical_vehicles; bitstate; disk; name_flow; liveness; later_picks; environment; picks; inputs;
       attendance;
       task_rules; local_step; run_code; answers_in_words; confirm; unknown; on_interrupt;
-      fences; pick_rules; conclusion; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;
+      fences; pick_rules; conclusion; recruits; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;
       conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps;
       sets_with_events; driver; fair_cycles; limits;
       alike_values; division; arrangement; coverage; search_pattern; travel;

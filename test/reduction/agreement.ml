@@ -93,7 +93,8 @@ let reduced_outcomes environment program world =
       let n = State_graph.expand graph i in
       let c, e = State_graph.state graph i in
       let stuck =
-        if environment.inputs = [] && not (Environment.may_leave environment program) then n <= interruptions
+        let simple = environment.inputs = [] && not (Environment.may_leave environment program) in
+        if simple && not program.Core.recruits then n <= interruptions
         else Environment.is_stuck environment program e (Environment.choices environment program world e c)
       in
       from (i + 1) (outcome c ~stuck found)

@@ -54,6 +54,7 @@ let program ?(reads_sensors = false) ?(globals = 0) script =
     ordered_keys = No_key;
     inputs = [];
     on_interrupt = None;
+    recruits = false;
     reads_sensors;
     asks_running = false;
     fences = Dolphin_semantics.Fences.none }

@@ -48,7 +48,18 @@ let dismissed (s : Walk.step) =
 let b_changes_only_so _ (s : Walk.step) =
   s.before.shared.bound = s.transition.next.shared.bound
   || has bound_by s.transition || dismissed s
+  || (has [ Rule.On_interrupt ] s.transition
+      && s.transition.next.shared.bound = s.before.shared.bound @ Configuration.recruits s.before)
   || fail "%s changed B" (shown s)
+
+(* Whom tasks recruit and leave, effects bind and release. *)
+let recruits_balance _ (s : Walk.step) =
+  let bound = function Effect.Bind vs -> vs | _ -> [] and sorted = List.sort String.compare in
+  let all of_effect = List.concat_map of_effect s.transition.effects in
+  let had c = c.Configuration.shared.bound @ Configuration.recruits c in
+  let before = had s.before and after = had s.transition.next in
+  sorted (before @ all bound) = sorted (after @ all released)
+  || fail "%s: bound were %s, are %s" (shown s) (String.concat ", " before) (String.concat ", " after)
 
 let pairs n =
   List.concat_map (fun (k, xs) -> List.map (fun x -> Format.asprintf "%a" Value.pp_tuple (k, x)) xs) (Tuples.bindings n)
@@ -57,7 +68,7 @@ let deeds_of (l : Label.t) : Code.deed list =
   match l with
   | Check deeds | Act deeds | Cut deeds -> deeds
   | Did deed -> [ deed ]
-  | Start _ | Done _ | Fail _ | Time_out | Set_time _ | Make | Allocate _ | Broken _ | Silent | Pick _
+  | Start _ | Done _ | Fail _ | Time_out | Set_time _ | Make | Allocate _ | Recruit _ | Broken _ | Silent | Pick _
   | Bind _ | No_vehicles _ | Ask _
   | Answer _ | No_answer | Pause _ | Resume | Call _ | Reply _ | No_reply _ | Input _ | Execute | Cannot_execute _
   | End | Halt _
@@ -98,7 +109,8 @@ let ends_well program (s : Walk.step) =
     (says_so || fail "%s: no effect End" (shown s))
     && (next.shared.bound = [] && Vehicle_map.is_empty next.shared.allocation
         || fail "%s: vehicles are left" (shown s))
-    && (List.sort compare (List.concat_map released effects) = List.sort compare s.before.shared.bound
+    && (List.sort compare (List.concat_map released effects) 
+        = List.sort compare (s.before.shared.bound @ Configuration.recruits s.before)
         || fail "%s: not released" (shown s))
     && (Graph.outcomes ~interruption:true program Generate.world next = [] || fail "%s: goes on" (shown s))
   else not says_so || fail "%s: ends and goes on" (shown s)
@@ -258,6 +270,7 @@ let () =
     [ ( "every step",
         [ along "keeps the invariant of configurations" keeps_the_invariant;
           along "changes B by PICK-BIND, RELEASE, dismiss or the end alone" b_changes_only_so;
+          along "binds and releases whom it takes and leaves" recruits_balance;
           along "conserves tuples" tuples_are_conserved;
           along "ends well" ends_well;
           along "balances starts and stops" starts_and_stops_balance;

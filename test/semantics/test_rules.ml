@@ -176,6 +176,42 @@ let tasks : example list =
       "script" [];
     example Hold_err "it fails, and holds no longer" (task "watch { %p } onError { ignore() }")
       "fail(noptilus-1, p, broken)" "FAIL, HOLD-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [];
+    example Recruit "whoever fits, and nobody of B" (task "recruit { type 'UUV' } then { x -> task('a') } | %p")
+      "recruit(noptilus-3)" "RECRUIT, PAR-1" "(recruited noptilus-3 { task 'a' } | p[noptilus-1])"
+      [ "bind noptilus-3" ];
+    example Recruit "nobody twice"
+      (task "recruit { type 'UAV' } then { idle(1) } | recruit { } then { idle(2) }")
+      "recruit(noptilus-3)" "RECRUIT, PAR-1" "(recruited x8-02 idle(1) | recruited noptilus-3 { idle 2 })"
+      [ "bind noptilus-3" ];
+    example Allocate "of a task that recruited, its own vehicle"
+      (task "recruit { type 'UAV' } then { x -> task('a') >> task('b')[x] } | { task('c') }") "allocate(x8-02)"
+      "ALLOCATE, RECRUIT-1, PAR-1"
+      "(recruited x8-02 holding x8-02 (a[x8-02] >> b[x8-02]) | { task 'c' })" [];
+    example Allocate_err "nobody is given whom another task recruited"
+      (task "recruit { type 'UAV' } then { task('a') } | { task('c') | task('d') | task('e') }")
+      "cannot-execute(tasks 'c', 'd', 'e' run side by side and need different vehicles, but there is only noptilus-1, \
+       noptilus-2)"
+      "ALLOCATE-ERR, PAR-ERR, EXECUTE-ERR"
+      "failed: tasks 'c', 'd', 'e' run side by side and need different vehicles, but there is only noptilus-1, \
+       noptilus-2"
+      [ "release x8-02"; released;
+        "end: tasks 'c', 'd', 'e' run side by side and need different vehicles, but there is only noptilus-1, noptilus-2" ];
+    example Recruit_1 "its vehicle works" (task "recruit { type 'UAV' } then { task('a') }") "start(x8-02, a)"
+      "START, HOLD-1, RECRUIT-1" "recruited x8-02 holding x8-02 a[x8-02]..." [ "start a on x8-02" ];
+    example Recruit_2 "its vehicle is released" (task "(recruit { type 'UAV' } then { task('a') }) >> idle(1)")
+      "done(x8-02, a)" "DONE, HOLD-2, RECRUIT-2, SEQ-2" "idle(1)" [ "release x8-02"; "set timer 3 to 1 s" ];
+    example Recruit_err "its vehicle is released before the handler runs"
+      (task "watch recruit { type 'UAV' } then { task('a') } onError { message 'm'; ignore() }")
+      "fail(x8-02, a, broken)" "FAIL, HOLD-ERR, RECRUIT-ERR, WATCH-IGNORE, EXECUTE-DONE" "script"
+      [ "release x8-02"; "say m" ];
+    example During_cut "whom a task recruited is released with it"
+      (task "during 60 run (recruit { type 'UAV' } then { task('a') } | idle(9))") "timeout" "DURING-CUT, EXECUTE-DONE"
+      "script" [ "cancel timer 4"; "stop x8-02"; "release x8-02" ];
+    example Interrupt "whom a task recruited is released at the end" "execute(recruit { } then { task('a') })" "interrupt"
+      "INTERRUPT" "interrupted" [ "stop noptilus-3"; "release noptilus-3"; "end: interrupted" ];
+    example On_interrupt "whom a task recruited is brought home as well"
+      "onInterrupt { vs -> task('home') }\nexecute(recruit { id 'noptilus-3' } then { task('a') })" "interrupt"
+      "ON-INTERRUPT" "script" [ "stop noptilus-3" ];
     example Idle_end "the time is up" (task "idle(5) >> idle(1)") "timeout" "IDLE-END, SEQ-2" "idle(1)"
       [ "set timer 2 to 1 s" ];
     example Confirm_yes "somebody says yes" (task "confirm('go?') >> idle(1)") "answer(yes)" "CONFIRM-YES, SEQ-2" "idle(1)"

@@ -228,6 +228,21 @@ let some_made ~sensing vehicles =
   let* t = frequency [ (4, return (maker then_)); (1, return (maker (maker then_))) ] in
   frequency [ (2, return t); (1, return (expression (Index (t, variable "va")))) ]
 
+(* Of any vehicle, of those of a kind, of one. What is made of it may have more than its own task, or nobody for it. *)
+let recruiting ~sensing =
+  let* asked = oneofl [ []; [ ("type", "UUV") ]; [ ("type", "UAV") ]; [ ("id", "c") ]; [ ("id", "b") ] ] in
+  let* plan = oneofl [ "p"; "q" ] in
+  let own = call "task" [ Positional (string plan) ] in
+  let* other = code_task ~sensing in
+  let* made =
+    frequencyl
+      [ (4, own); (2, binary Sequence own other); (1, binary Parallel own other);
+        (1, binary Sequence other (maker own));
+        (1, expression (Index (own, variable "it"))); (1, binary Parallel own own) ]
+  in
+  let settings = List.map (fun (k, x) -> statement (call k [ Positional (string x) ])) asked in
+  return (expression (Recruit (settings, code [ statement made ])))
+
 (* [waitFor { consume x: _ } then { w -> task("p$w") }] *)
 let taker plan =
   let name = expression (Template [ Literal plan; Hole (variable "w") ]) in
@@ -278,7 +293,7 @@ let rec task_of ~sensing ~vehicles ~depth : expression Gen.t =
     | `During -> map3 (fun e d t -> expression (During (e, d, t))) on_cut duration (part ())
     | `Watch -> map2 (fun t c -> expression (Watch (t, c))) (part ()) (handler ~sensing)
     | `Repeat -> Gen.bind (part ()) (repeated ~sensing)
-    | `Made -> some_made ~sensing vehicles
+    | `Made -> frequency [ (3, some_made ~sensing vehicles); (1, recruiting ~sensing) ]
     | `Taken -> map2 (fun g plan -> expression (Wait_for (g, taker plan))) guard (oneofl [ "p"; "q" ])
     | `Allocated ->
       let all = match vehicles with [] -> [ "va" ] | vehicles -> vehicles in
@@ -327,7 +342,7 @@ let rec nested_of ~sensing ~vehicles ~depth =
     let* is_nest = if depth <= 0 then return false else map (fun i -> i < 2) (int_bound 4) in
     let* is_made = map (( = ) 0) (int_bound 7) in
     if is_nest then nested_of ~sensing ~vehicles ~depth:(depth - 1)
-    else if is_made then some_made ~sensing vehicles
+    else if is_made then frequency [ (3, some_made ~sensing vehicles); (1, recruiting ~sensing) ]
     else
       let* task = leaf vehicles and* next = leaf vehicles and* short = bool in
       return (if short then task else binary Sequence task next)

@@ -9,24 +9,27 @@ let failure_of : Transition.awaited -> Transition.event option = function
   | Answer -> Some (Nobody_answers "end of input")
   | Reply -> Some (Host_failed "gone")
   | Answer_to (question, _) -> Some (Confirmed (question, Ok false))
-  | Expiry_of _ -> None
+  | Expiry_of _ | Recruit_for _ -> None
 
 let success_of program : Transition.awaited -> Transition.event option = function
   | End_of v -> Some (Vehicle_done v)
   | Expiry_of timer -> Some (Timer_expired timer)
   | Answer_to (question, _) -> Some (Confirmed (question, Ok true))
   | Answer -> Result.to_option (Answer.event program Generate.answer)
+  | Recruit_for _ -> None
   | Reply -> Some (Replied Null)
 
 let outcomes ?(failures = true) ?(interruption = false) program world c =
   let awaited = Transition.awaited c in
   let events = List.filter_map (success_of program) awaited in
   let failed = if failures then List.filter_map failure_of awaited else [] in
+  let recruited = List.of_seq (Transition.recruitable program world c) in
   let stopped = if interruption then [ Transition.Interruption ] else [] in
   let is_new k = not (Tuples.poll k (Integer 1) c.shared.tuples) in
   let posted = List.map (fun k -> Transition.Input (k, Integer 1)) (List.filter is_new program.Core.inputs) in
   let accepted e = Result.to_option (Transition.accept program world c e) in
-  List.of_seq (Transition.internal program world c) @ List.filter_map accepted (events @ failed @ posted @ stopped)
+  let all = events @ recruited @ failed @ posted @ stopped in
+  List.of_seq (Transition.internal program world c) @ List.filter_map accepted all
 
 exception Too_many
 

@@ -35,10 +35,14 @@ let awaited ?(answers = []) program world c =
     | Expiry_of timer -> Ok (Timer_expired timer)
     | Answer_to (question, _) -> Ok (Confirmed (question, Ok true))
     | Answer -> Answer.event program (match answers with text :: _ -> text | [] -> "")
+    | Recruit_for _ -> Error Transition.Not_awaited
     | Reply -> Ok (Replied Null)
   in
   let follow awaited = Result.to_option (Result.bind (event awaited) (Transition.accept program world c)) in
-  Seq.filter_map follow (List.to_seq (Transition.awaited c))
+  let recruited () =
+    match Transition.recruited program world c with Some (_, t) -> Seq.return t () | None -> Seq.Nil
+  in
+  Seq.append recruited (Seq.filter_map follow (List.to_seq (Transition.awaited c)))
 
 let successors ?answers program world c =
   (List.of_seq (Transition.internal program world c), List.of_seq (awaited ?answers program world c))

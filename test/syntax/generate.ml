@@ -79,6 +79,7 @@ and node fuel =
         1, map2 (fun c t -> Wait_for (c, t)) c e;
         1, map3 (fun on_cut c t -> Until (on_cut, c, t)) (oneofl [ Completes; Fails ]) c e;
         1, map3 (fun on_cut d t -> During (on_cut, d, t)) (oneofl [ Completes; Fails ]) e e;
+        1, map2 (fun settings c -> Recruit (settings, c)) (program (fuel / 2)) c;
         1, map2 (fun t c -> Watch (t, c)) e c;
         1, map3 (fun rounds body until -> Repeat { rounds; body; until }) (opt e) e (opt c) ]
 

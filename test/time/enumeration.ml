@@ -73,17 +73,18 @@ let inputs (o : Timed.options) c e =
     List.sort_uniq compare (List.map (fun (k, _, _) -> k) (Environment.inputs o.environment o.program e))
 
 let awaited o (c : Configuration.t) e =
-  let what : Transition.awaited -> awaited = function
-    | End_of v -> Vehicle v
-    | Expiry_of i -> Timer i
-    | Answer_to (i, _) -> Timer i
-    | Answer | Reply -> Word
+  let what : Transition.awaited -> awaited option = function
+    | End_of v -> Some (Vehicle v)
+    | Expiry_of i | Answer_to (i, _) -> Some (Timer i)
+    | Answer | Reply -> Some Word
+    | Recruit_for _ -> None (* a vehicle is recruited at once, or may stay away for any time *)
   in
-  List.map what (Transition.awaited c) @ List.map (fun k -> Input k) (inputs o c e)
+  List.filter_map what (Transition.awaited c) @ List.map (fun k -> Input k) (inputs o c e)
 
 let over : Transition.event -> awaited option = function
   | Vehicle_done v | Vehicle_failed (v, _) -> Some (Vehicle v)
   | Timer_expired i | Confirmed (i, _) -> Some (Timer i)
+  | Recruited _ -> None
   | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ -> Some Word
   | Input (k, _) -> Some (Input k)
   | Interruption -> None
@@ -127,7 +128,8 @@ let comes_late (t : Transition.t) = List.exists (function World.Late _ -> true |
 (* What a sensor shows may go on not to let it happen. *)
 let is_open (t : Transition.t) =
   t.assumed <> [] && (not (comes_late t))
-  && match t.rules with (Condition | Allof_when | Oneof_when | Until_cut | Assure_cut) :: _ -> true | _ -> false
+  && match t.rules with (Condition | Recruit | Allof_when | Oneof_when | Until_cut | Assure_cut) :: _ -> true
+                      | _ -> false
 
 (* From how many to how many seconds, of which clock. *)
 let due o s (choice : Environment.choice) =
@@ -211,7 +213,14 @@ let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _
     let world = List.fold_left (fun w (v, (missing, _)) -> show v missing w) o.world s.missing in
     let choices = List.of_seq (Environment.choices_on o.environment o.program world s.e s.c) in
     let timed = List.map (fun choice -> (choice, due o s choice)) choices in
-    let is_own ((choice : Environment.choice), _) = choice.on = None && not (comes_late choice.transition) in
+    let is_by_itself (choice : Environment.choice) =
+      match choice.on with
+      | None -> true
+      | Some (Recruited (_, v)) ->
+        choice.transition.assumed = [] && not (Environment.may_stay_away o.environment s.e v)
+      | Some _ -> false
+    in
+    let is_own (choice, _) = is_by_itself choice && not (comes_late choice.Environment.transition) in
     let is_urgent (choice, due) = is_own (choice, due) && not (is_open choice.Environment.transition) in
     let own = if List.exists is_urgent timed then List.filter is_own timed else [] in
     let waits_for_others = List.exists (fun ((c : Environment.choice), _) -> comes_late c.transition) timed in
@@ -247,8 +256,9 @@ let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _
     match s.c.control with
     | Ended _ -> ()
     | Script _ | Waiting _ | Executing _ ->
-      let is_step ((choice : Environment.choice), _) = not (Environment.is_voluntary choice.transition) in
-      if (not (List.exists is_step timed)) && not (Environment.owes o.environment o.program s.e) then never_over := true
+      let transitions = List.map (fun ((choice : Environment.choice), _) -> choice.transition) timed in
+      if Environment.only_recruits o.environment s.e transitions && not (Environment.owes o.environment o.program s.e)
+      then never_over := true
   in
   let start =
     let c = Configuration.initial o.program and e = Environment.initial in

@@ -147,7 +147,7 @@ let rules_have_models () =
 
 let models =
   [ "Paper"; "Platform"; "CodeOfTasks"; "Sequence"; "Parallel"; "Branches"; "Until"; "Time"; "Errors"; "Recovery";
-    "Rounds"; "Made"; "Deeds"; "Picking"; "Sensors"; "Waiting"; "Executing"; "Inputs"; "Ends"; "Leaving";
+    "Rounds"; "Made"; "Recruits"; "Deeds"; "Picking"; "Sensors"; "Waiting"; "Executing"; "Inputs"; "Ends"; "Leaving";
     "SmallAbstract" ]
 
 let configurations =

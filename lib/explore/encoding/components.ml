@@ -33,7 +33,7 @@ let hole = Residual.hole
 
 let may_renew : Residual.context -> bool = function
   | Round_of { left = None; _ } | Watched_by { anew = Some _; _ } -> true
-  | Round_of _ | Watched_by _ | Before _ | Branch_of _ | Body_until _ | Body_during _ | Holding _ -> false
+  | Round_of _ | Watched_by _ | Before _ | Branch_of _ | Body_until _ | Body_during _ | Holding _ | Having _ -> false
 
 let new_path id contexts outer body =
   let components = Residuals.create 16 and inner = Residuals.create 1 in
@@ -200,6 +200,9 @@ and compile t home kin index (Step { offer; continue; _ } as source : Task_rules
   | Perform closure -> [ certain None (Guarded (guard t false closure)) (continue (Ok [])) ]
   | Check closure -> [ certain None (Guarded (guard t true closure)) (continue (Ok [])) ]
   | Take _ | Refute _ | Decide _ | Measure _ | Make _ | Allocate _ -> [ dependent None ]
+  | Recruit_for (number, asked) ->
+    let come v = dependent (Some (Transition.Recruited (number, v))) in
+    List.map come (Fit.wherever t.world (Shared.initial t.program) asked)
   | Expiry_of timer -> [ certain (Some (Timer_expired timer)) Free (continue ()) ]
   | Answer_to (question, prompt) ->
     let on_reply reply = certain (Some (Transition.Confirmed (question, reply))) Free (continue reply) in
@@ -236,7 +239,7 @@ let cover t steps =
     | Take c -> Coverage.run t.coverage c
     | Measure c -> Coverage.run t.coverage c
     | Make (c, _, _) -> Coverage.run t.coverage c
-    | Allocate _ | End_of _ | Expiry_of _ | Answer_to _ -> ()
+    | Allocate _ | End_of _ | Expiry_of _ | Answer_to _ | Recruit_for _ -> ()
   in
   Array.iter step steps
 

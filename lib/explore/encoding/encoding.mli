@@ -38,6 +38,9 @@ val write_components : t -> int array -> Layout.frame -> Component.component Com
 (** [write_components t key f children s] puts the words of [children] with shared state number [s] into [key].
     @raise Layouts.Outgrown *)
 
+val executing : Layout.t -> int array -> Residual.t * Core.platform_task Vehicle_map.t
+(** [executing l key] is the residual of the state [key] with layout [l], and A. *)
+
 val read : t -> int array -> Configuration.t * Environment.t
 (** [read t key] is what [key] encodes. *)
 

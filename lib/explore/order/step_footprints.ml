@@ -87,6 +87,9 @@ let rec future c (r : Residual.t) =
   | Made { code; request; _ } -> union (Footprint.of_maker c.code code) (claiming request)
   | Unallocated { task; request } -> union (claiming request) (of_term c task)
   | Hold (vs, r) -> union { Footprint.empty with frees = freed c vs } (future c r)
+  (* Of programs that recruit all steps are taken: see {!Space.create}. *)
+  | Recruit { code; _ } -> union breaking (Footprint.of_maker c.code code)
+  | Recruited (_, r) -> future c r
 
 and rounds c (again : Residual.again) =
   let asked = Option.fold again.until ~none:Footprint.empty ~some:(Footprint.of_code c.code) in
@@ -120,7 +123,7 @@ and of_term c (t : task) =
     if not f.breaks then f
     else if not (Recovery.possible code.lambda) then union f (Footprint.of_code c.code code)
     else all [ f; Footprint.of_code c.code code; recovering c code { allowed = None; place = 0; depth = 0 } ]
-  | Made code -> Footprint.of_maker c.code code
+  | Made code | Recruit { code; _ } -> Footprint.of_maker c.code code
   | Repeat { until; body; _ } ->
     union (Option.fold until ~none:Footprint.empty ~some:(Footprint.of_code c.code)) (of_term c body)
 
@@ -151,6 +154,7 @@ let footprint c { source = Step { offer; continue; _ } as source; event; _ } =
     | Expiry_of _, _ -> if is_error (continue ()) then breaking else Footprint.empty
     | Answer_to _, Some (Confirmed (_, Ok true)) -> Footprint.empty
     | Answer_to _, _ -> breaking
+    | Recruit_for _, _ -> Footprint.empty
     | Perform a, _ -> Footprint.of_code c.code a
     | Check g, _ -> Footprint.of_guard c.code g
     | Refute g, _ -> of_refuted c g
@@ -185,7 +189,7 @@ let lost r outer { source = Step { offer; continue; _ }; _ } =
   | Measure _ -> of_change (continue (Ok 0.))
   | Expiry_of _ -> of_change (continue ())
   | Answer_to _ -> of_change (continue (Ok true))
-  | Make _ | Allocate _ -> Footprint.these []
+  | Make _ | Allocate _ | Recruit_for _ -> Footprint.these []
   | Decide _ -> Footprint.these (Residual.named r @ outer)
   | Refute _ -> Footprint.all_vehicles
 
@@ -210,7 +214,7 @@ let rec is_settled c (r : Residual.t) =
   | Sequence (r, rest) -> List.for_all (is_settled c) (r :: rest)
   | Parallel rs -> List.for_all (is_settled c) rs
   | Condition _ | All_of _ | One_of _ | Until _ | During _ | Watch _ | Repeat _ | Made _ | Unallocated _
-  | Hold _ -> false
+  | Hold _ | Recruit _ | Recruited _ -> false
 
 let only_takes (f : Footprint.t) =
   Footprint.(Pairs.is_empty f.posts && Pairs.is_empty f.tests && Globals.is_empty f.writes && not f.anything)
@@ -235,12 +239,12 @@ let branches_first c around (bs : Residual.branch list) =
 (* Those of an [allOf] that waits, where errors cannot be ignored; [around] as above. *)
 let rec first_branches c around (r : Residual.t) =
   match r with
-  | Sequence (r, _) | All_of (Some r, _) | Hold (_, r) -> first_branches c around r
+  | Sequence (r, _) | All_of (Some r, _) | Hold (_, r) | Recruited (_, r) -> first_branches c around r
   | Watch (r, handler) when not ((of_handler c handler).ignores && (future c r).breaks) ->
     first_branches c (union around (of_handler c handler)) r
   | All_of (None, bs) -> branches_first c around bs
   | Parallel _ | Ready _ | Running _ | Action _ | Condition _ | One_of _ | Until _ | Idle _ | Confirm _
-  | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ -> []
+  | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ | Recruit _ -> []
 
 (* {1 Components} *)
 
@@ -248,7 +252,7 @@ let rec first_branches c around (r : Residual.t) =
 let handlers_of c contexts =
   let handler = function
     | Residual.Watched_by handler -> Some (of_handler c handler)
-    | Before _ | Branch_of _ | Body_until _ | Body_during _ | Round_of _ | Holding _ -> None
+    | Before _ | Branch_of _ | Body_until _ | Body_during _ | Round_of _ | Holding _ | Having _ -> None
   in
   List.filter_map handler contexts
 
@@ -258,7 +262,7 @@ let following c contexts =
     | Branch_of bs -> all (List.map (of_branch c) bs)
     | Round_of again -> rounds c again
     | Holding vs -> { Footprint.empty with frees = freed c vs }
-    | Body_until _ | Body_during _ | Watched_by _ -> Footprint.empty
+    | Having _ | Body_until _ | Body_during _ | Watched_by _ -> Footprint.empty
   in
   all (List.map following contexts)
 
@@ -292,6 +296,7 @@ let of_component c nests r steps =
     | Residual.Before rest -> List.concat_map Residual.named rest
     | Branch_of bs -> List.concat_map (fun (b : Residual.branch) -> Residual.named b.body) bs
     | Holding vs -> vs
+    | Having v -> [ v ]
     | Round_of again -> Residual.named again.each
     | Body_until _ | Body_during _ | Watched_by _ -> []
   in
@@ -314,7 +319,7 @@ let looks c (Task_rules.Step { offer; _ } as source) =
   let claims code = Footprint.claims (Footprint.of_code c.code code) in
   let code_claims =
     match offer with
-    | Allocate _ -> true
+    | Allocate _ | Recruit_for _ -> true
     | _ when not c.asks_held -> false
     | Perform a -> claims a
     | Check g -> claims g

@@ -276,11 +276,14 @@ let inputs x =
 
 (* {1 Interruptions} *)
 
+let recruits x =
+  if (program x.expansion).recruits then Residual.recruits (fst (Encoding.executing x.layout x.key)) else []
+
 let interruption x =
   let t = x.expansion in
   let { Surroundings.shared; outside } = Surroundings.Numbers.value (Encoding.shareds t.encoding) x.shared in
   let number, ending =
-    match Transition.on_interrupt (program t) shared x.layout.frame.machine with
+    match Transition.on_interrupt ~recruits:(recruits x) (program t) shared x.layout.frame.machine with
     | Some next -> (Encoding.script_number t.encoding [ On_interrupt ] next outside, None)
     | None -> (concluded x x.shared (Ends Interrupted), Some Configuration.Interrupted)
   in
@@ -297,7 +300,8 @@ let interrupt x =
       | Some known -> known
       | None ->
         let found = interruption x in
-        By_number.add t.interrupted x.shared found;
+        (* It depends on who was recruited, too. *)
+        if not (program t).recruits then By_number.add t.interrupted x.shared found;
         found
     in
     visit_script t x.visitor number ~action;

@@ -37,6 +37,8 @@ let outside_after t (Task_rules.Step { offer; _ }) event outside =
   match offer with
   | End_of (task, v) ->
     List.assoc_opt event (Environment.task_ends (Components.options t.components) outside v task)
+  | Recruit_for _ -> (
+      match event with Transition.Recruited (_, v) -> Some (Environment.heard_of v outside) | _ -> Some outside)
   | Start _ | Perform _ | Check _ | Refute _ | Decide _ | Take _ | Measure _ | Make _ | Allocate _
   | Expiry_of _ | Answer_to _ -> Some outside
 
@@ -149,6 +151,7 @@ let look t step ~around s =
       List.map Residual.needed_around (around :: Residual.beyond_watches around)
     else []
   in
+  let needed = if (program t).recruits then Residual.named_around around :: needed else needed in
   let key = (s, Residual.held around, Residual.timers_around around, needed @ running t around) in
   match Hashtbl.find_opt table key with
   | Some outcome -> outcome

@@ -254,11 +254,11 @@ let rec place_of (layout : Layout.t) (place : Layout.place) =
 let stays (Task_rules.Step { offer; _ }) =
   match offer with
   | Start _ | Perform _ | Decide _ | Measure _ | Make _ | End_of _ | Expiry_of _ | Answer_to _ -> true
-  | Check _ | Take _ | Refute _ | Allocate _ -> false
+  | Check _ | Take _ | Refute _ | Allocate _ | Recruit_for _ -> false
 
 let may_cut = function
   | Residual.Body_until _ | Body_during _ -> true
-  | Before _ | Branch_of _ | Watched_by _ | Round_of _ | Holding _ -> false
+  | Before _ | Branch_of _ | Watched_by _ | Round_of _ | Holding _ | Having _ -> false
 
 let repeats layers =
   let repeat (at, context) = match context with Residual.Round_of again -> Some (at, again) | _ -> None in
@@ -283,6 +283,10 @@ let positions (layout : Layout.t) key (place : Layout.place) =
     let name index = [ component.family.number; component.local; index - n ] in
     let position index = if index < n then (cuts.(index), []) else (inner, name index) in
     (position, asked @ repeats (layers @ around))
+
+let may_stay_away t v =
+  Dolphin_environment.Faults.is_possible t.options.faults.loss
+  || Environment.may_stay_away t.options Environment.initial v
 
 let inputs_at t outside = List.map (fun (k, _, _) -> k) (Environment.inputs t.options t.program outside)
 
@@ -354,6 +358,15 @@ let unsettled program (fault : Fault.t) : Limits.bound =
   | Some at -> Unsettled (Format.asprintf "%a: %s" Dolphin_syntax.Location.pp at fault.message)
   | None -> Unsettled fault.message
 
+(* Whether all that may happen are recruits of vehicles that may stay away. *)
+let may_only_wait t key =
+  let faults = t.options.faults in
+  t.program.recruits
+  && (Faults.is_possible faults.join || Faults.is_possible faults.loss)
+  &&
+  let c, outside = Encoding.read t.encoding key in
+  Environment.only_recruits t.options outside (List.of_seq (Seq.map fst (choices t outside c)))
+
 let transitions t key (visitor : via System.visitor) =
   match Layouts.number t.layouts key.(0) with
   | 0 -> expand_script t (Layouts.shared t.layouts key.(0)) visitor
@@ -366,7 +379,7 @@ let transitions t key (visitor : via System.visitor) =
         let taken = expand_all t x in
         (taken, Expansion.inputs x)
     in
-    if taken = 0 && not (owes t (Encoding.outside t.encoding shared)) then visitor.rest ();
+    if (taken = 0 || may_only_wait t key) && not (owes t (Encoding.outside t.encoding shared)) then visitor.rest ();
     taken + posted + Expansion.interrupt x
 
 let expand t key visitor =
@@ -463,7 +476,8 @@ let coverage t =
 (* {1 Beginning} *)
 
 let create ?(reduction = Reduction.Whole) ?(symmetry = Symmetry.none) ?(asked = []) ?labelling options program world =
-  let reduction = if Environment.may_leave options program then Reduction.Whole else reduction in
+  let is_whole = Environment.may_leave options program || program.recruits in
+  let reduction = if is_whole then Reduction.Whole else reduction in
   let foreseen = if Reduction.by_order reduction then Some 0 else None in
   let components = Components.create ?foreseen options program world in
   let shareds = Surroundings.Numbers.create () in

@@ -75,6 +75,9 @@ val may_cycle_in_script : t -> bool
     it [stays] possible, whatever others do, unless it is a guard. *)
 type possible = { at : int list; name : int list; stays : bool; step : Component.step }
 
+val may_stay_away : t -> Dolphin_semantics.Core.vehicle -> bool
+(** [may_stay_away t v] is whether [v] may never come to a [recruit], for it is late or lost in some run. *)
+
 val inside : int
 
 type layers = (int list * Dolphin_semantics.Residual.again) list

@@ -67,7 +67,7 @@ and applied called note operation next =
 let may_follow (program : program) =
   let found = ref false in
   ignore (before (called_code program) (fun () -> found := true) program.main.code over : bool);
-  !found
+  !found || program.recruits
 
 let forgetting program options =
   if may_follow program then options else Environment.forgetting_losses options

@@ -31,7 +31,7 @@ let may_call = function
   | Call _ | Method _ | Binary Parallel | Builtin (Execute | Execute_for _) -> true
   | Unary _ | Binary _ | Make_list | Make_map _ | Make_range _ | Concatenate | Element | Replace_element
   | Replace_member _ | Property _ | Builtin _ | Add_setting _ | Build _ | Pick_if_any
-  | Make_branch -> false
+  | Make_branch | Make_recruit -> false
 
 (* {1 What is read}
 

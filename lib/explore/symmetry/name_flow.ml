@@ -269,6 +269,10 @@ and applied w lambda at operation arguments =
   | ( ( Builtin (Platform_task | Make_action | Make_condition | Make_until _ | Make_idle | Make_during _
                 | Make_watch | Make_repeat _) ),
       es ) -> values es land vehicles
+  | Make_recruit, [ settings; code ] ->
+    ignore (value_of settings);
+    ignore (call_value w code (value_of code) (fun _ -> vehicles));
+    vehicles
   | Builtin (Post keys), es ->
     let k = values es in
     if List.mem None keys && has vehicles k then uses_name w at;
@@ -297,7 +301,7 @@ and applied w lambda at operation arguments =
   | Pick_if_any, es -> built w Pick (values es)
   | Unary Not, es -> ignore (values es); nothing
   | ( ( Unary _ | Binary _ | Make_list | Make_range _ | Element | Replace_element | Property _ | Call _ | Builtin _
-      | Add_setting _ ),
+      | Add_setting _ | Make_recruit ),
       es ) -> values es
 
 and built w builder k =
@@ -307,7 +311,7 @@ and built w builder k =
     vehicles
   | Imc_plan | Mission -> reads_places w; nothing
   | Pos -> nothing
-  | All_of | One_of -> k land vehicles
+  | All_of | One_of | Recruit -> k land vehicles
 
 (* Texts for people may say names. *)
 and said w lambda e =

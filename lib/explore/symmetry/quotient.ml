@@ -34,7 +34,7 @@ let reach_orbit t g r =
     | Take c -> reach (Task_isomorphism.Code c.lambda.id)
     | Measure c -> reach (Task_isomorphism.Code c.lambda.id)
     | Make (c, _, _) -> reach (Task_isomorphism.Code c.lambda.id)
-    | Allocate _ | End_of _ | Expiry_of _ | Answer_to _ -> ()
+    | Allocate _ | End_of _ | Expiry_of _ | Answer_to _ | Recruit_for _ -> ()
   in
   Seq.iter step (Task_rules.steps r)
 

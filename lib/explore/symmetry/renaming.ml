@@ -65,6 +65,7 @@ and task r t =
     let until = Option.map (closure r) x.until in
     Repeat { x with until; body = task r x.body }
   | Made c -> Made (closure r c)
+  | Recruit x -> Recruit { x with code = closure r x.code }
 
 and branch r b =
   let guard = closure r b.guard in
@@ -109,6 +110,10 @@ let rec residual r (t : Residual.t) : Residual.t =
   | Hold (vs, a) ->
     let vs = List.map r.f vs in
     Hold (vs, go a)
+  | Recruit x -> Recruit { x with code = closure r x.code }
+  | Recruited (v, a) ->
+    let v = r.f v in
+    Recruited (v, go a)
 
 and made r (q : Residual.request) = { q with allowed = Option.map (List.map r.f) q.allowed }
 

@@ -125,7 +125,7 @@ and applied w operation arguments =
   | Call [], [ { node = Make_closure (lambda, slots); _ } ] when lambda.parameters = 0 || lambda.implicit ->
     called w lambda slots
   | ( ( Make_map _ | Replace_element | Replace_member _ | Property _ | Call _ | Method _ | Builtin _ | Add_setting _
-      | Build _ | Pick_if_any | Make_branch ),
+      | Build _ | Pick_if_any | Make_branch | Make_recruit ),
       _ ) -> raise Opaque
 
 (* Code that is called where it is written, as that of assertions. *)

@@ -10,7 +10,7 @@ let none = { vehicles = Vehicle_orbits.none; tasks = None }
 
 (* A state of a task up to symmetry does not say which vehicle runs what. *)
 let find options program ~asked world =
-  if Environment.may_leave options program then none
+  if Environment.may_leave options program || program.recruits then none
   else
     let posts = options.Environment.inputs <> [] in
     let tasks = if posts || Environment.endings_remember options then None else Some [] in

@@ -174,7 +174,7 @@ let rec image_of_residual g p (r : Residual.t) : Residual.t =
   | Repeat { round; again } ->
     let again = { again with until = Option.map code again.until; each = go again.each } in
     Repeat { round = Option.map go round; again }
-  | Watch (_, { anew = Some _; _ }) | Made _ | Unallocated _ | Hold _ ->
+  | Watch (_, { anew = Some _; _ }) | Made _ | Unallocated _ | Hold _ | Recruit _ | Recruited _ ->
     invalid_arg "Task_group: a task in which tasks are made has no group"
 
 (* The image of [x], which has no blocks but [blocks]; memoised. *)

@@ -29,9 +29,9 @@ let rec fold f acc (r : Residual.t) =
   | Repeat { again = { until; each; _ }; _ } ->
     (* What is left of the round that runs is in [each]. *)
     fold f (Option.fold until ~none:acc ~some:(fun c -> f acc (Of_code (false, c)))) each
-  | Made { code; _ } -> f acc (Of_code (false, code))
+  | Made { code; _ } | Recruit { code; _ } -> f acc (Of_code (false, code))
   | Unallocated _ -> acc
-  | Hold (_, a) -> fold f acc a
+  | Hold (_, a) | Recruited (_, a) -> fold f acc a
 
 and fold_branch f acc (b : Residual.branch) = fold f (f acc (Of_code (false, b.guard))) b.body
 
@@ -85,7 +85,8 @@ let rec spell s (r : Residual.t) =
     Printf.sprintf "repeat(%s,%s,%s,%s)" (optional string_of_int left) (optional (code s ~handler:false) until)
       (optional (spell s) round) (spell s each)
   | Made { code = c; _ } -> "made" ^ code s ~handler:false c
-  | Unallocated _ | Hold _ -> invalid_arg "Task_isomorphism: a task that has begun"
+  | Recruit { code = c; _ } -> "recruit" ^ code s ~handler:false c
+  | Unallocated _ | Hold _ | Recruited _ -> invalid_arg "Task_isomorphism: a task that has begun"
 
 and spell_branch s (b : Residual.branch) = code s ~handler:false b.guard ^ "?" ^ spell s b.body
 
@@ -161,7 +162,8 @@ let matched context ~rename r r' =
       both go round round';
       go again.each again'.each
     | ( ( Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _
-        | Idle _ | Confirm _ | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ ),
+        | Idle _ | Confirm _ | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ | Recruit _
+        | Recruited _ ),
         _ ) -> raise_notrace Different
   and branch (b : Residual.branch) (b' : Residual.branch) =
     same_code ~handler:false b.guard b'.guard;

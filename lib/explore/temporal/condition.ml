@@ -58,7 +58,7 @@ let rec replace ask (e : Ast.expression) : Ast.expression =
     | Member m -> Member { m with subject = go m.subject }
     | Range r -> Range { r with first = go r.first; last = go r.last }
     | ( Null | Boolean _ | Integer _ | Number _ | String _ | Template _ | Variable _ | Wildcard | Map _ | Closure _
-      | Increment _ | Builder _ | Pick_else _ | When _ | Wait_for _ | Until _ | During _ | Watch _
+      | Increment _ | Builder _ | Pick_else _ | Recruit _ | When _ | Wait_for _ | Until _ | During _ | Watch _
       | Repeat _ ) as it -> it
   in
   { e with it }

@@ -48,12 +48,16 @@ let places_of rounds layers =
   let of_round = function Task_rules.Endless again | Asked again -> place again | Retried _ -> None in
   List.filter_map of_round rounds
 
+(* Who is recruited was there before. *)
+let is_event (p : Space.possible) =
+  match p.step.event with Some (Recruited _) | None -> false | Some _ -> true
+
 let examined t i =
   State_graph.visiting t.graph i (fun key arrived visitor ->
       let found = ref [] and edges = ref [] in
       let possible p = found := number t p :: !found in
       let taken (p : Space.possible) rounds layers =
-        let by = number t p and is_event = p.step.event <> None and renews = places_of rounds layers in
+        let by = number t p and is_event = is_event p and renews = places_of rounds layers in
         arrived := fun into -> edges := { into; by; is_event; rounds; renews } :: !edges
       in
       Space.examine (State_graph.system t.graph) key ~possible ~taken visitor;
@@ -157,11 +161,17 @@ let kept_inside t keeps members =
   let is_in = inside members in
   fun i -> List.filter (fun e -> is_in e.into) (successors t keeps i)
 
+(* A vehicle that is recruited, if it comes. *)
+let may_never_come t k =
+  match (Hashtbl.find t.steps k).step.event with
+  | Some (Recruited (_, v)) -> Space.may_stay_away (State_graph.system t.graph) v
+  | Some _ | None -> false
+
 let fairness t keeps members =
   let edges = kept_inside t keeps members in
   let taken = Hashtbl.create 100 in
   List.iter (fun i -> List.iter (fun e -> Hashtbl.replace taken e.by ()) (edges i)) members;
-  match List.filter (fun k -> not (Hashtbl.mem taken k)) (owed t edges members) with
+  match List.filter (fun k -> not (Hashtbl.mem taken k || may_never_come t k)) (owed t edges members) with
   | [] -> Fair
   | missing -> if List.exists (fun k -> (Hashtbl.find t.steps k).stays) missing then Unfair else Perhaps
 

@@ -360,9 +360,10 @@ let relevant program (options : options) =
   | Partial_order | Symmetry | All ->
     { options with environment = Later_picks.forgetting program options.environment }
 
-(* What an interruption executes depends on all of the state that it comes in. *)
+(* What an interruption executes depends on all of the state that it comes in; so does who can be recruited. *)
 let reducible program (options : options) =
-  if Environment.may_leave options.environment program then { options with reduction = Whole } else options
+  if Environment.may_leave options.environment program || program.Core.recruits
+  then { options with reduction = Whole } else options
 
 let judged (options : options) program world =
   let symmetry =

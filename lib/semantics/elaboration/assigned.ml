@@ -27,6 +27,9 @@ let assignments_inside wanted acc (e : expression) =
   | Repeat { until = Some c; _ } ->
     let acc = List.fold_left (assignments wanted) acc c.body in
     List.fold_left hide acc (Option.value c.parameters ~default:[])
+  | Recruit (settings, c) ->
+    let acc = List.fold_left (assignments wanted) acc (settings @ c.body) in
+    List.fold_left hide acc (Option.value c.parameters ~default:[])
   | Builder (_, body) -> List.fold_left (assignments wanted) acc body
   | Pick_else (settings, otherwise) -> List.fold_left (assignments wanted) acc (settings @ otherwise)
   | Increment { target = { it = Variable name; _ }; _ } -> String_map.add name false acc

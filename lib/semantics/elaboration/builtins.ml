@@ -151,6 +151,7 @@ let example_of_builder name =
 
 let settings : Dolphin_syntax.Ast.builder -> string list = function
   | Pick -> [ "id"; "type"; "payload"; "region"; "count"; "timeout" ]
+  | Recruit -> [ "id"; "type"; "payload"; "region" ]
   | Pos -> [ "lat"; "latitude"; "lon"; "longitude"; "height"; "hae" ]
   | Imc_plan -> List.map fst Plan_builder.vocabulary
   | Mission -> List.map fst Mission_builder.vocabulary

@@ -289,7 +289,7 @@ let by_name env at name (callee : Ast.expression) arguments =
     null env at
   | None, None, None ->
     (match Scope.settings env.code with
-     | Some (((Pick | Imc_plan | Mission | Pos) as builder), _) ->
+     | Some (((Pick | Recruit | Imc_plan | Mission | Pos) as builder), _) ->
        error env Unknown_setting callee.at "%s has no setting '%s'" (builder_name builder) name
          ?hint:(hint_for_setting builder name)
      | Some ((All_of | One_of), _) | None -> ());

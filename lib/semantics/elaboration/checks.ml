@@ -42,8 +42,12 @@ let hint_for_message =
   "programs send vehicles no messages: what is to be done is an item of mission { ... }, or part of a stored one: \
    stored 'name'"
 
+let hint_for_recruit =
+  "it takes one vehicle, and waits as long as it takes: recruit { ... } then { v -> T } within 10.minutes says how long"
+
 let hint_for_setting builder name =
   if builder = Ast.Mission && name = sends_message then Some hint_for_message
+  else if builder = Ast.Recruit && List.mem name (Builtins.settings Pick) then Some hint_for_recruit
   else did_you_mean name (Builtins.settings builder)
 
 (* {1 What is known of an expression before it runs} *)
@@ -53,7 +57,8 @@ let rec kind_of (e : Ast.expression) : Builtins.kind =
   | Integer _ | Number _ -> Number
   | String _ | Template _ -> String
   | Closure _ -> Closure
-  | Builder ((Imc_plan | Mission | All_of | One_of), _) | Wait_for _ | Until _ | During _ | Watch _
+  | Builder ((Imc_plan | Mission | All_of | One_of | Recruit), _) | Recruit _ | Wait_for _ | Until _ | During _
+  | Watch _
   | Repeat _ -> Task
   | Builder (Pick, _) -> Vehicles
   | Builder (Pos, _) -> Position
@@ -224,7 +229,7 @@ let check_repeated env (builder : Ast.builder) (body : Ast.statement list) =
     if List.mem name.it single_settings then name.it :: seen else seen
   in
   match builder with
-  | Pick -> ignore (List.fold_left check [] (List.filter_map setting body))
+  | Pick | Recruit -> ignore (List.fold_left check [] (List.filter_map setting body))
   | Imc_plan | Mission | Pos | All_of | One_of -> ()
 
 (* What declares a fence: {!Fence_declarations}. *)
@@ -232,6 +237,7 @@ let fence = "fence"
 
 let builder_name : Ast.builder -> string = function
   | Pick -> "pick"
+  | Recruit -> "recruit"
   | Imc_plan -> "imcPlan"
   | Mission -> "mission"
   | Pos -> "pos"

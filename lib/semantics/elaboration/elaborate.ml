@@ -170,6 +170,7 @@ let elaborated ?(chart = no_chart) ~source_name (ast : Ast.program) =
         ordered_keys = Scope.ordered_keys program;
         inputs = List.map (fun (k : string Ast.located) -> k.it) (Scope.inputs program);
         on_interrupt = Scope.on_interrupt program;
+        recruits = Scope.recruits program;
         reads_sensors = Scope.reads_sensors program;
         asks_running = Scope.asks_running program;
         fences;

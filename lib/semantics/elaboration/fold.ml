@@ -31,6 +31,7 @@ and expression f acc (e : expression) =
     List.fold_left argument (go acc callee) arguments
   | Builder (_, statements) -> body acc statements
   | Pick_else (settings, otherwise) -> body (body acc settings) otherwise
+  | Recruit (settings, c) -> body (body acc settings) c.body
   | When (c, e) | Wait_for (c, e) | Until (_, c, e) -> go (body acc c.body) e
   | Watch (e, c) -> body (go acc e) c.body
   | Repeat { rounds; body = e; until } ->

@@ -12,7 +12,8 @@ let rec value (e : Ast.expression) =
   | Member { subject; name; safe = false } ->
     Option.bind (value subject) (fun x -> Result.to_option (Operators.in_unit x name.it))
   | Template _ | Variable _ | Wildcard | List _ | Map _ | Range _ | Closure _ | Binary _ | Conditional _ | Elvis _
-  | Increment _ | Call _ | Member _ | Index _ | Builder _ | Pick_else _ | When _ | Wait_for _ | Until _ | During _
+  | Increment _ | Call _ | Member _ | Index _ | Builder _ | Pick_else _ | Recruit _ | When _ | Wait_for _ | Until _
+  | During _
   | Watch _ | Repeat _ -> None
 
 let all es =
@@ -28,7 +29,7 @@ let context : Code.context =
   let program =
     { source_name = ""; locations = [||]; global_names = [||]; functions = []; main; ordered_keys = No_key; inputs = [];
       on_interrupt = None;
-      reads_sensors = false; asks_running = false; fences = Fences.none }
+      recruits = false; reads_sensors = false; asks_running = false; fences = Fences.none }
   in
   let tuples = Tuples.empty No_key in
   { program; world = World.empty; allocation = Vehicle_map.empty; bound = []; held = lazy []; needed = lazy [];

@@ -27,6 +27,7 @@ type program = {
   mutable looked_at : string list option;  (* the keys that code consumes or polls; [None]: any *)
   mutable all_ordered : bool;
   mutable texts : Location.t list;  (* where a text is wanted *)
+  mutable recruits : bool;
   mutable reads_sensors : bool;
   mutable asks_running : bool;
   mutable calls : call list;
@@ -71,6 +72,7 @@ let create ?(first_site = 0) ?(variables = []) ?(parameters = []) ?(suppliers = 
       looked_at = Some [];
       all_ordered = false;
       texts = [];
+      recruits = false;
       reads_sensors = false;
       asks_running = false;
       calls = [];
@@ -135,6 +137,7 @@ let ordered_keys program : Tuple_space.order =
   | false, keys -> Keys (List.sort String.compare keys)
 let note_text program at = program.texts <- at :: program.texts
 let wants_text program at = List.memq at program.texts
+let note_recruit program = program.recruits <- true
 let note_sensor program = program.reads_sensors <- true
 let note_running program = program.asks_running <- true
 let is_parameter program name = List.mem name program.parameters
@@ -142,6 +145,7 @@ let chart program path = program.chart path
 let note_chart program name path keys = Hashtbl.replace program.charted name (path, keys)
 let find_chart program name = Hashtbl.find_opt program.charted name
 let is_supplier program name = List.mem name program.suppliers
+let recruits program = program.recruits
 let reads_sensors program = program.reads_sensors
 let asks_running program = program.asks_running
 

@@ -89,6 +89,12 @@ val note_sensor : program -> unit
 val note_running : program -> unit
 (** Something asks whether a vehicle runs a task. *)
 
+val note_recruit : program -> unit
+(** Some task may recruit vehicles. *)
+
+val recruits : program -> bool
+(** Whether any may. *)
+
 val reads_sensors : program -> bool
 val asks_running : program -> bool
 

@@ -68,12 +68,12 @@ let add env at slot name arguments =
      Option.iter
        (fun fault -> error env Wrong_value at "%s" fault)
        (Literal_check.fault_of_mission name (List.map argument arguments))
-   | Some (Pick, _) when arguments <> [] && not (List.exists is_named arguments) ->
+   | Some ((Pick | Recruit), _) when arguments <> [] && not (List.exists is_named arguments) ->
      let literal (e : Ast.expression) = match e.it with Wildcard -> Some Wildcard | _ -> Literal_check.value e in
      let values = List.filter_map literal (List.map value_of arguments) in
      if List.compare_lengths values arguments = 0 then
        Option.iter (fun fault -> error env Wrong_value at "%s" fault) (Literal_check.fault_of_pick name values)
-   | Some ((Pick | Pos | All_of | One_of), _) | None ->
+   | Some ((Pick | Recruit | Pos | All_of | One_of), _) | None ->
      List.iter
        (function
          | Ast.Named (k, _) -> error env Unknown_argument k.Ast.at "'%s' takes no argument by name" name
@@ -95,7 +95,7 @@ let setting env at (name : string Ast.located) e =
       ~hint:(Printf.sprintf "an assignment is %s = ..." name.it);
     null env at
 
-let block_of env at builder body ~operation =
+let block_of ?(arguments = fun () -> []) env at builder body ~operation =
   if builder = Ast.Pick then check_in_script env "pick" at;
   check_repeated env builder body;
   let slot = Scope.new_slot env.code in
@@ -104,12 +104,21 @@ let block_of env at builder body ~operation =
     Scope.in_block env.code (fun () ->
         Scope.inside_settings env.code (Some (builder, slot)) (fun () -> statements env at body))
   in
-  block env at [ start; body; apply env at operation [ local env at slot ] ]
+  block env at [ start; body; apply env at operation (local env at slot :: arguments ()) ]
 
 let build env at builder body =
   block_of env at builder body ~operation:(Build (builder, Printf.sprintf "plan-%d" (Location.line at)))
 
 let pick_if_any env at body = block_of env at Pick body ~operation:Pick_if_any
+
+let recruit env at body (c : Ast.closure) =
+  Scope.note_recruit env.program;
+  (match c.parameters with
+   | Some (_ :: second :: _) ->
+     error env Wrong_parameters second.at "the code of recruit takes one parameter, the vehicle"
+   | Some ([] | [ _ ]) | None -> ());
+  let code () = [ told c (closure env at Scope.Maker "recruit" c) ] in
+  block_of env at Recruit body ~operation:Make_recruit ~arguments:code
 
 let when_then env at guard t =
   match Scope.settings env.code with
@@ -119,7 +128,7 @@ let when_then env at guard t =
         let guard = task_code env at "when" guard in
         let t = task_operand env t in
         set_local env at slot (apply env at Make_branch [ local env at slot; guard; t ]))
-  | Some ((Pick | Imc_plan | Mission | Pos), _) | None ->
+  | Some ((Pick | Recruit | Imc_plan | Mission | Pos), _) | None ->
     let hint =
       if Scope.within_branches env.code then
         "branches come from for (x in xs) { when ... } and xs.each { x -> when ... }; other code is a closure"

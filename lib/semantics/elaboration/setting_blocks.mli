@@ -9,6 +9,9 @@ val build : env -> Location.t -> Ast.builder -> Ast.statement list -> expression
 val pick_if_any : env -> Location.t -> Ast.statement list -> expression
 (** [pick_if_any env at body] is [build env at Pick body], but gives null where there are too few vehicles. *)
 
+val recruit : env -> Location.t -> Ast.statement list -> Ast.closure -> expression
+(** [recruit env at body c] is [recruit { body } then { c }]. *)
+
 val add : env -> Location.t -> int -> string -> Ast.argument list -> expression
 (** [add env at slot name arguments] adds setting [name] to those in [slot]. *)
 

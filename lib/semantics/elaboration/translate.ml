@@ -43,7 +43,7 @@ let first_operand (e : Ast.expression) : (Ast.expression * (Ast.expression -> As
   | During (e, d, t) when begins t -> Some (t, fun t -> During (e, d, t))
   | Until (e, c, t) when begins t -> Some (t, fun t -> Until (e, c, t))
   | Null | Boolean _ | Integer _ | Number _ | String _ | Template _ | Variable _ | Wildcard | List _ | Map _ | Closure _
-  | Unary _ | Increment _ | Builder _ | Pick_else _ | When _ | Wait_for _ | Until _ | During _ | Watch _
+  | Unary _ | Increment _ | Builder _ | Pick_else _ | Recruit _ | When _ | Wait_for _ | Until _ | During _ | Watch _
   | Repeat _ -> None
 
 (* [execute (a | b) >> c] executes all of [(a | b) >> c]: a procedure that gives nothing is no operand, so what follows
@@ -63,7 +63,13 @@ let rec regroup env (e : Ast.expression) : Ast.expression option =
     in
     Option.bind (first_operand e) around
 
-let check_index env subject (index : Ast.expression) =
+let check_index env (subject : Ast.expression) (index : Ast.expression) =
+  (match subject.it with
+   | Recruit _ ->
+     Scope.report env.program
+       (Diagnostic.warning No_effect index.at "this has no effect: recruit takes its vehicle itself"
+          ~hint:"say in its settings whom it asks for, as in recruit { id 'noptilus-1' } then { v -> T }")
+   | _ -> ());
   let found = known_kind env index in
   if known_kind env subject = Task && not (could_be Vehicles found) then
     error env Wrong_kind index.at "between [ and ] after a task stands a vehicle set, this is %s"
@@ -138,6 +144,7 @@ let rec elaborate env (e : Ast.expression) : expression =
     apply env at Element [ subject; elaborate env index ]
   | Builder (builder, body) -> Setting_blocks.build env at builder body
   | Pick_else (settings, otherwise) -> pick_else env at settings otherwise
+  | Recruit (settings, c) -> Setting_blocks.recruit env at settings c
   | When (guard, t) -> Setting_blocks.when_then env at guard t
   | Wait_for (guard, t) -> guarded env at Make_wait_for "waitFor" guard t
   | Until (Completes, guard, t) -> guarded env at (Make_until Completes) "until" guard t

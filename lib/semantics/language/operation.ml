@@ -29,6 +29,11 @@ let look_for context settings ~otherwise =
   | Ok pick -> blocking context "pick" (Pick { pick with otherwise })
   | Error fault -> Wrong_at fault
 
+let recruit at settings code =
+  match Settings.pick settings with
+  | Ok pick -> Value (Task (Recruit { asked = pick.filter; code; site = at }))
+  | Error fault -> Wrong_at fault
+
 let build context at builder name arguments =
   match (builder : Dolphin_syntax.Ast.builder), arguments with
   | builder, [ Settings latest_first ] -> (
@@ -43,7 +48,8 @@ let build context at builder name arguments =
         value (fun mission -> platform_task at (Inline_plan.Mission mission)) (Mission_builder.build ~name at settings)
       | Pos -> value Fun.id (Settings.position at settings)
       | All_of -> value (fun branches -> Task (All_of branches)) (Settings.branches at settings)
-      | One_of -> value (fun branches -> Task (One_of branches)) (Settings.branches at settings))
+      | One_of -> value (fun branches -> Task (One_of branches)) (Settings.branches at settings)
+      | Recruit -> Wrong "a recruit has code")
   | _, _ -> Wrong "a block of settings is missing"
 
 let add_setting at setting names arguments =
@@ -108,9 +114,11 @@ let apply_settled context at operation arguments =
   | Add_setting (name, names), arguments -> add_setting at name names arguments
   | Build (builder, name), arguments -> build context at builder name arguments
   | Pick_if_any, [ Settings latest_first ] -> look_for context (List.rev latest_first) ~otherwise:true
+  | Make_recruit, [ Settings latest_first; Closure code ] -> recruit at (List.rev latest_first) code
   | Make_branch, arguments -> add_setting at "when" [ None; None ] arguments
   | ( ( Unary _ | Binary _ | Make_range _ | Element | Replace_element | Replace_member _ | Property _ | Call _
-      | Method _ | Pick_if_any ),
+      | Method _ | Pick_if_any
+      | Make_recruit ),
       _ ) -> Wrong "wrong number of operands"
 
 let rec apply context at operation arguments =

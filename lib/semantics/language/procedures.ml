@@ -21,7 +21,8 @@ let rec never_waits = function
   | Sequence (a, b) | Parallel (a, b) -> never_waits a && never_waits b
   | Allocated (a, _) | Until (_, _, a) | During (_, Seconds _, a) | Watch (a, _) | Repeat { body = a; _ } ->
     never_waits a
-  | Platform _ | Condition _ | All_of _ | One_of _ | Idle _ | Confirm _ | During (_, Given_by _, _) | Made _ -> false
+  | Platform _ | Condition _ | All_of _ | One_of _ | Idle _ | Confirm _ | During (_, Given_by _, _) | Made _
+  | Recruit _ -> false
 
 let repeat at n body until =
   let made rounds =

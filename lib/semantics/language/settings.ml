@@ -1,7 +1,7 @@
 open Dolphin_results
 open Core
 
-type filter = {
+type filter = Vehicle_filter.t = {
   id : string option;
   kind : string option;
   payload : string list;
@@ -21,16 +21,18 @@ let accepts filter (state : World.vehicle_state) =
   && World.carries filter.payload state
   && holds filter.region (fun area -> Dolphin_geo.Area.contains area state.position)
 
-let pp_pick ppf pick =
-  let f = pick.filter in
-  (match pick.count with
-   | All -> Format.fprintf ppf "all vehicles"
-   | Exactly 1 -> Format.fprintf ppf "1 vehicle"
-   | Exactly n -> Format.fprintf ppf "%d vehicles" n);
+let pp_filter ppf f =
   Option.iter (Format.fprintf ppf " with id '%s'") f.id;
   Option.iter (Format.fprintf ppf " of type '%s'") f.kind;
   if f.payload <> [] then Format.fprintf ppf " with payload %s" (String.concat ", " f.payload);
   Option.iter (Format.fprintf ppf " in region %a" Dolphin_geo.Area.pp) f.region
+
+let pp_pick ppf pick =
+  (match pick.count with
+   | All -> Format.fprintf ppf "all vehicles"
+   | Exactly 1 -> Format.fprintf ppf "1 vehicle"
+   | Exactly n -> Format.fprintf ppf "%d vehicles" n);
+  pp_filter ppf pick.filter
 
 let compare_pick (a : pick) (b : pick) = Stdlib.compare a b
 let fault (s : setting) message = Error (Fault.make s.setting_site message)

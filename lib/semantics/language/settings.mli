@@ -4,7 +4,7 @@
 open Core
 
 (** Which vehicles a pick accepts. *)
-type filter = {
+type filter = Vehicle_filter.t = {
   id : string option;
   kind : string option;  (** [type 'UUV'] *)
   payload : string list;
@@ -22,6 +22,9 @@ type pick = {
 
 val accepts : filter -> World.vehicle_state -> bool
 (** [accepts f s] is whether a connected vehicle in state [s] fulfils [f]. *)
+
+val pp_filter : Format.formatter -> filter -> unit
+(** [" of type 'UAV'"], each part behind a space. *)
 
 val pp_pick : Format.formatter -> pick -> unit
 (** What was asked for: ["3 of type 'UUV' with DVL"]. *)

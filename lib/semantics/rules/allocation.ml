@@ -12,7 +12,7 @@ let restrict allowed vs =
 let rec tree_of allowed t : leaf Assignment.tree =
   match t with
   | Platform task -> Leaf { task; allowed }
-  | Action _ | Condition _ | Idle _ | Confirm _ | Made _ -> Shared []
+  | Action _ | Condition _ | Idle _ | Confirm _ | Made _ | Recruit _ -> Shared []
   | Sequence (a, b) -> Shared [ tree_of allowed a; tree_of allowed b ]
   | Parallel (a, b) -> Disjoint [ tree_of allowed a; tree_of allowed b ]
   | Allocated (a, vs) -> tree_of (restrict allowed vs) a
@@ -142,6 +142,9 @@ let rec residual supply allowed t : Residual.t =
   | Made code ->
     let place = supply.next_place () in
     Made { code; given = []; request = { allowed; place; depth = supply.depth } }
+  | Recruit { asked; code; site } ->
+    let number = supply.next_timer () in
+    Recruit { number; asked; code; place = supply.next_place (); depth = supply.depth; site }
   | Action c -> Action c
   | Condition c -> Condition c
   | Sequence (a, b) ->
@@ -182,7 +185,8 @@ let is_too_large t =
       else
         let down ts = from (count + 1) (List.rev_append (List.rev_map (fun t -> (depth + 1, t)) ts) rest) in
         (match t with
-         | Platform _ | Action _ | Condition _ | Idle _ | Confirm _ | Made _ -> from (count + 1) rest
+         | Platform _ | Action _ | Condition _ | Idle _ | Confirm _ | Made _ | Recruit _ ->
+           from (count + 1) rest
          | Sequence (a, b) | Parallel (a, b) -> down [ a; b ]
          | Allocated (a, _) | Until (_, _, a) | During (_, _, a) | Watch (a, _) | Repeat { body = a; _ } -> down [ a ]
          | All_of bs | One_of bs -> down (List.map (fun (b : Core.branch) -> b.body) bs))

@@ -18,8 +18,11 @@ let cut waits (s : Shared.t) =
   List.map Effect.ceases waits
   @ List.map (fun (v, _) -> Effect.Stop v) (Vehicle_map.bindings s.allocation)
 
-let ending ?(waits = []) ?(before = []) rules label (s : Shared.t) ending =
+let ending ?(waits = []) ?(recruits = []) ?(before = []) rules label (s : Shared.t) ending =
   let waits = List.filter (fun wait -> not (List.mem (Effect.ceases wait) before)) waits in
-  let released = if s.bound = [] then [] else [ Effect.Release s.bound ] in
+  let left = function Effect.Release vs -> vs | _ -> [] in
+  let left = if recruits = [] then [] else List.concat_map left before in
+  let bound = s.bound @ List.filter (fun v -> not (List.mem v left)) recruits in
+  let released = if bound = [] then [] else [ Effect.Release bound ] in
   let effects = before @ cut waits s @ released @ [ Effect.End ending ] in
   { rules; label; next = ended s ending; effects; assumed = [] }

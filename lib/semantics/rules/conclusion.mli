@@ -23,7 +23,10 @@ val ended : Shared.t -> Configuration.ending -> Configuration.t
 (** [ended s e] is the end [e] of a run with shared part [s]: A and B are empty. *)
 
 val ending :
-  ?waits:(Residual.timer * Residual.wait) list -> ?before:Effect.t list -> Rule.t list -> Label.t -> Shared.t ->
-  Configuration.ending -> t
-(** [ending ~waits ~before rules l s e] is the transition to [ended s e]. After the effects [before] it ends those of
-    [waits] (none by default) that [before] does not end, stops all that A runs, and releases B. *)
+  ?waits:(Residual.timer * Residual.wait) list -> ?recruits:Core.vehicle list -> ?before:Effect.t list -> Rule.t list ->
+  Label.t -> Shared.t -> Configuration.ending -> t
+(** [ending ~waits ~recruits ~before rules l s e] is the transition to [ended s e]. After the effects [before] it
+    ends those of
+    [waits] (none by default) that [before] does not end, stops all that A runs,
+      and releases B and those of [recruits] (none by
+    default) that [before] does not release. *)

@@ -21,6 +21,9 @@ let waits c =
   | Waiting (_, (Pick _ | Pause _)) -> [ (Residual.script_timer, Residual.Time 0.) ]
   | Waiting (_, (Ask _ | Execute _ | Host_call _)) | Script _ | Ended _ -> []
 
+let recruits c =
+  match c.control with Executing (_, r) -> Residual.recruits r | Waiting _ | Script _ | Ended _ -> []
+
 let initial program =
   { control = Script (Machine.call { lambda = program.main; captured = [||] } []); shared = Shared.initial program }
 
@@ -83,14 +86,14 @@ let pp program ppf c =
 (* Whether no vehicle is named twice in what stands side by side. *)
 let rec are_apart r =
   match (r : Residual.t) with
-  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ | Made _ | Unallocated _ -> true
+  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ | Made _ | Unallocated _ | Recruit _ -> true
   | Parallel rs ->
     let names = List.concat_map Residual.named rs in
     List.length (List.sort_uniq String.compare names) = List.length names && List.for_all are_apart rs
   | Sequence (a, rest) -> List.for_all are_apart (a :: rest)
   | All_of (a, bs) -> List.for_all are_apart (Option.to_list a) && are_apart (One_of bs)
   | One_of bs -> List.for_all (fun (b : Residual.branch) -> are_apart b.body) bs
-  | Until (_, _, a) | Watch (a, _) | Hold (_, a) | During { body = a; _ } -> are_apart a
+  | Until (_, _, a) | Watch (a, _) | Hold (_, a) | Recruited (_, a) | During { body = a; _ } -> are_apart a
   | Repeat { round; again } -> List.for_all are_apart (again.each :: Option.to_list round)
 
 let is_apart c = match c.control with Executing (_, r) -> are_apart r | Script _ | Waiting _ | Ended _ -> true
@@ -99,10 +102,15 @@ let invariant c =
   let running = match c.control with Executing (_, r) -> Residual.running r | Script _ | Waiting _ | Ended _ -> [] in
   let allocated = List.map fst (Vehicle_map.bindings c.shared.allocation) in
   let ended = match c.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false in
-  if List.exists (fun v -> not (List.mem v c.shared.bound)) allocated then Error "A has a vehicle that is not in B"
+  let recruits = recruits c in
+  let is_bound v = List.mem v c.shared.bound || List.mem v recruits in
+  if not (List.for_all is_bound allocated) then Error "A has a vehicle that is not in B"
   else if List.length (List.sort_uniq String.compare running) <> List.length running then
     Error "a vehicle runs two tasks"
   else if not (is_apart c) then Error "two tasks side by side hold one vehicle"
+  else if List.length (List.sort_uniq String.compare recruits) <> List.length recruits then
+    Error "a vehicle was recruited twice"
+  else if List.exists (fun v -> List.mem v c.shared.bound) recruits then Error "a recruited vehicle is in B"
   else if List.sort String.compare running <> allocated then Error "A is not what the control runs"
   else if ended && c.shared.bound <> [] then Error "B is not empty after the end"
   else Ok ()

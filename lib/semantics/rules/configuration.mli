@@ -20,6 +20,9 @@ type control =
 
 type t = { control : control; shared : Shared.t }
 
+val recruits : t -> Core.vehicle list
+(** [recruits c] is the vehicles that the task that [c] executes has recruited and has still. *)
+
 val initial : program -> t
 (** [initial p] is where runs of [p] begin. *)
 

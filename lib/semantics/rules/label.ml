@@ -11,6 +11,7 @@ type t =
   | Set_time of float
   | Make
   | Allocate of vehicle list
+  | Recruit of vehicle
   | Broken of string
   | Did of Code.deed
   | Silent
@@ -61,6 +62,7 @@ let pp ppf l =
   | Set_time seconds -> Format.fprintf ppf "set-time(%s)" (Value.amount seconds)
   | Make -> Format.pp_print_string ppf "make"
   | Allocate vs -> text "allocate" (String.concat ", " vs)
+  | Recruit v -> text "recruit" v
   | Broken why -> text "broken" why
   | Did deed -> pp_deed ppf deed
   | Silent -> Format.pp_print_string ppf "script"

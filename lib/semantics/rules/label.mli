@@ -13,6 +13,7 @@ type t =
   | Set_time of float  (** seconds that [during] or [within] starts with, given by code *)
   | Make  (** code gave a task *)
   | Allocate of vehicle list  (** these vehicles, which nobody held, to a task that was made *)
+  | Recruit of vehicle  (** it was recruited *)
   | Broken of string  (** code inside of a task that failed *)
   | Did of Code.deed  (** by the script *)
   | Silent

@@ -5,6 +5,7 @@ type event =
   | Vehicle_failed of vehicle * string
   | Timer_expired of Residual.timer
   | Confirmed of Residual.timer * (bool, string) result
+  | Recruited of Residual.timer * vehicle
   | Answered of { text : string; code : closure }
   | Nobody_answers of string
   | Replied of value
@@ -37,13 +38,17 @@ let equal a b = Label.equal a.named b.named && equal_outcome a.outcome b.outcome
 let without_tasks vs (s : Shared.t) =
   { s with allocation = List.fold_left (fun a v -> Vehicle_map.remove v a) s.allocation vs }
 
+let released = function [] -> [] | vs -> [ Effect.Release vs ]
+
 (* The vehicles that stop, and the effects: cut(r). *)
 let undo : Task_rules.undoing -> vehicle list * Effect.t list = function
   | Cancel timer -> ([], [ Cancel_timer timer ])
+  | Leave v -> ([], [ Release [ v ] ])
   | Cut cut ->
     let cancelled = List.map Effect.ceases (List.concat_map Residual.waits cut) in
     let stopped = List.concat_map Residual.running cut in
-    (stopped, cancelled @ List.map (fun v -> Effect.Stop v) stopped)
+    let recruits = List.concat_map Residual.recruits cut in
+    (stopped, cancelled @ List.map (fun v -> Effect.Stop v) stopped @ released recruits)
 
 (* So deep are closures in tasks that closures made, and tasks in the place of those that failed. *)
 let deepest = 100
@@ -177,6 +182,7 @@ let made (code : closure) given (request : Residual.request) (s : Shared.t) (aft
 
 (* Vehicles that nobody holds for [task]; [None] if it waits for some. *)
 let allocated world bound held task (request : Residual.request) around =
+  let bound = bound @ Residual.recruited_for around in
   let used = lazy (Residual.timers_around around) in
   let timers () = Residual.fresh_timers request.place (Lazy.force used) in
   let from bound = Allocation.allocate_made world bound ~timers request task in
@@ -209,7 +215,7 @@ let internal program world (s : Shared.t) (Task_rules.Step { offer; continue; ar
     coded program world s guard ~gives ~fails:(guard_fails continue)
   in
   match offer with
-  | End_of _ | Expiry_of _ | Answer_to _ -> Decision.Decided None
+  | End_of _ | Expiry_of _ | Answer_to _ | Recruit_for _ -> Decision.Decided None
   | Start (p, v) ->
     go world ~asked:[ Start (v, p) ] { s with allocation = Vehicle_map.add v p s.allocation } (continue ())
   | Perform code ->
@@ -252,20 +258,31 @@ let internal program world (s : Shared.t) (Task_rules.Step { offer; continue; ar
     in
     coded program world s code ~gives ~fails:(fails continue)
 
-let on_event program world s (Task_rules.Step { offer; continue; around }) (event : event) =
-  let around = around_step around in
-  let go s change =
-    Decision.map (fun local -> Some (kept program world local)) (settle around program world s [] [] change)
+(* Whether [v] may be recruited for [asked]. *)
+let recruitable world s asked v surroundings =
+  if List.mem v (Residual.named_around surroundings) then Decision.Decided false
+  else Decision.look world (fun world -> Fit.fits world s asked v)
+
+let on_event program world s (Task_rules.Step { offer; continue; around = surroundings }) (event : event) =
+  let around = around_step surroundings in
+  let go ?(asked = []) s change =
+    Decision.map (fun local -> Some (kept program world local)) (settle around program world s [] asked change)
   in
   match event, offer with
   | Vehicle_done v, End_of (_, v') when v = v' -> go (without_tasks [ v ] s) (continue (Ok ()))
   | Vehicle_failed (v, why), End_of (_, v') when v = v' -> go (without_tasks [ v ] s) (continue (Error why))
   | Timer_expired timer, Expiry_of timer' when timer = timer' -> go s (continue ())
   | Confirmed (question, reply), Answer_to (question', _) when question = question' -> go s (continue reply)
-  | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Confirmed _ | Answered _ | Nobody_answers _ | Replied _
-      | Host_failed _ | Input _ | Interruption ),
+  | Recruited (number, v), Recruit_for (number', asked) when number = number' ->
+    let come = function
+      | false -> Decision.Decided None
+      | true -> go ~asked:[ Bind [ v ] ] s (continue v)
+    in
+    Decision.bind (recruitable world s asked v surroundings) come
+  | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Confirmed _ | Recruited _ | Answered _ | Nobody_answers _
+      | Replied _ | Host_failed _ | Input _ | Interruption ),
       (Start _ | Perform _ | Check _ | Refute _ | Decide _ | Take _ | Measure _ | Make _ | Allocate _ | End_of _
-      | Expiry_of _ | Answer_to _) ) ->
+      | Expiry_of _ | Answer_to _ | Recruit_for _) ) ->
     Decided None
 
 (* {1 In configurations} *)
@@ -287,4 +304,5 @@ let conclude m r { after; outcome; derivation; named; asked; rounds = _ } : Conc
     (* The failure has cut off all that ran. *)
     Conclusion.ending ~before:asked (derivation @ [ Rule.Execute_err ]) named after ending
   | Ends ((Completed | Halted _ | Failed _ | Interrupted) as ending) ->
-    Conclusion.ending ~waits:(Residual.waits r) ~before:asked derivation named after ending
+    Conclusion.ending ~waits:(Residual.waits r) ~recruits:(Residual.recruits r) ~before:asked derivation named after
+      ending

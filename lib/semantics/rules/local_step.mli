@@ -15,6 +15,7 @@ type event =
   (** it failed, refused the task, or its connection was lost for longer than its timeout: why *)
   | Timer_expired of Residual.timer
   | Confirmed of Residual.timer * (bool, string) result
+  | Recruited of Residual.timer * vehicle  (** the vehicle is there for a recruit *)
   | Answered of { text : string; code : closure }  (** to [ask]: what was typed, and its code *)
   | Nobody_answers of string  (** why *)
   | Replied of value  (** by the host *)

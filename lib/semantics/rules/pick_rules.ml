@@ -2,21 +2,7 @@ open Dolphin_results
 
 let ( let* ) = Result.bind
 
-module Vehicle_set = Set.Make (String)
-
-(* fit(q, w, B). *)
-let candidates world (s : Shared.t) (pick : Settings.pick) =
-  let bound = Vehicle_set.of_list s.bound and elsewhere = { pick.filter with region = None } in
-  let accepted (v : World.vehicle_state) = Settings.accepts elsewhere v && not (Vehicle_set.mem v.id bound) in
-  let id (v : World.vehicle_state) = v.id in
-  let accepted = List.filter accepted (World.vehicles world) in
-  match pick.filter.region with
-  | None -> Ok (List.map id accepted)
-  | Some area ->
-    let inside v =
-      Result.map (fun place -> if Dolphin_geo.Area.contains area place then [ id v ] else []) (World.place world v)
-    in
-    Results.concat_map inside accepted
+let candidates world s (pick : Settings.pick) = Fit.vehicles world s pick.filter
 
 let bind (s : Shared.t) m effects vs =
   let control = Configuration.Script (Machine.give (Vehicles vs) m) in

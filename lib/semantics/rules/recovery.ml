@@ -25,7 +25,7 @@ let may_give lambda =
     | If (_, a, b) -> value a || value b
     | Block es -> ( match List.rev es with last :: _ -> value last | [] -> false)
     | Apply (Builtin builtin, _) -> gives_tasks builtin
-    | Apply (Binary (Sequence | Parallel), _) -> true
+    | Apply ((Binary (Sequence | Parallel) | Make_recruit), _) -> true
     | Apply (Binary Divide, t :: _) -> value t
     | Apply (Call _, { node = Constant (Closure { lambda; _ }) | Make_closure (lambda, _); _ } :: _) -> of_lambda lambda
     | Apply ((Element | Property _ | Call _ | Method _ | Build _), _) -> true

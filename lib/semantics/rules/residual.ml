@@ -24,6 +24,8 @@ type t =
   | Made of { code : closure; given : value list; request : request }
   | Unallocated of { task : task; request : request }
   | Hold of vehicle list * t
+  | Recruit of { number : timer; asked : Vehicle_filter.t; code : closure; place : timer; depth : int; site : site }
+  | Recruited of vehicle * t
 
 and again = { left : int option; until : closure option; each : t; site : site }
 
@@ -39,6 +41,7 @@ let rank = function
   | Ready _ -> 0 | Running _ -> 1 | Action _ -> 2 | Condition _ -> 3 | Sequence _ -> 4 | Parallel _ -> 5
   | All_of _ -> 6 | One_of _ -> 7 | Until _ -> 8 | Idle _ -> 9 | During _ -> 10 | Watch _ -> 11 | Repeat _ -> 12
   | Made _ -> 13 | Unallocated _ -> 14 | Hold _ -> 15 | Confirm _ -> 16
+  | Recruit _ -> 17 | Recruited _ -> 18
 
 let rec compare r r' =
   if r == r' then 0
@@ -75,8 +78,16 @@ let rec compare r r' =
       Order.both (Value.compare_task a.task b.task) (fun () -> compare_request a.request b.request)
     | Hold (vs, a), Hold (vs', a') ->
       Order.both (List.compare String.compare vs vs') (fun () -> compare a a')
+    | Recruited (v, a), Recruited (v', a') -> Order.both (String.compare v v') (fun () -> compare a a')
+    | Recruit a, Recruit b ->
+      Order.both (Int.compare a.number b.number) (fun () ->
+          Order.both (Int.compare a.place b.place) (fun () ->
+              Order.both (Int.compare a.depth b.depth) (fun () ->
+                  Order.both (Int.compare a.site b.site) (fun () ->
+                      Order.both (Value.compare_closure a.code b.code) (fun () -> Stdlib.compare a.asked b.asked)))))
     | ( ( Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _
-        | Idle _ | Confirm _ | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ ),
+        | Idle _ | Confirm _ | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ | Recruit _
+        | Recruited _ ),
         _ ) -> Int.compare (rank r) (rank r')
 
 and compare_branch b b' = Order.both (Value.compare_closure b.guard b'.guard) (fun () -> compare b.body b'.body)
@@ -131,6 +142,8 @@ let rec hash r =
     List.fold_left (fun h x -> Order.mix h (Value.hash x)) h given
   | Unallocated { task; request } -> Order.mix (Order.mix h request.place) (Value.hash (Task task))
   | Hold (vs, a) -> List.fold_left (fun h v -> Order.mix h (Hashtbl.hash v)) (Order.mix h (hash a)) vs
+  | Recruit { number; code; _ } -> Order.mix (Order.mix h number) (Value.hash_closure code)
+  | Recruited (v, a) -> Order.mix (Order.mix h (hash a)) (Hashtbl.hash v)
 
 let rec pp ppf r =
   let separated text pp = Format.pp_print_list ~pp_sep:(fun ppf () -> Format.pp_print_string ppf text) pp in
@@ -160,6 +173,9 @@ let rec pp ppf r =
   | Made { code; _ } -> Format.fprintf ppf "{ %s }" code.lambda.label
   | Unallocated { task; _ } -> Format.fprintf ppf "unallocated %a" Value.pp (Task task)
   | Hold (vs, a) -> Format.fprintf ppf "holding %s %a" (String.concat ", " vs) pp a
+  | Recruit { asked; code; _ } ->
+    Format.fprintf ppf "recruit {%a } then { %s }" Settings.pp_filter asked code.lambda.label
+  | Recruited (v, a) -> Format.fprintf ppf "recruited %s %a" v pp a
 
 and pp_branch ppf b = Format.fprintf ppf "when { %s } then %a" b.guard.lambda.label pp b.body
 
@@ -191,13 +207,16 @@ let holding vs r = match vs with [] -> r | _ :: _ -> Hold (vs, r)
 let rec activate r =
   match r with
   | Ready _ | Running _ | Action _ | Condition _ | All_of (None, _) | One_of _ | Made _ | Unallocated _
-  | Repeat { round = None; _ } -> (r, [])
+  | Recruit _ | Repeat { round = None; _ } -> (r, [])
   | Repeat { round = Some a; again } ->
     let a, timers = activate a in
     (Repeat { round = Some a; again }, timers)
   | Hold (vs, a) ->
     let a, timers = activate a in
     (Hold (vs, a), timers)
+  | Recruited (v, a) ->
+    let a, timers = activate a in
+    (Recruited (v, a), timers)
   | Idle { timer; seconds } -> (r, [ (timer, Time seconds) ])
   | Confirm { question; prompt; _ } -> (r, [ (question, Answer prompt) ])
   | Sequence (a, rest) ->
@@ -224,20 +243,20 @@ let rec activate r =
 
 let rec exists_active p r =
   match r with
-  | Sequence (a, _) | Watch (a, _) | Hold (_, a) | Repeat { round = Some a; _ } -> exists_active p a
+  | Sequence (a, _) | Watch (a, _) | Hold (_, a) | Recruited (_, a) | Repeat { round = Some a; _ } -> exists_active p a
   | Parallel rs -> List.exists (exists_active p) rs
   | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ | One_of _ | All_of (None, _)
-  | During { started = false; _ } | Made _ | Unallocated _ | Repeat { round = None; _ } -> p r
+  | During { started = false; _ } | Made _ | Unallocated _ | Recruit _ | Repeat { round = None; _ } -> p r
   | All_of (Some a, _) | Until (_, _, a) | During { body = a; _ } -> p r || exists_active p a
 
 let rec fold_active f acc r =
   let acc = f acc r in
   match r with
   | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ | One_of _ | All_of (None, _) | Made _
-  | Unallocated _ -> acc
+  | Unallocated _ | Recruit _ -> acc
   | During { started = false; _ } | Repeat { round = None; _ } -> acc
-  | Sequence (a, _) | All_of (Some a, _) | Until (_, _, a) | Watch (a, _) | Hold (_, a) | During { body = a; _ }
-  | Repeat { round = Some a; _ } -> fold_active f acc a
+  | Sequence (a, _) | All_of (Some a, _) | Until (_, _, a) | Watch (a, _) | Hold (_, a) | Recruited (_, a)
+  | During { body = a; _ } | Repeat { round = Some a; _ } -> fold_active f acc a
   | Parallel rs -> List.fold_left (fold_active f) acc rs
 
 let collect f r = List.rev (fold_active (fun found r -> match f r with Some x -> x :: found | None -> found) [] r)
@@ -250,19 +269,21 @@ let waits =
         Some (timer, Time seconds)
       | Confirm { question; prompt; _ } -> Some (question, Answer prompt)
       | Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _
-      | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ -> None)
+      | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ | Recruit _ | Recruited _ -> None)
+
+let recruits = collect (function Recruited (v, _) -> Some v | _ -> None)
 
 let rec may_go_round r =
   match r with
   | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ -> false
   (* What code makes is not known: it may be without end. *)
-  | Made _ | Unallocated _ -> true
+  | Made _ | Unallocated _ | Recruit _ -> true
   | Sequence (a, rest) -> may_go_round a || List.exists may_go_round rest
   | Parallel rs -> List.exists may_go_round rs
   | All_of (a, bs) -> Option.fold a ~none:false ~some:may_go_round || List.exists (fun b -> may_go_round b.body) bs
   | One_of bs -> List.exists (fun b -> may_go_round b.body) bs
   | Watch (a, { anew; _ }) -> anew <> None || may_go_round a
-  | Until (_, _, a) | During { body = a; _ } | Hold (_, a) -> may_go_round a
+  | Until (_, _, a) | During { body = a; _ } | Hold (_, a) | Recruited (_, a) -> may_go_round a
   | Repeat { again = { left; each; _ }; _ } -> left = None || may_go_round each
 
 (* {1 Contexts} *)
@@ -275,6 +296,7 @@ type context =
   | Watched_by of handler
   | Round_of of again
   | Holding of vehicle list
+  | Having of vehicle
 
 let opened = function
   | Sequence (a, rest) -> Some (Before rest, a)
@@ -285,8 +307,9 @@ let opened = function
   | Watch (a, handler) -> Some (Watched_by handler, a)
   | Repeat { round = Some a; again } -> Some (Round_of again, a)
   | Hold (vs, a) -> Some (Holding vs, a)
+  | Recruited (v, a) -> Some (Having v, a)
   | Ready _ | Running _ | Action _ | Condition _ | Parallel _ | All_of (None, _) | One_of _ | Idle _ | Confirm _
-  | Made _ | Unallocated _ | Repeat { round = None; _ } -> None
+  | Made _ | Unallocated _ | Recruit _ | Repeat { round = None; _ } -> None
 
 let within context r =
   match context, r with
@@ -298,6 +321,7 @@ let within context r =
   | Watched_by handler, r -> Watch (r, handler)
   | Round_of again, r -> Repeat { round = Some r; again }
   | Holding vs, r -> Hold (vs, r)
+  | Having v, r -> Recruited (v, r)
 
 let decompose r =
   let rec from contexts r =
@@ -313,33 +337,34 @@ let rec fold_all f acc r =
   let acc = f acc r in
   let all = List.fold_left (fold_all f) and branches = List.fold_left (fun acc (b : branch) -> fold_all f acc b.body) in
   match r with
-  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ | Made _ | Unallocated _ -> acc
+  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ | Made _ | Unallocated _ | Recruit _ -> acc
   | Sequence (a, rest) -> all (fold_all f acc a) rest
   | Parallel rs -> all acc rs
   | All_of (running, bs) -> branches (all acc (Option.to_list running)) bs
   | One_of bs -> branches acc bs
-  | Until (_, _, a) | Watch (a, _) | Hold (_, a) | During { body = a; _ } -> fold_all f acc a
+  | Until (_, _, a) | Watch (a, _) | Hold (_, a) | Recruited (_, a) | During { body = a; _ } -> fold_all f acc a
   | Repeat { round; again } -> all acc (again.each :: Option.to_list round)
 
 module Vehicle_set = Set.Make (String)
 module Timer_set = Set.Make (Int)
 
 let add_named found = function
-  | Ready (_, v) | Running (_, v) -> Vehicle_set.add v found
+  | Ready (_, v) | Running (_, v) | Recruited (v, _) -> Vehicle_set.add v found
   | Hold (vs, _) -> List.fold_left (fun found v -> Vehicle_set.add v found) found vs
   | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _ | Idle _ | Confirm _ | During _
-  | Watch _ | Repeat _ | Made _ | Unallocated _ -> found
+  | Watch _ | Repeat _ | Made _ | Unallocated _ | Recruit _ -> found
 
 let add_timer found = function
-  | Idle { timer; _ } | During { timer; _ } | Confirm { question = timer; _ } -> Timer_set.add timer found
+  | Idle { timer; _ } | During { timer; _ } | Confirm { question = timer; _ } | Recruit { number = timer; _ } ->
+    Timer_set.add timer found
   | Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _ | Watch _
-  | Repeat _ | Made _ | Unallocated _ | Hold _ -> found
+  | Repeat _ | Made _ | Unallocated _ | Hold _ | Recruited _ -> found
 
 let named r = Vehicle_set.elements (fold_all add_named Vehicle_set.empty r)
 
 let makes_tasks r =
   let makes found = function
-    | Made _ | Unallocated _ | Hold _ | Watch (_, { anew = Some _; _ }) -> true
+    | Made _ | Unallocated _ | Hold _ | Recruit _ | Recruited _ | Watch (_, { anew = Some _; _ }) -> true
     | Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _ | Idle _
     | Confirm _ | During _ | Watch _ | Repeat _ -> found
   in
@@ -363,6 +388,17 @@ let needed_around around =
     | Inside context -> fold_all add_named found (within context hole)
   in
   Vehicle_set.elements (List.fold_left add Vehicle_set.empty around)
+
+let named_around around =
+  let add found = function
+    | Beside rs -> List.fold_left (fold_all add_named) found rs
+    | Around _ -> found
+    | Inside context -> fold_all add_named found (within context hole)
+  in
+  Vehicle_set.elements (List.fold_left add Vehicle_set.empty around)
+
+let recruited_for around =
+  List.filter_map (function Inside (Having v) -> Some v | Inside _ | Beside _ | Around _ -> None) around
 
 let beyond_watches around =
   let rec from beyond = function

@@ -38,6 +38,9 @@ type t =
   (** code that gives a task once its turn comes, with its arguments *)
   | Unallocated of { task : task; request : request }  (** a task that waits for vehicles *)
   | Hold of vehicle list * t  (** holds these vehicles, one at least, until it ends *)
+  | Recruit of { number : timer; asked : Vehicle_filter.t; code : closure; place : timer; depth : int; site : site }
+  (** waits for a vehicle; [place] and [depth] are of the {!type-request} for the task that [code] gives of it *)
+  | Recruited of vehicle * t  (** has the vehicle, which is released when it ends *)
 
 and branch = { guard : closure; body : t }
 
@@ -92,6 +95,9 @@ val activate : t -> t * (timer * wait) list
 val running : t -> vehicle list
 (** [running r] is the vehicles that run a task of [r]. *)
 
+val recruits : t -> vehicle list
+(** [recruits r] is the vehicles that [r] has recruited and has still. *)
+
 val waits : t -> (timer * wait) list
 (** [waits r] is the timers of [r] that have started, and the questions that stand. *)
 
@@ -121,6 +127,7 @@ type context =
   | Watched_by of handler
   | Round_of of again
   | Holding of vehicle list
+  | Having of vehicle
 
 val opened : t -> (context * t) option
 (** [opened r] is the outermost context of [r], and what is in it, if anything in it has begun. *)
@@ -160,6 +167,12 @@ val held : surrounding list -> vehicle list
 val needed_around : surrounding list -> vehicle list
 (** [needed_around around] is the vehicles that [around] needs: that it names beside it, or in what is to come. What
     only holds them around it does not need them. *)
+
+val named_around : surrounding list -> vehicle list
+(** [named_around around] is the vehicles that [around] names, beside or around. *)
+
+val recruited_for : surrounding list -> vehicle list
+(** [recruited_for around] is the vehicles that were recruited for what [around] is around. *)
 
 val beyond_watches : surrounding list -> surrounding list list
 (** [beyond_watches around] is what is around each [watch] of [around], the innermost [watch] first. *)

@@ -19,6 +19,7 @@ type t =
   | Repeat_1 | Repeat_2 | Repeat_until | Repeat_again | Repeat_err
   (* Tasks made at their turn *)
   | Make | Make_err | Allocate | Allocate_err | Hold_1 | Hold_2 | Hold_err
+  | Recruit | Recruit_1 | Recruit_2 | Recruit_err
   (* The program *)
   | Script | Post | Consume | Message | Release | Set_timeout
   | Pick | Pick_bind | Pick_err | Pick_else

@@ -51,19 +51,20 @@ let step program world s m =
   in
   Decision.bind (Machine.run ~fuel (Run_code.context program world s Script) m) stopped
 
-let on_interrupt (program : Core.program) (s : Shared.t) m : Configuration.t option =
+let on_interrupt ?(recruits = []) (program : Core.program) (s : Shared.t) m : Configuration.t option =
+  let bound = s.bound @ recruits in
   match program.on_interrupt with
-  | Some lambda when s.bound <> [] && not (Machine.is_leaving m) ->
-    let m = Machine.call { lambda; captured = [||] } [ Vehicles s.bound ] in
-    Some { control = Script m; shared = { s with allocation = Vehicle_map.empty } }
+  | Some lambda when bound <> [] && not (Machine.is_leaving m) ->
+    let m = Machine.call { lambda; captured = [||] } [ Vehicles bound ] in
+    Some { control = Script m; shared = { s with allocation = Vehicle_map.empty; bound } }
   | Some _ | None -> None
 
 let interrupt program (c : Configuration.t) m =
-  let waits = Configuration.waits c and s = c.shared in
-  match on_interrupt program s m with
+  let waits = Configuration.waits c and recruits = Configuration.recruits c and s = c.shared in
+  match on_interrupt ~recruits program s m with
   | Some { control; shared } ->
     Conclusion.make ~effects:(Conclusion.cut waits s) On_interrupt Interrupt control shared
-  | None -> Conclusion.ending ~waits [ Interrupt ] Interrupt s Interrupted
+  | None -> Conclusion.ending ~waits ~recruits [ Interrupt ] Interrupt s Interrupted
 
 let go_on rule label x s m = Conclusion.make rule label (Script (Machine.give x m)) s
 

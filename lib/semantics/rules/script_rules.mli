@@ -6,9 +6,11 @@ val step : program -> World.t -> Shared.t -> Machine.t -> Conclusion.t Decision.
 (** [step p w s m] is the transition of <script m, s>: SCRIPT, a deed, a request (PICK, ASK, PAUSE, CALL, EXECUTE or
     ALLOC-ERR), or an end. *)
 
-val on_interrupt : program -> Shared.t -> Machine.t -> Configuration.t option
-(** [on_interrupt p s m] is what becomes of a run with shared part [s], whose script stands at [m], if it is interrupted
-    and executes what [p] declares by [onInterrupt] then. *)
+val on_interrupt : ?recruits:vehicle list -> program -> Shared.t -> Machine.t -> Configuration.t option
+(** [on_interrupt ~recruits p s m] is what becomes of a run with shared part [s], whose script stands at [m],
+    if it is interrupted
+    and executes what [p] declares by [onInterrupt] then. [recruits], by default nobody, is whom the task that executes
+    has recruited. *)
 
 val interrupt : program -> Configuration.t -> Machine.t -> Conclusion.t
 (** [interrupt p c m] is ON-INTERRUPT, or INTERRUPT, of [c], whose script stands at [m]. *)

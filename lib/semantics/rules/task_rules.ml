@@ -16,8 +16,9 @@ type _ offer =
   | End_of : platform_task * vehicle -> (unit, string) result offer
   | Expiry_of : timer -> unit offer
   | Answer_to : timer * string -> (bool, string) result offer
+  | Recruit_for : timer * Vehicle_filter.t -> vehicle offer
 
-type undoing = Cancel of timer | Cut of t list
+type undoing = Cancel of timer | Leave of vehicle | Cut of t list
 
 type round = Endless of again | Asked of again | Retried of site
 
@@ -187,6 +188,12 @@ let around_round again =
 let around_hold vs =
   around ~next:(within (Holding vs)) (Rule.Hold_1, Rule.Hold_2, Rule.Hold_err)
 
+let around_recruited v =
+  let plain = around ~next:(within (Having v)) (Rule.Recruit_1, Rule.Recruit_2, Rule.Recruit_err) in
+  { plain with
+    on_finished = (fun c -> undoing (Leave v) (plain.on_finished c));
+    on_failed = (fun fault c -> undoing (Leave v) (plain.on_failed fault c)) }
+
 let around_context = function
   | Round_of again -> around_round again
   | Before rest -> around_sequence rest
@@ -195,6 +202,7 @@ let around_context = function
   | Body_during (on_cut, timer, duration) -> around_during on_cut timer duration
   | Watched_by handler -> around_watch handler
   | Holding vs -> around_hold vs
+  | Having v -> around_recruited v
 
 let change_within context change = lift (around_context context) change
 let change_within_all contexts change = List.fold_left (fun c context -> change_within context c) change contexts
@@ -217,7 +225,7 @@ let too_late = function
 let cut context body =
   let cut change = undoing (Cut [ body ]) change in
   match context with
-  | Before _ | Branch_of _ | Watched_by _ | Round_of _ | Holding _ -> None
+  | Before _ | Branch_of _ | Watched_by _ | Round_of _ | Holding _ | Having _ -> None
   | Body_until (Completes, condition) ->
     let continue = function
       | Ok deeds -> cut (change (Label.Cut deeds) Rule.Until_cut Finished)
@@ -341,6 +349,14 @@ let await_answer question prompt site =
   in
   alone (Answer_to (question, prompt)) continue
 
+(* The task is made of the vehicle, for it alone. *)
+let recruit number asked code place depth =
+  let continue v =
+    let request = { allowed = Some [ v ]; place; depth } in
+    change (Label.Recruit v) Rule.Recruit (Next (Recruited (v, Made { code; given = [ Vehicles [ v ] ]; request })))
+  in
+  alone (Recruit_for (number, asked)) continue
+
 let set_during on_cut timer code body =
   let continue = function
     | Error fault -> broke Rule.During_err fault
@@ -385,7 +401,9 @@ let rec steps_at relevant r : step Seq.t =
   | Repeat { round = None; again = { until = None; _ } } -> invalid_arg "Task_rules: no condition to ask"
   | Made { code; given; request } -> Seq.return (make code given request)
   | Unallocated { task; request } -> Seq.return (allocate task request)
-  | Sequence _ | All_of (Some _, _) | Until _ | During _ | Watch _ | Hold _ | Repeat { round = Some _; _ } -> (
+  | Recruit { number; asked; code; place; depth; site = _ } -> Seq.return (recruit number asked code place depth)
+  | Sequence _ | All_of (Some _, _) | Until _ | During _ | Watch _ | Hold _ | Recruited _
+  | Repeat { round = Some _; _ } -> (
       match opened r with
       | None -> Seq.empty
       | Some (context, body) -> (
@@ -398,7 +416,7 @@ let steps = steps_at (fun _ -> true)
 
 let may_step_alone = function
   | Running _ | Idle _ | Confirm _ | During { duration = Seconds _; _ } | Sequence _ | Parallel _ | All_of (Some _, _)
-  | Watch _ | Hold _ | Repeat { round = Some _; _ } -> false
+  | Watch _ | Hold _ | Recruit _ | Recruited _ | Repeat { round = Some _; _ } -> false
   | Made _ | Unallocated _ | Ready _ | Action _ | Condition _ | All_of (None, _) | One_of _ | Until _
   | During { duration = Given_by _; _ } | Repeat { round = None; _ } -> true
 
@@ -407,7 +425,7 @@ let steps_of_vehicle v = steps_at (function Running (_, v') -> String.equal v v'
 
 let broken (Step { offer; continue; _ }) (fault : Fault.t) : change option =
   match offer with
-  | Start _ -> None
+  | Start _ | Recruit_for _ -> None
   | Expiry_of _ -> (
       let change = continue () in
       match change.outcome with Failed _ | Handling _ -> Some change | Next _ | Finished -> None)

@@ -26,11 +26,14 @@ type _ offer =
   | Expiry_of : timer -> unit offer  (** that the timer expires *)
   | Answer_to : timer * string -> (bool, string) result offer
   (** that the question of this prompt is answered: whether by yes, or why nobody answers *)
+  | Recruit_for : timer * Vehicle_filter.t -> vehicle offer  (** that such a vehicle is there *)
 
 (** What no longer runs. *)
 type undoing =
   | Cancel of timer
-  | Cut of t list  (** residuals that were cut off: their timers are cancelled, then their vehicles stop *)
+  | Leave of vehicle  (** it was recruited, and is released if it is in B *)
+  | Cut of t list  (** residuals that were cut off: their timers are cancelled, then their vehicles stop, and
+                       those that were recruited are released *)
 
 (** A further round that begins, of a [repeat] without a number of rounds: it has no end of its own, or its condition
     was asked and does not hold; or a watched task that runs anew, by [retry()] of the handler at that place. *)

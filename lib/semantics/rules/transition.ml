@@ -6,6 +6,7 @@ type event = Local_step.event =
   | Vehicle_failed of vehicle * string
   | Timer_expired of Residual.timer
   | Confirmed of Residual.timer * (bool, string) result
+  | Recruited of Residual.timer * vehicle
   | Answered of { text : string; code : closure }
   | Nobody_answers of string
   | Replied of value
@@ -22,7 +23,8 @@ type t = Conclusion.t = {
 }
 
 type refusal = Not_awaited | Bad_answer of string
-type awaited = End_of of vehicle | Expiry_of of Residual.timer | Answer_to of Residual.timer * string | Answer | Reply
+type awaited = End_of of vehicle | Expiry_of of Residual.timer | Answer_to of Residual.timer * string
+             | Recruit_for of Residual.timer * Vehicle_filter.t | Answer | Reply
 
 (* {1 Rules by control} *)
 
@@ -51,7 +53,7 @@ let executing_event program world s m r event =
   in
   match event with
   | Vehicle_done v | Vehicle_failed (v, _) -> first (Task_rules.steps_of_vehicle v r)
-  | Timer_expired _ | Confirmed _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Input _
+  | Timer_expired _ | Confirmed _ | Recruited _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Input _
   | Interruption ->
     first (Task_rules.steps r)
 
@@ -61,7 +63,7 @@ let on_event program world ({ control; shared = s } as c : Configuration.t) even
   | Interruption, (Script m | Waiting (m, _) | Executing (m, _)) -> Decided (Ok (Script_rules.interrupt program c m))
   | Input (k, x), (Script _ | Waiting _ | Executing _) when List.mem k program.inputs ->
     Decided (Ok (Conclusion.make Input (Input (k, Value.canonical x)) control (Shared.post k x s)))
-  | (Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Confirmed _), Executing (m, r) ->
+  | (Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Confirmed _ | Recruited _), Executing (m, r) ->
     executing_event program world s m r event
   | Timer_expired timer, Waiting (m, Pick pick) when timer = Residual.script_timer ->
     Decision.map (Option.to_result ~none:Not_awaited) (Pick_rules.timed_out world s m pick)
@@ -75,8 +77,8 @@ let on_event program world ({ control; shared = s } as c : Configuration.t) even
   | Host_failed why, Waiting (m, Host_call { subject; member; _ }) ->
     let call = Machine.name_of_call ~subject ~member in
     Decided (Ok (Script_rules.fail Call_err (No_reply why) (Printf.sprintf "%s: %s" call why) s m))
-  | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Confirmed _ | Answered _ | Nobody_answers _ | Replied _
-      | Host_failed _ | Input _ ),
+  | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Confirmed _ | Recruited _ | Answered _ | Nobody_answers _
+      | Replied _ | Host_failed _ | Input _ ),
       (Script _ | Waiting _ | Executing _) ) -> Decided (Error Not_awaited)
 
 (* {1 In closed worlds} *)
@@ -167,9 +169,27 @@ let awaited (c : Configuration.t) =
       | End_of (_, v) -> Some (End_of v)
       | Expiry_of timer -> Some (Expiry_of timer)
       | Answer_to (question, prompt) -> Some (Answer_to (question, prompt))
+      | Recruit_for (number, asked) -> Some (Recruit_for (number, asked))
       | Start _ | Perform _ | Check _ | Refute _ | Decide _ | Take _ | Measure _ | Make _ | Allocate _ -> None
     in
     List.of_seq (Seq.filter_map event (Task_rules.steps r))
+
+let recruitable program world (c : Configuration.t) : event Seq.t =
+  match c.control with
+  | Executing (_, r) when program.recruits ->
+    let of_step (Task_rules.Step { offer; _ }) =
+      match offer with
+      | Recruit_for (number, asked) ->
+        List.to_seq (List.map (fun v -> Recruited (number, v)) (Fit.wherever world c.shared asked))
+      | Start _ | Perform _ | Check _ | Refute _ | Decide _ | Take _ | Measure _ | Make _ | Allocate _ | End_of _
+      | Expiry_of _ | Answer_to _ -> Seq.empty
+    in
+    Seq.flat_map of_step (Task_rules.steps r)
+  | Executing _ | Script _ | Waiting _ | Ended _ -> Seq.empty
+
+let recruited program world c =
+  let accepted event = Option.map (fun t -> (event, t)) (Result.to_option (accept program world c event)) in
+  match Seq.filter_map accepted (recruitable program world c) () with Seq.Nil -> None | Cons (first, _) -> Some first
 
 let unknown program world (c : Configuration.t) =
   let of_guard (guard : closure) =
@@ -184,14 +204,18 @@ let unknown program world (c : Configuration.t) =
     | Take guard -> of_guard guard
     | Refute guard -> of_guard guard
     | Decide guard -> of_guard guard
-    | Start _ | Perform _ | Measure _ | Make _ | Allocate _ | End_of _ | Expiry_of _ | Answer_to _ -> None
+    | Start _ | Perform _ | Measure _ | Make _ | Allocate _ | End_of _ | Expiry_of _ | Answer_to _
+    | Recruit_for _ -> None
   in
   match c.control with
   | Executing (_, r) when program.reads_sensors -> List.of_seq (Seq.filter_map of_step (Task_rules.steps r))
   | Executing _ | Script _ | Waiting _ | Ended _ -> []
 
+let awaits_recruits = Residual.exists_active (function Recruit _ -> true | _ -> false)
+
 let depends_on_sensors (program : program) (c : Configuration.t) =
   match c.control with
   | Waiting (_, Pick _) -> true
-  | Executing _ | Waiting (_, (Ask _ | Pause _ | Execute _ | Host_call _)) | Script _ -> program.reads_sensors
+  | Executing (_, r) -> program.reads_sensors || (program.recruits && awaits_recruits r)
+  | Waiting (_, (Ask _ | Pause _ | Execute _ | Host_call _)) | Script _ -> program.reads_sensors
   | Ended _ -> false

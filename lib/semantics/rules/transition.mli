@@ -12,6 +12,7 @@ type event = Local_step.event =
   | Timer_expired of Residual.timer
   | Confirmed of Residual.timer * (bool, string) result
   (** the question of a task was answered: whether by yes, or why nobody answers *)
+  | Recruited of Residual.timer * vehicle  (** the vehicle is there for this [recruit] *)
   | Answered of { text : string; code : closure }  (** to [ask]: what was typed, and its code *)
   | Nobody_answers of string  (** why *)
   | Replied of value  (** by the host *)
@@ -37,6 +38,7 @@ type awaited =
   | End_of of vehicle  (** that it is done with its task, or fails *)
   | Expiry_of of Residual.timer
   | Answer_to of Residual.timer * string  (** to this question, with its prompt, or that nobody answers *)
+  | Recruit_for of Residual.timer * Vehicle_filter.t  (** that such a vehicle is there, for this [recruit] *)
   | Answer  (** to [ask], or that nobody answers *)
   | Reply  (** of the host, or that the host fails *)
 
@@ -50,9 +52,11 @@ val accept : program -> World.t -> Configuration.t -> event -> (t, refusal) resu
     and so is [Input (k, x)] if [p] declares the key [k]. What depends on something that [w] leaves open is not
     accepted: see {!accept_all}. *)
 
-val on_interrupt : Core.program -> Shared.t -> Machine.t -> Configuration.t option
-(** [on_interrupt p s m] is what ON-INTERRUPT makes of a configuration with the shared part [s] whose script stands at
-    [m]; [None] where INTERRUPT ends the run. *)
+val on_interrupt : ?recruits:vehicle list -> Core.program -> Shared.t -> Machine.t -> Configuration.t option
+(** [on_interrupt ~recruits p s m] is what ON-INTERRUPT makes of a configuration with the shared part [s] whose
+    script stands at
+    [m]; [None] where INTERRUPT ends the run. [recruits], by default nobody, is whom the task that executes has
+    recruited. *)
 
 val is_leaving : Configuration.t -> bool
 (** Whether the run was interrupted, and executes what [onInterrupt] declares. *)
@@ -60,6 +64,13 @@ val is_leaving : Configuration.t -> bool
 val awaited : Configuration.t -> awaited list
 (** [awaited c] is what [c] has transitions for, leftmost first, besides inputs and [Interruption]. The time-out of a
     [pick] is among them, but not accepted while the pick can be met: then it must be. *)
+
+val recruitable : program -> World.t -> Configuration.t -> event Seq.t
+(** [recruitable p w c] is the events [Recruited (i, v)] of the vehicles that a [recruit] of [c] asks for, wherever they
+    are: the leftmost [recruit] first, vehicles in the order of [w]. *)
+
+val recruited : program -> World.t -> Configuration.t -> (event * t) option
+(** [recruited p w c] is the first of them that [c] accepts, with the transition. *)
 
 val depends_on_sensors : program -> Configuration.t -> bool
 (** [depends_on_sensors p c] is whether what sensors of the world show may matter to [c] or to what follows: a

@@ -75,6 +75,8 @@ and task =
   | Repeat of { rounds : int option; until : closure option; body : task; site : site }
   (* [None]: no number of rounds, no condition; never one round *)
   | Made of closure                             (* the task that this code gives, once its turn comes *)
+  | Recruit of { asked : Vehicle_filter.t; code : closure; site : site }
+  (* waits for such a vehicle; the task that the code gives of it *)
 
 and branch = { guard : closure; body : task }
 
@@ -129,6 +131,7 @@ and operation =
   | Build of Dolphin_syntax.Ast.builder * string (* from the settings; the name of an unnamed plan *)
   | Pick_if_any                                 (* [Build (Pick, _)] that gives null where there are too few *)
   | Make_branch                                 (* [when]: settings so far, guard, body *)
+  | Make_recruit                                (* from the settings, and the code *)
 
 and builtin =
   | Platform_task                               (* [task], [imcPlan] of a name *)
@@ -196,6 +199,7 @@ type program = {
   ordered_keys : Tuple_space.order;             (* keys that some [_] or pattern of [consume] takes the oldest of *)
   inputs : string list;                         (* keys of the pairs that the outside may post *)
   on_interrupt : lambda option;                 (* of the bound vehicles: what an interruption executes *)
+  recruits : bool;                              (* some task may recruit *)
   reads_sensors : bool;                         (* some code may read sensors, places included *)
   asks_running : bool;                          (* some code may ask which vehicles run a task *)
   fences : Fences.t;                            (* what platforms hold vehicles to: no rule asks *)

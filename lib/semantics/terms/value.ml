@@ -14,7 +14,7 @@ let rank = function
 let rank_task = function
   | Platform _ -> 0 | Action _ -> 1 | Condition _ -> 2 | Sequence _ -> 3 | Parallel _ -> 4 | Allocated _ -> 5
   | All_of _ -> 6 | One_of _ -> 7 | Until _ -> 8 | Idle _ -> 9 | During _ -> 10 | Watch _ -> 11
-  | Repeat _ -> 12 | Made _ -> 13 | Confirm _ -> 14
+  | Repeat _ -> 12 | Made _ -> 13 | Confirm _ -> 14 | Recruit _ -> 15
 
 let rec compare x y =
   if x == y then 0
@@ -75,8 +75,11 @@ and compare_task t t' =
       Order.both (Option.compare Int.compare a.rounds b.rounds) (fun () ->
           Order.both (Option.compare compare_closure a.until b.until) (fun () ->
               Order.both (Int.compare a.site b.site) (fun () -> compare_task a.body b.body)))
+    | Recruit a, Recruit b ->
+      Order.both (compare_closure a.code b.code) (fun () ->
+          Order.both (Int.compare a.site b.site) (fun () -> Stdlib.compare a.asked b.asked))
     | ( ( Platform _ | Action _ | Condition _ | Sequence _ | Parallel _ | Allocated _ | All_of _ | One_of _
-        | Until _ | Idle _ | Confirm _ | During _ | Watch _ | Repeat _ | Made _ ),
+        | Until _ | Idle _ | Confirm _ | During _ | Watch _ | Repeat _ | Made _ | Recruit _ ),
         _ ) -> Int.compare (rank_task t) (rank_task t')
 
 and compare_branch b b' =
@@ -139,7 +142,7 @@ and hash_task left depth t =
   else
     match t with
     | Platform p -> Hashtbl.hash p.name
-    | Action c | Condition c | Made c -> Order.mix (rank_task t) (hash_code left c)
+    | Action c | Condition c | Made c | Recruit { code = c; _ } -> Order.mix (rank_task t) (hash_code left c)
     | Sequence (a, b) | Parallel (a, b) -> Order.mix (Order.mix (rank_task t) (part a)) (part b)
     | Allocated (a, vs) -> Order.mix (part a) (Hashtbl.hash vs)
     | All_of bs | One_of bs ->
@@ -385,6 +388,7 @@ and print_task left level ppf t =
       let last = if until = None then "" else " until { ... }" in
       parenthesised 0 (fun ppf -> Format.fprintf ppf "repeat %s%a%s" first (task 1) body last)
     | Made c -> print "{ %s }" c.lambda.label
+    | Recruit _ -> parenthesised 0 (fun ppf -> Format.fprintf ppf "recruit { ... } then { ... }")
 
 let to_string x = Format.asprintf "%a" (print ~bare:true) x
 let pp ppf x = print ~bare:false ppf x

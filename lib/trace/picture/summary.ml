@@ -136,7 +136,8 @@ let errors (s : Step.t) (cause : Event.t option) =
   match cause with
   | Some (Failed { vehicle; why }) -> [ Printf.sprintf "%s: %s" vehicle why ]
   | Some
-      ( Done _ | Timer _ | Confirmation _ | No_confirmation _ | Answer _ | No_answer _ | Reply _ | No_reply _ | Input _
+      ( Done _ | Timer _ | Confirmation _ | No_confirmation _ | Recruited _ | Answer _ | No_answer _ | Reply _
+      | No_reply _ | Input _
       | Interruption )
   | None ->
     let is_broken = String.length s.label > 7 && String.sub s.label 0 7 = "broken(" in
@@ -148,7 +149,8 @@ let take b (s : Step.t) ways =
    | Some (Done v) -> end_task b v Done
    | Some (Failed { vehicle; why }) -> end_task b vehicle (Failed why)
    | Some
-       ( Timer _ | Confirmation _ | No_confirmation _ | Answer _ | No_answer _ | Reply _ | No_reply _ | Input _
+       ( Timer _ | Confirmation _ | No_confirmation _ | Recruited _ | Answer _ | No_answer _ | Reply _ | No_reply _
+       | Input _
        | Interruption )
    | None -> ());
   List.iter (fun text -> note (Erred text)) (errors s b.cause);

@@ -124,7 +124,7 @@ let test_variety () =
       Alcotest.failf "no program breaks: %s" (Property.name property)
   in
   List.iter enough Property.all;
-  if not (3 * !reduced < 2 * !whole) then Alcotest.fail "little is reduced"
+  if not (5 * !reduced < 4 * !whole) then Alcotest.fail "little is reduced"
 
 let () =
   Alcotest.run "reduction"

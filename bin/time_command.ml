@@ -56,7 +56,8 @@ let run path set fleet answers faults deadline slack fewest json trace drawing m
      let* question = Sweep.question ~set path in
      let* fleet = Fleet_file.load_for ~program:path fleet in
      let* question = Sweep.within fleet question in
-     List.iter Report.complain (Left_out.sentences faults fleet);
+     let left_out = if fewest then Left_out.sentences else Left_out.of_links in
+     List.iter Report.complain (left_out faults fleet);
      match question with
      | Several _ when slack -> Error no_slack
      | One _ when slack && fewest -> Error no_slack
@@ -122,7 +123,8 @@ let man =
     `P "Tasks take as long as the fleet says: $(b,plan 'survey1', { duration 4.min, 7.min }). Plans that are described \
         in the program take as long as their way does at the vehicle's speed, ten percent less or more, and their \
         stays. Timers ($(b,idle), $(b,during), $(b,within), $(b,pause), time-outs of $(b,pick)) take exactly their \
-        time. What the program does by itself, answers and replies take none. Vehicles are there when they are picked.";
+        time. What the program does by itself, answers and replies take none. Vehicles are there from the \
+        start, or when they join by the fleet.";
     `P "Of each $(b,within) of the program it says whether it is kept, or when it is missed, with a run in which it \
         is.";
     `P "Of each vehicle that runs a task it says how much is left in its battery, at the least, at any time in any \

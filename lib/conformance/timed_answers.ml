@@ -63,7 +63,8 @@ let ended (item : Timed.item) =
   match item with
   | Task v -> Timed_data.Vehicle v
   | Timer i -> Timer i
-  | Question _ | Recruit _ | Answer | Reply | Posting _ | Course _ -> invalid_arg "Timed_answers: what has no bounds"
+  | Question _ | Recruit _ | Answer | Reply | Posting _ | Coming _ | Course _ ->
+    invalid_arg "Timed_answers: what has no bounds"
 
 let finding (f : Recorded.finding) : Timed_data.finding =
   { at = f.seen; ended = ended f.pending.item; too = (if f.too_early then "early" else "late") }

@@ -8,6 +8,7 @@ type t = {
   silence : Bounds.t;
   posted : string -> Bounds.t;
   place : Core.vehicle -> Position.t option;
+  joins : (Core.vehicle * Bounds.t) list;
 }
 
 let tolerance = 0.1
@@ -57,4 +58,7 @@ let of_scenario (s : Scenario.t) =
     | _ -> Some_time
   in
   let place id = Option.map (fun (v : Scenario.vehicle) -> v.position) (vehicle id) in
-  { task; announced = Bounds.exactly announced; silence = Bounds.exactly silence; posted; place }
+  let late = List.filter (fun (v : Scenario.vehicle) -> v.joins > 0.) s.vehicles in
+  let by_date (v : Scenario.vehicle) (w : Scenario.vehicle) = Float.compare v.joins w.joins in
+  let joins = List.map (fun (v : Scenario.vehicle) -> (v.id, Bounds.exactly v.joins)) (List.stable_sort by_date late) in
+  { task; announced = Bounds.exactly announced; silence = Bounds.exactly silence; posted; place; joins }

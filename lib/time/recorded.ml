@@ -16,9 +16,11 @@ let start ~tolerance options =
 
 let with_tolerance tolerance r = { r with tolerance }
 
-(* People and suppliers take their time, and post when they like. *)
+(* People and suppliers take their time, and post when they like; vehicles join when they are heard of. *)
 let is_timed (p : Timed.pending) =
-  match p.item with Task _ | Timer _ -> true | Question _ | Recruit _ | Answer | Reply | Posting _ | Course _ -> false
+  match p.item with
+  | Task _ | Timer _ -> true
+  | Question _ | Recruit _ | Answer | Reply | Posting _ | Coming _ | Course _ -> false
 
 let is_lost = String.starts_with ~prefix:Dolphin_environment.Environment.loss
 

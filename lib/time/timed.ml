@@ -16,6 +16,7 @@ type item =
   | Answer
   | Reply
   | Posting of string
+  | Coming of { vehicle : Core.vehicle; always : bool }
   | Course of Core.vehicle
 
 type pending = { item : item; bounds : Bounds.t; task : Core.platform_task option; prompt : string option }
@@ -57,8 +58,9 @@ let is_same (a : item) (b : item) =
   | Timer m, Timer n | Question m, Question n | Recruit m, Recruit n -> Int.equal m n
   | Answer, Answer | Reply, Reply -> true
   | Posting k, Posting l -> String.equal k l
+  | Coming { vehicle = v; _ }, Coming { vehicle = w; _ } -> String.equal v w
   | Course v, Course w -> String.equal v w
-  | (Task _ | Timer _ | Question _ | Recruit _ | Answer | Reply | Posting _ | Course _), _ -> false
+  | (Task _ | Timer _ | Question _ | Recruit _ | Answer | Reply | Posting _ | Coming _ | Course _), _ -> false
 
 let of_awaited : Transition.awaited -> item = function
   | End_of v -> Task v
@@ -108,8 +110,18 @@ let postings o (c : Configuration.t) outside =
     let key (k, _, _) = k in
     List.sort_uniq String.compare (List.map key (Environment.inputs o.environment o.program outside))
 
-let awaited o c outside =
+(* Who is there matters as long as the program may look for vehicles. *)
+let still_coming (c : Configuration.t) before =
+  let matters = function
+    | Coming { always; _ } -> (
+        match c.control with Ended _ -> false | Executing _ -> always | Script _ | Waiting _ -> true)
+    | _ -> false
+  in
+  List.filter matters (List.map (fun p -> p.item) before)
+
+let awaited o c outside ~before =
   List.map of_awaited (Transition.awaited c) @ List.map (fun k -> Posting k) (postings o c outside)
+  @ still_coming c before
 
 let in_order = List.sort_uniq Stdlib.compare
 
@@ -129,14 +141,25 @@ let pending o elsewhere ~before ~over effects c outside =
           let bounds = match item with Posting k -> o.durations.posted k | Answer -> Bounds.at_once | _ -> Some_time in
           ({ item; bounds; task = None; prompt = None }, true))
   in
-  List.split (List.map find (in_order (awaited o c outside)))
+  List.split (List.map find (in_order (awaited o c outside ~before)))
 
 let fresh pending is_fresh =
   List.filter_map Fun.id (List.map2 (fun p fresh -> if fresh then Some p.item else None) pending is_fresh)
 
+(* With [--faults join] vehicles that are late come at any time: see [comes_late]. *)
+let knows_who_joins o = o.durations.joins <> [] && not (Faults.is_possible o.environment.faults.join)
+let may_join_during_tasks o = knows_who_joins o && Dolphin_explore.Later_picks.may_follow o.program
+
+let coming o =
+  if knows_who_joins o then
+    let always = may_join_during_tasks o in
+    let pending (vehicle, bounds) = { item = Coming { vehicle; always }; bounds; task = None; prompt = None } in
+    List.map pending o.durations.joins
+  else []
+
 let initial o =
   let configuration = Configuration.initial o.program and outside = Environment.initial in
-  let pending, _ = pending o [] ~before:[] ~over:None [] configuration outside in
+  let pending, _ = pending o [] ~before:(coming o) ~over:None [] configuration outside in
   { configuration; outside; pending; elsewhere = []; patience = [] }
 
 (* {1 Where vehicles are} *)
@@ -241,7 +264,7 @@ let due o s (choice : Environment.choice) =
   | Some event -> with_bounds Fun.id (of_event event)
   | None when is_pick && comes_late choice.transition ->
     with_bounds Bounds.from_the_start (Some (Timer Residual.script_timer))
-  | None when is_pick -> Some (Timer Residual.script_timer, Bounds.at_once)
+  | None when is_pick && not (knows_who_joins o) -> Some (Timer Residual.script_timer, Bounds.at_once)
   | None -> None
 
 let step o s (choice : Environment.choice) =
@@ -263,14 +286,56 @@ let is_possible step = match step.due with Some (_, Never) -> false | Some (_, (
 let starts_without_moving step =
   match step.transition.effects with [ Start (_, p) ] -> Durations.moves p = None | _ -> false
 
+(* {2 Who is there} *)
+
+let coming_of v p = match p.item with Coming { vehicle; _ } -> String.equal vehicle v | _ -> false
+let is_away s v = List.exists (coming_of v) s.pending
+
+(* In the order in which they are heard of. *)
+let late_ones o = if knows_who_joins o then List.map fst o.durations.joins else []
+
+(* What is to be assumed of the whole fleet in [s]. *)
+let attendance o s =
+  let away, come = List.partition (is_away s) (late_ones o) in
+  List.map (fun v -> World.Late v) come @ List.map (fun v -> World.Missing v) away
+
+(* The next vehicle is heard of. *)
+let arrival o s =
+  let of_pending p =
+    let transition : Transition.t =
+      { rules = []; label = Silent; next = s.configuration; effects = []; assumed = [] } in
+    { transition; due = Some (p.item, p.bounds); urgent = false; fresh = [];
+      next = { s with pending = List.filter (fun q -> q != p) s.pending } }
+  in
+  match List.find_opt (is_away s) (late_ones o) with
+  | Some v -> Option.map of_pending (List.find_opt (coming_of v) s.pending)
+  | None -> None
+
+let is_arrival step = match step.due with Some (Coming _, _) -> true | Some _ | None -> false
+
+(* It matters where vehicles are looked for. *)
+let in_whole_fleet o s step =
+  let t = step.transition in
+  let looks =
+    match s.configuration.control, t.label with
+    | Waiting (_, Pick _), _ | _, Recruit _ -> true
+    | (Script _ | Waiting _ | Executing _ | Ended _), _ -> false
+  in
+  if is_arrival step then None else if looks then Some { t with assumed = attendance o s @ t.assumed } else Some t
+
+let transitions o s steps =
+  let add (s, found) step = (step.next, in_whole_fleet o s step :: found) in
+  List.rev (snd (List.fold_left add (s, []) steps))
+
 let all_steps o s =
   let with_step (choice : Environment.choice) = (choice, step o s choice) in
   let choices =
-    Environment.choices_on o.environment o.program o.world s.outside s.configuration
+    Environment.choices_on o.environment o.program (World.suppose (attendance o s) o.world) s.outside s.configuration
     |> Seq.map with_step |> Seq.filter (fun (_, step) -> is_possible step) |> List.of_seq
   in
   let all = List.map snd choices in
-  if not (List.exists (fun step -> step.urgent) all) then all
+  if not (List.exists (fun step -> step.urgent) all) then
+    all @ List.filter is_possible (Option.to_list (arrival o s))
   else if List.exists (fun step -> comes_late step.transition) all then
     List.map (fun step -> { step with urgent = false }) all
   else

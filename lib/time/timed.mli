@@ -20,6 +20,8 @@ type item =
   | Answer
   | Reply
   | Posting of string  (** of a pair with this key *)
+  | Coming of { vehicle : Core.vehicle; always : bool }
+  (** that it is heard of for the first time; [always]: not only before the first task *)
   | Course of Core.vehicle
   (** never in a {!state}: since when the battery of a vehicle that is observed goes as it does ({!Course}) *)
 
@@ -48,6 +50,8 @@ val compare : state -> state -> int
 val equal : state -> state -> bool
 val hash : state -> int
 
+(** What may happen. That a vehicle is heard of is no transition of the semantics, which knows no time: it is a step
+    that changes nothing but who is there. *)
 type step = {
   transition : Transition.t;
   next : state;
@@ -68,9 +72,16 @@ val taken : options -> state -> on:Transition.event option -> Transition.t -> st
 (** [taken o s ~on t] is the transition [t] of [s] as a step, whether or not it is among {!steps}; what the outside
     remembers stays as it is. *)
 
+val transitions : options -> state -> step list -> Transition.t option list
+(** [transitions o s steps] is the transitions of [steps], which are one after the other from [s], in the whole fleet:
+    each [pick] and [recruit] also assumes who is late and who is missing. [None] where a vehicle is heard of. *)
+
 val holds_up : step list -> (item * int) list
 (** [holds_up steps] is until when time may pass in a state with [steps], none of which is urgent: not longer than so
     many milliseconds after each [item] began. *)
+
+val may_join_during_tasks : options -> bool
+(** Whether vehicles may be heard of while a task executes, and that matters. *)
 
 val may_wait_for_recruits : options -> bool
 (** Whether nobody knows how long a vehicle that a [recruit] asks for stays away. *)

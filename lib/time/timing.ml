@@ -45,14 +45,19 @@ type outcome = {
 
 (* {1 Runs} *)
 
-let transitions = List.map (fun (s : Timed.step) -> s.transition)
+(* Of steps from [start] with their dates, if these are known. *)
+let with_dates options start steps dates =
+  let found = Timed.transitions options start steps in
+  let date i = match dates with Some dates -> [ dates.(i) ] | None -> [] in
+  let known = List.mapi (fun i t -> Option.map (fun t -> (t, date i)) t) found in
+  let known = List.filter_map Fun.id known in
+  (List.map fst known, List.concat_map snd known)
 
 let run_of goal options system steps =
-  let schedule = Schedule.make goal options (Timed_system.start system) steps in
-  let dates, chain =
-    match schedule with Some { dates; chain } -> (Array.to_list dates, chain) | None -> ([], [])
-  in
-  { steps = transitions steps; dates; cycle = []; chain }
+  let start = Timed_system.start system in
+  let schedule = Schedule.make goal options start steps in
+  let steps, dates = with_dates options start steps (Option.map (fun (s : Schedule.t) -> s.dates) schedule) in
+  { steps; dates; cycle = []; chain = Option.fold schedule ~none:[] ~some:(fun (s : Schedule.t) -> s.chain) }
 
 let run_along goal options system moves =
   match Unfold.run system goal options moves with
@@ -67,7 +72,10 @@ let run_around options system (c : Timed_system.cycle) =
   let steps n = Option.get (Unfold.run system Latest options (Timed_system.path system n)) in
   let stem = steps c.from and whole = steps c.last in
   let around = without (List.length stem) whole @ [ c.back ] in
-  { steps = transitions stem; dates = []; cycle = transitions around; chain = [] }
+  let transitions from steps = fst (with_dates options from steps None) in
+  let start = Timed_system.start system in
+  let from = List.fold_left (fun _ (s : Timed.step) -> s.next) start stem in
+  { steps = transitions start stem; dates = []; cycle = transitions from around; chain = [] }
 
 let endless options system =
   match Timed_system.cycle system, Timed_system.stuck system with
@@ -150,9 +158,12 @@ let lowest options (v : Scenario.vehicle) known { bound; of_ways } =
     match Unfold.run system goal options (Timed_system.along system way) with
     | None -> None
     | Some steps -> (
-        let ts = transitions steps in
-        match Schedule.stretched options (Timed_system.start system) steps (Batteries.spans v ts) with
-        | Some dates -> Some { steps = ts; dates = Array.to_list dates; cycle = []; chain = [] }
+        let start = Timed_system.start system in
+        let ts = List.map (fun (s : Timed.step) -> s.transition) steps in
+        match Schedule.stretched options start steps (Batteries.spans v ts) with
+        | Some dates ->
+          let steps, dates = with_dates options start steps (Some dates) in
+          Some { steps; dates; cycle = []; chain = [] }
         | None | (exception Dates.Contradiction) -> None)
     | exception (Timed_system.Broken | Dates.Contradiction) -> None
   in
@@ -278,6 +289,7 @@ let apart ~started limits (options : Timed.options) =
   let found (fence : Fences.fence) =
     let pairs, cut_short =
       match untimed limits options with
+      | _ when options.durations.joins <> [] -> pairs ~started limits options ~candidates:None
       | [], stopped -> ([], stopped)
       | candidates, None -> pairs ~started limits options ~candidates:(Some (List.length candidates))
       | _, Some _ -> pairs ~started limits options ~candidates:None

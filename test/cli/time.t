@@ -415,7 +415,7 @@ When tasks may run, as a picture: dark where a task runs in every run in which i
   dolphin: --trace and --draw do not go with --fewest
   [2]
 
-What the fleet says of who is there when is left out, and told.
+Who leaves by the fleet, or loses a link, stays here, and is told. Who joins does so when the fleet says it.
 
   $ cat > late.dol <<'END'
   > v = pick { count 2 }
@@ -428,10 +428,31 @@ What the fleet says of who is there when is left out, and told.
   > plan 'survey', { duration 4.min, 7.min }
   > END
   $ dolphin time late.dol 2>&1 > /dev/null
-  dolphin: by the fleet these join late: b; here they are there from the start, unless --faults has join
   dolphin: by the fleet these leave, or lose their links: a, c; here they stay, unless --faults has loss
   $ dolphin time late.dol --faults join 2>&1 > /dev/null
   dolphin: by the fleet these leave, or lose their links: a, c; here they stay, unless --faults has loss
+  $ cat > joins.dol <<'END'
+  > vs = pick { count 3; timeout 2.min }
+  > execute imcPlan('survey')[vs[2]]
+  > END
+  $ dolphin time joins.dol --fleet late.fleet 2> /dev/null | sed 's/, [0-9.]* s, [0-9]* MiB//'
+  completed: 5:30 at the earliest, 8:30 at the latest
+  task    vehicle  starts  ends          where
+  survey  b        1:30    5:30 to 8:30  joins.dol:2
+  vehicle  least battery
+  b        98.7 %
+  18 states, depth 7
+  
+  a run that ends last:
+         program           b              where
+  0:00   pick(3 vehicles)                 joins.dol:1
+  1:30   picks a, c, b                    joins.dol:1
+         if b comes late
+  1:30   execute                          joins.dol:2
+  1:30                     starts survey  joins.dol:2
+  8:30                     ends survey    joins.dol:2
+  8:30   end
+  its end depends on: b joins (1:30), then joins.dol:2:9: survey on b (7:00)
   $ dolphin explore late.dol --faults loss 2>&1 > /dev/null
   dolphin: by the fleet these join late: b; here they are there from the start, unless --faults has join
   [1]

@@ -17,7 +17,8 @@ let hashed seed plans : Durations.t =
     Bounds.Within { least = 1000 * least; most = 1000 * (least + (n / 3 mod 3)) }
   in
   let posted key = if key = "y" then Bounds.exactly 2. else Bounds.between 1. 2. in
-  { task; announced = Bounds.exactly 1.; silence = Bounds.exactly 2.; posted; place = (fun _ -> None) }
+  { task; announced = Bounds.exactly 1.; silence = Bounds.exactly 2.; posted; place = (fun _ -> None);
+    joins = [] }
 
 let random ~seed n =
   let plans = [ "p"; "q" ] in

@@ -1078,6 +1078,15 @@ let timed =
       ( "the order to a lost vehicle does not wait",
         {|if List.mem v (Environment.lost s.outside) then put_off silence bounds else bounds in|},
         {|ignore put_off; bounds in|} );
+      ( "who joins is there at once",
+        {|(World.suppose (attendance o s) o.world)|},
+        {|(ignore attendance; o.world)|} );
+      ( "vehicles that joined are in the order of the fleet",
+        {|List.map (fun v -> World.Late v) come @|},
+        {|(ignore come; []) @|} );
+      ( "a pick does not wait for who joins",
+        {|| None when is_pick && not (knows_who_joins o) ->|},
+        {|| None when is_pick ->|} );
     ]
 
 let place =

@@ -19,17 +19,18 @@ type state = {
   patience : (string option * int) list;
   now : int;
   missing : (Core.vehicle * (int * int)) list;  (* now, and at the most until now; in order *)
+  coming : Core.vehicle list;  (* who is heard of later, the next one first *)
 }
 
 module Table = Hashtbl.Make (struct
     type t = state
 
     let equal a b =
-      a.now = b.now && a.missing = b.missing && a.clocks = b.clocks && a.patience = b.patience
+      a.now = b.now && a.coming = b.coming && a.missing = b.missing && a.clocks = b.clocks && a.patience = b.patience
       && Environment.compare a.e b.e = 0
       && Configuration.equal a.c b.c
 
-    let hash s = Hashtbl.hash (s.now, s.missing, s.clocks, Configuration.hash s.c)
+    let hash s = Hashtbl.hash (s.now, s.coming, s.missing, s.clocks, Configuration.hash s.c)
   end)
 
 exception Too_much
@@ -114,7 +115,7 @@ let after o s (choice : Environment.choice) =
       List.fold_left (fun patience v -> (Some v, whole n) :: List.remove_assoc (Some v) patience) patience vs
     | _ -> patience
   in
-  { c = t.next; e = choice.outside; now = s.now; missing = s.missing;
+  { c = t.next; e = choice.outside; now = s.now; missing = s.missing; coming = s.coming;
     clocks = List.sort_uniq compare (List.map find (awaited o t.next choice.outside));
     patience = List.sort compare (List.fold_left set_patience s.patience t.effects) }
 
@@ -131,6 +132,11 @@ let is_open (t : Transition.t) =
   && match t.rules with (Condition | Recruit | Allof_when | Oneof_when | Until_cut | Assure_cut) :: _ -> true
                       | _ -> false
 
+(* Who joins, and when. Where vehicles may be late, they come at any time. *)
+let joins (o : Timed.options) =
+  let second (v, bounds) = (v, fst (in_seconds bounds)) in
+  if o.environment.faults.join = Never then List.map second o.durations.joins else []
+
 (* From how many to how many seconds, of which clock. *)
 let due o s (choice : Environment.choice) =
   let clock what = List.assoc what s.clocks in
@@ -143,10 +149,15 @@ let due o s (choice : Environment.choice) =
     let c = clock (Vehicle v) and silence = patience o s v in
     Some (if why = Environment.loss then (c, silence, c.most + waits v + silence) else (c, 0, c.most + waits v))
   | Some event, _ -> Option.map (fun what -> let c = clock what in (c, c.least, c.most)) (over event)
-  | None, Waiting (_, Pick _) ->
+  | None, Waiting (_, Pick _) when joins o = [] ->
     let c = clock (Timer 0) in
     Some (c, 0, if comes_late choice.transition then c.most else 0)
   | None, _ -> None
+
+(* Who was heard of later than others comes after them. *)
+let with_those_there o s world =
+  let come, coming = List.partition (fun v -> not (List.mem v s.coming)) (List.map fst (joins o)) in
+  World.suppose (List.map (fun v -> World.Late v) come @ List.map (fun v -> World.Missing v) coming) world
 
 (* A second later. *)
 let tick ~batteries s =
@@ -210,7 +221,7 @@ let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _
   let expand s =
     note_end s;
     (match s.c.control with Ended _ -> note_most s | Script _ | Waiting _ | Executing _ -> ());
-    let world = List.fold_left (fun w (v, (missing, _)) -> show v missing w) o.world s.missing in
+    let world = List.fold_left (fun w (v, (missing, _)) -> show v missing w) (with_those_there o s o.world) s.missing in
     let choices = List.of_seq (Environment.choices_on o.environment o.program world s.e s.c) in
     let timed = List.map (fun choice -> (choice, due o s choice)) choices in
     let is_by_itself (choice : Environment.choice) =
@@ -236,6 +247,8 @@ let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _
         (-1) possible
     in
     let waits = own = [] || waits_for_others in
+    let joins_later = match s.c.control with Ended _ -> false | _ -> s.coming <> [] in
+    let is_next_there = waits && joins_later && List.assoc (List.hd s.coming) (joins o) <= s.now in
     (* Time has passed because something might be lost, and something else was lost: that is no run. *)
     let is_overdue (_, clock) = match last clock with -1 -> false | most -> clock.since > most in
     let take ((choice : Environment.choice), _) =
@@ -244,12 +257,14 @@ let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _
     in
     if not (waits && List.exists is_overdue s.clocks) then begin
       look s.c;
-      List.iter take (List.filter may_be_now possible)
+      List.iter take (List.filter may_be_now possible);
+      if is_next_there then reach { s with coming = List.tl s.coming }
     end;
     (* A second passes, if for everything that is awaited something may still happen then. *)
     let may_wait (_, clock) = match last clock with -1 -> true | most -> clock.since < most in
-    if waits && possible <> [] && List.for_all may_wait s.clocks then begin
-      if List.exists (fun (choice, _) -> not (Environment.is_voluntary choice.Environment.transition)) possible
+    if waits && (possible <> [] || joins_later) && (not is_next_there) && List.for_all may_wait s.clocks then begin
+      if joins_later
+      || List.exists (fun (choice, _) -> not (Environment.is_voluntary choice.Environment.transition)) possible
       || Environment.owes o.environment o.program s.e
       then reach (tick ~batteries s)
     end;
@@ -257,12 +272,13 @@ let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _
     | Ended _ -> ()
     | Script _ | Waiting _ | Executing _ ->
       let transitions = List.map (fun ((choice : Environment.choice), _) -> choice.transition) timed in
-      if Environment.only_recruits o.environment s.e transitions && not (Environment.owes o.environment o.program s.e)
+      if s.coming = [] && Environment.only_recruits o.environment s.e transitions
+         && not (Environment.owes o.environment o.program s.e)
       then never_over := true
   in
   let start =
     let c = Configuration.initial o.program and e = Environment.initial in
-    { c; e; now = 0; patience = [];
+    { c; e; now = 0; patience = []; coming = List.map fst (joins o);
       missing = List.sort compare (List.map (fun (v, b) -> (v, (b.at_first, b.at_first))) batteries);
       clocks = List.sort compare (List.map (fun k -> (Input k, posted o k)) (inputs o c e)) }
   in

@@ -28,7 +28,8 @@ let environments =
     ("with inputs", { answering with inputs = certain });
     ("with interruptions", { answering with faults = { Faults.none with interrupt = true } }) ]
 
-(* So many seconds, by the name of the plan and the vehicle: some exactly, some none, some that overlap. *)
+(* So many seconds, by the name of the plan and the vehicle: some exactly, some none, some that overlap. Some vehicles
+   join after some seconds. *)
 let durations seed : Durations.t =
   let task v _ (p : Core.platform_task) =
     let n = Hashtbl.hash (seed, v, p.name) in
@@ -36,7 +37,13 @@ let durations seed : Durations.t =
     Bounds.Within { least = 1000 * least; most = 1000 * (least + (n / 3 mod 3)) }
   in
   let posted key = if key = "y" then Bounds.exactly 2. else Bounds.between 1. 2. in
-  { task; announced = Bounds.exactly 1.; silence = Bounds.exactly 2.; posted; place = (fun _ -> None) }
+  let joins =
+    match seed mod 6 with
+    | 0 -> [ ("b", Bounds.exactly (float (seed mod 4))); ("a", Bounds.exactly 3.) ]
+    | 1 -> [ ("c", Bounds.exactly 1.) ]
+    | _ -> []
+  in
+  { task; announced = Bounds.exactly 1.; silence = Bounds.exactly 2.; posted; place = (fun _ -> None); joins }
 
 let nested =
   let open QCheck2.Gen in
@@ -82,10 +89,8 @@ let is_dated (o : Timing.outcome) (run : Timing.run) later =
   in_order run.dates && last = 1000 * expected
   && (run.chain = [] || (not later) || List.fold_left (fun n (l : Schedule.link) -> n + l.lasts) 0 run.chain >= last)
 
-let agrees (ast, seed, (_, environment)) =
-  let program = Posts.declared environment (Generate.compile ast) in
-  let world = if program.reads_sensors then Generate.open_world else Generate.world in
-  let options : Timed.options = { environment; program; world; durations = durations seed } in
+let is_found (options : Timed.options) =
+  let { Timed.program; _ } = options in
   match Enumeration.all options with
   | None -> incr skipped; true
   | Some expected ->
@@ -116,6 +121,11 @@ let agrees (ast, seed, (_, environment)) =
       Option.fold ~none:true ~some:(dated true) o.last && Option.fold ~none:true ~some:(dated false) o.first in
     (not is_bounded) || all_dated ()
 
+let agrees (ast, seed, (_, environment)) =
+  let program = Posts.declared environment (Generate.compile ast) in
+  let world = if program.reads_sensors then Generate.open_world else Generate.world in
+  is_found { environment; program; world; durations = durations seed }
+
 let sensing_case =
   let open QCheck2.Gen in
   let* depth = int_range 0 2 in
@@ -128,6 +138,55 @@ let test_agreement () =
   let test = QCheck2.Test.make ~count:programs ~print ~name:"zones and enumeration agree" cases agrees in
   Test_support.Property.on_each_seed ~usual:20_261_123 ~programs test;
   Printf.printf "%d skipped, %d with runs that never end, %d that look at sensors\n" !skipped !endless !sensing
+
+(* {1 Vehicles that join} *)
+
+(* Programs look for vehicles again and again, and for as long as some join. *)
+let looking =
+  let open QCheck2.Gen in
+  let look i =
+    let* seconds = int_range 0 4 in
+    let whom what = Printf.sprintf "v%d = pick { %s; timeout %d } else { null }\n" i what seconds in
+    let* what = oneofl [ "id 'a'"; "id 'b'"; "type 'UUV'"; "count 2"; "count 3"; "count _" ] in
+    let first = if String.length what > 5 && String.sub what 0 5 = "count" then Printf.sprintf "v%d[0]" i
+      else Printf.sprintf "v%d" i in
+    let* deed =
+      oneofl
+        [ ""; Printf.sprintf "if (v%d) execute task('p')[%s]\n" i first;
+          Printf.sprintf "if (v%d) execute task('q')[%s] | idle(1)\n" i first;
+          Printf.sprintf "if (v%d) { execute task('q')[%s]; release %s } else pause 1\n" i first first ] in
+    return (whom what ^ deed)
+  in
+  let recruit =
+    map2 (Printf.sprintf "execute (recruit { %s } then { v -> task('p') }) | idle(%d)\n")
+      (oneofl [ "id 'b'"; "type 'UUV'" ]) (int_range 0 3) in
+  let statement i =
+    frequency [ (4, look i); (1, recruit); (1, map (Printf.sprintf "pause %d\n") (int_range 1 2)) ] in
+  let* n = int_range 1 3 in
+  map (String.concat "") (flatten_l (List.init n statement))
+
+let joining =
+  let open QCheck2.Gen in
+  let late v = map (Option.map (fun n -> (v, Bounds.exactly (Stdlib.float n)))) (opt ~ratio:0.6 (int_range 1 4)) in
+  let* found = flatten_l (List.map late [ "a"; "b"; "c" ]) in
+  let joins = List.stable_sort (fun (_, a) (_, b) -> Bounds.compare a b) (List.filter_map Fun.id found) in
+  triple looking (int_bound 1_000_000) (return joins)
+
+let print_joining (text, seed, joins) =
+  let one ppf (v, bounds) =
+    match (bounds : Bounds.t) with Within { least; _ } -> Format.fprintf ppf "%s at %d ms" v least | _ -> () in
+  Format.asprintf "%a join, durations %d:@.%s" (Format.pp_print_list ~pp_sep:Format.pp_print_space one) joins seed text
+
+let test_joins () =
+  let is_found (text, seed, joins) =
+    let program = Test_support.Pure_run.compile_exn text in
+    is_found { environment = answering; program; world = Generate.world; durations = { (durations seed) with joins } }
+  in
+  let test = QCheck2.Test.make ~count:programs ~print:print_joining ~name:"who joins when" joining is_found in
+  let before = !skipped in
+  Test_support.Property.on_each_seed ~usual:20_261_123 ~programs test;
+  Printf.printf "%d skipped\n" (!skipped - before);
+  Alcotest.(check bool) "few are skipped" true ((!skipped - before) * 2 < programs)
 
 (* {1 Slack} *)
 
@@ -363,6 +422,7 @@ let () =
   Alcotest.run "exact"
     [ ("random programs", [ Alcotest.test_case "zones and enumeration" `Quick test_agreement;
                             Alcotest.test_case "variety" `Quick test_variety;
+                            Alcotest.test_case "vehicles that join" `Quick test_joins;
                             Alcotest.test_case "slack" `Quick test_slack;
                             Alcotest.test_case "plans side by side" `Quick test_pairs;
                             Alcotest.test_case "batteries" `Quick (test_batteries ~at_first:0 ~charge:0 ~programs);

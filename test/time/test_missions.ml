@@ -294,6 +294,36 @@ let test_picks () =
   Alcotest.check window "late" (0., 30.) (ends late);
   Alcotest.check window "missing" (30., 30.) (ends ~ending:Failed late)
 
+(* 'b' joins after 90 s, 'c' after 100. What looks for 'b' ends then, or has ended before by its time-out; a [pick] of
+   all takes those that are there when its time is over. *)
+let test_joins () =
+  let vehicles = "vehicle 'a', { type 'UUV' }\nvehicle 'b', { type 'UUV'; joins 90 }\n" in
+  let scenario = fleet (vehicles ^ "vehicle 'c', { type 'UUV'; joins 100 }\nplan 'p', { duration 5, 9 }") in
+  let check ?ending what expected program =
+    Alcotest.check window what expected (ends ?ending (outcome program scenario)) in
+  check "the first that is there" (0., 0.) "v = pick { type 'UUV' }\n";
+  check "waits for it" (90., 90.) "vs = pick { count 2; timeout 120 }\n";
+  check "waits for the last" (100., 100.) "vs = pick { count 3; timeout 120 }\n";
+  check ~ending:Failed "not so long" (89., 89.) "vs = pick { count 2; timeout 89 }\n";
+  check ~ending:Failed "nobody knows it so early" (10., 10.) "v = pick { id 'b' }\n";
+  check "it has come meanwhile" (99., 99.) "pause 99\nv = pick { id 'b' }\n";
+  let all = "vs = pick { count _; timeout 95 }\nif (vs.size() == 2) { pause 1000 }\n" in
+  check "those that are there then" (1095., 1095.) all;
+  check "a recruit" (95., 99.) "execute recruit { id 'b' } then { v -> imcPlan('p') }\n";
+  (* Tasks take 5 to 9 s each, so the second of two is there when ten are over, or not before the 90 s. *)
+  check "while tasks execute" (90., 90.)
+    "v = pick { id 'a' }\nexecute repeat 10, task('p')[v]\nvs = pick { id 'b'; timeout 100 }\n\
+     if (vs.id() == 'c') { halt 'which' }\n";
+  (* On the stroke it may have come, or not yet. *)
+  let stroke = "vs = pick { count 2; timeout 90 }\n" in
+  check "on the stroke" (90., 90.) stroke;
+  check ~ending:Failed "on the stroke, too late" (90., 90.) stroke;
+  (* If nobody is looked for after tasks, who joins meanwhile makes no states. *)
+  let o = outcome (both ^ "execute task('p')[va] | task('p')[vb]\n") in
+  let states fleet_text = (o (fleet fleet_text)).states in
+  let two = two ^ "plan 'p', { duration 5, 9 }\n" in
+  Alcotest.(check int) "as many states" (states two) (states (two ^ "vehicle 'd', { type 'UUV'; joins 3 }\n"))
+
 (* A vehicle whose plan was stopped half-way is nobody knows where, so nobody knows how long its way back takes. *)
 let test_places () =
   let go = "imcPlan { planName 'go'\n goTo location: (location 41.19, -8.70)\n}" in
@@ -309,4 +339,5 @@ let () =
       ("by hand",
        [ case "the paper's mission" test_rendezvous; case "within" test_within; case "until" test_until;
          case "faults" test_faults; case "runs without end" test_endless; case "unknown durations" test_unknown;
-         case "deadlines" test_deadline; case "slack" test_slack; case "batteries" test_batteries; case "picks" test_picks; case "places" test_places ]) ]
+         case "deadlines" test_deadline; case "slack" test_slack; case "batteries" test_batteries; case "picks" test_picks; case "joins" test_joins;
+         case "places" test_places ]) ]

@@ -47,9 +47,9 @@ let follow options run =
   in
   snd (List.fold_left next (Recorded.start ~tolerance:0 options, []) run)
 
-(* What {!Durations} does not know of: who comes late, and batteries. *)
+(* What {!Durations} does not know of: who leaves, and batteries. *)
 let is_steady (s : Scenario.t) =
-  List.for_all (fun (v : Scenario.vehicle) -> v.joins = 0. && v.leaves = None && v.drops = []) s.vehicles
+  List.for_all (fun (v : Scenario.vehicle) -> v.leaves = None && v.drops = []) s.vehicles
 
 let is_within (w : Timing.window) date =
   date >= w.earliest - 1 && (match w.latest with At latest -> date <= latest + 1 | Unbounded -> true)

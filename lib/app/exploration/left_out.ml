@@ -1,16 +1,19 @@
 module Faults = Dolphin_environment.Faults
 module Scenario = Dolphin_scenario.Scenario
 
-let sentences (faults : Faults.t) (fleet : Fleet_file.t) =
-  let sentence limit what does =
-    let named (v : Scenario.vehicle) = if does v then Some v.id else None in
-    match List.filter_map named fleet.scenario.vehicles with
-    | _ :: _ as vehicles when not (Faults.is_possible limit) -> [ Printf.sprintf what (String.concat ", " vehicles) ]
-    | _ -> []
-  in
-  sentence faults.join
-    "by the fleet these join late: %s; here they are there from the start, unless --faults has join"
-    (fun v -> v.joins > 0.)
-  @ sentence faults.loss
-    "by the fleet these leave, or lose their links: %s; here they stay, unless --faults has loss"
+let sentence limit what (fleet : Fleet_file.t) does =
+  let named (v : Scenario.vehicle) = if does v then Some v.id else None in
+  match List.filter_map named fleet.scenario.vehicles with
+  | _ :: _ as vehicles when not (Faults.is_possible limit) -> [ Printf.sprintf what (String.concat ", " vehicles) ]
+  | _ -> []
+
+let of_links (faults : Faults.t) fleet =
+  sentence faults.loss
+    "by the fleet these leave, or lose their links: %s; here they stay, unless --faults has loss" fleet
     (fun v -> v.leaves <> None || v.drops <> [])
+
+let sentences (faults : Faults.t) fleet =
+  sentence faults.join
+    "by the fleet these join late: %s; here they are there from the start, unless --faults has join" fleet
+    (fun v -> v.joins > 0.)
+  @ of_links faults fleet

@@ -22,6 +22,14 @@ let find_or_explore settings program fleet ~json ~period ~cache =
 
 type files = { trace : string option; drawing : Drawing.t option; junit : string option; sarif : string option }
 
+(* Before anything is explored. *)
+let check_files files =
+  let check path f = Option.fold ~none:(Ok ()) ~some:f path in
+  let* () = check files.trace Text_file.check in
+  let* () = check files.drawing Drawing.check in
+  let* () = check files.junit Text_file.check in
+  check files.sarif Text_file.check
+
 (* All of them, although one cannot be written; the first error. *)
 let write_files files program fleet ~strict outcome =
   let write path f = Option.fold ~none:(Ok ()) ~some:f path in
@@ -91,6 +99,7 @@ let run path set fleet answers faults strict json period files cache reduction c
       invariants; formulas } in
   Report.result
     (let* () = check_search settings in
+     let* () = check_files files in
      let* question = Sweep.question ~set path in
      let* fleet = Fleet_file.load_for ~program:path fleet in
      let* question = Sweep.within fleet question in

@@ -52,7 +52,8 @@ let run path set fleet answers faults deadline slack fewest json trace drawing m
   let settings : Time_analysis.settings =
     { answers; faults; deadline; max_states; max_depth; max_memory; timeout } in
   Report.result
-    (let* () = Option.fold drawing ~none:(Ok ()) ~some:Drawing.check in
+    (let* () = Option.fold trace ~none:(Ok ()) ~some:Text_file.check in
+     let* () = Option.fold drawing ~none:(Ok ()) ~some:Drawing.check in
      let* question = Sweep.question ~set path in
      let* fleet = Fleet_file.load_for ~program:path fleet in
      let* question = Sweep.within fleet question in

@@ -513,8 +513,14 @@ It does not fit another program, and no other file is one.
   $ dolphin exec deadlock.dol --follow missing.run
   dolphin: missing.run: No such file or directory
   [2]
-  $ explore deadlock.dol --trace missing/deadlock.run > shown
+
+That a file cannot be written is known before anything is explored.
+
+  $ explore deadlock.dol --trace missing/deadlock.run
   dolphin: missing/deadlock.run: No such file or directory
+  [3]
+  $ explore deadlock.dol --trace .
+  dolphin: .: this is a directory, not a file
   [3]
 
 A bound that is met leaves the answer open.
@@ -714,7 +720,7 @@ For whatever collects results of tests, and for code hosts and editors.
   Usage: dolphin explore [OPTION]… PROG
   Try 'dolphin explore --help' or 'dolphin --help' for more information.
   [2]
-  $ explore reports.dol --junit nowhere/reports.xml > /dev/null
+  $ explore reports.dol --junit nowhere/reports.xml
   dolphin: nowhere/reports.xml: No such file or directory
   [3]
 

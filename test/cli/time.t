@@ -411,6 +411,9 @@ When tasks may run, as a picture: dark where a task runs in every run in which i
   $ dolphin time relay.dol --draw nowhere/relay.svg
   dolphin: the picture cannot be written: nowhere/relay.svg: No such file or directory
   [3]
+  $ dolphin time relay.dol --trace nowhere/relay.run
+  dolphin: nowhere/relay.run: No such file or directory
+  [3]
   $ dolphin time relay.dol --draw relay.svg --fewest
   dolphin: --trace and --draw do not go with --fewest
   [2]

@@ -42,6 +42,18 @@ let read_input () =
   | result -> result
   | exception Sys_error why -> bad "standard input" why
 
+let check path =
+  let unavailable why = Error (Error.Unavailable (Printf.sprintf "%s: %s" path why)) in
+  let writable place rights =
+    match Unix.access place rights with
+    | () -> Ok ()
+    | exception Unix.Unix_error (error, _, _) -> unavailable (Unix.error_message error)
+  in
+  match Sys.is_directory path with
+  | true -> unavailable "this is a directory, not a file"
+  | false -> writable path [ W_OK ]
+  | exception Sys_error _ -> writable (Filename.dirname path) [ W_OK; X_OK ]
+
 let write path f =
   let save () =
     let channel = open_out_bin path in

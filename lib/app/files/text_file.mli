@@ -21,5 +21,8 @@ val with_channel : string -> (in_channel -> ('a, Error.t) result) -> ('a, Error.
 (** [with_channel path f] is [f] of the file [path], open for reading, in binary. A [Sys_error] of [f] is an error, as
     not to be able to open the file is: {!Error.Bad_input}. *)
 
+val check : string -> (unit, Error.t) result
+(** [check path] fails with {!Error.Unavailable} if it is clear already that {!write} will. It writes nothing. *)
+
 val write : string -> (out_channel -> unit) -> (unit, Error.t) result
 (** [write path f] makes the file [path] anew with what [f] writes. The error is {!Error.Unavailable}. *)

@@ -15,6 +15,8 @@ type t = {
   last_announced : float;
   last_heard : float;
   position : (float * Position.t) option;
+  depth : float option;
+  altitude : float option;
   announced_position : Position.t option;
   mode : (float * Message.Vehicle_state.Op_mode.t) option;
   error : string;
@@ -72,7 +74,8 @@ let make ~now ~from ~request (p : Packet.t) (a : Message.Announce.t) =
   described ~now ~from p a
     { id = p.src; name = named p.src a.sys_name; kind = a.sys_type; hosts = []; address = None;
       clock = Vehicle_clock.unknown; execution = Execution.create ~request; first_announced = now;
-      last_announced = now; last_heard = neg_infinity; position = None; announced_position = None; mode = None;
+      last_announced = now; last_heard = neg_infinity; position = None; depth = None; altitude = None;
+      announced_position = None; mode = None;
       error = ""; battery = None; speed = None; readings = []; entities = None;
       queries = 0; freed = None; claim = None }
 
@@ -108,7 +111,13 @@ let estimated ~sent state n =
   | Some position when newer sent n.position ->
     let speed = Float.hypot state.vx state.vy in
     let speed = if Float.is_finite speed then Some (sent, speed) else n.speed in
-    { n with position = Some (sent, position); speed }
+    let told x = if Float.is_finite x && x >= 0. then Some x else None in
+    let depth, altitude =
+      match n.kind with
+      | Uuv | Usv -> (told state.depth, None)
+      | Uav | Ugv | Other _ | Ccu | Humansensor | Staticsensor | Mobilesensor | Wsn -> (None, told state.alt)
+    in
+    { n with position = Some (sent, position); depth; altitude; speed }
   | Some _ | None -> n
 
 let fuel ~sent (level : Message.Fuel_level.t) n =
@@ -204,6 +213,8 @@ let state ~now ~timeout ~kind ~payload ~held n : World.vehicle_state =
     kind;
     payload = (match payload with Some devices -> devices | None -> Option.value n.entities ~default:[]);
     position;
+    depth = n.depth;
+    altitude = n.altitude;
     battery = Option.map snd n.battery;
     speed = Option.map snd n.speed;
     readings = List.map (fun (name, (_, value)) -> (name, value)) n.readings;

@@ -16,6 +16,8 @@ type t = private {
   last_announced : float;
   last_heard : float;  (** Anything but an announcement; [neg_infinity] if never. Our clock, s, as those before. *)
   position : (float * Dolphin_geo.Position.t) option;  (** With the vehicle's time, as those that follow. *)
+  depth : float option;  (** metres below the surface, as told with the position *)
+  altitude : float option;  (** metres above the ground, likewise *)
   announced_position : Dolphin_geo.Position.t option;
   mode : (float * Message.Vehicle_state.Op_mode.t) option;
   error : string;  (** The last error of its VehicleState, [""] if none. *)
@@ -55,7 +57,8 @@ val hear : now:float -> own:int -> Packet.t -> t -> t * Execution.output list
     if they are for the console [own]; values that are no numbers, or out of range, are left out.
 
     The position is EstimatedState's reference point, moved [x] metres north and [y] metres east over the ground, [z]
-    metres down. The battery is FuelLevel's percentage, as a share. *)
+    metres down. A depth counts of what dives or floats, an altitude of others: those that dive count it from the sea
+    floor. Negative ones are none. The battery is FuelLevel's percentage, as a share. *)
 
 val command : now:float -> Execution.input -> t -> t * Execution.output list
 (** [command ~now i n] gives [i] to [n]'s execution. *)

@@ -7,6 +7,8 @@ type t = {
   payload : string list;
   place : (float * float) option;
   height : float;
+  depth : float option;
+  altitude : float option;
   battery : float option;
   speed : float option;
   readings : (string * float) list;
@@ -17,9 +19,8 @@ type t = {
 let first (s : Report.sight) =
   match s.kind, s.link with
   | Some kind, Some link ->
-    Ok { id = s.vehicle; kind; payload = []; place = None; height = 0.; battery = None; speed = None;
-         readings = []; link;
-         unready = None }
+    Ok { id = s.vehicle; kind; payload = []; place = None; height = 0.; depth = None; altitude = None;
+         battery = None; speed = None; readings = []; link; unready = None }
   | None, _ -> Error (Printf.sprintf "the first report of %s has no type" s.vehicle)
   | Some _, None -> Error (Printf.sprintf "the first report of %s does not say whether it has a link" s.vehicle)
 
@@ -35,7 +36,8 @@ let add (s : Report.sight) known =
       readings = List.fold_left measure x.readings s.readings;
       kind = now s.kind x.kind; payload = now s.payload x.payload;
       place = (if s.place = None then x.place else s.place);
-      height = now s.height x.height; battery = now s.battery x.battery; speed = now s.speed x.speed;
+      height = now s.height x.height; depth = now s.depth x.depth; altitude = now s.altitude x.altitude;
+      battery = now s.battery x.battery; speed = now s.speed x.speed;
       link = now s.link x.link; unready = now s.unready x.unready }
   in
   Result.map add known
@@ -50,6 +52,8 @@ let describe x : World.vehicle_state =
   let latitude, longitude = Option.value x.place ~default:(0., 0.) in
   { id = x.id; kind = x.kind; payload = x.payload;
     position = { latitude; longitude; height = x.height };
+    depth = x.depth;
+    altitude = x.altitude;
     battery = x.battery;
     speed = x.speed;
     readings = x.readings;

@@ -17,6 +17,8 @@ type sight = {
   payload : string list option;
   place : (float * float) option;
   height : float option;
+  depth : float option option;
+  altitude : float option option;
   battery : float option option;
   speed : float option option;
   readings : (string * float option) list;
@@ -25,9 +27,8 @@ type sight = {
 }
 
 let nothing vehicle =
-  { vehicle; kind = None; payload = None; place = None; height = None; battery = None; speed = None;
-    readings = []; link = None;
-    unready = None }
+  { vehicle; kind = None; payload = None; place = None; height = None; depth = None; altitude = None;
+    battery = None; speed = None; readings = []; link = None; unready = None }
 
 type word =
   | Taken
@@ -70,6 +71,8 @@ let of_sight s =
       | Some (latitude, longitude) -> [ ("latitude", of_number latitude); ("longitude", of_number longitude) ]
       | None -> [])
   @ member "height" of_number s.height
+  @ member "depth" (of_option of_number) s.depth
+  @ member "altitude" (of_option of_number) s.altitude
   @ member "battery" (of_option of_number) s.battery
   @ member "speed" (of_option of_number) s.speed
   @ (if s.readings = [] then []
@@ -155,12 +158,14 @@ let sight members =
   let* payload = absent (list Field.text) "payload" members in
   let* place = place members in
   let* height = absent number "height" members in
+  let* depth = as_before number "depth" members in
+  let* altitude = as_before number "altitude" members in
   let* battery = as_before (between 0. 1.) "battery" members in
   let* speed = as_before Line.seconds "speed" members in
   let* readings = optional (fun json -> if json = `Null then Ok [] else readings json) ~default:[] "readings" members in
   let* link = absent truth "link" members in
   let* unready = as_before Line.word "unready" members in
-  Ok (Vehicle { vehicle; kind; payload; place; height; battery; speed; readings; link; unready })
+  Ok (Vehicle { vehicle; kind; payload; place; height; depth; altitude; battery; speed; readings; link; unready })
 
 let word make members =
   let* request = get Line.request "request" members in

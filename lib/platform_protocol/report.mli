@@ -18,6 +18,8 @@ type sight = {
   payload : string list option;
   place : (float * float) option;  (** latitude and longitude, in degrees *)
   height : float option;
+  depth : float option option;  (** metres below the surface; [Some None]: not known *)
+  altitude : float option option;  (** metres above the ground or home; [Some None]: not known *)
   battery : float option option;  (** [Some None]: not known *)
   speed : float option option;
   readings : (string * float option) list;  (** of what it measures; [None]: not known any more *)

@@ -78,9 +78,12 @@ let stranger id =
 
 let find id f = match String_map.find_opt id f.crafts with Some craft -> craft | None -> stranger id
 
+(* The simulated sea, ground and ellipsoid are one. *)
 let state f craft : World.vehicle_state =
   let v = Vehicle.scenario craft.body in
-  { id = v.id; kind = v.kind; payload = v.payload; position = Vehicle.seen_at craft.body ~at:f.now;
+  let position = Vehicle.seen_at craft.body ~at:f.now in
+  { id = v.id; kind = v.kind; payload = v.payload; position;
+    depth = (if position.height < 0. then Some (-.position.height) else None); altitude = None;
     battery = Vehicle.shown_battery craft.body ~at:f.now;
     speed = Some (Vehicle.speed craft.body ~at:f.now);
     readings = Scenario.readings f.samples v (Vehicle.position craft.body ~at:f.now) ~time:f.now;

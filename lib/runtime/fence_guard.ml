@@ -2,28 +2,26 @@ open Dolphin_semantics
 
 type t = {
   fences : Fences.t;
-  places : Dolphin_geo.Position.t Vehicle_map.t;
+  seen : Fences.sight Vehicle_map.t;
   under_way : run Vehicle_map.t;
 }
 
-(* [since]: the areas that it has broken from the start on. *)
+(* [since]: what it has broken from the start on. *)
 and run = { plan : Fences.under_way; since : Fences.beyond }
 
-let make fences = { fences; places = Vehicle_map.empty; under_way = Vehicle_map.empty }
+let make fences = { fences; seen = Vehicle_map.empty; under_way = Vehicle_map.empty }
 
-let watches g =
-  let is_watched (fence : Fences.fence) =
-    match fence.rule with Inside _ | Outside _ | Distance _ -> true | Depth _ | Height _ -> false in
-  List.exists is_watched (Fences.list g.fences)
+let watches g = not (Fences.is_none g.fences)
 
 let see (s : World.vehicle_state) g =
+  let sight : Fences.sight = { place = s.position; depth = s.depth; altitude = s.altitude } in
   let come_back run =
-    match Fences.of_vehicle g.fences ~since:run.since s.position with
+    match Fences.of_vehicle g.fences ~since:run.since sight with
     | Ok since -> { run with since }
     | Error _ -> run
   in
   let under_way = Vehicle_map.update s.id (Option.map come_back) g.under_way in
-  { g with places = Vehicle_map.add s.id s.position g.places; under_way }
+  { g with seen = Vehicle_map.add s.id sight g.seen; under_way }
 
 let over v g = { g with under_way = Vehicle_map.remove v g.under_way }
 let is_under_way v g = Vehicle_map.mem v g.under_way
@@ -35,12 +33,13 @@ let breach g from (task : Core.platform_task) =
   Option.bind task.plan (fun plan -> Option.map message (Fences.of_plan g.fences ~from plan))
 
 let start v (task : Core.platform_task) g =
-  let from = Vehicle_map.find_opt v g.places in
+  let sight = Vehicle_map.find_opt v g.seen in
+  let from = Option.map (fun (s : Fences.sight) -> s.place) sight in
   let parts () = Option.fold task.plan ~none:[] ~some:(Plan_room.make ~from) in
   let u : Fences.under_way =
     { vehicle = v; plan = task.name; parts = (if Fences.least_distance g.fences = None then [] else parts ()) } in
   let others = List.map (fun (_, run) -> run.plan) (Vehicle_map.bindings (Vehicle_map.remove v g.under_way)) in
-  let since = Option.fold from ~none:Fences.nowhere ~some:(Fences.beyond g.fences) in
+  let since = Option.fold sight ~none:Fences.nowhere ~some:(Fences.beyond g.fences) in
   match breach g from task with
   | Some why -> Error ("not started: " ^ why)
   | None -> (
@@ -51,16 +50,16 @@ let start v (task : Core.platform_task) g =
 (* {1 Vehicles} *)
 
 let breaking v g =
-  match Vehicle_map.find_opt v g.places, Vehicle_map.find_opt v g.under_way with
-  | Some place, Some { since; _ } -> (
-      match Fences.of_vehicle g.fences ~since place with
+  match Vehicle_map.find_opt v g.seen, Vehicle_map.find_opt v g.under_way with
+  | Some sight, Some { since; _ } -> (
+      match Fences.of_vehicle g.fences ~since sight with
       | Error why -> [ (v, "stopped: " ^ why) ]
       | Ok _ ->
-        let place_of w _ = Vehicle_map.find_opt w g.places in
+        let place_of w _ = Option.map (fun (s : Fences.sight) -> s.place) (Vehicle_map.find_opt w g.seen) in
         let others = Vehicle_map.bindings (Vehicle_map.filter_map place_of (Vehicle_map.remove v g.under_way)) in
         (* The same whichever of the two was heard of last. *)
         let in_order vs = List.sort (fun (v, _) (w, _) -> String.compare v w) vs in
-        let with_v other = Fences.too_near g.fences (in_order [ (v, place); other ]) in
+        let with_v other = Fences.too_near g.fences (in_order [ (v, sight.place); other ]) in
         let add found (v, w, why) =
           let one found v = if List.mem_assoc v found then found else (v, "stopped: " ^ why) :: found in
           one (one found v) w

@@ -9,7 +9,7 @@ val make : Fences.t -> t
 (** Nothing is known of any vehicle. *)
 
 val watches : t -> bool
-(** Whether positions matter while plans run. *)
+(** Whether it matters where vehicles are while plans run: unless there are no fences. *)
 
 val see : World.vehicle_state -> t -> t
 (** Where that vehicle is now. *)

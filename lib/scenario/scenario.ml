@@ -81,6 +81,7 @@ let states s =
   let state (v : vehicle) : World.vehicle_state =
     let connected = match silences v with (from, _) :: _ -> from > 0. | [] -> true in
     { id = v.id; kind = v.kind; payload = v.payload; position = v.position;
+      depth = (if v.position.height < 0. then Some (-.v.position.height) else None); altitude = None;
       battery = (if v.tells_battery then Some v.battery else None); speed = Some 0.;
       readings = readings s.samples v v.position ~time:0.; connected; unready = None;
       cruise = Some v.speed; drain = Some v.drain }

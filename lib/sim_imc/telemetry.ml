@@ -32,7 +32,8 @@ let estimated_state ~(reference : Position.t) (p : Position.t) ~course ~speed : 
   { Message.Estimated_state.default with
     lat = radians reference.latitude; lon = radians reference.longitude; height = reference.height;
     x = distance *. cos bearing; y = distance *. sin bearing; z = reference.height -. p.height;
-    psi; u = speed; vx = speed *. cos psi; vy = speed *. sin psi; alt = -1. }
+    psi; u = speed; vx = speed *. cos psi; vy = speed *. sin psi;
+    depth = Float.max 0. (-.p.height); alt = (if p.height > 0. then p.height else -1.) }
 
 let fuel_level share : Message.Fuel_level.t = { value = 100. *. share; confidence = 100.; opmodes = "" }
 

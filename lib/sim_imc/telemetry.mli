@@ -23,7 +23,8 @@ val estimated_state :
   speed:float ->
   Message.Estimated_state.t
 (** [estimated_state ~reference position ~course ~speed]: latitude and longitude are those of [reference], the offsets
-    lead from there to [position]. [course] is in degrees. *)
+    lead from there to [position]. [course] is in degrees. Sea and ground are at height 0;
+    an altitude is told above it only. *)
 
 val fuel_level : float -> Message.Fuel_level.t
 (** [fuel_level share] of a battery that is charged to [share], from 0 to 1. *)

@@ -36,6 +36,7 @@ let sight (s : World.vehicle_state) =
     { vehicle = s.id; kind = Some s.kind; payload = Some s.payload;
       place = Some (s.position.latitude, s.position.longitude);
       height = Some s.position.height;
+      depth = Some s.depth; altitude = Some s.altitude;
       battery = Some s.battery; speed = Some s.speed;
       readings = List.map (fun (name, x) -> (name, Some x)) s.readings; link = Some s.connected;
       unready = Some s.unready }

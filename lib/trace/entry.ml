@@ -32,6 +32,8 @@ let of_state (s : World.vehicle_state) : members =
   [ ("vehicle", `String s.id); ("type", `String s.kind); ("payload", texts s.payload) ]
   @ of_position s.position
   @ [ ("battery", Option.fold s.battery ~none:`Null ~some:Canonical.number); ("connected", `Bool s.connected) ]
+  @ Option.fold s.depth ~none:[] ~some:(fun x -> [ ("depth", Canonical.number x) ])
+  @ Option.fold s.altitude ~none:[] ~some:(fun x -> [ ("altitude", Canonical.number x) ])
   @ Option.fold s.speed ~none:[] ~some:(fun x -> [ ("speed", Canonical.number x) ])
   @ (if s.readings = [] then []
      else [ ("readings", `Assoc (List.map (fun (name, x) -> (name, Canonical.number x)) s.readings)) ])
@@ -86,14 +88,16 @@ let to_state found =
   let* payload = get (list text) "payload" found in
   let* position = to_position found in
   let* battery = get (nullable number) "battery" found in
+  let some_number json = Result.map Option.some (number json) in
+  let* depth = optional some_number ~default:None "depth" found in
+  let* altitude = optional some_number ~default:None "altitude" found in
   let* connected = get truth "connected" found in
   let* speed = optional (nullable number) ~default:None "speed" found in
   let* readings = optional to_readings ~default:[] "readings" found in
   let* unready = optional (fun json -> Result.map Option.some (text json)) ~default:None "unready" found in
-  let some_number json = Result.map Option.some (number json) in
   let* cruise = optional some_number ~default:None "cruise" found in
   let* drain = optional some_number ~default:None "drain" found in
-  Ok { World.id; kind; payload; position; battery; speed; readings; connected; unready; cruise; drain }
+  Ok { World.id; kind; payload; position; depth; altitude; battery; speed; readings; connected; unready; cruise; drain }
 
 let to_place json =
   match (json : Yojson.Safe.t) with

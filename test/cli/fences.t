@@ -210,6 +210,48 @@ that a handler may ignore. Trace and journal are those of any other run.
   $ dolphin trace check late.dol late.run
   late.run: a run, of 25 transitions in 14:41; failed: stays failed on a: stopped: a and b are 28.5 m apart, at (41.185900, -8.705400): they break fence distance 30.m (late.dol:4) by 1.5 m
 
+Depths and heights are watched as positions are, of plans that vehicles know by name too. Who comes from too deep may
+come up.
+
+  $ cat > levels.dol <<'END'
+  > fence depth 20.m
+  > fence height 100.m
+  > diver = pick { type 'UUV' }
+  > plane = pick { type 'UAV' }
+  > def tried(t) { watch t onError { e -> message e.message; ignore() } }
+  > execute tried(task('shallow')[diver])
+  > execute tried(task('deep')[diver])
+  > execute imcPlan { planName 'up'; locate 41.1852, -8.7055; z 0; goTo() }[diver]
+  > execute task('climb')[plane]
+  > END
+  $ cat > levels.fleet <<'END'
+  > vehicle 'a', { type 'UUV'; at 41.1852, -8.7055 }
+  > vehicle 'b', { type 'UAV'; at 41.1852, -8.7055; speed 20.0 }
+  > plan 'shallow', { duration 10.min; at 41.1859, -8.7054, -19 }
+  > plan 'deep', { duration 10.min; at 41.1859, -8.7054, -40 }
+  > plan 'climb', { duration 10.min; at 41.1900, -8.7054, 150 }
+  > END
+  $ dolphin exec levels.dol --journal levels.run
+     0:00  program     picks a
+     0:00  program     picks b
+     0:00  a           starts shallow
+    10:00  a           ends shallow
+    10:00  a           starts deep
+    10:27  a           fails in deep: stopped: the vehicle breaks fence depth 20.m (levels.dol:1) by 0.7 m, at (41.185563, -8.705448, -20.7 m)
+    10:27  program     says: deep failed on a: stopped: the vehicle breaks fence depth 20.m (levels.dol:1) by 0.7 m, at (41.185563, -8.705448, -20.7 m)
+    10:27  a           starts up
+    10:54  a           ends up
+    10:54  b           starts climb
+    11:12  b           fails in climb: stopped: the vehicle breaks fence height 100.m (levels.dol:2) by 1.3 m, at (41.188441, -8.705432, 101.3 m)
+    11:12  program     releases a, b
+    11:12  program     fails: climb failed on b: stopped: the vehicle breaks fence height 100.m (levels.dol:2) by 1.3 m, at (41.188441, -8.705432, 101.3 m)
+  levels.dol:9:9: error: climb failed on b: stopped: the vehicle breaks fence height 100.m (levels.dol:2) by 1.3 m, at (41.188441, -8.705432, 101.3 m)
+    9 | execute task('climb')[plane]
+      |         ^^^^^^^^^^^^^
+  [1]
+  $ dolphin trace check levels.dol levels.run
+  levels.run: a run, of 16 transitions in 11:12; failed: climb failed on b: stopped: the vehicle breaks fence height 100.m (levels.dol:2) by 1.3 m, at (41.188441, -8.705432, 101.3 m)
+
 To the explorer and to dolphin time any plan may fail where there are fences.
 
   $ fenced kept <<'END'

@@ -36,3 +36,36 @@ Fences over an adapter: what breaks one is not started; a vehicle that is seen b
   program     fails: drift failed on uav-1: stopped: the vehicle breaks fence inside quay ^ 200.m (m.dol:2)
   $ dolphin trace check m.dol m.run | sed 's/, of [^;]*;/;/; s/ by .*//'
   m.run: a run; failed: drift failed on uav-1: stopped: the vehicle breaks fence inside quay ^ 200.m (m.dol:2)
+
+Depths and heights are watched too: what an adapter tells of them, else the height above the ellipsoid.
+
+  $ cat > levels.dol <<'EOF'
+  > fence depth 20.m
+  > fence height 100.m
+  > def tried(t) { watch t onError { e -> message e.message; ignore() } }
+  > diver = pick { type 'UUV' }
+  > plane = pick { type 'UAV' }
+  > execute tried(task('dive')[diver])
+  > execute task('climb')[plane]
+  > EOF
+  $ cat > levels.fleet <<'EOF'
+  > vehicle 'uuv-1', { type 'UUV'; at 41.1850, -8.7060; speed 5.0 }
+  > vehicle 'uav-1', { type 'UAV'; at 41.1850, -8.7060; speed 20.0 }
+  > plan 'dive', { duration 10.min; at 41.1900, -8.7060, -60 }
+  > plan 'climb', { duration 10.min; at 41.2100, -8.7060, 300 }
+  > EOF
+  $ timeout 300 dolphin exec levels.dol --journal levels.run \
+  >   --platform 'dolphin sim levels.fleet --platform --speed 20' > log 2> err
+  [1]
+  $ cut -c 10- log | sed 's/ by .*//'
+  program     picks uuv-1
+  program     picks uav-1
+  uuv-1       starts dive
+  uuv-1       fails in dive: stopped: the vehicle breaks fence depth 20.m (levels.dol:1)
+  program     says: dive failed on uuv-1: stopped: the vehicle breaks fence depth 20.m (levels.dol:1)
+  uav-1       starts climb
+  uav-1       fails in climb: stopped: the vehicle breaks fence height 100.m (levels.dol:2)
+  program     releases uuv-1, uav-1
+  program     fails: climb failed on uav-1: stopped: the vehicle breaks fence height 100.m (levels.dol:2)
+  $ dolphin trace check levels.dol levels.run | sed 's/, of [^;]*;/;/; s/ by .*//'
+  levels.run: a run; failed: climb failed on uav-1: stopped: the vehicle breaks fence height 100.m (levels.dol:2)

@@ -131,6 +131,27 @@ let measurements =
         Alcotest.(check (option (float 1e-6))) "over the ground" (Some 5.) state.speed
       | sights -> Alcotest.failf "%d systems" (List.length sights))
 
+(* DUNE says -1 of what it does not know. *)
+let levels =
+  Alcotest.test_case "depths and altitudes" `Quick (fun () ->
+      let levels_of (n : Node.t) = (n.depth, n.altitude) in
+      let heard kind (depth, alt) =
+        let announce = { Message.Announce.default with sys_name = "v"; sys_type = kind } in
+        let packet time m = Packet.make ~src:0x1A ~timestamp:time m in
+        let n =
+          Node.make ~now:0. ~from:Unix.inet_addr_loopback ~request:1 (packet 3e9 (Announce announce)) announce in
+        let state = { Message.Estimated_state.default with lat = 0.7; depth; alt } in
+        levels_of (fst (Node.hear ~now:1. ~own:1 (packet (3e9 +. 1.) (Estimated_state state)) n))
+      in
+      let says name expected found =
+        Alcotest.(check (pair (option (float 0.)) (option (float 0.)))) name expected found in
+      says "what dives" (Some 12., None) (heard Uuv (12., 80.));
+      says "what floats" (Some 0., None) (heard Usv (0., 80.));
+      says "what flies" (None, Some 80.) (heard Uav (0., 80.));
+      says "unknown depth" (None, None) (heard Uuv (-1., 80.));
+      says "unknown altitude" (None, None) (heard Uav (-1., -1.));
+      says "no number" (None, None) (heard Uuv (nan, infinity)))
+
 (* {1 Spoofing} *)
 
 let spoofed =
@@ -192,4 +213,4 @@ let types =
       check "as the user says" "ROV" (kind ~types:[ ("seacon-1", "ROV") ] Uuv);
       check "another vehicle" "UUV" (kind ~types:[ ("seacon-2", "ROV") ] Uuv))
 
-let tests = ("hostile", [ mutations; valid; strange_numbers; measurements; spoofed; moved; unknown; types ])
+let tests = ("hostile", [ mutations; valid; strange_numbers; measurements; levels; spoofed; moved; unknown; types ])

@@ -131,6 +131,39 @@ let keeps_apart () =
   tells p [ "saw v2"; "failed v1 stopped"; "failed v2 stopped"; "saw v1" ];
   asks mock [ "0 telemetry true"; "2 start v1 go"; "2 start v2 go"; "3 stop v1"; "3 stop v2" ]
 
+(* Depth and height as far as they are told: a depth, an altitude, or neither. *)
+let keeps_to_limits () =
+  let limits = Fences.make [ fence (Depth 20.); fence (Height 100.) ] in
+  let here = (Mock.vehicle "v1").position in
+  let seen ?depth ?altitude time id height =
+    (time, Platform.Vehicle { (Mock.vehicle id) with position = { here with height }; depth; altitude }) in
+  let mock =
+    goes_on
+      [ seen 0. "v1" 0.; seen 1. "v1" ~depth:20. 400.; seen 2. "v1" ~depth:20.01 400.; seen 3. "v2" 0.;
+        seen 4. "v2" ~altitude:99. 400.; seen 5. "v2" ~altitude:101. 30.; seen 6. "v3" (-90.); seen 7. "v3" 100.;
+        seen 8. "v3" 101. ] in
+  let p = fenced limits mock in
+  Platform_of_mock.start p "v1" by_name;
+  Platform_of_mock.start p "v2" by_name;
+  Platform_of_mock.start p "v3" by_name;
+  tells p
+    [ "saw v1"; "saw v1"; "saw v1"; "failed v1 stopped"; "saw v2"; "saw v2"; "saw v2"; "failed v2 stopped"; "saw v3";
+      "saw v3"; "saw v3"; "failed v3 stopped" ]
+
+let lets_come_up () =
+  let limits = Fences.make [ fence (Inside (circle 100.)); fence (Depth 20.) ] in
+  let seen time id depth = (time, Platform.Vehicle { (Mock.vehicle id) with depth = Some depth }) in
+  let mock =
+    goes_on
+      [ seen 0. "v1" 25.; seen 1. "v1" 26.9; seen 2. "v1" 15.; seen 3. "v1" 20.1; seen 4. "v2" 25.; seen 5. "v2" 27.1 ]
+  in
+  let p = fenced limits mock in
+  tells p [ "saw v1" ];
+  Platform_of_mock.start p "v1" by_name;
+  tells p [ "saw v1"; "saw v1"; "saw v1"; "failed v1 stopped"; "saw v2" ];
+  Platform_of_mock.start p "v2" by_name;
+  tells p [ "saw v2"; "failed v2 stopped" ]
+
 (* Of several least distances the greatest holds. *)
 let keeps_the_greatest () =
   let least distances = Fences.least_distance (Fences.make (List.map (fun d -> fence (Distance d)) distances)) in
@@ -147,5 +180,7 @@ let suite =
     Alcotest.test_case "who breaks a fence is stopped" `Quick stops;
     Alcotest.test_case "who rests is left alone" `Quick ignores_who_rests;
     Alcotest.test_case "who is beyond a fence may come back" `Quick lets_come_back;
+    Alcotest.test_case "who goes too deep or too high is stopped" `Quick keeps_to_limits;
+    Alcotest.test_case "who is too deep may come up" `Quick lets_come_up;
     Alcotest.test_case "vehicles under way keep apart" `Quick keeps_apart;
     Alcotest.test_case "the greatest of the least distances holds" `Quick keeps_the_greatest ]

@@ -36,3 +36,40 @@ Fences over IMC: what breaks one is not started; a vehicle that is seen beyond o
   $ grep -c '"plan":"far"' log.jsonl
   0
   [1]
+
+Depths and heights are watched too: those of EstimatedState.
+
+  $ cat > levels.fleet <<'EOF'
+  > vehicle 'noptilus-1', { type 'UUV'; at 41.1850, -8.7060; speed 5.0 }
+  > vehicle 'x8-02', { type 'UAV'; at 41.1850, -8.7060; speed 20.0 }
+  > plan 'dive', { duration 10.min; at 41.1900, -8.7060, -60 }
+  > plan 'climb', { duration 10.min; at 41.2100, -8.7060, 300 }
+  > EOF
+  $ cat > levels.dol <<'EOF'
+  > fence depth 20.m
+  > fence height 100.m
+  > def tried(t) { watch t onError { e -> message e.message; ignore() } }
+  > diver = pick { type 'UUV'; timeout 1.min }
+  > plane = pick { type 'UAV'; timeout 1.min }
+  > execute tried(task('dive')[diver])
+  > execute task('climb')[plane]
+  > EOF
+  $ dolphin sim levels.fleet --imc --speed 20 --announce 0.5 --contact 0.2 --discovery-ports 21905-21909 --port 21912 \
+  >   --for 300 > vehicles.txt & vehicles=$!
+  $ until [ -s vehicles.txt ]; do sleep 0.05; done
+  $ timeout 240 dolphin exec levels.dol --imc-loopback --imc-discovery-ports 21905-21909 --journal levels.run > log 2> err
+  [1]
+  $ kill $vehicles; wait $vehicles || true
+  $ cut -c 10- log | grep -v 'a moment ago\|ready again' | sed 's/ by .*//'
+  program     picks noptilus-1
+  program     picks x8-02
+  noptilus-1  starts dive
+  noptilus-1  fails in dive: stopped: the vehicle breaks fence depth 20.m (levels.dol:1)
+  program     says: dive failed on noptilus-1: stopped: the vehicle breaks fence depth 20.m (levels.dol:1)
+  x8-02       starts climb
+  x8-02       fails in climb: stopped: the vehicle breaks fence height 100.m (levels.dol:2)
+  program     releases noptilus-1, x8-02
+  program     fails: climb failed on x8-02: stopped: the vehicle breaks fence height 100.m (levels.dol:2)
+  $ dolphin trace check levels.dol levels.run | sed 's/, of [^;]*;/;/; s/ by .*//'
+  levels.run: a run; failed: climb failed on x8-02: stopped: the vehicle breaks fence height 100.m (levels.dol:2)
+  $ grep -q '"altitude":' levels.run && grep -q '"depth":' levels.run

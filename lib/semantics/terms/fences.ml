@@ -4,8 +4,9 @@ module Location = Dolphin_syntax.Location
 type rule = Inside of Area.t | Outside of Area.t | Depth of float | Height of float | Distance of float
 type fence = { rule : rule; margin : float; text : string; at : Location.t }
 
-(* [on_ground] are the fences of the rules of [planned] and [seen], by number: with margins, and without. *)
-type t = { all : fence list; on_ground : fence array; planned : Fence.t; seen : Fence.t }
+(* [on_ground] are the fences of the rules of [planned] and [seen], by number: with margins, and without. [limits] are
+   those of depth and height. *)
+type t = { all : fence list; on_ground : fence array; limits : fence array; planned : Fence.t; seen : Fence.t }
 
 let area_rule fence : Fence.rule option =
   match fence.rule with
@@ -16,7 +17,9 @@ let area_rule fence : Fence.rule option =
 let make all =
   let on_ground = List.filter_map (fun fence -> Option.map (fun rule -> (fence, rule)) (area_rule fence)) all in
   let rules = List.map snd on_ground in
-  { all; on_ground = Array.of_list (List.map fst on_ground); planned = Fence.make rules;
+  let is_limit fence = match fence.rule with Depth _ | Height _ -> true | Inside _ | Outside _ | Distance _ -> false in
+  { all; on_ground = Array.of_list (List.map fst on_ground); limits = Array.of_list (List.filter is_limit all);
+    planned = Fence.make rules;
     seen = Fence.make (List.map (fun (rule : Fence.rule) -> { rule with margin = 0. }) rules) }
 
 let none = make []
@@ -121,19 +124,46 @@ let near fences parts others =
 
 (* {1 Vehicles} *)
 
+type sight = { place : Position.t; depth : float option; altitude : float option }
+
+(* By number: areas as in [on_ground], then limits. *)
 type beyond = (int * float) list
 
 let nowhere = []
 let leeway = 10.
-let beyond fences place = if Array.length fences.on_ground = 0 then [] else Fence.breaches_at fences.seen place
+let vertical_leeway = 2.
+let areas fences = Array.length fences.on_ground
+let numbered fences n = if n < areas fences then fences.on_ground.(n) else fences.limits.(n - areas fences)
 
-let of_vehicle fences ~since place =
-  let now = beyond fences place in
-  let is_new (rule, by) =
-    match List.assoc_opt rule since with Some before -> by > before +. leeway | None -> true in
+(* Who dives, or floats, is not above the ground. *)
+let height sight =
+  match sight.altitude, sight.depth with
+  | Some metres, _ -> Some metres
+  | None, Some _ -> None
+  | None, None -> Some sight.place.height
+
+let over_limit sight fence =
+  match fence.rule with
+  | Depth limit -> Option.map (fun metres -> metres -. limit) sight.depth
+  | Height limit -> Option.map (fun metres -> metres -. limit) (height sight)
+  | Inside _ | Outside _ | Distance _ -> None
+
+let beyond fences sight =
+  let on_ground = if areas fences = 0 then [] else Fence.breaches_at fences.seen sight.place in
+  let limit i fence =
+    match over_limit sight fence with
+    | Some by when by > Fence.tolerance -> Some (areas fences + i, by)
+    | Some _ | None -> None
+  in
+  on_ground @ List.filter_map Fun.id (Array.to_list (Array.mapi limit fences.limits))
+
+let of_vehicle fences ~since sight =
+  let now = beyond fences sight in
+  let allowed n = if n < areas fences then leeway else vertical_leeway in
+  let is_new (n, by) = match List.assoc_opt n since with Some before -> by > before +. allowed n | None -> true in
   match List.find_opt is_new now with
-  | Some (rule, by) -> Error (broken "the vehicle" fences.on_ground.(rule) by ^ at place)
-  | None -> Ok (List.filter (fun (rule, _) -> List.mem_assoc rule now) since)
+  | Some (n, by) -> Error (broken "the vehicle" (numbered fences n) by ^ at sight.place)
+  | None -> Ok (List.filter (fun (n, _) -> List.mem_assoc n now) since)
 
 type under_way = { vehicle : string; plan : string; parts : Plan_room.part list }
 

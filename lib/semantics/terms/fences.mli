@@ -62,22 +62,33 @@ val near : t -> Plan_room.part list -> Plan_room.part list -> near option
 
 (** {1 Vehicles} *)
 
-type beyond
-(** Which areas a vehicle breaks, whatever the margin, and by how many metres. *)
+(** Where a vehicle is, as far as it tells. *)
+type sight = {
+  place : Position.t;
+  depth : float option;  (** metres below the surface *)
+  altitude : float option;  (** metres above the ground, or above where it took off *)
+}
 
-val beyond : t -> Position.t -> beyond
-(** Those that a vehicle there breaks. *)
+type beyond
+(** Which areas and limits a vehicle breaks, whatever the margin, and by how many metres. *)
+
+val beyond : t -> sight -> beyond
+(** Those that a vehicle there breaks. The depth is that which it tells; the height is its altitude, or if it tells
+    neither altitude nor depth, that of its place above the ellipsoid. *)
 
 val nowhere : beyond
 (** None. *)
 
-val of_vehicle : t -> since:beyond -> Position.t -> (beyond, string) result
-(** [of_vehicle fences ~since p] is what is wrong if a vehicle under way is at [p]: it breaks an area that it did not
-    break, as [since] has it, or by {!leeway} metres more. If nothing is wrong, that which is still broken of [since].
-    Depths and heights are not looked at. *)
+val of_vehicle : t -> since:beyond -> sight -> (beyond, string) result
+(** [of_vehicle fences ~since s] is what is wrong if a vehicle under way is at [s]: it breaks an area or a limit that it
+    did not break, as [since] has it, or by {!leeway} or {!vertical_leeway} metres more. If nothing is wrong, that which
+    is still broken of [since]. *)
 
 val leeway : float
 (** 10: on its way back, a vehicle may turn. *)
+
+val vertical_leeway : float
+(** 2: so much deeper or higher it may get on its way back. *)
 
 type under_way = {
   vehicle : string;

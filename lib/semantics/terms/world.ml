@@ -13,6 +13,8 @@ type vehicle_state = {
   kind : string;
   payload : string list;
   position : Position.t;
+  depth : float option;
+  altitude : float option;
   battery : float option;
   speed : float option;
   readings : (string * float) list;

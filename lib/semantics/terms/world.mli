@@ -6,6 +6,9 @@ type vehicle_state = {
   kind : string;  (** ["UUV"], ["UAV"], ["USV"], ["ROV"], ... *)
   payload : string list;  (** the devices that it carries *)
   position : Dolphin_geo.Position.t;
+  depth : float option;  (** metres below the surface; [None]: it has not told, or is not in the water *)
+  altitude : float option;
+  (** metres above the ground, or above where it took off; [None]: it has not told, or does not fly *)
   battery : float option;  (** what is left, from 0 (empty) to 1 (full); [None]: it has not told *)
   speed : float option;  (** over the ground, in metres per second; [None]: it has not told *)
   readings : (string * float) list;  (** what it has measured last, by quantity: ["Temperature"]; in order of these *)

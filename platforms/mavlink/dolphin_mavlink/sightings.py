@@ -29,6 +29,8 @@ class Sightings:
         if vehicle.place is not None:
             height = (vehicle.altitude or 0.0) + (vehicle.geoid or 0.0)
             report.update(latitude=vehicle.place[0], longitude=vehicle.place[1], height=round(height, 2))
+            above = round(vehicle.relative, 2)
+            report.update({"depth": 0.0 - above} if vehicle.frame == "sub" else {"altitude": above})
         report.update(battery=vehicle.battery, speed=vehicle.speed)
         changed = {k: x for k, x in report.items() if k not in before or before[k] != x}
         if not changed:

@@ -55,6 +55,7 @@ class Vehicle:
         self.heartbeats = 0  # how many there were
         self.place = None  # (latitude, longitude)
         self.altitude = None  # above mean sea level
+        self.relative = None  # above home; of what dives above the surface
         self.geoid = None  # how far mean sea level is above the ellipsoid, where it says so
         self.battery, self.speed, self.home, self.landed = None, None, None, None
         self.current, self.total, self.mission_state = None, None, None
@@ -108,7 +109,7 @@ class Vehicle:
     def _global_position_int(self, now, message):
         if (message.lat, message.lon) != (0, 0) and abs(message.lat) <= 900000000 and abs(message.lon) <= 1800000000:
             self.place = message.lat / 1e7, message.lon / 1e7
-            self.altitude = message.alt / 1000
+            self.altitude, self.relative = message.alt / 1000, message.relative_alt / 1000
             self.speed = math.hypot(message.vx, message.vy) / 100
 
     def _gps_raw_int(self, now, message):

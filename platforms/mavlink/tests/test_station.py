@@ -40,6 +40,15 @@ class Protocol(Case):
             self.assertEqual(seen["battery"], 0.9)
         self.assertEqual(wires.vehicle_said("mav-1")["payload"], ["DVL", "camera"])
 
+    def test_depths_and_altitudes(self):
+        vehicles = [SimVehicle(1, "copter"), SimVehicle(2, "sub")]
+        vehicles[0].altitude, vehicles[1].altitude = 43.5, -12.5
+        wires = Network(vehicles)
+        wires.run(3)
+        up, down = wires.vehicle_said("mav-1"), wires.vehicle_said("mav-2")
+        self.assertEqual((up["altitude"], up.get("depth")), (43.5, None))
+        self.assertEqual((down.get("altitude"), down["depth"]), (None, 12.5))
+
     def test_an_unknown_battery_is_unknown(self):
         wires = Network([SimVehicle(1, battery=-1)])
         wires.run(3)

@@ -78,6 +78,12 @@ let shortened widest text =
 
 let width_of_all texts = List.fold_left (fun width text -> max width (Phrase.width text)) 0 texts
 
+(* Below the row, beside heads of [number] characters. *)
+let assumptions ~number row =
+  let assumed a =
+    String.make (number + 3) ' ' ^ "if " ^ Phrase.one_line (Format.asprintf "%a" World.pp_assumption a) in
+  List.map assumed row.assumed
+
 (* As a table whose cells have at most [widest] characters, with a last column of [words] characters, if any; each row
    has its text of [heads]. *)
 let table ~heads ~widest ~words rows =
@@ -105,17 +111,26 @@ let table ~heads ~widest ~words rows =
   in
   let body n row =
     let cell actor = if actor = row.actor then shortened row.text else "" in
-    let assumed a =
-      String.make (number + 3) ' ' ^ "if " ^ Phrase.one_line (Format.asprintf "%a" World.pp_assumption a)
-    in
     let head = String.make (number - Phrase.width n) ' ' ^ n in
-    print head (List.map cell actors) (place row) row.words :: List.map assumed row.assumed
+    print head (List.map cell actors) (place row) row.words :: assumptions ~number row
   in
   print "" actors "where" "in words" :: List.concat (List.map2 body heads rows)
 
 let least_words = 24
 let narrowest = 12
 let width = width_of_all
+
+(* Who it is stands in a column of its own, where columns for all do not fit. *)
+let listing ~heads ~columns rows =
+  let number = width heads in
+  let cells widest head row =
+    [ String.make (number - Phrase.width head) ' ' ^ head ^ " "; row.actor; shortened widest row.text; place row ] in
+  let table widest = Text_table.lines [ ""; "who"; "what"; "where" ] (List.map2 (cells widest) heads rows) in
+  let rec fitting widest =
+    if widest <= narrowest || width (table widest) <= columns then widest else fitting (widest - 1) in
+  match table (fitting widest) with
+  | [] -> []
+  | names :: lines -> names :: List.concat (List.map2 (fun line row -> line :: assumptions ~number row) lines rows)
 
 (* What the log says is not known to the reader of a narrow table, but names of vehicles and tasks must be. *)
 let lines ?(first = 1) ?heads ?columns ~source program run =
@@ -138,4 +153,5 @@ let lines ?(first = 1) ?heads ?columns ~source program run =
     let widest = fitting widest in
     let has_words = List.exists (fun row -> row.words <> "") rows in
     let left = columns - width widest - 2 in
-    table ~widest ~words:(if has_words && left >= least_words then Some left else None) rows
+    if left < -2 then listing ~heads ~columns rows
+    else table ~widest ~words:(if has_words && left >= least_words then Some left else None) rows

@@ -34,4 +34,4 @@ val lines :
     row. Rows are numbered from [first], by default 1, or have [heads] instead, a text for each transition; of long
     texts the beginning is shown. What a transition takes for granted of an open world stands below it. The table is
     made to fit into [columns], if it is given: with what the log says of guards and timers in a last column, if there
-    is room for it. *)
+    is room for it; if the columns of all do not fit, who it is stands in each row instead. *)

@@ -88,7 +88,8 @@ In a wide terminal the log's words stand beside what conditions and timers do. I
   > execute action { post position: 'north of the second buoy' } | condition { !poll(position: _) } | condition { poll(position: _) || false } | condition { poll(never: 1) }
   > END
   $ COLUMNS=60 explore narrow.dol | tail -n +8
-  no deadlock: a shortest run in which nothing can happen any more, and the program has not ended
+  no deadlock: a shortest run in which nothing can happen
+    any more, and the program has not ended
       program                                   where
   1   pick(1 vehicle of type 'UUV' with pay...  narrow.dol:1
   2   picks noptilus-1                          narrow.dol:1

@@ -456,6 +456,31 @@ Who leaves by the fleet, or loses a link, stays here, and is told. Who joins doe
   8:30                     ends survey    joins.dol:2
   8:30   end
   its end depends on: b joins (1:30), then joins.dol:2:9: survey on b (7:00)
+
+In a narrow terminal rows of tables go on in further lines, and a run is a list.
+
+  $ COLUMNS=44 dolphin time joins.dol --fleet late.fleet 2> /dev/null | sed 's/, [0-9.]* s, [0-9]* MiB//'
+  completed: 5:30 at the earliest, 8:30 at
+    the latest
+  task    vehicle  starts  ends
+    where
+  survey  b        1:30    5:30 to 8:30
+    joins.dol:2
+  vehicle  least battery
+  b        98.7 %
+  18 states, depth 7
+  
+  a run that ends last:
+         who      what             where
+  0:00   program  pick(3 vehic...  joins.dol:1
+  1:30   program  picks a, c, b    joins.dol:1
+         if b comes late
+  1:30   program  execute          joins.dol:2
+  1:30   b        starts survey    joins.dol:2
+  8:30   b        ends survey      joins.dol:2
+  8:30   program  end
+  its end depends on: b joins (1:30), then
+    joins.dol:2:9: survey on b (7:00)
   $ dolphin explore late.dol --faults loss 2>&1 > /dev/null
   dolphin: by the fleet these join late: b; here they are there from the start, unless --faults has join
   [1]

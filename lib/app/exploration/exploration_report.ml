@@ -48,9 +48,11 @@ let unanswered (run : Search.run) =
   | _ -> None
 
 let print_run program property (run : Search.run) =
-  Format.printf "@.%s: a%s run in which %s@." (Property.name property)
-    (if run.shortest then " shortest" else "")
-    (Property.question property);
+  print_newline ();
+  Run_columns.say
+    (Printf.sprintf "%s: a%s run in which %s" (Property.name property)
+       (if run.shortest then " shortest" else "")
+       (Property.question property));
   Run_columns.print program ~steps:run.steps ~cycle:run.cycle;
   if property = Property.No_deadlock then Run_columns.print_waiting program run.steps;
   let tell call =

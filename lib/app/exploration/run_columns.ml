@@ -7,6 +7,11 @@ let columns () =
   if Unix.isatty Unix.stdout then Some (snd (Dolphin_display.Terminal.size Unix.stdout))
   else Option.bind (Sys.getenv_opt "COLUMNS") int_of_string_opt
 
+let say text =
+  match columns () with
+  | Some columns -> List.iter print_endline (Dolphin_display.Paragraph.hanging ~columns text)
+  | None -> print_endline text
+
 let last steps cycle = match List.rev (steps @ cycle) with [] -> None | (t : Transition.t) :: _ -> Some t.next
 
 let tuples steps cycle =

@@ -9,6 +9,9 @@ val print : Program_file.t -> steps:Transition.t list -> cycle:Transition.t list
 val columns : unit -> int option
 (** How many columns there are: of the terminal on standard output, or else of [COLUMNS]. *)
 
+val say : string -> unit
+(** [say text] prints [text] in lines of at most {!columns}, a single one if these are not known. *)
+
 val text : Program_file.t -> steps:Transition.t list -> cycle:Transition.t list -> string
 (** What {!print} prints, in as many columns as it takes. *)
 

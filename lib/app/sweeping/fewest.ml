@@ -104,17 +104,18 @@ let print_run ?deadline program = function
   | Time (_, o) -> Time_report.print_run ?deadline program o
   | Bound _ -> ()
 
+let say format = Printf.ksprintf Run_columns.say format
 let names = function [] -> "no vehicles" | vehicles -> String.concat ", " vehicles
 
 let print ?deadline program (fleet : Fleet_file.t) (found, looked_at) =
   let all = List.length fleet.scenario.vehicles in
   let fleets = Dolphin_trace.Phrase.count looked_at "fleet" in
-  let tell_unsure = List.iter (fun vs -> Printf.printf "inconclusive: %s\n" (names vs)) in
+  let tell_unsure = List.iter (fun vs -> say "inconclusive: %s" (names vs)) in
   match found with
   | Least { vehicles; outcome; without; unsure } ->
-    Printf.printf "fewest: %d of %d vehicles: %s\n" (List.length vehicles) all (names vehicles);
+    say "fewest: %d of %d vehicles: %s" (List.length vehicles) all (names vehicles);
     tell_unsure unsure;
-    List.iter (fun (v, trouble) -> Printf.printf "without %s: %s\n" v (told trouble)) without;
+    List.iter (fun (v, trouble) -> say "without %s: %s" v (told trouble)) without;
     Printf.printf "%s looked at\n" fleets;
     let first = List.find_opt (fun (_, trouble) -> not (is_open trouble)) without in
     Option.iter (fun (v, trouble) -> Printf.printf "\nwithout %s:" v; print_run ?deadline program trouble) first;
@@ -124,7 +125,8 @@ let print ?deadline program (fleet : Fleet_file.t) (found, looked_at) =
     let is_sure = verdict found = Violated in
     Printf.printf "no fleet of these %d vehicles %s\n" all (if is_sure then "will do" else "is known to do");
     tell_unsure unsure;
-    Printf.printf "with all of them: %s\n%s looked at\n" (told trouble) fleets;
+    say "with all of them: %s" (told trouble);
+    say "%s looked at" fleets;
     print_run ?deadline program trouble
   | Interrupted n ->
     Printf.printf "interrupted: of fewer than %s none is known to do; %s looked at\n"

@@ -72,7 +72,8 @@ let name s row = Printf.sprintf "%s=%d" s.parameter row.value
 
 let print s ~heads cells rows =
   let line row = string_of_int row.value :: cells row in
-  List.iter print_endline (Text_table.lines (s.parameter :: heads) (List.map line rows));
+  let columns = Run_columns.columns () in
+  List.iter print_endline (Text_table.lines ?columns (s.parameter :: heads) (List.map line rows));
   if List.length rows < List.length s.values then print_endline "interrupted: the other values were not asked for";
   match fewest rows with
   | Some { row; is_least = true; _ } -> Printf.printf "fewest: %s\n" (name s row)

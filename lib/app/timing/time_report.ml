@@ -4,6 +4,8 @@ module Timing = Dolphin_time.Timing
 module Columns = Dolphin_display.Columns
 module Text_table = Dolphin_display.Text_table
 
+let say format = Printf.ksprintf Run_columns.say format
+
 let time ms = Format.asprintf "%a" Bounds.pp_time ms
 
 (* {1 Names} *)
@@ -44,7 +46,7 @@ let window (w : Timing.window) =
 
 let print_ending (e, (w : Timing.window)) =
   let latest = match w.latest with At n -> time n ^ " at the latest" | Unbounded -> "no latest time" in
-  Printf.printf "%s: %s at the earliest, %s\n" (Timed_system.ending_name e) (time w.earliest) latest
+  say "%s: %s at the earliest, %s" (Timed_system.ending_name e) (time w.earliest) latest
 
 let slack : Slack.t option -> string = function Some Any -> "any" | Some (By ms) -> time ms | None -> "unknown"
 
@@ -59,7 +61,7 @@ let print_tasks ?slacks (p : Program_file.t) (o : Timing.outcome) =
   let slack = if slacks = None then [] else [ "slack" ] in
   if o.tasks <> [] then
     List.iter print_endline
-      (Text_table.lines
+      (Text_table.lines ?columns:(Run_columns.columns ())
          (("task" :: "vehicle" :: List.map Timed_system.moment_name used) @ slack @ [ "where" ])
          (List.map row o.tasks))
 
@@ -78,7 +80,7 @@ let print_columns (p : Program_file.t) (run : Timing.run) =
 let print_chain p (run : Timing.run) =
   let link (l : Schedule.link) = Printf.sprintf "%s (%s)" (item p l.pending) (time l.lasts) in
   if run.chain <> [] then
-    Printf.printf "its end depends on: %s\n" (String.concat ", then " (List.map link run.chain))
+    say "its end depends on: %s" (String.concat ", then " (List.map link run.chain))
 
 (* Where a run goes round: in endless [repeat]s of a task, or through the script. *)
 let goes_round p (run : Timing.run) =
@@ -144,7 +146,7 @@ let print_run ?deadline p (o : Timing.outcome) =
     match why with
     | Endless `Stuck -> Run_columns.print_waiting p run.steps
     | Late | Last -> print_chain p run
-    | Endless (`Cycle | `In_no_time) -> Option.iter (Printf.printf "it goes round in %s\n") (goes_round p run)
+    | Endless (`Cycle | `In_no_time) -> Option.iter (say "it goes round in %s") (goes_round p run)
     | Missed | Empty _ -> ()
   in
   Option.iter print (shown o)
@@ -172,10 +174,10 @@ let print_within p (o : Timing.outcome) (site, missed) =
     | None when o.stopped = None -> "kept"
     | None -> "inconclusive"
   in
-  Printf.printf "%s: within: %s\n" (Option.value (Program_file.at p site) ~default:"") verdict
+  say "%s: within: %s" (Option.value (Program_file.at p site) ~default:"") verdict
 
 let print_unknown p (o : Timing.outcome) =
-  List.iter (fun u -> Printf.printf "nobody knows how long it takes: %s%s\n" (item p u) (hint u)) o.unknown
+  List.iter (fun u -> say "nobody knows how long it takes: %s%s" (item p u) (hint u)) o.unknown
 
 (* To a tenth of a percent, rounded down: never more than there is. *)
 let share x = Printf.sprintf "%g %%" (Float.floor ((x *. 1000.) +. 1e-6) /. 10.)
@@ -192,8 +194,9 @@ let battery (b : Timing.battery) =
 
 let print_batteries (o : Timing.outcome) =
   let row (b : Timing.battery) = [ b.vehicle; battery b ] in
+  let heads = [ "vehicle"; "least battery" ] in
   if o.batteries <> [] then
-    List.iter print_endline (Text_table.lines ([ "vehicle"; "least battery" ]) (List.map row o.batteries))
+    List.iter print_endline (Text_table.lines ?columns:(Run_columns.columns ()) heads (List.map row o.batteries))
 
 let print_apart (a : Timing.apart) =
   let verdict = Timing.judge_apart a in
@@ -204,12 +207,13 @@ let print_apart (a : Timing.apart) =
     | Inconclusive, None -> ", plans run side by side, nobody knows how near"
     | Holds, _ -> ""
   in
-  Printf.printf "%s: %s%s\n" a.fence (Dolphin_checker.Verdict.name verdict) why
+  say "%s: %s%s" a.fence (Dolphin_checker.Verdict.name verdict) why
 
 let print ?deadline ?slacks p (o : Timing.outcome) =
   (match o.stopped with
    | Some bound -> 
-     Format.printf "inconclusive: %a; times are of the runs until then@." Dolphin_checker.Limits.pp_bound bound
+     Run_columns.say
+       (Format.asprintf "inconclusive: %a; times are of the runs until then" Dolphin_checker.Limits.pp_bound bound)
    | None -> ());
   List.iter print_ending o.endings;
   if o.endings = [] && o.stopped = None then print_endline "no run ends";

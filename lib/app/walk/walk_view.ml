@@ -8,25 +8,7 @@ type t = { program : Program_file.t; columns : int }
 
 (* {1 Lines} *)
 
-let narrowest = 16
-
-(* The lines that [words] make, each of at most [room] characters. *)
-let rec fill room line = function
-  | [] -> if line = "" then [] else [ line ]
-  | word :: rest when Phrase.width word > room ->
-    let first, left = Phrase.split room word in
-    if line = "" then first :: fill room "" (left :: rest) else line :: fill room "" (word :: rest)
-  | word :: rest ->
-    let longer = if line = "" then word else line ^ " " ^ word in
-    if Phrase.width longer <= room then fill room longer rest else line :: fill room word rest
-
-let wrapped ~columns ~head text =
-  let room = max narrowest (columns - Phrase.width head) in
-  let words = List.filter (fun word -> word <> "") (String.split_on_char ' ' (Phrase.one_line text)) in
-  match fill room "" words with
-  | [] -> [ head ]
-  | first :: rest -> (head ^ first) :: List.map (fun line -> String.make (Phrase.width head) ' ' ^ line) rest
-
+let wrapped = Dolphin_display.Paragraph.lines
 let item v name text = wrapped ~columns:v.columns ~head:(Phrase.pad 10 name) text
 let item_unless_empty v name text = if text = "" then [] else item v name text
 let listed = function [] -> "-" | items -> String.concat ", " items

@@ -9,16 +9,15 @@ let format_conv =
   let parse text =
     match List.assoc_opt (String.lowercase_ascii text) Map_format.all with
     | Some format -> Ok format
-    | None ->
-      let why = if String.lowercase_ascii text = "mcap" then ": no library for MCAP comes with this system" else "" in
-      Error (`Msg (Printf.sprintf "'%s' is none of the formats %s%s" text names why))
+    | None -> Error (`Msg (Printf.sprintf "'%s' is none of the formats %s" text names))
   in
   let print ppf format = Format.pp_print_string ppf (fst (List.find (fun (_, f) -> f = format) Map_format.all)) in
   Arg.conv ~docv:"FORMAT" (parse, print)
 
 let term =
   let format =
-    let doc = "Write $(docv): $(b,csv), $(b,geojson), $(b,kml) or $(b,gpx). By default, what $(i,FILE) ends in." in
+    let doc =
+      "Write $(docv): $(b,csv), $(b,geojson), $(b,kml), $(b,gpx) or $(b,mcap). By default, what $(i,FILE) ends in." in
     Arg.(value & opt (some format_conv) None & info [ "to" ] ~docv:"FORMAT" ~doc)
   in
   let path =
@@ -39,4 +38,6 @@ let man =
   `P "Positions are degrees and metres above the WGS 84 ellipsoid, times are UTC. $(b,geojson) is RFC 7946, with the \
       times of tracks as $(i,coordTimes). $(b,kml) has tracks as $(i,gx:MultiTrack), drawn on the ground. $(b,gpx) \
       has points as way points, plans as routes, tracks as tracks. $(b,csv) has a row for each position, as of RFC \
-      4180. QGIS, GDAL, Google Earth and spreadsheets read them."
+      4180. QGIS, GDAL, Google Earth and spreadsheets read them. $(b,mcap) is a recording for Foxglove: of each \
+      vehicle its positions, $(i,foxglove.LocationFix), its battery and task, and its planned ways, \
+      $(i,foxglove.GeoJSON); and what happened, $(i,foxglove.Log)."

@@ -1,6 +1,6 @@
-type t = Csv | Geojson | Kml | Gpx
+type t = Csv | Geojson | Kml | Gpx | Mcap
 
-let all = [ ("csv", Csv); ("geojson", Geojson); ("kml", Kml); ("gpx", Gpx) ]
+let all = [ ("csv", Csv); ("geojson", Geojson); ("kml", Kml); ("gpx", Gpx); ("mcap", Mcap) ]
 
 let of_path path =
   match String.lowercase_ascii (Filename.extension path) with

@@ -111,9 +111,9 @@ assert "left out, since vehicles know their way and the program does not: by, na
 
 # What cannot be written.
 for arguments, words in [
-    (("trace", "export", run), "--to FORMAT or -o FILE says what to write: csv, geojson, kml, gpx"),
-    (("trace", "export", run, "-o", folder / "run.txt"), "ends in none of the formats csv, geojson, kml, gpx"),
-    (("trace", "export", run, "--to", "mcap"), "no library for MCAP comes with this system"),
+    (("trace", "export", run), "--to FORMAT or -o FILE says what to write: csv, geojson, kml, gpx, mcap"),
+    (("trace", "export", run, "-o", folder / "run.txt"), "ends in none of the formats csv, geojson, kml, gpx, mcap"),
+    (("trace", "export", run, "--to", "bag"), "'bag' is none of the formats csv, geojson, kml, gpx, mcap"),
     (("plan", "export", here / "survey.dol", "nothing", "--to", "csv"), "no vehicle is given a plan 'nothing'"),
     (("plan", "export", here / "survey.dol", "by, name", "--to", "csv"), "nothing here has a place on a map"),
     (("plan",), "required argument PROG is missing"),

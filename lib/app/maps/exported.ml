@@ -9,6 +9,7 @@ type t = {
   features : Feature.t list;
   columns : string list;
   rows : Feature.property list list;
+  messages : Dolphin_maps.Mcap_file.message list Lazy.t;
 }
 
 let coordinates (p : Position.t) : Feature.property list =
@@ -48,7 +49,7 @@ let starts ~started (v : Summary.vehicle) =
 let run_columns = [ "time"; "utc"; "vehicle"; "type"; "latitude"; "longitude"; "height"; "battery"; "task" ]
 
 let run_rows ~started (v : Summary.vehicle) =
-  let row (s : Summary.sample) task =
+  let row ((s : Summary.sample), task) =
     let task : Feature.property = Text (match task with Some (t : Summary.task) -> t.plan | None -> "") in
     let battery : Feature.property =
       match s.battery with Some share -> Number (Map_text.rounded 6 share) | None -> Text "" in
@@ -56,14 +57,7 @@ let run_rows ~started (v : Summary.vehicle) =
     let time : Feature.property list = [ Number (Map_text.rounded 3 s.time); Text (Feature.utc (started +. s.time)) ] in
     (s.time, time @ vehicle @ coordinates s.position @ [ battery; task ])
   in
-  let rec walk rows (samples : Summary.sample list) (tasks : Summary.task list) =
-    match samples, tasks with
-    | [], _ -> List.rev rows
-    | s :: _, t :: tasks when t.until <= s.time && (t.until < s.time || tasks <> []) -> walk rows samples tasks
-    | s :: samples, t :: _ when t.from <= s.time -> walk (row s (Some t) :: rows) samples tasks
-    | s :: samples, tasks -> walk (row s None :: rows) samples tasks
-  in
-  walk [] v.samples v.tasks
+  List.rev (List.rev_map row (Summary.working v))
 
 let of_run (run : Summary.t) =
   let started = Option.bind run.header (fun h -> Header.of_utc h.started) |> Option.value ~default:0. in
@@ -72,7 +66,8 @@ let of_run (run : Summary.t) =
     features =
       List.filter_map (track ~started) run.vehicles @ List.concat_map (starts ~started) run.vehicles;
     columns = run_columns;
-    rows = List.rev (List.rev_map snd (List.stable_sort (fun (a, _) (b, _) -> Float.compare a b) rows)) }
+    rows = List.rev (List.rev_map snd (List.stable_sort (fun (a, _) (b, _) -> Float.compare a b) rows));
+    messages = lazy (Recorded.of_run ~started run) }
 
 (* {1 Plans} *)
 
@@ -109,7 +104,8 @@ let of_plans ~title found =
   { title;
     features = List.concat_map (fun (name, legs) -> plan_features name legs) ways;
     columns = plan_columns;
-    rows = List.concat_map (fun (name, legs) -> plan_rows name legs) ways }
+    rows = List.concat_map (fun (name, legs) -> plan_rows name legs) ways;
+    messages = lazy (Recorded.of_plans (List.map (fun (name, legs) -> (name, plan_features name legs)) ways)) }
 
 (* {1 Writing} *)
 
@@ -119,6 +115,7 @@ let to_string (format : Dolphin_maps.Map_format.t) map =
   | Geojson -> Map_text.geojson map.features
   | Kml -> Map_text.kml ~title:map.title map.features
   | Gpx -> Map_text.gpx ~title:map.title map.features
+  | Mcap -> Dolphin_maps.Mcap_file.to_string (Lazy.force map.messages)
 
 let write format path map =
   if map.features = [] then Error (Error.Bad_input (map.title ^ ": nothing here has a place on a map"))

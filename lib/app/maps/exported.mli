@@ -5,6 +5,7 @@ type t = {
   features : Dolphin_maps.Feature.t list;
   columns : string list;  (** of the table *)
   rows : Dolphin_maps.Feature.property list list;
+  messages : Dolphin_maps.Mcap_file.message list Lazy.t;  (** as {!Recorded} has them *)
 }
 
 val of_run : Dolphin_trace.Summary.t -> t

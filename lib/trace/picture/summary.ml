@@ -217,6 +217,16 @@ let runs v =
   in
   List.rev_map List.rev (List.fold_left add [] v.samples)
 
+let working v =
+  let rec walk found samples (tasks : task list) =
+    match samples, tasks with
+    | [], _ -> List.rev found
+    | s :: _, t :: tasks when t.until <= s.time && (t.until < s.time || tasks <> []) -> walk found samples tasks
+    | s :: samples, t :: _ when t.from <= s.time -> walk ((s, Some t) :: found) samples tasks
+    | s :: samples, tasks -> walk ((s, None) :: found) samples tasks
+  in
+  walk [] v.samples v.tasks
+
 let is_invented t (task : task) =
   match t.header, task.way with
   | Some { platform = "sim"; _ }, Some By_name -> true

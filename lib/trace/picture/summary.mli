@@ -73,6 +73,9 @@ val moment : t -> float -> string
 val runs : vehicle -> sample list list
 (** Its samples, cut where the vehicle had no link in between. *)
 
+val working : vehicle -> (sample * task option) list
+(** Its samples, each with the task that it ran then. *)
+
 val is_invented : t -> task -> bool
 (** Whether the vehicle's way is the simulator's invention: it does not know the plan, only its name. *)
 

@@ -325,6 +325,19 @@ let test_omitted () =
   near "bits" (1. -. ((1. -. (1. /. bits)) ** (3. *. float_of_int s.states))) s.filled;
   Alcotest.(check (float 1e-6)) "some, for sure" 1. s.omission
 
+(* States are told apart by few and small numbers: no two of them have one hash. *)
+let test_hashes () =
+  let t = Bitstate.create ~bytes:1 and seen = Hashtbl.create 5_000 in
+  let rec longer numbers length =
+    Bitstate.begin_state t;
+    List.iter (Bitstate.add t) (List.rev numbers);
+    let hash = Bitstate.hash t in
+    if Hashtbl.mem seen hash then Alcotest.fail "two states have one hash";
+    Hashtbl.add seen hash ();
+    if length < 4 then List.iter (fun n -> longer (n :: numbers) (length + 1)) (List.init 8 Fun.id)
+  in
+  longer [] 0
+
 (* Of few states, the chance that one is left out is the sum over all of them. *)
 let test_omission () =
   let t = Bitstate.create ~bytes:1_000 and expected = ref 0. in
@@ -408,7 +421,7 @@ let () =
       ( "bitstate hashing",
         [ case "many bits" test_hashed; case "cycles" test_hashed_cycle; case "reached" test_hashed_reached;
           case "bounds" test_hashed_bounds; case "what is left out" test_omitted;
-          case "the chance that any is" test_omission ] );
+          case "the chance that any is" test_omission; case "hashes of small numbers" test_hashes ] );
       ( "formulas",
         [ case "F three" (test_holds (counter ()) "F three"); case "F G !three" (test_holds (counter ()) "F G !three");
           case "three or not" (test_holds (counter ()) "G (three | !three)");

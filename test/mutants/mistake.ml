@@ -299,6 +299,7 @@ let bitstate =
     [
       ("what is left out is not counted", {|t.omitted +. (p /. (1. -. p))|}, {|t.omitted +. (0. *. p)|});
       ("one bit tells a state", {|number = hashes || (is_set|}, {|number = 1 || (is_set|});
+      ("hashes begin with a small number", {|t.first <- 0x2D35_8DCC_AA6C_78A5|}, {|t.first <- 1|});
     ]
   @ in_file "lib/checker/search/trail.ml" ~noticed_by:"checker/test_search"
     [ ("the path keeps what was left", {|entry.depth >= depth ->|}, {|entry.depth > depth ->|}) ]

@@ -19,7 +19,7 @@ let contradiction (s : Run.settings) ~sim ~follow ~resumed ~changed =
     follow <> None
     && (on_network || s.speed <> None || s.answers <> [] || s.supplier <> None || journal <> None
         || resumed <> None)
-  then Some "a recorded run (--follow) goes with its program, a fleet and --draw, and with no other options"
+  then Some "a recorded run (--follow) goes with its program, a fleet, --draw and --layer, and with no other options"
   else if changed && resumed = None then Some "--force-prefix goes with --resume"
   else if journal = Some "-" then
     Some "standard output has the log, and no journal beside it: name a file (./- for one that is called so)"
@@ -103,8 +103,19 @@ let sample (s : Run.settings) program fleet (sampling : Sampling_options.t) =
   let* () = Option.fold drawing ~none:(Ok ()) ~some:Drawing.check in
   Sampling_options.run sampling ~drawing ~seed:s.seed ~answers:s.answers program fleet
 
+(* Layers lie below the ways of one run. *)
+let drawing_over ~sampling layers drawing =
+  match layers, drawing with
+  | [], _ -> Ok drawing
+  | _ :: _, None -> Error (Error.Bad_input "--layer goes with --draw: it is a map below the ways of the run")
+  | _ :: _, Some _ when sampling <> None ->
+    Error (Error.Bad_input "--layer does not go with --runs or --until: they draw when runs are over, and no ways")
+  | layers, Some drawing ->
+    let* layers = Dolphin_results.Results.map Layer_file.read layers in
+    Ok (Some (Drawing.over layers drawing))
+
 let run () show path set sim fleet network adapters definition speed seed answers supplier supplier_timeout journal keep
-    drawing recorded resumed changed no_socket sampling =
+    drawing layers recorded resumed changed no_socket sampling =
   (* [--sim=FLEET] is a longer name for [--fleet FLEET]. *)
   let named = match fleet, sim with Some _, _ -> fleet | None, (None | Some "") -> None | None, Some _ -> sim in
   let settings : Run.settings =
@@ -113,7 +124,9 @@ let run () show path set sim fleet network adapters definition speed seed answer
   in
   let is_simulated = Run.is_simulated settings in
   Report.result
-    (let* program = Program_file.load_recorded ~set ~recorded:(settings_before ~follow:recorded ~resumed) path in
+    (let* drawing = drawing_over ~sampling layers drawing in
+     let settings = { settings with recording = { settings.recording with drawing } } in
+     let* program = Program_file.load_recorded ~set ~recorded:(settings_before ~follow:recorded ~resumed) path in
      let* fleet = if resumed = None then fleet_of ~path ~sim ~named ~is_simulated else Ok Fleet_file.nobody in
      let* program = Program_file.within fleet program in
      let* () =
@@ -295,7 +308,7 @@ let man =
     `P "With tasks from a script, which has ten seconds for each reply:";
     `Pre "  $(mname) $(tname) examples/supplier.dol \\\\\n    --supplier examples/supplier.py --supplier-timeout 10";
     `P "With a journal of the run, and a picture of it:";
-    `Pre "  $(mname) $(tname) mission.dol --journal mission.run --draw mission.svg";
+    `Pre "  $(mname) $(tname) mission.dol --journal mission.run --draw mission.svg --layer coast.geojson";
     `P "How long ten thousand runs take; and as many as it takes to know how often one completes:";
     `Pre "  $(mname) $(tname) examples/rendezvous.dol --runs 10000\n  $(mname) $(tname) mission.dol --until 0.01";
     `P "Resuming it after the console was killed:";
@@ -311,4 +324,5 @@ let command =
     Term.(
       const run $ Verbosity.setup $ show $ Options.program $ Options.set $ sim $ fleet $ Imc_options.chosen
       $ Platform_options.adapters $ Imc_options.definition $ speed $ seed $ answers $ supplier
-      $ supplier_timeout $ journal $ keep $ drawing $ follow $ resumed $ changed $ no_socket $ Sampling_options.wanted)
+      $ supplier_timeout $ journal $ keep $ drawing $ Options.layers $ follow $ resumed $ changed $ no_socket
+      $ Sampling_options.wanted)

@@ -30,6 +30,16 @@ let set_range =
         each of these, and there is a table, the least value for which all holds, and a run that breaks it with one \
         less.")
 
+let layers =
+  let doc =
+    Printf.sprintf
+      "Draw what the map $(docv) has below the ways: a coast, an area of work. As for $(b,map) of programs, it is \
+       GeoJSON, KML, KMZ, GPX, a plan of QGroundControl or a mission of Neptus (%s). The option may be given several \
+       times."
+      (String.concat ", " Dolphin_maps.Map_file.formats)
+  in
+  Arg.(value & opt_all string [] & info [ "layer" ] ~docv:"FILE" ~doc)
+
 let drawing =
   let parse path = Result.map_error (fun why -> `Msg why) (Dolphin_app.Drawing.of_path path) in
   Arg.conv ~docv:"FILE" (parse, fun ppf d -> Format.pp_print_string ppf (Dolphin_app.Drawing.path d))

@@ -20,6 +20,9 @@ val whole : docv:string -> string -> int Arg.conv
 val drawing : Dolphin_app.Drawing.t Arg.conv
 (** The name of a picture. *)
 
+val layers : string list Term.t
+(** [--layer]: the maps that pictures have below the ways of vehicles. *)
+
 val number : docv:string -> string -> (float -> bool) -> float Arg.conv
 (** [number ~docv what accepts] is the numbers that [accepts]; others are not [what]. *)
 

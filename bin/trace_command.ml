@@ -157,7 +157,7 @@ let draw path layers drawing =
   Report.result
     (let* layers = Dolphin_results.Results.map Layer_file.read layers in
      let* () = Journal_file.iter (Summary.add summary) path in
-     match Drawing.write drawing { (Summary.finish summary) with layers } with
+     match Drawing.write (Drawing.over layers drawing) (Summary.finish summary) with
      | Ok () -> Ok Exit_status.Done
      | Error e -> Report.tell e; Ok Exit_status.Bad_input)
 
@@ -165,16 +165,6 @@ let draw_command =
   let drawing =
     let doc = "The file to draw in: $(i,*.svg) or $(i,*.html)." in
     Arg.(required & opt (some Options.drawing) None & info [ "o"; "output" ] ~docv:"FILE" ~doc)
-  in
-  let layers =
-    let doc =
-      Printf.sprintf
-        "Draw what the map $(docv) has below the ways: a coast, an area of work. As for $(b,map) of programs, it is \
-         GeoJSON, KML, KMZ, GPX, a plan of QGroundControl or a mission of Neptus (%s). The option may be given several \
-         times."
-        (String.concat ", " Dolphin_maps.Map_file.formats)
-    in
-    Arg.(value & opt_all string [] & info [ "layer" ] ~docv:"FILE" ~doc)
   in
   let man =
     [ `S Manpage.s_description;
@@ -184,7 +174,7 @@ let draw_command =
     @ Options.see_also
   in
   let exits = Options.exits [ Done; Bad_input; Bug ] in
-  Cmd.v (Cmd.info "draw" ~doc:"draw a journal" ~man ~exits) Term.(const draw $ journal 0 $ layers $ drawing)
+  Cmd.v (Cmd.info "draw" ~doc:"draw a journal" ~man ~exits) Term.(const draw $ journal 0 $ Options.layers $ drawing)
 
 (* {1 Export} *)
 

@@ -509,7 +509,7 @@ It does not fit another program, and no other file is one.
   dolphin: deadlock.dol: line 1 is no JSON
   [2]
   $ dolphin exec assertion.dol --follow assertion.run --journal assertion.journal
-  dolphin: a recorded run (--follow) goes with its program, a fleet and --draw, and with no other options
+  dolphin: a recorded run (--follow) goes with its program, a fleet, --draw and --layer, and with no other options
   [2]
   $ dolphin exec deadlock.dol --follow missing.run
   dolphin: missing.run: No such file or directory

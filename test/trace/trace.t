@@ -213,6 +213,18 @@ very many corners is not more than what is seen of it.
   path layer layer1 filled ['work'] False
   line layer layer0 [] False
   line layer layer1 [] False
+  $ dolphin exec ../../examples/fences.dol --draw layers.html --layer harbour.geojson --layer work.kml > /dev/null
+  $ grep -o "<title>[^<]*</title>" layers.html | grep -c "the coast\|buoy\|work"
+  3
+  $ dolphin exec ../../examples/fences.dol --layer work.kml
+  dolphin: --layer goes with --draw: it is a map below the ways of the run
+  [2]
+  $ dolphin exec ../../examples/fences.dol --draw many.svg --runs 10 --layer work.kml
+  dolphin: --layer does not go with --runs or --until: they draw when runs are over, and no ways
+  [2]
+  $ dolphin exec ../../examples/fences.dol --draw many.svg --layer nowhere.kml
+  dolphin: nowhere.kml: No such file or directory
+  [2]
   $ dolphin trace draw fences.run --layer nowhere.kml -o layers.svg
   dolphin: nowhere.kml: No such file or directory
   [2]

@@ -1,14 +1,15 @@
 open Dolphin_trace
 
 type kind = Svg | Html
-type t = { path : string; kind : kind }
+type t = { path : string; kind : kind; layers : Layer.t list }
 
 let of_path path =
   match String.lowercase_ascii (Filename.extension path) with
-  | ".svg" -> Ok { path; kind = Svg }
-  | ".html" | ".htm" -> Ok { path; kind = Html }
+  | ".svg" -> Ok { path; kind = Svg; layers = [] }
+  | ".html" | ".htm" -> Ok { path; kind = Html; layers = [] }
   | _ -> Error (Printf.sprintf "'%s' ends neither in .svg nor in .html" path)
 
+let over layers d = { d with layers }
 let path d = d.path
 
 (* What goes wrong is the picture's. *)
@@ -19,4 +20,6 @@ let write_text d ~svg ~html =
   let text = match d.kind with Svg -> svg () | Html -> html () in
   Result.map_error trouble (Text_file.write d.path (fun channel -> output_string channel text))
 
-let write d run = write_text d ~svg:(fun () -> Picture.svg run) ~html:(fun () -> Picture.html run)
+let write d run =
+  let run = { run with Summary.layers = d.layers } in
+  write_text d ~svg:(fun () -> Picture.svg run) ~html:(fun () -> Picture.html run)

@@ -6,6 +6,9 @@ val of_path : string -> (t, string) result
 (** [of_path path] is the picture in the file [path], whose name ends in [.svg] or [.html]. The error says that it does
     not. *)
 
+val over : Dolphin_trace.Layer.t list -> t -> t
+(** [over layers d] is [d] with [layers] below the ways of the run. *)
+
 val path : t -> string
 
 val check : t -> (unit, Error.t) result
@@ -15,4 +18,4 @@ val write_text : t -> svg:(unit -> string) -> html:(unit -> string) -> (unit, Er
 (** [write_text d ~svg ~html] writes the text of the one or the other. *)
 
 val write : t -> Dolphin_trace.Summary.t -> (unit, Error.t) result
-(** [write d run] draws [run]. *)
+(** [write d run] draws [run], on the layers of [d]. *)

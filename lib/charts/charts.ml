@@ -6,7 +6,7 @@ type t = chart list
 
 let of_thing : Map_file.thing -> Core.value = function
   | Point p -> Position p
-  | Line ps -> List (Array.of_list (List.rev (List.rev_map (fun p -> Core.Position p) ps)))
+  | Line ps -> List (Vector.of_list (List.rev (List.rev_map (fun p -> Core.Position p) ps)))
   | Area area -> Area area
 
 let of_text path text : (Core.value, string) result =

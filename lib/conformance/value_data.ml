@@ -23,7 +23,7 @@ let rec of_value budget (x : value) : json =
   | String text -> `String text
   | Wildcard -> tagged "wildcard" []
   | Symbol name -> tagged "symbol" [ `String name ]
-  | List xs -> tagged "list" (List.map each (Array.to_list xs))
+  | List xs -> tagged "list" (List.map each (Vector.to_list xs))
   | Map entries -> tagged "map" (List.map (of_pair of_text each) entries)
   | Range (first, last) -> tagged "range" [ `Int first; `Int last ]
   | Position p -> tagged "position" [ Plan_data.of_position p ]
@@ -108,7 +108,7 @@ let rec value nodes (json : json) : value =
   | `List [ `String "number"; x ] -> Number (float x)
   | `List [ `String "wildcard" ] -> Wildcard
   | `List [ `String "symbol"; name ] -> Symbol (text name)
-  | `List (`String "list" :: xs) -> List (Array.of_list (List.map each xs))
+  | `List (`String "list" :: xs) -> List (Vector.of_list (List.map each xs))
   | `List (`String "map" :: entries) -> Map (List.map (pair text each) entries)
   | `List [ `String "range"; first; last ] -> Range (whole first, whole last)
   | `List [ `String "position"; p ] -> Position (Plan_data.position p)

@@ -9,9 +9,8 @@ let rec charted name (x : Core.value) : Yojson.Safe.t list =
   | Position p -> named [ ("position", On_map.pair p) ]
   | Area area -> named (On_map.area area)
   | List xs ->
-    let first = Array.sub xs 0 (min most (Array.length xs)) in
     let item i = charted (Printf.sprintf "%s[%d]" name i) in
-    List.concat (List.mapi item (Array.to_list first))
+    List.concat (List.init (min most (Vector.length xs)) (fun i -> item i (Vector.get xs i)))
   | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Map _ | Range _ | Vehicles _ | Task _
   | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ -> []
 

@@ -44,7 +44,7 @@ let rec to_json_within depth (x : Core.value) : (Yojson.Safe.t, string) result =
     | Integer i -> Ok (`Int i)
     | Number x -> of_float x
     | String text | Symbol text -> Ok (`String text)
-    | List xs -> Result.map (fun xs -> `List xs) (Results.map (to_json_within (depth + 1)) (Array.to_list xs))
+    | List xs -> Result.map (fun xs -> `List xs) (Results.map (to_json_within (depth + 1)) (Vector.to_list xs))
     | Map entries ->
       let* fields = Results.map_values (to_json_within (depth + 1)) entries in
       Ok (if is_reserved fields then `Assoc [ ("map", `Assoc fields) ] else `Assoc fields)
@@ -133,7 +133,7 @@ let rec of_json_within depth ~site (json : Yojson.Safe.t) : (Core.value, string)
     | `String text -> Ok (String text)
     | `List items ->
       let* xs = Results.map (of_json_within (depth + 1) ~site) items in
-      Ok (Core.List (Array.of_list xs))
+      Ok (Core.List (Vector.of_list xs))
     | `Assoc fields -> of_object depth ~site fields
     | `Tuple _ | `Variant _ -> expected "JSON without extensions" json
 
@@ -194,7 +194,7 @@ let parse ?(deepest = 2 * deepest) text =
 
 let rec is_data : Core.value -> bool = function
   | Null | Boolean _ | Integer _ | Number _ | String _ | Position _ | Area _ | Vehicles _ -> true
-  | List xs -> Array.for_all is_data xs
+  | List xs -> Vector.for_all is_data xs
   | Map entries -> List.for_all (fun (_, x) -> is_data x) entries
   | Task _ | Host _ | Wildcard | Symbol _ | Range _ | Closure _ | Settings _ | Reading _ | Unknown _ -> false
 

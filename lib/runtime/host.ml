@@ -31,7 +31,7 @@ let request id subject member arguments : (string, string) result =
     match arguments with
     | None -> Ok [ ("get", `String member) ]
     | Some xs ->
-      let* arguments = Host_value.to_json (Core.List (Array.of_list xs)) in
+      let* arguments = Host_value.to_json (Core.List (Vector.of_list xs)) in
       Ok [ ("call", `String member); ("arguments", arguments) ]
   in
   let subject = match subject with None -> [] | Some name -> [ ("object", `String name) ] in

@@ -41,7 +41,7 @@ let rec value (e : expression) : (Core.value, Diagnostic.t) result =
   | Integer i -> Ok (Integer i)
   | Number n -> Ok (Number n)
   | String text -> Ok (String text)
-  | List es -> Result.map (fun xs -> Core.List (Array.of_list xs)) (each value es)
+  | List es -> Result.map (fun xs -> Core.List (Vector.of_list xs)) (each value es)
   | Map entries -> List.fold_left entry (Ok (Core.Map [])) entries
   | Unary (Negate, inner) ->
     let* x = value inner in
@@ -187,7 +187,7 @@ let pp_position ppf (p : Dolphin_geo.Position.t) =
 let rec pp_value ppf (x : Core.value) =
   match x with
   | Null | Boolean _ | Integer _ | Number _ | String _ -> Value.pp ppf x
-  | List xs -> Format.fprintf ppf "[%a]" Fmt.(list ~sep:(any ", ") pp_value) (Array.to_list xs)
+  | List xs -> Format.fprintf ppf "[%a]" Fmt.(list ~sep:(any ", ") pp_value) (Vector.to_list xs)
   | Map [] -> Format.pp_print_string ppf "[:]"
   | Map entries ->
     let entry ppf (k, x) = Format.fprintf ppf "%a: %a" pp_text k pp_value x in

@@ -104,7 +104,7 @@ let rec value ?at t site x =
   | String s -> tagged "string" [ String s ]
   | Wildcard -> tagged "wildcard" []
   | Symbol s -> tagged "symbol" [ String s ]
-  | List xs -> tagged "list" [ Tuple (List.map (value ?at t site) (Array.to_list xs)) ]
+  | List xs -> tagged "list" [ Tuple (List.map (value ?at t site) (Vector.to_list xs)) ]
   | Map entries ->
     tagged "map" [ Tuple (List.map (fun (k, x) -> Tla.Tuple [ String k; value ?at t site x ]) entries) ]
   | Range (a, b) -> both "range" (a, b)

@@ -10,7 +10,7 @@ let rec value : value -> Yojson.Safe.t = function
   | Boolean b -> `Bool b
   | Integer i -> integer i
   | String s -> text s
-  | List xs -> `List (List.map value (Array.to_list xs))
+  | List xs -> `List (List.map value (Vector.to_list xs))
   | Map entries -> map (List.map (fun (k, x) -> (k, value x)) entries)
   | Vehicles vs -> `List (List.map text vs)
   | ( Null | Number _ | Wildcard | Symbol _ | Range _ | Position _ | Area _ | Task _ | Closure _ | Host _

@@ -1329,6 +1329,24 @@ let search_pattern =
       ("spirals end early", {|((radius /. spacing) +. 0.5)|}, {|(radius /. spacing)|});
     ]
 
+let vector =
+  in_file "lib/semantics/terms/vector.ml" ~noticed_by:"semantics/test_vector"
+    [
+      ("lists change when another one is appended to", {| && !(xs.filled) = xs.length|}, {||});
+      ( "lists are copied whenever they are appended to",
+        {|if xs.length < Array.length xs.buffer && |},
+        {|if xs.length < 0 && |} );
+      ("a copy has no room", {|(max least_room (2 * xs.length))|}, {|(xs.length + 1)|});
+    ]
+  @ in_file "lib/semantics/language/operators.ml" ~noticed_by:"semantics/test_vector"
+    [
+      ( "lists are copied for each element",
+        {|  | List xs, Integer i -> indexed x (Vector.length xs) (Vector.get xs) i
+|},
+        {|  | List xs, Integer i -> indexed x (Vector.length xs) (Array.get (Vector.to_array xs)) i
+|} );
+    ]
+
 let all =
   List.concat
     [ maps; missions; footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups;
@@ -1339,5 +1357,5 @@ let all =
       fences; pick_rules; conclusion; recruits; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;
       conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps;
       sets_with_events; driver; fair_cycles; limits;
-      alike_values; division; arrangement; coverage; search_pattern; travel;
+      alike_values; division; arrangement; coverage; search_pattern; travel; vector;
       zone; timed; place; timed_system; schedule; recorded; durations; share; sampled ]

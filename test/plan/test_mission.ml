@@ -72,7 +72,7 @@ let fault ?(site = 0) message settings =
       | Ok _ -> Alcotest.failf "accepted; should say: %s" message
       | Error fault -> Alcotest.(check (pair int string)) "fault" (site, message) (fault.site, fault.message))
 
-let corners places = List (Array.of_list (List.map place places))
+let corners places = List (Vector.of_list (List.map place places))
 
 let faults =
   [ fault "a mission has no item 'goPoss': did you mean goPos?" [ set "goPoss" [] ];

@@ -10,7 +10,7 @@ let i n = Integer n
 let n x = Number x
 let str s = String s
 let sym s = Symbol s
-let items xs = List (Array.of_list xs)
+let items xs = List (Vector.of_list xs)
 let set ?(named = []) setting positional = { setting; positional; named; setting_site = 0 }
 let man setting named = set setting [] ~named
 

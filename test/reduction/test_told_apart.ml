@@ -10,6 +10,7 @@ module Pure_run = Test_support.Pure_run
 let uuv = Pure_run.vehicle
 let uav = Pure_run.vehicle ~kind:"UAV"
 let three = Pure_run.world [ uuv "a"; uuv "b"; uuv "c" ]
+let list (xs : Core.value list) : Core.value = List (Vector.of_list xs)
 let plain = Environment.default
 let property = Alcotest.testable Property.pp ( = )
 
@@ -201,7 +202,7 @@ let by_replies =
     keeps "a vehicle of a reply" ~environment:(supplied [ ("s.mine", [ [ Ok (Core.Vehicles [ "c" ]) ] ]) ]) [ No_halt ]
       (supplier ^ "if (v == s.mine) { halt 'h' }");
     tells "a vehicle within the second reply"
-      ~environment:(supplied [ ("s.mine", [ [ Ok Null ]; [ Ok (List [||]); Ok (List [| Vehicles [ "c" ] |]) ] ]) ]) [ No_halt ]
+      ~environment:(supplied [ ("s.mine", [ [ Ok Null ]; [ Ok (list []); Ok (list [ Vehicles [ "c" ] ]) ] ]) ]) [ No_halt ]
       (supplier ^ "s.mine\nif (v in s.mine) { halt 'h' }");
     keeps "the id of a reply" ~environment:(supplied [ ("s.name", [ [ Ok (String "c") ] ]) ]) [ Vehicles ]
       (supplier ^ "w = pick { id s.name; timeout 1.seconds }");

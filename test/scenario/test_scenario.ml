@@ -187,7 +187,7 @@ let one_reply : Reply.t QCheck2.Gen.t =
       let key = oneof [ name; oneofl [ "object"; "task"; "map" ] ] in
       let keys = map (List.sort_uniq compare) (list_size (int_bound 3) key) in
       frequency
-        [ (3, simple); (1, map (fun xs -> List (Array.of_list xs)) items);
+        [ (3, simple); (1, map (fun xs -> List (Dolphin_semantics.Vector.of_list xs)) items);
           (1, map (fun entries -> Map entries) (keys >>= entries)) ]
   in
   frequency [ (5, map Result.ok (value 2)); (1, map Result.error name) ]
@@ -247,7 +247,7 @@ let scenario =
   let* vehicles = distinct vehicle and* plans = distinct plan in
   let* answers = distinct answer and* replies = distinct reply in
   let input =
-    let datum = oneofl Dolphin_semantics.Core.[ Boolean true; Integer 2; String "x"; List [| Integer 1; Null |] ] in
+    let datum = oneofl Dolphin_semantics.Core.[ Boolean true; Integer 2; String "x"; List (Dolphin_semantics.Vector.of_list [ Integer 1; Null ]) ] in
     let* key = name and* rounds = list_size (int_range 1 3) (list_size (int_range 1 3) datum) in
     let* times = int_range 1 4 and* after = opt (map float_of_int (int_bound 1000)) in
     return { Scenario.key; rounds; times; after }

@@ -3,6 +3,7 @@ open Dolphin_tla
 module Pure_run = Test_support.Pure_run
 
 let case name f = Alcotest.test_case name `Quick f
+let list (xs : Core.value list) : Core.value = List (Vector.of_list xs)
 
 (* {1 Numbers} *)
 
@@ -106,7 +107,7 @@ let replies () =
   let check name rounds expected = Alcotest.(check string) name expected (definition name rounds) in
   check "HostReplies" [] "MCHostReplies(call, at) ==\n  CASE call = \"s.next\" -> << >>\n    [] OTHER -> << >>";
   check "HostReplies"
-    [ [ Ok (List [| task "p"; Host "q" |]); Error "shut" ] ]
+    [ [ Ok (list [ task "p"; Host "q" ]); Error "shut" ] ]
     ({|MCHostReplies(call, at) ==
   CASE call = "s.next" -> << << << "value", << "list", << << "task", |}
      ^ {|[ op |-> "platform", name |-> "p", plan |-> 0, at |-> at ] >>, << "host", "q" >> >> >> >>, |}

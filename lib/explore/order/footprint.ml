@@ -158,7 +158,7 @@ type scope = (int * value) list
 
 let rec holds_code = function
   | Closure _ | Settings _ -> true
-  | List xs -> Array.exists holds_code xs
+  | List xs -> Vector.exists holds_code xs
   | Map entries -> List.exists (fun (_, x) -> holds_code x) entries
   | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Range _ | Position _ | Area _
   | Vehicles _ | Task _ | Host _ | Reading _ | Unknown _ -> false

@@ -30,7 +30,7 @@ let replies = text lor map
 let rec of_value = function
   | String _ -> text
   | Vehicles _ -> vehicles
-  | List xs -> Array.fold_left (fun k x -> k lor of_value x) nothing xs
+  | List xs -> List.fold_left (fun k x -> k lor of_value x) nothing (Vector.to_list xs)
   | Map entries -> List.fold_left (fun k (_, x) -> k lor of_value x) map entries
   | Reading _ -> reading
   | Unknown _ -> vehicles

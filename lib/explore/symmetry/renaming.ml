@@ -18,7 +18,7 @@ let rec value_by r x =
   enter r;
   match x with
   | Vehicles vs -> Vehicles (List.map r.f vs)
-  | List xs -> List (Array.map (value_by r) xs)
+  | List xs -> List (Vector.map (value_by r) xs)
   | Map entries -> Map (List.map (fun (k, x) -> (k, value_by r x)) entries)
   | Task t -> Task (task r t)
   | Closure c -> Closure (closure r c)

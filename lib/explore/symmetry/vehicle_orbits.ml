@@ -77,7 +77,7 @@ let posted (options : Environment.options) =
   let rec names : Core.value -> string list = function
     | Vehicles vs -> vs
     | String text -> [ text ]
-    | List xs -> List.concat_map names (Array.to_list xs)
+    | List xs -> List.concat_map names (Vector.to_list xs)
     | Map entries -> List.concat_map (fun (_, x) -> names x) entries
     | Null | Boolean _ | Integer _ | Number _ | Wildcard | Symbol _ | Range _ | Position _ | Area _ | Task _ | Closure _
     | Host _ | Settings _ | Reading _ | Unknown _ -> []

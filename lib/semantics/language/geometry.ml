@@ -14,7 +14,7 @@ let number what x =
 let position what = function Position p -> Ok p | x -> Operators.expected what x
 
 let positions what = function
-  | List xs -> Results.map (position ("a position in " ^ what)) (Array.to_list xs)
+  | List xs -> Results.map (position ("a position in " ^ what)) (Vector.to_list xs)
   | x -> Operators.expected (Printf.sprintf "%s, a list of positions" what) x
 
 let along path metres =
@@ -29,7 +29,7 @@ let polygon corners holes =
   let* holes =
     match holes with
     | None -> Ok []
-    | Some (List holes) -> Results.map (positions "a hole") (Array.to_list holes)
+    | Some (List holes) -> Results.map (positions "a hole") (Vector.to_list holes)
     | Some x -> Operators.expected "holes, a list of lists of positions" x
   in
   Operators.area (Dolphin_geo.Area.polygon ~holes corners)
@@ -48,7 +48,7 @@ let named name named =
 
 let or_lacking what name = Option.to_result ~none:(Printf.sprintf "%s lacks its argument '%s'" what name)
 
-let positions_value ps = List (Array.of_list (List.map (fun p -> Position p) ps))
+let positions_value ps = List (Vector.of_list (List.map (fun p -> Position p) ps))
 
 let coverage whole arguments =
   let* whole = area "an area to cover" whole in

@@ -19,14 +19,15 @@ let by_name name arguments =
   | _, _ -> None
 
 let items = function
-  | Integer n -> Option.value (Value.items (if n > 0 then Range (0, n - 1) else List [||])) ~default:[||]
+  | Integer n -> Option.value (Value.items (if n > 0 then Range (0, n - 1) else List Vector.empty)) ~default:[||]
   | subject -> Option.value (Value.items subject) ~default:[||]
 
 let find subject name arguments =
   match subject, by_name name arguments with
   | Integer n, found when name = "times" && n <= Value.most_items -> found
   | Integer _, _ -> None
-  | subject, found -> if Value.items subject = None then None else found
+  | _, None -> None
+  | subject, (Some _ as found) -> if Value.items subject = None then None else found
 
 let arguments iteration closure subject item index gathered =
   match iteration, gathered, subject, item with
@@ -41,7 +42,7 @@ let same_kind subject items =
     Vehicles (List.concat_map (function Vehicles vs -> vs | _ -> []) items)
   | Map _ ->
     Map (List.filter_map (function Map [ (_, String k); (_, x) ] -> Some (k, x) | _ -> None) items)
-  | _ -> List (Array.of_list items)
+  | _ -> List (Vector.of_list items)
 
 let by_result items results =
   let order (_, a) (_, b) =
@@ -55,7 +56,7 @@ let conclude iteration subject items gathered =
   let results = List.rev gathered in
   match iteration with
   | Each -> Ok subject
-  | Collect -> Ok (List (Array.of_list results))
+  | Collect -> Ok (List (Vector.of_list results))
   | Find_all ->
     let kept = List.combine (Array.to_list items) results in
     Ok (same_kind subject (List.filter_map (fun (x, r) -> if Value.truth r then Some x else None) kept))

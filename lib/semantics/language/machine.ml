@@ -35,9 +35,12 @@ let site m = match m.focus with Evaluate e -> e.site | Give _ -> m.at
 
 let compare_expression (e : expression) (e' : expression) = Int.compare e.site e'.site
 
+let compare_values = Order.array Value.compare
+let compare_lists xs ys = Order.both (List.compare_lengths xs ys) (fun () -> List.compare Value.compare xs ys)
+
 let compare_items a b =
   match a, b with
-  | Items (xs, i), Items (ys, j) -> Order.both (Int.compare i j) (fun () -> Value.compare (List xs) (List ys))
+  | Items (xs, i), Items (ys, j) -> Order.both (Int.compare i j) (fun () -> compare_values xs ys)
   | Counting (i, n), Counting (j, m) -> Order.both (Int.compare i j) (fun () -> Int.compare n m)
   | Items _, Counting _ -> -1
   | Counting _, Items _ -> 1
@@ -46,14 +49,12 @@ let rank_frame = function
   | Arguments _ -> 0 | Assign_local _ -> 1 | Assign_global _ -> 2 | Choose _ -> 3 | Rest _ -> 4 | Loop_test _ -> 5
   | Loop_body _ -> 6 | Next_item _ -> 7 | Leave _ -> 8 | Iterate _ -> 9
 
-let values xs = List (Array.of_list xs)
-
 let compare_frame a b =
   match a, b with
   | Arguments a, Arguments b ->
     Order.both (Int.compare a.at b.at) (fun () ->
         Order.both (List.compare_lengths a.remaining b.remaining) (fun () ->
-            Value.compare (values a.evaluated) (values b.evaluated)))
+            compare_lists a.evaluated b.evaluated))
   | Assign_local i, Assign_local j | Assign_global i, Assign_global j -> Int.compare i j
   | Choose (e, _), Choose (e', _) | Loop_test (e, _), Loop_test (e', _) | Loop_body (e, _), Loop_body (e', _) ->
     compare_expression e e'
@@ -61,13 +62,13 @@ let compare_frame a b =
   | Next_item (i, items, e), Next_item (j, items', e') ->
     Order.both (Int.compare i j) (fun () ->
         Order.both (compare_expression e e') (fun () -> compare_items items items'))
-  | Leave xs, Leave ys -> Value.compare (List xs) (List ys)
+  | Leave xs, Leave ys -> compare_values xs ys
   | Iterate a, Iterate b ->
     Order.both (Int.compare a.at b.at) (fun () ->
         Order.both (Int.compare a.index b.index) (fun () ->
             Order.both (Value.compare_closure a.closure b.closure) (fun () ->
-                Order.both (Value.compare (List a.items) (List b.items)) (fun () ->
-                    Value.compare (values a.gathered) (values b.gathered)))))
+                Order.both (compare_values a.items b.items) (fun () ->
+                    compare_lists a.gathered b.gathered))))
   | ( ( Arguments _ | Assign_local _ | Assign_global _ | Choose _ | Rest _ | Loop_test _ | Loop_body _ | Next_item _
       | Leave _ | Iterate _ ),
       _ ) -> Int.compare (rank_frame a) (rank_frame b)
@@ -84,7 +85,7 @@ let compare m m' =
   else
     Order.both (compare_focus m.focus m'.focus) (fun () ->
         Order.both (Int.compare m.at m'.at) (fun () ->
-            Order.both (Value.compare (List m.locals) (List m'.locals)) (fun () ->
+            Order.both (compare_values m.locals m'.locals) (fun () ->
                 List.compare compare_frame m.stack m'.stack)))
 
 let hash m =
@@ -96,7 +97,7 @@ let hash m =
     | (Assign_local _ | Assign_global _ | Choose _ | Rest _ | Loop_test _ | Loop_body _ | Leave _) as f ->
       (h * 31) + rank_frame f
   in
-  (List.fold_left frame focus m.stack * 65599) + Value.hash (List m.locals) + m.at
+  (List.fold_left frame focus m.stack * 65599) + Value.hash (List (Vector.of_array m.locals)) + m.at
 
 let name_of_call ~subject ~member =
   match subject with None -> member | Some subject -> subject ^ "." ^ member
@@ -108,7 +109,7 @@ let compare_request a b =
   | Pause a, Pause b -> Float.compare a b
   | Execute a, Execute b -> Value.compare_task a b
   | Host_call a, Host_call b ->
-    let arguments = Option.compare (fun xs ys -> Value.compare (values xs) (values ys)) in
+    let arguments = Option.compare compare_lists in
     Order.both (Option.compare String.compare a.subject b.subject) (fun () ->
         Order.both (String.compare a.member b.member) (fun () -> arguments a.arguments b.arguments))
   | (Pick _ | Ask _ | Pause _ | Execute _ | Host_call _), _ ->

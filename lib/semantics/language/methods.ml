@@ -12,7 +12,7 @@ let one_vehicle world = function
       | None -> Error (Printf.sprintf "nothing is known of vehicle %s" v))
   | vs -> Error (Printf.sprintf "the set must be a single vehicle, it has %d" (List.length vs))
 
-let strings names = List (Array.of_list (List.map (fun name -> String name) names))
+let strings names = List (Vector.of_list (List.map (fun name -> String name) names))
 
 let number_text x = match Value.to_number x with Some n -> n | None -> 0.
 
@@ -92,7 +92,7 @@ let of_position (p : Dolphin_geo.Position.t) = function
   | "height" -> Some (Ok (Number p.height))
   | _ -> None
 
-let positions ps = List (Array.of_list (List.map (fun p -> Position p) ps))
+let positions ps = List (Vector.of_list (List.map (fun p -> Position p) ps))
 
 let of_area a = function
   | "centre" | "center" -> Some (Ok (Position (Area.centre a)))
@@ -111,7 +111,7 @@ let of_area a = function
 let split_area a = function
   | Integer n ->
     let parts = Operators.of_geometry (Area.split a n) in
-    Result.map (fun parts -> List (Array.of_list (List.map (fun part -> Area part) parts))) parts
+    Result.map (fun parts -> List (Vector.of_list (List.map (fun part -> Area part) parts))) parts
   | x -> Operators.expected "a whole number of parts" x
 
 let on_area a name arguments =
@@ -123,10 +123,10 @@ let on_area a name arguments =
   | "split", [ _ ] -> Some (split_area a (Value.canonical (List.hd arguments)))
   | _, _ -> None
 
-(* Of a list, a range or a vehicle set [x]. *)
-let of_items x items name =
+(* Of a list, a range or a vehicle set [x], with so many elements, by index. *)
+let of_items x length get name =
   let element i what =
-    if items <> [||] then Ok items.(i)
+    if length > 0 then Ok (get i)
     else
       let kind = match x with Vehicles _ -> "vehicle set" | _ -> "list" in
       Error (Printf.sprintf "an empty %s has no %s" kind what)
@@ -134,12 +134,15 @@ let of_items x items name =
   match name, x with
   | "first", _ -> Some (element 0 "first element")
   | "head", _ -> Some (element 0 "head")
-  | "last", _ -> Some (element (Array.length items - 1) "last element")
+  | "last", _ -> Some (element (length - 1) "last element")
   | "tail", Vehicles vs -> Some (Ok (Vehicles (match vs with [] -> [] | _ :: rest -> rest)))
-  | "tail", _ -> Some (Ok (List (part items 1 (Array.length items))))
+  | "tail", _ -> Some (Ok (List (Vector.of_array (Array.init (max 0 (length - 1)) (fun i -> get (i + 1))))))
   | _, _ -> None
 
-let of_elements x name = Option.bind (Value.items x) (fun items -> of_items x items name)
+let of_elements x name =
+  match x with
+  | List xs -> of_items x (Vector.length xs) (Vector.get xs) name
+  | _ -> Option.bind (Value.items x) (fun items -> of_items x (Array.length items) (Array.get items) name)
 
 let getter world x name =
   let specific =
@@ -237,29 +240,26 @@ let on_string s name arguments =
         | _, _ -> None)
   | _, _ -> None
 
-let on_items x items name arguments =
+let on_items items name arguments =
   match name, arguments with
-  | "get", [ i ] -> Some (Operators.element x i)
-  | ("add" | "push" | "leftShift"), [ y ] -> Some (Operators.binary Append x y)
-  | "addAll", [ ys ] -> Some (Operators.binary Add x ys)
   | ("remove" | "removeAt"), [ Integer i ] when 0 <= i && i < Array.length items ->
     let kept = List.filteri (fun j _ -> j <> i) (Array.to_list items) in
-    Some (Ok (List (Array.of_list kept)))
+    Some (Ok (List (Vector.of_list kept)))
   | ("remove" | "removeAt"), [ Integer i ] ->
     Some (Error (Printf.sprintf "index %d is out of range: the list has %d elements" i (Array.length items)))
   | "removeElement", [ y ] ->
     let at = find_index (Value.equals y) items in
-    Some (Ok (List (Array.of_list (List.filteri (fun j _ -> j <> at) (Array.to_list items)))))
-  | "clear", [] -> Some (Ok (List [||]))
+    Some (Ok (List (Vector.of_list (List.filteri (fun j _ -> j <> at) (Array.to_list items)))))
+  | "clear", [] -> Some (Ok (List Vector.empty))
   | "indexOf", [ y ] -> Some (Ok (Integer (find_index (Value.equals y) items)))
-  | "reverse", [] -> Some (Ok (List (reversed items)))
+  | "reverse", [] -> Some (Ok (List (Vector.of_array (reversed items))))
   | "sum", [] -> Some (sum items)
   | "max", [] -> Some (extreme Greater items)
   | "min", [] -> Some (extreme Less items)
-  | "unique", [] -> Some (Ok (List (distinct items)))
-  | "take", [ Integer n ] -> Some (Ok (List (part items 0 n)))
-  | "drop", [ Integer n ] -> Some (Ok (List (part items n (Array.length items))))
-  | "toList", [] -> Some (Ok (List items))
+  | "unique", [] -> Some (Ok (List (Vector.of_array (distinct items))))
+  | "take", [ Integer n ] -> Some (Ok (List (Vector.of_array (part items 0 n))))
+  | "drop", [ Integer n ] -> Some (Ok (List (Vector.of_array (part items n (Array.length items)))))
+  | "toList", [] -> Some (Ok (List (Vector.of_array items)))
   | "join", ([] | [ String _ ]) ->
     let separator = match arguments with [ String s ] -> s | _ -> "" in
     Some (Ok (String (String.concat separator (List.map Value.to_string (Array.to_list items)))))
@@ -269,8 +269,17 @@ let on_items x items name arguments =
       | Some a, Some b -> Float.compare a b
       | _, _ -> Value.compare a b
     in
-    Some (Ok (List (Array.of_list (List.stable_sort order (Array.to_list items)))))
+    Some (Ok (List (Vector.of_list (List.stable_sort order (Array.to_list items)))))
   | _, _ -> None
+
+(* What goes through all of [x] only where it has to. *)
+let on_elements x name arguments =
+  match name, arguments with
+  | "get", [ i ] -> Some (Operators.element x i)
+  | ("add" | "push" | "leftShift"), [ y ] -> Some (Operators.binary Append x y)
+  | "addAll", [ ys ] -> Some (Operators.binary Add x ys)
+  | ("size" | "length" | "isEmpty" | "first" | "last" | "head"), [] -> None
+  | _, _ -> Option.bind (Value.items x) (fun items -> on_items items name arguments)
 
 let on_map entries name arguments =
   match name, arguments with
@@ -280,7 +289,7 @@ let on_map entries name arguments =
   | "containsKey", [ k ] -> Some (Ok (Boolean (List.mem_assoc (Value.to_string k) entries)))
   | "containsValue", [ x ] -> Some (Ok (Boolean (List.exists (fun (_, y) -> Value.equals x y) entries)))
   | ("keySet" | "keys"), [] -> Some (Ok (strings (List.map fst entries)))
-  | "values", [] -> Some (Ok (List (Array.of_list (List.map snd entries))))
+  | "values", [] -> Some (Ok (List (Vector.of_list (List.map snd entries))))
   | "put", [ k; x ] -> Some (Operators.replace_element (Map entries) k x)
   | "remove", [ k ] -> Some (Ok (Map (List.remove_assoc (Value.to_string k) entries)))
   | "clear", [] -> Some (Ok (Map []))
@@ -328,8 +337,7 @@ let specific x name arguments =
   match x with
   | String s -> on_string s name arguments
   | Map entries -> on_map entries name arguments
-  | List _ | Range _ | Vehicles _ -> (
-      match Value.items x with Some items -> on_items x items name arguments | None -> None)
+  | List _ | Range _ | Vehicles _ -> on_elements x name arguments
   | Integer _ | Number _ -> on_number (number_text x) x name arguments
   | Position p -> on_position p name arguments
   | Area a -> on_area a name arguments

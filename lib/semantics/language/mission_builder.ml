@@ -83,8 +83,8 @@ let corners s what = function
       match Dolphin_geo.Area.rings shape with
       | [ corners ] -> Ok corners
       | _ -> fault s "%s has no holes and is of one piece" what)
-  | List xs when Array.length xs >= 3 -> Results.map (position s ("as a corner of " ^ what)) (Array.to_list xs)
-  | List xs -> fault s "%s has three corners or more, not %d" what (Array.length xs)
+  | List xs when Vector.length xs >= 3 -> Results.map (position s ("as a corner of " ^ what)) (Vector.to_list xs)
+  | List xs -> fault s "%s has three corners or more, not %d" what (Vector.length xs)
   | x -> wrong s (Printf.sprintf "an area or a list of positions as %s" what) x
 
 let read kind s what x : (Mission_plan.argument, Fault.t) result =
@@ -156,10 +156,12 @@ let check_together s arguments =
     fault s "%s goes on for a number of turns or of seconds, not both: leave out turns or duration" s.setting
   else Ok ()
 
+let both a b = List (Vector.of_list [ a; b ])
+
 let is_position = function Position _ | List _ -> true | _ -> false
 
 let read_item s item =
-  let* all = assign s item ~pair:(fun a b -> List [| a; b |]) ~is_place:is_position s.positional s.named in
+  let* all = assign s item ~pair:both ~is_place:is_position s.positional s.named in
   let* arguments =
     Results.map (fun (p, x) -> Result.map (fun x -> (p.name, x)) (read p.kind s (what s p) x)) all in
   let* () = check_together s arguments in
@@ -186,7 +188,7 @@ let no_setting (s : setting) =
 let check_literals s item arguments =
   let positional = List.filter_map (function None, x -> Some x | Some _, _ -> None) arguments in
   let named = List.filter_map (function Some k, x -> Some (k, x) | None, _ -> None) arguments in
-  let pair a b = match a, b with Some a, Some b -> Some (List [| a; b |]) | Some _, None | None, _ -> None in
+  let pair a b = match a, b with Some a, Some b -> Some (both a b) | Some _, None | None, _ -> None in
   let is_place = function
     | Some x -> is_position x
     | None -> List.compare_lengths positional item.positional <> 0

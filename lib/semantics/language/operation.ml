@@ -97,7 +97,7 @@ let apply_settled context at operation arguments =
   | Unary op, [ x ] -> of_result (Operators.unary op x)
   | Binary Parallel, [ (Vehicles _ as vs); Closure c ] -> Walk (Find_all, c, vs, [])
   | Binary op, [ x; y ] -> of_result (Operators.binary op x y)
-  | Make_list, xs -> Value (List (Array.of_list xs))
+  | Make_list, xs -> Value (List (Vector.of_list xs))
   | Make_map keys, arguments -> of_result (make_map keys arguments)
   | Make_range inclusive, [ first; last ] -> of_result (Operators.range ~inclusive first last)
   | Concatenate, parts -> Value (String (String.concat "" (List.map Value.to_string parts)))

@@ -78,7 +78,7 @@ let put entries k x =
   else entries @ [ (k, x) ]
 
 let member x = function
-  | List xs -> Ok (Boolean (Array.exists (Value.equals x) xs))
+  | List xs -> Ok (Boolean (Vector.exists (Value.equals x) xs))
   | Range (first, last) -> (
       match Value.canonical x with
       | Integer i -> Ok (Boolean (min first last <= i && i <= max first last))
@@ -133,8 +133,11 @@ let concatenate x y =
   let x = Value.to_string x and y = Value.to_string y in
   if String.length x + String.length y > Value.most_items then too_long "a string" else Ok (String (x ^ y))
 
-let append xs ys =
-  if Array.length xs + Array.length ys > Value.most_items then too_long "a list" else Ok (List (Array.append xs ys))
+let join xs ys =
+  if Vector.length xs + Vector.length ys > Value.most_items then too_long "a list" else Ok (List (Vector.concat xs ys))
+
+let append xs x =
+  if Vector.length xs >= Value.most_items then too_long "a list" else Ok (List (Vector.append xs x))
 
 (* Code in the place of a task is the task that it makes. *)
 let as_task = function
@@ -150,15 +153,15 @@ let binary (op : Ast.binary) x y =
   | Add, (String _ as x), y | Add, x, (String _ as y) -> concatenate x y
   | Add, Vehicles vs, Vehicles ws -> Ok (Vehicles (union vs ws))
   | Add, Area a, Area b -> area (Dolphin_geo.Area.union a b)
-  | Add, List xs, List ys -> append xs ys
-  | Add, List xs, y -> append xs [| y |]
+  | Add, List xs, List ys -> join xs ys
+  | Add, List xs, y -> append xs y
   | Add, Map a, Map b -> Ok (Map (List.fold_left (fun entries (k, x) -> put entries k x) a b))
   | Add, x, y -> arithmetic op add ( +. ) x y
   | Subtract, Vehicles vs, Vehicles ws -> Ok (Vehicles (difference vs ws))
   | Subtract, Area a, Area b -> area (Dolphin_geo.Area.difference a b)
   | Subtract, List xs, List ys ->
-    let kept x = not (Array.exists (Value.equals x) ys) in
-    Ok (List (Array.of_list (List.filter kept (Array.to_list xs))))
+    let kept x = not (Vector.exists (Value.equals x) ys) in
+    Ok (List (Vector.of_list (List.filter kept (Vector.to_list xs))))
   | Subtract, x, y -> arithmetic op subtract ( -. ) x y
   | Multiply, x, y -> arithmetic op multiply ( *. ) x y
   | Power, x, y -> arithmetic op integer_power Float.pow x y
@@ -178,7 +181,7 @@ let binary (op : Ast.binary) x y =
       | _, _, _, _ -> mismatch op x y)
   | Sequence, ((Task _ | Closure _) as a), ((Task _ | Closure _) as b) -> Ok (Task (Sequence (as_task a, as_task b)))
   | Sequence, x, y -> mismatch op x y
-  | Append, List xs, y -> append xs [| y |]
+  | Append, List xs, y -> append xs y
   | Append, x, y -> mismatch op x y
   | Parallel, ((Task _ | Closure _) as a), ((Task _ | Closure _) as b) -> Ok (Task (Parallel (as_task a, as_task b)))
   | Parallel, Boolean a, Boolean b -> Ok (Boolean (a || b))
@@ -203,6 +206,11 @@ let index_of length i =
   let i = if i < 0 then length + i else i in
   if 0 <= i && i < length then Some i else None
 
+let indexed x length get i =
+  match index_of length i with
+  | Some i -> Ok (get i)
+  | None -> Error (Printf.sprintf "index %d is out of range: %s has %d elements" i (Value.kind x) length)
+
 let element x i =
   match x, Value.canonical i with
   | Task t, Vehicles vs -> Ok (Task (Allocated (t, vs)))
@@ -214,28 +222,21 @@ let element x i =
       match index_of length i with
       | Some i -> Ok (Integer (if first <= last then first + i else first - i))
       | None -> Error (Printf.sprintf "index %d is out of range: a range has %d elements" i length))
-  | (List _ | Vehicles _ | String _), Integer i -> (
+  | List xs, Integer i -> indexed x (Vector.length xs) (Vector.get xs) i
+  | (Vehicles _ | String _), Integer i -> (
       match Value.items x with
       | None -> expected "a list" x
-      | Some items -> (
-          match index_of (Array.length items) i with
-          | Some i -> Ok items.(i)
-          | None ->
-            Error
-              (Printf.sprintf "index %d is out of range: %s has %d elements" i (Value.kind x) (Array.length items))))
+      | Some items -> indexed x (Array.length items) (Array.get items) i)
   | (List _ | Range _ | Vehicles _ | String _), i -> expected "a whole number as index" i
   | x, _ -> expected "a list, a map or a task before [" x
 
 let replace_element x i y =
   match x, Value.canonical i with
   | List xs, Integer i -> (
-      match index_of (Array.length xs) i with
-      | Some i ->
-        let xs = Array.copy xs in
-        xs.(i) <- y;
-        Ok (List xs)
-      | None when i = Array.length xs -> Ok (List (Array.append xs [| y |]))
-      | None -> Error (Printf.sprintf "index %d is out of range: the list has %d elements" i (Array.length xs)))
+      match index_of (Vector.length xs) i with
+      | Some i -> Ok (List (Vector.set xs i y))
+      | None when i = Vector.length xs -> Ok (List (Vector.append xs y))
+      | None -> Error (Printf.sprintf "index %d is out of range: the list has %d elements" i (Vector.length xs)))
   | Map entries, k -> Ok (Map (put entries (Value.to_string k) y))
   | x, _ -> expected "a list or a map to assign an element of" x
 
@@ -243,7 +244,7 @@ let range ~inclusive first last =
   match Value.canonical first, Value.canonical last with
   | Integer a, Integer b when inclusive -> Ok (Range (a, b))
   | Integer a, Integer b ->
-    if a = b then Ok (List [||]) else Ok (Range (a, if a < b then b - 1 else b + 1))
+    if a = b then Ok (List Vector.empty) else Ok (Range (a, if a < b then b - 1 else b + 1))
   | Integer _, x | x, _ -> expected "a whole number as end of a range" x
 
 let knot = 1852. /. 3600.

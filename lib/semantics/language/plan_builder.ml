@@ -113,8 +113,11 @@ let point_of_map s entries =
     Ok (north, east, down)
 
 let point s origin = function
-  | List [| north; east |] -> point_of_map s [ ("north", north); ("east", east) ]
-  | List [| north; east; down |] -> point_of_map s [ ("north", north); ("east", east); ("down", down) ]
+  | List xs as x -> (
+      match Vector.to_list xs with
+      | [ north; east ] -> point_of_map s [ ("north", north); ("east", east) ]
+      | [ north; east; down ] -> point_of_map s [ ("north", north); ("east", east); ("down", down) ]
+      | [] | _ :: _ -> wrong s no_point x)
   | Map entries -> point_of_map s entries
   | Position p ->
     let* metres = within 0. longest " m" s "the distance of a point" (Number (Wgs84.distance origin p)) in
@@ -124,10 +127,10 @@ let point s origin = function
 
 let follow_path s (m : Plan.maneuver) =
   match List.assoc_opt "points" s.named with
-  | None | Some (List [||]) -> fault s "followPath lacks its points, as in points:[[0, 0], [100, 50]]"
-  | Some (List points) ->
-    let* points = Results.map (point s m.location) (Array.to_list points) in
+  | Some (List points) when Vector.length points > 0 ->
+    let* points = Results.map (point s m.location) (Vector.to_list points) in
     Ok { m with kind = Follow_path points }
+  | None | Some (List _) -> fault s "followPath lacks its points, as in points:[[0, 0], [100, 50]]"
   | Some x -> wrong s no_point x
 
 (* The setting, the IMC message that identifiers are made from, the arguments besides the common ones. *)

@@ -76,7 +76,7 @@ let coordinates s latitude longitude =
 
 let position s what = function
   | Position p -> Ok p
-  | List [| latitude; longitude |] -> coordinates s latitude longitude
+  | List xs when Vector.length xs = 2 -> coordinates s (Vector.get xs 0) (Vector.get xs 1)
   | x -> wrong s (Printf.sprintf "a position %s" what) x
 
 (* {1 Quantities with a unit: speeds and z} *)
@@ -113,7 +113,7 @@ let unit_of known s what x =
 
 (* [quantity known default s what xs] is the number and the unit that [xs] are, spread out or as a list. *)
 let quantity known default s what xs =
-  match (match xs with [ List ys ] -> Array.to_list ys | xs -> xs) with
+  match (match xs with [ List ys ] -> Vector.to_list ys | xs -> xs) with
   | [ n ] ->
     let* n = number s what n in
     Ok (n, default)
@@ -180,7 +180,7 @@ let device s what = function
   | x -> wrong s (Printf.sprintf "devices as %s, as in [[name:'Camera', Frequency:50]]" what) x
 
 let devices s what = function
-  | List xs -> Results.map (device s what) (Array.to_list xs)
+  | List xs -> Results.map (device s what) (Vector.to_list xs)
   | x ->
     let* payload = device s what x in
     Ok [ payload ]
@@ -193,7 +193,7 @@ let vehicle_names s =
       let* name = string s "a vehicle's name" x in
       Ok [ name ]
     | Vehicles vs -> Ok vs
-    | List xs -> all (Array.to_list xs)
+    | List xs -> all (Vector.to_list xs)
     | x -> wrong s "names of vehicles, as in vehicles 'lauv-noptilus-1', 'lauv-noptilus-2'" x
   and all xs = Results.concat_map name xs in
   let once names name = if List.mem name names then names else name :: names in

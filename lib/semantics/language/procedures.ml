@@ -155,7 +155,7 @@ let poll context pairs =
   Value (Boolean (List.for_all there pairs))
 
 let values_of context pairs =
-  List (Array.of_list (List.concat_map (fun (k, _) -> Tuples.values k context.tuples) pairs))
+  List (Vector.of_list (List.concat_map (fun (k, _) -> Tuples.values k context.tuples) pairs))
 
 (* What [look] gives of the only vehicle of [vs], where several things may be seen. *)
 let looked context vs look =

@@ -71,8 +71,8 @@ let add_to_pick pick s =
   | "payload", (_ :: _ as names) ->
     let devices = function
       | String name -> Ok [ name ]
-      | List xs when Array.for_all (function String _ -> true | _ -> false) xs ->
-        Ok (List.map Value.to_string (Array.to_list xs))
+      | List xs when Vector.for_all (function String _ -> true | _ -> false) xs ->
+        Ok (List.map Value.to_string (Vector.to_list xs))
       | x -> wrong { s with positional = [ x ] } "names of devices"
     in
     let* names = Results.concat_map devices names in

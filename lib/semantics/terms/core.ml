@@ -21,7 +21,7 @@ type value =
   | String of string
   | Wildcard                                    (* [_] *)
   | Symbol of string                            (* [Speed.Units.METERS_PS], by its full name *)
-  | List of value array                         (* never mutated *)
+  | List of value Vector.t                      (* never mutated *)
   | Map of (string * value) list                (* keys in order of insertion, none twice *)
   | Range of int * int                          (* both ends included; counts down if first > last *)
   | Position of Dolphin_geo.Position.t

@@ -24,7 +24,7 @@ let rec compare x y =
     | Integer a, Integer b -> Int.compare a b
     | Number a, Number b -> Float.compare a b
     | String a, String b | Symbol a, Symbol b | Host a, Host b -> String.compare a b
-    | List a, List b -> Order.array compare a b
+    | List a, List b -> Vector.compare compare a b
     | Map a, Map b -> Order.list compare_entry a b
     | Range (a, b), Range (a', b') -> Order.both (Int.compare a a') (fun () -> Int.compare b b')
     | Position a, Position b -> Position.compare a b
@@ -115,7 +115,7 @@ let rec hash_value left x =
     | Integer i -> Order.mix 2 i
     | Number n -> Order.mix 3 (Hashtbl.hash n)
     | String s | Symbol s | Host s -> Order.mix (rank x) (Hashtbl.hash s)
-    | List xs -> hash_values left (Order.mix 7 (Array.length xs)) xs
+    | List xs -> hash_values left (Order.mix 7 (Vector.length xs)) xs
     | Map entries ->
       List.fold_left (fun h (k, x) -> Order.mix (Order.mix h (Hashtbl.hash k)) (hash_value left x)) 8 entries
     | Range (a, b) -> Order.mix (Order.mix 9 a) b
@@ -130,11 +130,11 @@ let rec hash_value left x =
 
 and hash_values left h xs =
   let rec from i h =
-    if i = Array.length xs || !left < 0 then h else from (i + 1) (Order.mix h (hash_value left xs.(i)))
+    if i = Vector.length xs || !left < 0 then h else from (i + 1) (Order.mix h (hash_value left (Vector.get xs i)))
   in
   from 0 h
 
-and hash_code left c = hash_values left c.lambda.id c.captured
+and hash_code left c = hash_values left c.lambda.id (Vector.of_array c.captured)
 
 and hash_task left depth t =
   let part = hash_task left (depth - 1) in
@@ -166,7 +166,7 @@ let by_key (k, _) (k', _) = String.compare k k'
 let rec canonical x =
   match x with
   | Number _ -> canonical_number x
-  | List xs -> List (Array.map canonical xs)
+  | List xs -> List (Vector.map canonical xs)
   | Map entries -> Map (List.map (fun (k, x) -> (k, canonical x)) entries)
   | Null | Boolean _ | Integer _ | String _ | Wildcard | Symbol _ | Range _ | Position _ | Area _ | Vehicles _ | Task _
   | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ -> x
@@ -174,7 +174,7 @@ let rec canonical x =
 let rec normal x =
   match x with
   | Number _ -> canonical_number x
-  | List xs -> List (Array.map normal xs)
+  | List xs -> List (Vector.map normal xs)
   | Map entries -> Map (List.sort by_key (List.map (fun (k, x) -> (k, normal x)) entries))
   | Vehicles vs -> Vehicles (List.sort String.compare vs)
   | Null | Boolean _ | Integer _ | String _ | Wildcard | Symbol _ | Range _ | Position _ | Area _ | Task _ | Closure _
@@ -183,7 +183,7 @@ let rec normal x =
 let rec is_alone x =
   match x with
   | Vehicles (_ :: _ :: _) | Map (_ :: _ :: _) -> false
-  | List xs -> Array.for_all is_alone xs
+  | List xs -> Vector.for_all is_alone xs
   | Map entries -> List.for_all (fun (_, x) -> is_alone x) entries
   | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Range _ | Position _ | Area _
   | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ -> true
@@ -194,7 +194,7 @@ let rec equals x y =
   ||
   match x, y with
   | (Integer _ | Number _), (Integer _ | Number _) -> compare (canonical_number x) (canonical_number y) = 0
-  | List xs, List ys -> Array.length xs = Array.length ys && Array.for_all2 equals xs ys
+  | List xs, List ys -> Vector.equal equals xs ys
   | Map a, Map b ->
     let same (k, x) (k', y) = String.equal k k' && equals x y in
     List.compare_lengths a b = 0 && List.for_all2 same (List.sort by_key a) (List.sort by_key b)
@@ -206,7 +206,7 @@ let rec equals x y =
 let rec made_at site x =
   match x with
   | Task (Platform p) -> Task (Platform { p with task_site = site })
-  | List xs -> List (Array.map (made_at site) xs)
+  | List xs -> List (Vector.map (made_at site) xs)
   | Map entries -> Map (List.map (fun (k, x) -> (k, made_at site x)) entries)
   | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Range _ | Position _ | Area _
   | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ -> x
@@ -217,7 +217,7 @@ let truth = function
   | Integer i -> i <> 0
   | Number n -> n <> 0.
   | String s -> s <> ""
-  | List xs -> xs <> [||]
+  | List xs -> Vector.length xs > 0
   | Map entries -> entries <> []
   | Vehicles vs -> vs <> []
   | Unknown _ -> false
@@ -271,7 +271,7 @@ let characters s =
 let most_items = 1_000_000
 
 let items = function
-  | List xs -> Some xs
+  | List xs -> Some (Vector.to_array xs)
   | Range (first, last) when not (0 < range_length first last && range_length first last <= most_items) -> None
   | Range (first, last) ->
     Some (Array.init (range_length first last) (fun i -> Integer (range_item first last i)))
@@ -283,7 +283,7 @@ let items = function
   | Host _ | Settings _ | Reading _ | Unknown _ -> None
 
 let length = function
-  | List xs -> Some (Array.length xs)
+  | List xs -> Some (Vector.length xs)
   | Range (first, last) -> Some (range_length first last)
   | Vehicles vs -> Some (List.length vs)
   | Map entries -> Some (List.length entries)
@@ -334,7 +334,7 @@ let rec print ~bare ppf x =
   | String s -> text (if bare then s else quoted s)
   | Wildcard -> text "_"
   | Symbol s -> text s
-  | List xs -> Format.fprintf ppf "[%a]" (Format.pp_print_list ~pp_sep:comma inside) (Array.to_list xs)
+  | List xs -> Format.fprintf ppf "[%a]" (Format.pp_print_list ~pp_sep:comma inside) (Vector.to_list xs)
   | Map [] -> text "[:]"
   | Map entries ->
     let entry ppf (k, x) = Format.fprintf ppf "%s:%a" k inside x in

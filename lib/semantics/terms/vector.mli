@@ -1,0 +1,41 @@
+(** Sequences that never change, and grow at their end in constant time (amortised): a vector and what {!append} makes
+    of it share their elements. Elements are found by their index in constant time. *)
+
+type 'a t
+
+val empty : 'a t
+
+val of_array : 'a array -> 'a t
+(** [of_array xs] has the elements of [xs], which is not to be changed from then on. *)
+
+val to_array : 'a t -> 'a array
+(** [to_array xs] is not to be changed: it is [ys] of [of_array ys]. What {!append} gave is copied. *)
+
+val of_list : 'a list -> 'a t
+val to_list : 'a t -> 'a list
+
+val length : 'a t -> int
+
+val get : 'a t -> int -> 'a
+(** [get xs i] is the element with index [i], from [0] on. Raises [Invalid_argument] if there is none. *)
+
+val append : 'a t -> 'a -> 'a t
+(** [append xs x] is [xs] and [x] after it. Where that is appended to [xs] for the first time, it takes constant time
+    (amortised); else [xs] is copied. *)
+
+val concat : 'a t -> 'a t -> 'a t
+(** [concat xs ys] is [xs] and [ys] after it. *)
+
+val set : 'a t -> int -> 'a -> 'a t
+(** [set xs i x] is [xs] with [x] instead of [get xs i]. It is a copy. *)
+
+val map : ('a -> 'b) -> 'a t -> 'b t
+val iter : ('a -> unit) -> 'a t -> unit
+val for_all : ('a -> bool) -> 'a t -> bool
+val exists : ('a -> bool) -> 'a t -> bool
+
+val equal : ('a -> 'a -> bool) -> 'a t -> 'a t -> bool
+(** [equal same xs ys] is whether [xs] and [ys] are as long, and [same] holds of each pair of elements. *)
+
+val compare : ('a -> 'a -> int) -> 'a t -> 'a t -> int
+(** As {!Order.array}. *)

@@ -33,10 +33,11 @@ VARIABLES
   store,    \* sigma: the values of the global variables, << >> for those that have none yet
   A,        \* the allocation: which platform task each vehicle runs, for those that run one
   B,        \* the bound vehicles, in the order in which they were picked
-  N         \* the tuple space
+  N,        \* the tuple space
+  outside   \* what the environment remembers: DolphinEnvironment says what; the date that code reads is among it
 
-Shared == [ store |-> store, A |-> A, B |-> B, N |-> N, sees |-> NothingSeen, beside |-> << >>, around |-> << >>,
-            whole |-> << >>, recruits |-> << >> ]
+Shared == [ store |-> store, A |-> A, B |-> B, N |-> N, date |-> outside.date, sees |-> NothingSeen,
+            beside |-> << >>, around |-> << >>, whole |-> << >>, recruits |-> << >> ]
 
 (* kappa *)
 Script(M) == [ at |-> "script", M |-> M ]

@@ -23,10 +23,8 @@ CONSTANTS
                  \* certain to come so often, sooner or later
   Interruptions  \* whether the program may be interrupted
 
-VARIABLE
-  outside  \* what the environment remembers: how many failures and losses there were, who is lost, who was late, how
-           \* often each question was asked, each call made and each input posted
-
+(* outside is how many failures and losses there were, who is lost, who was late, how often each question was asked,
+   each call made and each input posted; and the date. *)
 vars == << control, store, A, B, N, outside >>
 
 Identifiers == { Fleet[j].id : j \in DOMAIN Fleet }
@@ -290,14 +288,17 @@ Becomes(t) ==
   /\ N' = t.S.N
   /\ outside' = t.outside
 
-Init ==
+InitAt(date) ==
   /\ control = Script(Call(Main, << >>))
   /\ store = << >> \o [ i \in DOMAIN GlobalNames |-> << >> ]
   /\ A = << >>
   /\ B = << >>
   /\ N = NoTuples
   /\ outside = [ failed |-> 0, losses |-> 0, lost |-> { }, late |-> { }, asked |-> [ prompt \in Prompts |-> 0 ],
-                  called |-> [ call \in Calls |-> 0 ], sent |-> << >> \o [ i \in DOMAIN Inputs |-> 0 ] ]
+                  called |-> [ call \in Calls |-> 0 ], sent |-> << >> \o [ i \in DOMAIN Inputs |-> 0 ],
+                  date |-> date ]
+
+Init == InitAt(AnyDate)
 
 Next == \E j \in DOMAIN Transitions : Becomes(Transitions[j])
 
@@ -343,6 +344,7 @@ TypeOK ==
   /\ DOMAIN N.queue = OrderedKeys
   /\ \A pair \in DOMAIN N.bag : N.bag[pair] \in Nat \ { 0 }
   /\ outside.failed \in Nat
+  /\ outside.date \in Nat \cup { AnyDate }
   /\ outside.losses \in Nat
   /\ outside.lost \subseteq Identifiers
   /\ \A i \in DOMAIN Inputs : outside.sent[i] \in 0 .. Inputs[i].times

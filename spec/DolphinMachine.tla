@@ -93,8 +93,19 @@ Claims(sees) == { question \in DOMAIN sees : question[1] = "claim" }
 
 MostClaims == 12
 
-(* Whether there are readings at all. *)
+(* {3 The date} *)
+
+(* S.date is how many whole seconds have passed since the start; what now() gives is open if it is AnyDate. *)
+AnyDate == -1
+DateAsValue(date) == IF date = AnyDate THEN Reading("amount", "now()") ELSE Integer(date)
+
+ReadsDate == \E n \in DOMAIN Code : Code[n].is = "apply" /\ Code[n].operation.op = "now"
+
+(* {3 Readings} *)
+
+(* Whether there may be readings at all. *)
 HasReadings ==
+  ReadsDate \/
   \E j \in DOMAIN Fleet :
     Fleet[j].position = << >> \/ \E i \in DOMAIN Fleet[j].sensors : Fleet[j].sensors[i].shows = << >>
 
@@ -205,7 +216,8 @@ Going == << "going" >>
 
 Started(M, S, mode, fuel) ==
   [ focus |-> M.focus, locals |-> M.locals, stack |-> M.stack, at |-> M.at,
-    store |-> S.store, A |-> S.A, B |-> S.B, N |-> S.N, sees |-> S.sees, beside |-> S.beside, around |-> S.around,
+    store |-> S.store, A |-> S.A, B |-> S.B, N |-> S.N, date |-> S.date, sees |-> S.sees, beside |-> S.beside,
+    around |-> S.around,
     mode |-> mode, verdict |-> "propagate", deeds |-> << >>, fuel |-> fuel, stop |-> Going ]
 
 (* Slots are counted from 0 here, arguments from the last one backwards. *)
@@ -895,6 +907,7 @@ Procedure(m, op, xs) ==
             Settle(m, OneVehicleValue(x, LAMBDA vehicle : SensorOf(vehicle, "reading " \o xs[2][2])))
        [] name = "running" ->
             Settle(m, OneVehicleValue(x, LAMBDA vehicle : Ok(Boolean(vehicle.id \in DOMAIN m.A))))
+       [] name = "now" -> Result(m, DateAsValue(m.date))
        [] name = "area" -> Settle(m, Around(x, xs[2]))
        [] name = "math" -> Settle(m, Mathematics(op.name, xs))
        [] name = "isThere" -> Result(m, Boolean(IsNumber(x) \/ Truth(x)))

@@ -12,6 +12,8 @@ CONSTANTS
   TickLength,   \* how many milliseconds a tick has
   Lasts(_, _),  \* how long the plan of this name takes on a vehicle: bounds, as below, but in milliseconds
   Posts(_),     \* likewise, until a pair with this key is posted, from the start or from the time before
+  CodeDates,    \* the dates after the start at which code that reads the date may come to do something else, in
+                \* seconds and in ascending order
   Announced,    \* the time-out of a pick that has none, in milliseconds
   Silence,      \* how long nothing is heard of a vehicle before its task fails, unless the program says so; likewise
   Horizon       \* so many ticks are looked at
@@ -68,6 +70,12 @@ Timer(i) == << "timer", i >>
 Question(i) == << "question", i >>
 Word == << "word" >>  \* of whom the script asks, or calls
 Posting(k) == << "posting", k >>
+Date(n) == << "date", n >>
+
+(* The next of the dates that code names. *)
+NextDates(remembered) == { CodeDates[i] : i \in { i \in DOMAIN CodeDates : CodeDates[i] > remembered.date } }
+NextDate(remembered) ==
+  IF NextDates(remembered) = { } THEN { } ELSE { Date(Minimum(NextDates(remembered))) }
 
 (* By which event an item is over; << >>, if none is. *)
 ItemOf(event) ==
@@ -92,7 +100,8 @@ ItemsOf(kappa, remembered) ==
           [] OTHER -> { }
       mayCome(i) == remembered.sent[i] < Inputs[i].times
   IN byControl
-     \cup (IF kappa.at = "end" THEN { } ELSE { Posting(Inputs[i].key) : i \in { i \in DOMAIN Inputs : mayCome(i) } })
+     \cup (IF kappa.at = "end" THEN { }
+           ELSE NextDate(remembered) \cup { Posting(Inputs[i].key) : i \in { i \in DOMAIN Inputs : mayCome(i) } })
 
 (* How long the task p takes on v. *)
 TaskLasts(v, p) ==
@@ -109,7 +118,10 @@ BegunBy(e) ==
     [] OTHER -> << >>
 
 (* Without any effect: words come at once, and pairs are awaited from the start, or from the time before. *)
-ByItself(item) == IF item[1] = "posting" THEN BoundsInTicks(Posts(item[2])) ELSE AtOnce
+ByItself(item, remembered) ==
+  CASE item[1] = "posting" -> BoundsInTicks(Posts(item[2]))
+    [] item[1] = "date" -> Precisely(InTicks((item[2] - remembered.date) * 1000, 1))
+    [] OTHER -> AtOnce
 
 Clock(b) == [ since |-> now, bounds |-> b ]
 
@@ -121,7 +133,7 @@ AwaitedAfter(t) ==
         LET latest == SelectSeq(begun, LAMBDA b : b[1] = item)
         IN CASE latest # << >> -> Clock(Last(latest)[2])
              [] item \in DOMAIN awaited /\ item # over -> awaited[item]
-             [] OTHER -> Clock(ByItself(item))
+             [] OTHER -> Clock(ByItself(item, t.outside))
   IN [ item \in ItemsOf(t.control, t.outside) |-> clock(item) ]
 
 (* {2 Silent links} *)
@@ -224,19 +236,26 @@ NoneIsOver(timely, ticks) ==
 TakenNow(timely) ==
   IF ~timely.urgent /\ ~NoneIsOver(timely, 0) THEN { } ELSE { s \in Range(timely.steps) : MayBeNow(s.due) }
 
+(* The date that code comes to next, if there is one. *)
+DatesToCome == { item \in DOMAIN awaited : item[1] = "date" }
+
+(* Something is still to come. *)
+IsAnythingOwed(timely) == DatesToCome # { } \/ \E s \in Range(timely.steps) : IsOwed(s.t.event)
+
 (* A tick may pass: something is still to come, and of each item that is awaited something may happen after it. *)
 MayTick(timely) ==
   /\ ~timely.urgent
-  /\ \E s \in Range(timely.steps) : IsOwed(s.t.event)
+  /\ IsAnythingOwed(timely)
+  /\ \A item \in DatesToCome : ~IsOver(awaited[item].bounds[2], Age(item) + 1)
   /\ NoneIsOver(timely, 1)
 
 -----------------------------------------------------------------------------
 (* {1 Runs} *)
 
 TimedInit ==
-  /\ CheckedInit
+  /\ CheckedInitAt(0)
   /\ now = 0
-  /\ awaited = [ item \in ItemsOf(control, outside) |-> Clock(ByItself(item)) ]
+  /\ awaited = [ item \in ItemsOf(control, outside) |-> Clock(ByItself(item, outside)) ]
   /\ patience = [ others |-> Unlimited, of |-> << >> ]
 
 Step_(t) ==
@@ -257,10 +276,25 @@ Tick ==
   /\ label' = "tick"
   /\ UNCHANGED << vars, awaited, patience, again >>
 
-TimedNext == Take \/ Tick
+(* A date passes that code names, before or after whatever else happens at that moment. Who reads it sees it from now
+   on. *)
+Pass(item) ==
+  /\ Age(item) = awaited[item].bounds[1]
+  /\ \E ts \in { Known(vars) } : ~Timely(ts).urgent
+  /\ LET after == [ outside EXCEPT !.date = item[2] ]
+     IN /\ Becomes([ control |-> control, S |-> Shared, outside |-> after ])
+        /\ awaited' =
+             [ other \in (DOMAIN awaited \ { item }) \cup NextDate(after) |->
+               IF other \in DOMAIN awaited THEN awaited[other] ELSE Clock(ByItself(other, after)) ]
+  /\ label' = "date"
+  /\ UNCHANGED << now, patience, again >>
 
-(* Time can be erased. *)
-THEOREM Erasure == TimedInit /\ [][TimedNext]_<< timedVars, label, again >> => Init /\ [][Next]_vars
+TimedNext == Take \/ Tick \/ \E item \in DatesToCome : Pass(item)
+
+(* Time can be erased: with an open date, where code reads it. *)
+THEOREM Erasure ==
+  CodeDates = << >> /\ ~ReadsDate =>
+    (TimedInit /\ [][TimedNext]_<< timedVars, label, again >> => InitAt(0) /\ [][Next]_vars)
 
 -----------------------------------------------------------------------------
 (* {1 Dates} *)
@@ -289,7 +323,7 @@ Moments ==
   ELSE LET timely == Timely(Known(vars))
        IN UNION { MomentsOf(s.t) : s \in TakenNow(timely) }
           \cup (IF now = Horizon /\ MayTick(timely) THEN { << "goes on" >> } ELSE { })
-          \cup (IF \E s \in Range(timely.steps) : IsOwed(s.t.event) THEN { } ELSE { << "stuck" >> })
+          \cup (IF IsAnythingOwed(timely) THEN { } ELSE { << "stuck" >> })
 
 (* TLC's register 2 has the earliest and the latest date of each moment so far, by program. *)
 ASSUME TLCSet(2, << >>)

@@ -7,6 +7,7 @@ type seen = {
   label : string;
   event : json option;
   world : json option;
+  now : int option;
   rule : string list option;
   effects : json list option;
   running : (string * string) list option;
@@ -89,6 +90,7 @@ let seen found =
   let* label = get text "label" found in
   let* event = maybe any "event" found in
   let* world = maybe any "world" found in
+  let* now = maybe whole "now" found in
   let* rule = maybe (list text) "rule" found in
   let* effects = maybe (list any) "effects" found in
   let* running = maybe texts_by_name "A" found in
@@ -96,14 +98,14 @@ let seen found =
   let* pairs = maybe (sorted (list text)) "N" found in
   let* store = maybe texts_by_name "store" found in
   let* ending = maybe ending "end" found in
-  Ok (Step { label; event; world; rule; effects; running; bound; pairs; store; ending })
+  Ok (Step { label; event; world; now; rule; effects; running; bound; pairs; store; ending })
 
 let step (json : json) =
   match json with
   | `String label -> seen [ ("label", `String label) ]
   | `Assoc [ ("until", json) ] -> Result.map (fun label -> Until label) (text json)
   | json ->
-    let names = [ "label"; "event"; "world"; "rule"; "effects"; "A"; "B"; "N"; "store"; "end" ] in
+    let names = [ "label"; "event"; "world"; "now"; "rule"; "effects"; "A"; "B"; "N"; "store"; "end" ] in
     Result.bind (members_of names json) seen
 
 let trace = list step

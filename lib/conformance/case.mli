@@ -6,6 +6,7 @@ type seen = {
   label : string;
   event : Yojson.Safe.t option;  (** that causes it; [None]: it happens by itself *)
   world : Yojson.Safe.t option;  (** what is known of vehicles from this step on *)
+  now : int option;  (** the date from this step on *)
   rule : string list option;
   effects : Yojson.Safe.t list option;
   running : (string * string) list option;  (** A after it *)

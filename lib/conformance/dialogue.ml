@@ -5,7 +5,7 @@ type json = Yojson.Safe.t
 exception Trouble of string
 
 type ask = json -> (json, string) result
-type place = { configuration : json; world : json }
+type place = { configuration : json; world : json; now : int }
 type transition = { event : json option; label : string; rules : string list; effects : json list; next : json }
 type steps = { internal : transition list; caused : transition list; awaited : json list; refused : string list }
 
@@ -54,7 +54,7 @@ let initial ask ~program ~fleet =
   | Some json -> Error (List.sort compare (read "initial" (list rejection json)))
   | None ->
     let part name = read "initial" (get any name found) in
-    Ok { configuration = part "configuration"; world = part "world" }
+    Ok { configuration = part "configuration"; world = part "world"; now = 0 }
 
 let transition json =
   let* found = members json in
@@ -71,7 +71,9 @@ let refusal json =
 
 let steps ask place events =
   let events = match events with None -> [] | Some events -> [ ("events", `List events) ] in
-  let found = request ask "step" ([ ("configuration", place.configuration); ("world", place.world) ] @ events) in
+  let now = if place.now = 0 then [] else [ ("now", `Int place.now) ] in
+  let place = [ ("configuration", place.configuration); ("world", place.world) ] in
+  let found = request ask "step" (place @ now @ events) in
   let transitions = read "step" (get (list transition) "transitions" found) in
   let internal, caused = List.partition (fun t -> t.event = None) transitions in
   { internal; caused;

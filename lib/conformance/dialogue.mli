@@ -9,7 +9,7 @@ type ask = json -> (json, string) result
 (** [ask request] is the reply, or why there is none. *)
 
 (** Where a run is. *)
-type place = { configuration : json; world : json }
+type place = { configuration : json; world : json; now : int  (** the date, in seconds *) }
 
 type transition = {
   event : json option;

@@ -195,6 +195,9 @@ let step g found =
   let* json = bad (get any "configuration" found) in
   let* c = error (fun why -> Bad_configuration why) (Snapshot.of_json g.nodes g.program json) in
   let* world = match List.assoc_opt "world" found with None | Some `Null -> Ok g.world | Some json -> to_world json in
+  let* now = bad (optional whole ~default:0 "now" found) in
+  let* () = if now < 0 then Error (Bad_request "\"now\" is a whole number of seconds from 0") else Ok () in
+  let world = World.at (Exactly now) world in
   let to_event json = Result.bind (members json) Event.of_members in
   let* events =
     match List.assoc_opt "events" found with

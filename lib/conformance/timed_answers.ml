@@ -8,7 +8,8 @@ type given = { program : Core.program; scenario : Dolphin_scenario.Scenario.t }
 
 let options ~faults ~world g : Timed.options =
   { environment = Scenario_world.environment ~answers:[] ~faults g.program g.scenario; program = g.program;
-    world = world g.scenario; durations = Durations.of_scenario g.scenario }
+    world = world g.scenario; durations = Durations.of_scenario g.scenario;
+    dates = Dated_code.named g.program }
 
 (* {1 All runs} *)
 
@@ -63,7 +64,7 @@ let ended (item : Timed.item) =
   match item with
   | Task v -> Timed_data.Vehicle v
   | Timer i -> Timer i
-  | Question _ | Recruit _ | Answer | Reply | Posting _ | Coming _ | Course _ ->
+  | Question _ | Recruit _ | Answer | Reply | Posting _ | Coming _ | Course _ | Date _ ->
     invalid_arg "Timed_answers: what has no bounds"
 
 let finding (f : Recorded.finding) : Timed_data.finding =
@@ -73,12 +74,13 @@ let rec in_order before = function [] -> true | (date, _) :: rest -> before <= d
 
 let dated ~faults g run =
   let options = options ~faults ~world:Scenario_world.still g in
+  let world date = World.at (Exactly (date / 1000)) options.world in
   let take (recorded, found, _) date on (t : Transition.t) =
     let recorded, more = Recorded.transition recorded ~date ~on t in
     (recorded, found @ List.map finding more, t.next)
   in
   let rec by_itself n date ((_, _, c) as at) =
-    match (Transition.internal g.program options.world c) () with
+    match (Transition.internal g.program (world date) c) () with
     | Seq.Nil -> Ok at
     | Seq.Cons _ when n = 0 -> Error "it goes on by itself for ever"
     | Seq.Cons (t, _) -> by_itself (n - 1) date (take at date None t)
@@ -92,7 +94,7 @@ let dated ~faults g run =
     | Error (No_value why) -> Error why
     | Error (Refused refusal) -> refused refusal
     | Ok e -> (
-        match Transition.accept g.program options.world c e with
+        match Transition.accept g.program (world date) c e with
         | Ok t -> by_itself most_steps date (take at date (Some e) t)
         | Error refusal -> refused refusal)
   in

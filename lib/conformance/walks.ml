@@ -7,9 +7,9 @@ let taking (t : transition) rules = Rules.union (Rules.of_list t.rules) rules
 let labels ts = String.concat ", " (List.map (fun (t : transition) -> t.label) ts)
 let at_step i format = Printf.ksprintf (fun why -> Error (Printf.sprintf "step %d: %s" i why)) format
 
-(* Where a step of a trace begins: what is known of vehicles may change with it. *)
+(* Where a step of a trace begins: what is known of vehicles may change with it, and time passes. *)
 let before (s : Case.seen) place =
-  match s.world with None -> place | Some world -> { place with world }
+  { place with world = Option.value s.world ~default:place.world; now = Option.value s.now ~default:place.now }
 
 let candidates ask place (s : Case.seen) =
   let place = before s place in

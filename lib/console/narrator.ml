@@ -97,7 +97,8 @@ let place_of_question n prompt =
 
 let waiting n ~time =
   let { Program_file.program; source; _ } = n.program in
-  let now = Waiting.list program ~source n.world n.configuration in
+  let world = World.at (Exactly (World.whole time)) n.world in
+  let now = Waiting.list program ~source world n.configuration in
   if now <> n.told then begin
     n.told <- now;
     tell n "waiting" (`Assoc [ ("time", Canonical.number time); ("for", `List (List.map (json_of_waiting n) now)) ])

@@ -16,7 +16,7 @@ let world (scenario : Scenario.t) =
     let world = World.open_sensor Connected v.id [ Boolean true; Boolean false ] world in
     List.fold_left (open_measurement v) world v.shows
   in
-  List.fold_left open_sensors (still scenario) scenario.vehicles
+  World.at Any (List.fold_left open_sensors (still scenario) scenario.vehicles)
 
 let ending (scenario : Scenario.t) v name : Environment.ending =
   let vehicle = List.find_opt (fun (vehicle : Scenario.vehicle) -> vehicle.id = v) scenario.vehicles in

@@ -33,10 +33,11 @@ type beginning = {
   world : World.t;
   news : World.vehicle_state list;
   pending : Transition.event option;
+  time : float;
 }
 
 let afresh program order =
-  { configuration = Configuration.initial program; world = World.nobody order; news = []; pending = None }
+  { configuration = Configuration.initial program; world = World.nobody order; news = []; pending = None; time = 0. }
 
 (* So many transitions and events may pass before others get their turn. *)
 let most_without_pause = 100
@@ -61,6 +62,7 @@ type news =
   | Posted of Inputs.item
   | Event of (Transition.event, Transition.refusal) result
   | Asked_again  (* an answer was neither yes nor no *)
+  | Date_reached  (* code that reads the date may do something else now *)
   | Unanswered of Residual.timer  (* nobody answers here, but somebody may elsewhere *)
   | Nothing_more
 
@@ -76,6 +78,10 @@ module Make (P : Platform.S) = struct
     mutable interruptions : news Lwt.t list;  (* those to come, the next one first *)
     mutable configuration : Configuration.t;
     mutable world : World.t;
+    dates : Dated_code.t;
+    mutable moment : float;  (* the time of the world, if the program reads it *)
+    mutable alarm : int option;  (* the date for which the platform's timer is set *)
+    mutable alarms : int;  (* that rang since the latest event *)
     mutable telemetry : bool;  (* as the platform was told last *)
     mutable upcoming : (Platform.event Lwt.t * news Lwt.t) option;
     (* the platform's next event, if it was asked for, as it is told and as it is read *)
@@ -171,6 +177,15 @@ module Make (P : Platform.S) = struct
 
   (* {1 Transitions} *)
 
+  (* What a program reads of the time is that of the journal's line. *)
+  let time_of s = if s.program.reads_now then s.moment else P.now s.platform
+
+  let look_at_clock s =
+    if s.program.reads_now then begin
+      s.moment <- Float.max s.moment (P.now s.platform);
+      s.world <- World.at (Exactly (World.whole s.moment)) s.world
+    end
+
   (* Nobody need answer any more. *)
   let withdraw s =
     let reply = s.reply in
@@ -180,8 +195,9 @@ module Make (P : Platform.S) = struct
   let take s ~cause (t : Transition.t) =
     s.since_pause <- (match t.label with Silent -> most_without_pause | _ -> s.since_pause + 1);
     let is_news = match cause with Some (Transition.Recruited _) | None -> false | Some _ -> true in
+    if is_news then s.alarms <- 0;
     s.rounds <- (if is_news then 0 else if begins_round t then s.rounds + 1 else s.rounds);
-    let time = P.now s.platform in
+    let time = time_of s in
     Log.transition ~time ~cause t;
     s.observer.transition ~time ~cause t;
     s.configuration <- t.next;
@@ -204,6 +220,7 @@ module Make (P : Platform.S) = struct
 
   (* [deliver s e] is whether [e] changed the configuration. *)
   let deliver s event =
+    look_at_clock s;
     match Transition.accept s.program s.world s.configuration event with
     | Ok t -> take s ~cause:(Some event) t; true
     | Error Not_awaited ->
@@ -227,6 +244,7 @@ module Make (P : Platform.S) = struct
         | Vehicle state -> Seen state
         | Task_done v -> Event (Ok (Vehicle_done v))
         | Task_failed (v, why) -> Event (Ok (Vehicle_failed (v, why)))
+        | Timer timer when timer = Residual.alarm -> Date_reached
         | Timer timer -> Event (Ok (Timer_expired timer))
         | Input (k, x) -> Event (Ok (Input (k, x)))
         | Quiet -> Nothing_more
@@ -303,6 +321,7 @@ module Make (P : Platform.S) = struct
                  | Seen state -> see s state
                  | Posted item -> ignore (take_input s item)
                  | Event event -> ignore (deliver_if_any s event)
+                 | Date_reached -> s.alarm <- None
                  | Asked_again | Unanswered _ | Nothing_more -> ());
                 catch_up s))
 
@@ -319,6 +338,31 @@ module Make (P : Platform.S) = struct
       List.iter (s.observer.unknown ~time:(P.now s.platform)) news
     end
 
+  (* {2 The date} *)
+
+  (* In virtual time, who does with the date what nobody can foresee is asked again so often. *)
+  let most_alarms = 86_400
+
+  (* When a guard that stands may come to hold because time passes. *)
+  let next_date s =
+    match s.configuration.control with
+    | Executing _ when s.program.reads_now ->
+      let is_enough = P.virtual_time && s.alarms >= most_alarms && not (Dated_code.is_exact s.dates) in
+      if is_enough then None
+      else Dated_code.next s.dates s.program s.world ~now:(World.whole s.moment) s.configuration.shared.store
+    | Executing _ | Script _ | Waiting _ | Ended _ -> None
+
+  let set_alarm s =
+    if s.program.reads_now then begin
+      let next = next_date s in
+      if next <> s.alarm then begin
+        s.alarm <- next;
+        match next with
+        | Some date -> P.set_timer s.platform Residual.alarm (float_of_int date -. P.now s.platform)
+        | None -> P.cancel_timer s.platform Residual.alarm
+      end
+    end
+
   let interrupt s = ignore (deliver s Interruption)
 
   (* Goes on with [f s], after others had their turn if it is time. *)
@@ -332,6 +376,7 @@ module Make (P : Platform.S) = struct
     end
 
   let rec advance s =
+    look_at_clock s;
     match s.configuration.control with
     | Ended ending -> Lwt.return (Ended ending)
     | Script _ | Waiting _ | Executing _ when List.exists is_resolved (next_interruption s) ->
@@ -361,7 +406,7 @@ module Make (P : Platform.S) = struct
     let sensitive = Transition.depends_on_sensors s.program c in
     match c.control with
     | Executing (_, r)
-      when (not sensitive) && s.program.inputs = []
+      when (not sensitive) && s.program.inputs = [] && next_date s = None
            && Vehicle_map.is_empty c.shared.allocation
            && Transition.awaited c = [] ->
       give_up s (Stuck r)
@@ -373,12 +418,14 @@ module Make (P : Platform.S) = struct
   (* News that cannot enable a transition do not make the driver look for one. *)
   and wait ~sensitive s =
     show_question s;
+    set_alarm s;
     next_news s >>= fun news ->
     s.input_before <- (match news with Posted _ -> true | _ -> false);
     match news with
     | Posted item -> continue s (if take_input s item then advance else wait ~sensitive)
     | Seen state -> see s state; continue s (if sensitive then advance else wait ~sensitive)
     | Event event -> continue s (if deliver_if_any s event then advance else wait ~sensitive)
+    | Date_reached -> s.alarm <- None; s.alarms <- s.alarms + 1; continue s advance
     | Asked_again -> continue s (wait ~sensitive)
     | Unanswered question -> Task_questions.leave s.questions question; wait ~sensitive s
     | Nothing_more -> (
@@ -409,7 +456,9 @@ module Make (P : Platform.S) = struct
     Option.iter Lwt.cancel s.posted;
     (match Option.map Lwt.state s.posted with
      | Some (Return (Posted item)) -> Inputs.tell item false
-     | Some (Return (Seen _ | Event _ | Asked_again | Unanswered _ | Nothing_more) | Sleep | Fail _) | None -> ());
+     | Some
+         (Return (Seen _ | Event _ | Date_reached | Asked_again | Unanswered _ | Nothing_more) | Sleep | Fail _)
+     | None -> ());
     Inputs.close s.inputs;
     P.close s.platform
 
@@ -431,6 +480,7 @@ module Make (P : Platform.S) = struct
         interruptions = List.map interruption interruptions;
         configuration = beginning.configuration;
         world = beginning.world;
+        dates = Dated_code.of_program program; moment = beginning.time; alarm = None; alarms = 0;
         telemetry = false; upcoming = None; reply = None; questions = Task_questions.create (); posted = None;
         input_before = false; unknown = []; since_pause = 0; rounds = 0 }
     in

@@ -72,6 +72,7 @@ let procedures =
       "connected", "connected(v)", "Whether there is a link to the vehicle.";
       "reading", "reading(v, 'Temperature')", "The last value that the vehicle has told of what it measures.";
       "running", "running(v)", "Whether the vehicle runs a task now.";
+      "now", "now()", "The whole seconds since the run started.";
       "eta", "eta(v, p)", "The seconds in which the vehicle gets from where it is to a position, straight on.";
       "location", "location(latitude, longitude)", "A position, in degrees; a third number is its height in metres. \
                                                     Also `location \"41\xc2\xb011.1'N 8\xc2\xb042.4'W\"`.";

@@ -9,7 +9,7 @@ let names_are_free (o : Timed.options) =
   let may = Faults.is_possible in
   (not (may faults.loss)) && (not (may faults.join)) && (not faults.interrupt)
   && List.for_all (fun (i : Environment.input) -> not (List.mem i.key o.program.inputs)) inputs
-  && (not o.program.reads_sensors)
+  && (not o.program.reads_sensors) && (not o.program.reads_now)
   && (not (Timed.may_join_during_tasks o))
   && not (Footprint.asks_held o.program)
 

@@ -20,7 +20,7 @@ let with_tolerance tolerance r = { r with tolerance }
 let is_timed (p : Timed.pending) =
   match p.item with
   | Task _ | Timer _ -> true
-  | Question _ | Recruit _ | Answer | Reply | Posting _ | Coming _ | Course _ -> false
+  | Question _ | Recruit _ | Answer | Reply | Posting _ | Coming _ | Course _ | Date _ -> false
 
 let is_lost = String.starts_with ~prefix:Dolphin_environment.Environment.loss
 

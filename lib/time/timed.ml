@@ -6,6 +6,7 @@ type options = {
   program : Core.program;
   world : World.t;
   durations : Durations.t;
+  dates : (int list, Core.site) result;
 }
 
 type item =
@@ -18,6 +19,7 @@ type item =
   | Posting of string
   | Coming of { vehicle : Core.vehicle; always : bool }
   | Course of Core.vehicle
+  | Date of int
 
 type pending = { item : item; bounds : Bounds.t; task : Core.platform_task option; prompt : string option }
 
@@ -27,6 +29,7 @@ type state = {
   pending : pending list;
   elsewhere : (Core.vehicle * Dolphin_geo.Position.t option) list;
   patience : (Core.vehicle option * Bounds.t) list;
+  date : int;  (* that code has reached: what is pending says it, too *)
 }
 
 (* {1 States} *)
@@ -60,7 +63,8 @@ let is_same (a : item) (b : item) =
   | Posting k, Posting l -> String.equal k l
   | Coming { vehicle = v; _ }, Coming { vehicle = w; _ } -> String.equal v w
   | Course v, Course w -> String.equal v w
-  | (Task _ | Timer _ | Question _ | Recruit _ | Answer | Reply | Posting _ | Coming _ | Course _), _ -> false
+  | Date m, Date n -> Int.equal m n
+  | (Task _ | Timer _ | Question _ | Recruit _ | Answer | Reply | Posting _ | Coming _ | Course _ | Date _), _ -> false
 
 let of_awaited : Transition.awaited -> item = function
   | End_of v -> Task v
@@ -119,15 +123,25 @@ let still_coming (c : Configuration.t) before =
   in
   List.filter matters (List.map (fun p -> p.item) before)
 
-let awaited o c outside ~before =
-  List.map of_awaited (Transition.awaited c) @ List.map (fun k -> Posting k) (postings o c outside)
+(* {2 The date} *)
+
+(* The next date that code names. *)
+let next_date o (c : Configuration.t) date =
+  match o.dates, c.control with
+  | Ok (_ :: _ as dates), (Script _ | Waiting _ | Executing _) -> List.find_opt (fun k -> k > date) dates
+  | (Ok [] | Error _), _ | _, Ended _ -> None
+
+let awaited o c outside date ~before =
+  List.map of_awaited (Transition.awaited c)
+  @ List.map (fun k -> Posting k) (postings o c outside)
+  @ Option.fold (next_date o c date) ~none:[] ~some:(fun k -> [ Date k ])
   @ still_coming c before
 
 let in_order = List.sort_uniq Stdlib.compare
 
 (* [before] is what is awaited before a transition that answers [over] and asks for [effects], which leads to [c]: what
    is awaited there, and of it what has begun with the transition. *)
-let pending o elsewhere ~before ~over effects c outside =
+let pending o elsewhere ~before ~over effects c outside date =
   let now = List.filter_map (begun o elsewhere) effects in
   let latest item = List.fold_left (fun found p -> if is_same p.item item then Some p else found) None now in
   let is_over item = match over with Some other -> is_same other item | None -> false in
@@ -138,10 +152,16 @@ let pending o elsewhere ~before ~over effects c outside =
         match List.find_opt (fun p -> is_same p.item item && not (is_over item)) before with
         | Some p -> (p, false)
         | None ->
-          let bounds = match item with Posting k -> o.durations.posted k | Answer -> Bounds.at_once | _ -> Some_time in
+          let bounds : Bounds.t =
+            match item with
+            | Posting k -> o.durations.posted k
+            | Date k -> Bounds.exactly (float_of_int (k - date))
+            | Answer -> Bounds.at_once
+            | _ -> Some_time
+          in
           ({ item; bounds; task = None; prompt = None }, true))
   in
-  List.split (List.map find (in_order (awaited o c outside ~before)))
+  List.split (List.map find (in_order (awaited o c outside date ~before)))
 
 let fresh pending is_fresh =
   List.filter_map Fun.id (List.map2 (fun p fresh -> if fresh then Some p.item else None) pending is_fresh)
@@ -159,8 +179,8 @@ let coming o =
 
 let initial o =
   let configuration = Configuration.initial o.program and outside = Environment.initial in
-  let pending, _ = pending o [] ~before:(coming o) ~over:None [] configuration outside in
-  { configuration; outside; pending; elsewhere = []; patience = [] }
+  let pending, _ = pending o [] ~before:(coming o) ~over:None [] configuration outside 0 in
+  { configuration; outside; pending; elsewhere = []; patience = []; date = 0 }
 
 (* {1 Where vehicles are} *)
 
@@ -271,12 +291,13 @@ let step o s (choice : Environment.choice) =
   let t = choice.transition in
   let over = Option.bind choice.on of_event in
   let elsewhere = elsewhere_after s t choice.on in
-  let pending, is_fresh = pending o elsewhere ~before:s.pending ~over t.effects t.next choice.outside in
+  let pending, is_fresh = pending o elsewhere ~before:s.pending ~over t.effects t.next choice.outside s.date in
   { transition = t; due = due o s choice;
     urgent = (not (is_event o s choice)) && (not (may_wait t)) && not (comes_late t);
     fresh = fresh pending is_fresh;
     next =
-      { configuration = t.next; outside = choice.outside; pending; elsewhere; patience = patience_after o s t } }
+      { configuration = t.next; outside = choice.outside; pending; elsewhere; patience = patience_after o s t;
+        date = s.date } }
 
 let taken o s ~on transition = step o s { transition; outside = s.outside; on }
 
@@ -311,6 +332,7 @@ let arrival o s =
   | Some v -> Option.map of_pending (List.find_opt (coming_of v) s.pending)
   | None -> None
 
+let is_of_date step = match step.due with Some (Date _, _) -> true | Some _ | None -> false
 let is_arrival step = match step.due with Some (Coming _, _) -> true | Some _ | None -> false
 
 (* It matters where vehicles are looked for. *)
@@ -321,19 +343,39 @@ let in_whole_fleet o s step =
     | Waiting (_, Pick _), _ | _, Recruit _ -> true
     | (Script _ | Waiting _ | Executing _ | Ended _), _ -> false
   in
-  if is_arrival step then None else if looks then Some { t with assumed = attendance o s @ t.assumed } else Some t
+  if is_arrival step || is_of_date step then None
+  else if looks then Some { t with assumed = attendance o s @ t.assumed }
+  else Some t
 
 let transitions o s steps =
   let add (s, found) step = (step.next, in_whole_fleet o s step :: found) in
   List.rev (snd (List.fold_left add (s, []) steps))
 
+(* {2 The date} *)
+
+(* No transition: only what code reads of the date changes. *)
+let date_step o s =
+  let reached k =
+    let c = s.configuration in
+    let transition : Transition.t = { rules = []; label = Silent; next = c; effects = []; assumed = [] } in
+    let pending, is_fresh =
+      pending o s.elsewhere ~before:s.pending ~over:(Some (Date k)) [] c s.outside k in
+    { transition; due = Some (Date k, bounds_of s (Date k)); fresh = fresh pending is_fresh; urgent = false;
+      next = { s with pending; date = k } }
+  in
+  Option.map reached (next_date o s.configuration s.date)
+
+let world o s =
+  let world = World.suppose (attendance o s) o.world in
+  if o.program.reads_now then World.at (Since s.date) world else world
+
 let all_steps o s =
   let with_step (choice : Environment.choice) = (choice, step o s choice) in
   let choices =
-    Environment.choices_on o.environment o.program (World.suppose (attendance o s) o.world) s.outside s.configuration
+    Environment.choices_on o.environment o.program (world o s) s.outside s.configuration
     |> Seq.map with_step |> Seq.filter (fun (_, step) -> is_possible step) |> List.of_seq
   in
-  let all = List.map snd choices in
+  let all = List.map snd choices @ Option.to_list (date_step o s) in
   if not (List.exists (fun step -> step.urgent) all) then
     all @ List.filter is_possible (Option.to_list (arrival o s))
   else if List.exists (fun step -> comes_late step.transition) all then

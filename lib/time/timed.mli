@@ -9,6 +9,7 @@ type options = {
   program : Core.program;
   world : World.t;
   durations : Durations.t;
+  dates : (int list, Core.site) result;  (** {!Dated_code.named} of the program *)
 }
 
 (** What is awaited. *)
@@ -24,6 +25,7 @@ type item =
   (** that it is heard of for the first time; [always]: not only before the first task *)
   | Course of Core.vehicle
   (** never in a {!state}: since when the battery of a vehicle that is observed goes as it does ({!Course}) *)
+  | Date of int  (** that so many seconds have passed since the start, at which code may come to do something else *)
 
 type pending = {
   item : item;
@@ -42,6 +44,7 @@ type state = private {
   patience : (Core.vehicle option * Bounds.t) list;
   (** how long the link of a vehicle, or of all others, may be silent, where the program said so; [[]] if none is lost
   *)
+  date : int;  (** as code reads it: the latest that it names, of those that have passed *)
 }
 
 val initial : options -> state
@@ -59,6 +62,9 @@ type step = {
   fresh : item list;  (** what begins with it, of [next.pending], in ascending order *)
   urgent : bool;  (** whether no time passes while it is possible *)
 }
+
+val is_of_date : step -> bool
+(** Whether it is none of the program, but a date passes that code names. Its [transition] changes nothing. *)
 
 val steps : options -> state -> step list
 (** [steps o s] is what may happen in [s]. If some step is urgent, only what needs no event; of [START]s only

@@ -54,7 +54,10 @@ let places ?course reduction options ~filled ~note =
   let apart = Option.map Course.vehicle course in
   { options; course; filled; note; table = Table.create 1_000;
     ends = (if reduction = Nothing then None else Some (Inert.create options));
-    likeness = (if reduction = Inert_ends_and_likeness then Some (Likeness.create ?apart options) else None) }
+    likeness =
+      (if reduction = Inert_ends_and_likeness && not options.program.reads_now then
+         Some (Likeness.create ?apart options)
+       else None) }
 
 let likeness t = t.likeness
 let add place number = place.here <- number :: place.here
@@ -141,13 +144,19 @@ let find t key state execution items inert rest clocks =
     Table.add t.table key place;
     place
 
+let unsettled t (fault : Fault.t) =
+  let at = Format.pp_print_option (fun ppf -> Format.fprintf ppf "%a: " Dolphin_syntax.Location.pp) in
+  let why = Format.asprintf "%a%s" at (Fault.location t.options.program fault) fault.message in
+  raise (Limits.Stop (Unsettled why))
+
+let undated = "now() is not only compared with constants, as in now() < 20.min: what follows from it is not known here"
+
+let check_dates t = Result.iter_error (fun site -> unsettled t (Fault.make site undated)) t.options.dates
+
 let follow t place =
   match Lazy.force place.follows with
   | found -> found
-  | exception Dolphin_environment.Environment.Unclear fault ->
-    let at = Format.pp_print_option (fun ppf -> Format.fprintf ppf "%a: " Dolphin_syntax.Location.pp) in
-    let why = Format.asprintf "%a%s" at (Fault.location t.options.program fault) fault.message in
-    raise (Limits.Stop (Unsettled why))
+  | exception Dolphin_environment.Environment.Unclear fault -> unsettled t fault
 
 let arrows t place = fst (follow t place)
 let steps t place = List.map (fun arrow -> arrow.step) (arrows t place)

@@ -42,6 +42,10 @@ val fresh : places -> Timed.state -> Timed.step -> Timed.item list
 val likeness : places -> Likeness.t option
 val add : t -> int -> unit
 
+val check_dates : places -> unit
+(** Whether code does no more with the date than is known here.
+    @raise Dolphin_checker.Limits.Stop if it does *)
+
 val arrows : places -> t -> arrow list
 (** [arrows ps p] is the steps of [p] that are followed.
     @raise Dolphin_checker.Limits.Stop

@@ -325,6 +325,7 @@ let end_rest t n (before : Timed_place.t) zone =
   | (No_rest | Unsaid | Said), _ -> []
 
 let expand t key (v : via System.visitor) =
+  Timed_place.check_dates t.places;
   let n = number t key.(0) in
   let { place = before; zone; _ } = t.nodes.(n) in
   let visited ns = List.iter (visit t v) ns; List.length ns in

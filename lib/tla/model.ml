@@ -220,7 +220,7 @@ let text program world (environment : Environment.options) plans prompts calls t
 (* The module of the program with its times. *)
 let timed_text (times : Times.t) ~plans world (program : Core.program) =
   let definition (head, body) = Printf.sprintf "MC%s ==\n  %s\n\n" head body in
-  let definitions = Times.definitions times ~plans ~keys:program.inputs world in
+  let definitions = Times.definitions times ~plans program world in
   "---- MODULE MCTimed ----\nEXTENDS MC, Timed\n\n" ^ String.concat "" (List.map definition definitions) ^ "====\n"
 
 let constants (environment : Environment.options) =
@@ -255,7 +255,7 @@ let refinement environment =
 let timed times environment =
   let value (name, n) = Printf.sprintf "  %s = %d\n" name n in
   "INIT TimedInit\nNEXT TimedNext\nVIEW TimedView\n" ^ constants environment
-  ^ "  Lasts <- MCLasts\n  Posts <- MCPosts\n"
+  ^ "  Lasts <- MCLasts\n  Posts <- MCPosts\n  CodeDates <- MCCodeDates\n"
   ^ String.concat "" (List.map value (Times.values times))
   ^ "INVARIANT Dates\nCHECK_DEADLOCK FALSE\n"
 

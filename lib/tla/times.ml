@@ -15,14 +15,16 @@ let ids world = List.map (fun (s : World.vehicle_state) -> s.id) (World.vehicles
 
 let rec divisor a b = if b = 0 then a else divisor b (a mod b)
 
-let tick (durations : Durations.t) ~(faults : Faults.t) ~plans world =
+let tick (durations : Durations.t) ~(faults : Faults.t) ~plans program world =
   let longest found : Bounds.t -> int = function
     | Within { least; most } -> divisor (divisor found least) most
     | Some_time | Never -> found
   in
   let if_possible limit bounds found = if Faults.is_possible limit then longest found bounds else found in
   let of_vehicle found v = List.fold_left (fun found name -> longest found (by_name durations v name)) found plans in
-  let of_plans = List.fold_left of_vehicle 0 (ids world) in
+  let dates = Result.value (Dated_code.named program) ~default:[] in
+  let of_dates = List.fold_left (fun found n -> divisor found (1000 * n)) 0 dates in
+  let of_plans = List.fold_left of_vehicle of_dates (ids world) in
   match if_possible faults.join durations.announced (if_possible faults.loss durations.silence of_plans) with
   | 0 -> 1_000
   | n -> n
@@ -55,7 +57,16 @@ let posts t keys =
   let of_key k = (Format.asprintf "k = %a" Tla.pp (Tla.String k), bounds (t.durations.posted k)) in
   cases (List.map of_key keys) (bounds Some_time)
 
-let definitions t ~plans ~keys world = [ ("Lasts(v, p)", lasts t plans world); ("Posts(k)", posts t keys) ]
+let undated = {|Assert(FALSE, "now() is not only compared with constants: what follows from it is not known here")|}
+
+let code_dates program : Tla.t =
+  match Dated_code.named program with
+  | Ok dates -> Tuple (List.map (fun n -> Tla.Integer n) dates)
+  | Error _ -> Name undated
+
+let definitions t ~plans program world =
+  [ ("Lasts(v, p)", lasts t plans world); ("Posts(k)", posts t program.Core.inputs);
+    ("CodeDates", Format.asprintf "%a" Tla.pp (code_dates program)) ]
 
 (* Whole numbers: the simulator's time-out, and that of links. *)
 let values t =

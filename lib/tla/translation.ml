@@ -243,6 +243,7 @@ and procedure t site builtin : Tla.t =
   | Sensor_of sensor ->
     note_sensor t site sensor;
     record "sensor" [ ("name", String (name_of_sensor sensor)) ]
+  | Now -> plain "now"
   | Is_running -> plain "running"
   | Reading_of -> plain "reading"
   | Eta -> refuse t site "eta: TLA+ has whole numbers only"; plain "list"

@@ -107,15 +107,28 @@ let events p (c : Configuration.t) label =
   let posted = Option.to_list (Option.bind label (input p)) in
   List.concat_map of_awaited (Transition.awaited c) @ posted @ interruption
 
-let on p c event = Result.to_option (Transition.accept p.program p.world c event)
+exception Enough
+
+(* When what is hidden happened is not known. What depends on more than a comparison of the date cannot be told. *)
+let undated p = if p.program.reads_now then { p with world = World.at Any p.world } else p
+let dated time p = if p.program.reads_now then { p with world = World.at (Exactly (World.whole time)) p.world } else p
+let told = function Ok x -> x | Error (_ : Fault.t) -> raise Enough
+
+let on p c event =
+  if p.program.reads_now then
+    List.filter_map Result.to_option (told (Transition.accept_all p.program p.world c event))
+  else Option.to_list (Result.to_option (Transition.accept p.program p.world c event))
+
+let internal p c =
+  if p.program.reads_now then told (Transition.internal_all p.program p.world c)
+  else Transition.internal p.program p.world c
 
 let steps p c label : Transition.t Seq.t =
-  let caused () = List.to_seq (List.filter_map (on p c) (events p c label)) () in
-  Seq.append (Transition.internal p.program p.world c) caused
+  let p = if label = None then undated p else p in
+  let caused () = List.to_seq (List.concat_map (on p c) (events p c label)) () in
+  Seq.append (internal p c) caused
 
 (* {1 Search} *)
-
-exception Enough
 
 (* [f] of each configuration that hidden steps lead to, breadth first, each once. *)
 let each_way p f =
@@ -171,7 +184,7 @@ let label p text =
 let cause p event =
   let choose (c : Configuration.t) add =
     match Event.to_event p.program c event with
-    | Ok cause -> Option.iter (fun (t : Transition.t) -> add t.next) (on p c cause)
+    | Ok cause -> List.iter (fun (t : Transition.t) -> add t.next) (on p c cause)
     | Error _ -> ()
   in
   after p choose (Format.asprintf "%a" Event.pp event)
@@ -201,6 +214,7 @@ let see p (state : World.vehicle_state) =
 let feed p (entry : Entry.t) =
   if p.over then Error (Impossible { reason = "the trace goes on after its last line"; possible = [] })
   else
+    let p = match entry with Header _ | Partial _ -> p | entry -> dated (Entry.time entry) p in
     match entry with
     | Vehicle { state; _ } -> see p state
     | Label { label = text; _ } -> label p text

@@ -202,6 +202,7 @@ let feed r (entry : Entry.t) =
   else if time < r.time then mismatch r (Printf.sprintf "time goes back, from %g to %g" r.time time)
   else
     let r = { r with time; latest = None } in
+    let r = if r.program.reads_now then { r with world = World.at (Exactly (World.whole time)) r.world } else r in
     match entry, r.event with
     | (Partial _ | Label _), _ -> mismatch r "such lines are those of a partial trace"
     | (Header _ | Vehicle _ | Event _ | Note _ | Resumed _ | End _), Some event ->

@@ -82,6 +82,7 @@ What a journal was written with, is what was included as well.
   lib/limits.dol:7:5: error: unknown name 'nope'
     7 | x = nope
       |     ^^^^
+      hint: did you mean 'now'?
   mission.dol: 1 error
   [2]
 

@@ -484,3 +484,46 @@ In a narrow terminal rows of tables go on in further lines, and a run is a list.
   $ dolphin explore late.dol --faults loss 2>&1 > /dev/null
   dolphin: by the fleet these join late: b; here they are there from the start, unless --faults has join
   [1]
+
+What code does with the date is exact where it compares it with constants. Else nothing is said, but where that is.
+
+  $ cat > dusk.dol <<'END'
+  > limit = 5.min
+  > v = pick { id 'a' }
+  > execute (repeat task('survey')[v] until { now() >= limit }) >> action { message "done at ${now()}" }
+  > END
+  $ cat > dusk.fleet <<'END'
+  > vehicle 'a', { type 'UUV' }
+  > plan 'survey', { duration 2.min, 3.min }
+  > END
+  $ dolphin time dusk.dol | sed 's/, [0-9.]* s, [0-9]* MiB//'
+  completed: 5:00 at the earliest, 8:00 at the latest
+  task    vehicle  starts        ends          where
+  survey  a        0:00 to 5:00  2:00 to 8:00  dusk.dol:3
+  vehicle  least battery
+  a        98.6 %
+  38 states, depth 15
+  
+  a run that ends last:
+         program                       a              where
+  0:00   pick(1 vehicle with id 'a')                  dusk.dol:2
+  0:00   picks a                                      dusk.dol:2
+  0:00   execute                                      dusk.dol:3
+  0:00                                 starts survey  dusk.dol:3
+  3:00                                 ends survey    dusk.dol:3
+  3:00   check                                        dusk.dol:3
+  3:00                                 starts survey  dusk.dol:3
+  5:00                                 ends survey    dusk.dol:3
+  5:00   check                                        dusk.dol:3
+  5:00                                 starts survey  dusk.dol:3
+  8:00                                 ends survey    dusk.dol:3
+  8:00   check                                        dusk.dol:3
+  8:00   act(message 'done at now()')                 dusk.dol:3
+  8:00   end
+  its end depends on: now() = 5:00 (5:00), then dusk.dol:3:17: survey on a (3:00)
+  $ echo 'if (now() - 10 > limit) { message limit }' >> dusk.dol
+  $ dolphin time dusk.dol 2>&1 | sed 's/, [0-9.]* s, [0-9]* MiB//'
+  inconclusive: dusk.dol:4:5: now() is not only compared with constants, as in now() < 20.min: what follows from it is not known here; times are of the runs until then
+  2 states, depth 0
+  $ dolphin time dusk.dol > /dev/null 2>&1
+  [3]

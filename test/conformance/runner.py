@@ -44,8 +44,10 @@ class Implementation:
         return reply
 
     def steps(self, place, events=None):
-        configuration, world = place
+        configuration, world, now = place
         chosen = {} if events is None else {"events": events}
+        if now:
+            chosen["now"] = now
         reply = self.ask("step", configuration=configuration, world=world, **chosen)
         internal = [t for t in reply["transitions"] if "event" not in t]
         caused = [t for t in reply["transitions"] if "event" in t]
@@ -103,10 +105,10 @@ class Walker:
 
     def take(self, place, t):
         self.rules.update(t["rule"])
-        return t["next"], place[1]
+        return t["next"], *place[1:]
 
     def candidates(self, place, step):
-        place = (place[0], step.get("world", place[1]))
+        place = (place[0], step.get("world", place[1]), step.get("now", place[2]))
         event = step.get("event")
         internal, caused, _ = self.implementation.steps(place, [] if event is None else [event])
         return place, internal if event is None else caused
@@ -306,7 +308,7 @@ def judge(implementation, case):
                 failures.add(kind)
                 continue
             for one in expected if kind in ("admits", "forbids", "dated") else [expected]:
-                walker = Walker(implementation, (reply["configuration"], reply["world"]))
+                walker = Walker(implementation, (reply["configuration"], reply["world"], 0))
                 try:
                     check(walker, kind, one, case.get("environment", {}))
                 except Wrong:

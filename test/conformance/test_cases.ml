@@ -20,7 +20,7 @@ let unreadable =
       "expect.traces: this expectation is not known",
       case_with {|"expect": {"traces": []}|} );
     ( "an unknown member of a step",
-      "expect.trace: there is no member \"effect\"; known are label, event, world, rule, effects, A, B, N, \
+      "expect.trace: there is no member \"effect\"; known are label, event, world, now, rule, effects, A, B, N, \
        store, end",
       case_with {|"expect": {"trace": [{"label": "end", "effect": []}]}|} );
     ( "an unknown member",
@@ -44,7 +44,8 @@ let transition effects : Dialogue.transition =
 
 let differs expected found =
   let seen : Case.seen =
-    { label = "end"; event = None; world = None; rule = None; effects = Some expected; running = None; bound = None;
+    { label = "end"; event = None; world = None; now = None; rule = None; effects = Some expected;
+      running = None; bound = None;
       pairs = None; store = None; ending = None } in
   Match.difference seen (transition found) <> None
 

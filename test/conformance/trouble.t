@@ -13,7 +13,7 @@ Cases that cannot be read are told before anything is judged.
   > {"title": "t", "fleet": [], "program": ["post a: 1"], "expect": {"trace": [{"label": "post a:1", "effect": []}, "end"]}}
   > END
   $ dolphin conform misspelt.json
-  dolphin: misspelt.json: expect.trace: there is no member "effect"; known are label, event, world, rule, effects, A, B, N, store, end
+  dolphin: misspelt.json: expect.trace: there is no member "effect"; known are label, event, world, now, rule, effects, A, B, N, store, end
   [2]
   $ dolphin conform --impl-timeout=soon misspelt.json 2>&1 | head -n 1
   dolphin: option '--impl-timeout': invalid value 'soon', expected a floating

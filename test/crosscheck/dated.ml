@@ -71,6 +71,16 @@ let texts =
     ("a posted pair", no_fault, "input 'x'\n" ^ two ^ "execute waitFor { consume x: _ } then task('p')[a]");
     ( "a look at once", no_fault,
       two ^ "execute until { battery(a) < 0.5 } run (action { halt 'h' } | task('p')[b])\nexecute task('q')[a]" );
+    ( "a date", no_fault,
+      two ^ "execute task('p')[a] | (waitFor { now() >= 3 } then task('q')[b])\n\
+             if (now() < 6) { execute task('p')[a] }" );
+    ( "a date that has passed", no_fault,
+      two ^ "pause 2\nexecute waitFor { now() >= 1 } then task('q')[a]\n\
+             execute { now() == 5 ? task('p') : task('q') }[b]" );
+    ( "a date that ends a task, on the stroke", no_fault,
+      two ^ "limit = 4\nexecute (task('p')[a] until { now() >= limit }) | (idle(4) >> watch (assure { now() <= limit } \
+             run task('q')[b]) onError { ignore() })" );
+    ("a loop to a date", no_fault, two ^ "while (now() < 5) { pause 2 }\nexecute task('q')[a]");
     ("the latest patience", a_loss, "setConnectionTimeout 5\nsetConnectionTimeout 6\n" ^ two ^ "execute task('p')[a]");
     ( "the order to a vehicle that is lost", a_loss,
       two ^ "setConnectionTimeout a, 5\nexecute (watch task('p')[a] onError { ignore() }) >> task('q')[a]" );
@@ -124,9 +134,10 @@ let limits states = { Dolphin_checker.Limits.none with max_states = Some states 
 
 let prepare_one ~ticks ~states { case; durations; plans } =
   let options : Timed.options =
-    { environment = case.environment; program = case.program; world = case.world; durations } in
+    { environment = case.environment; program = case.program; world = case.world; durations;
+      dates = Dolphin_semantics.Dated_code.named case.program } in
   let o = Timing.run (limits states) options in
-  let tick = Dolphin_tla.Times.tick durations ~faults:case.environment.faults ~plans case.world in
+  let tick = Dolphin_tla.Times.tick durations ~faults:case.environment.faults ~plans case.program case.world in
   if o.stopped <> None || o.endless <> None then None
   else
     match moments ~tick ~ticks case.program o with

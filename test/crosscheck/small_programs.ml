@@ -245,6 +245,11 @@ let sensors =
       ("measurements",
        three ^ "execute waitFor { reading(a, 'T') < 15 } then task('p')[b]\nmessage reading(c, 'T')\n\
                 message reading(c, 'T') + reading(a, 'T') > 30 || reading(b, 'T') == 12");
+      ("the date: open at each step, and one thing within a step",
+       two ^ "execute waitFor { now() >= 5 && consume(x: 1) } then task('p')[a] | action { post x: 1 }\n\
+              if (now() < 5 && now() >= 5) { halt 'both' }\nmessage now()\nmessage \"${now() + 1} s\"");
+      ("the date, kept and compared later",
+       two ^ "h = now()\nexecute task('p')[a] until { now() - h > 3 }\nif (h == 2 || 2 * now() <= h) { message h }");
       ("a loop that looks again and again", two ^ "while (battery(a) >= 0.3) { pause 5 }");
       ("one of several values",
        two ^ "message battery(b)\nif (battery(b) == 1 && battery(b) < 0.3) { halt 'both' }\nmessage battery(b)");

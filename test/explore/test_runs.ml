@@ -93,7 +93,7 @@ let same_label ~senses (found : Label.t) (label : Label.t) =
   | _, _ -> Label.equal found label
 
 let follow options program world taken =
-  let senses = program.Core.reads_sensors in
+  let senses = program.Core.reads_sensors || program.reads_now in
   let step (number, states) (t : Transition.t) =
     let leads ((t' : Transition.t), e) =
       if same_label ~senses t'.label t.label && same_configuration ~senses t'.next t.next then Some (t'.next, e)

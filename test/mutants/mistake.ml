@@ -840,6 +840,44 @@ let unknown =
   @ in_file "lib/time/timed.ml" ~noticed_by:"time/test_exact"
     [ ("tasks start first where code asks who runs", {|&& not o.program.asks_running in|},
        {|&& (o.program.asks_running || true) in|}) ]
+  @ in_file "lib/semantics/language/dated_code.ml" ~noticed_by:"time/test_exact"
+    [
+      ("a date turns as it is passed", {|let reached = int_of_float (Float.ceil x)|},
+       {|let reached = int_of_float (Float.ceil x) + 1|});
+      ("comparisons are not mirrored", {|op = mirrored op; shift; bound = a|},
+       {|op = (ignore mirrored; op); shift; bound = a|});
+      ("a variable has the value that was assigned last", {|(Hashtbl.find_all assigned i)|},
+       {|(Option.to_list (Hashtbl.find_opt assigned i))|});
+      ("what is said counts as compared", {|  | Apply (Concatenate, es) -> List.filter is_now es|},
+       {|  | Apply (_, es) -> List.filter is_now es|});
+    ]
+  @ in_file "lib/semantics/language/dated_code.ml" ~noticed_by:"runtime/test_runtime"
+    [
+      ("a date that is reached comes again", {|List.filter (fun k -> k > now) (List.concat_map|},
+       {|List.filter (fun k -> k >= now) (List.concat_map|});
+      ("nothing but comparisons is asked again", {|if t.asked then (now + 1) :: later else later in|},
+       {|if t.asked && t.others = [] then (now + 1) :: later else later in|});
+      ("a date is as far as it is compared with", {|~some:(fun x -> around (bound +. x))|},
+       {|~some:(fun _ -> around bound)|});
+    ]
+  @ in_file "lib/runtime/driver.ml" ~noticed_by:"runtime/test_runtime"
+    [
+      ("nobody waits for a date", {|&& next_date s = None|}, {|&& (next_date s = None || true)|});
+      ("the date is that of the start", {|(Exactly (World.whole s.moment))|},
+       {|(Exactly (World.whole (0. *. s.moment)))|});
+    ]
+  @ in_file "lib/trace/replay.ml" ~noticed_by:"trace/test_journals"
+    [ ("journals have no date", {|if r.program.reads_now then { r with world|},
+       {|if r.program.reads_now && r.stuck then { r with world|}) ]
+  @ in_file "lib/time/timed.ml" ~noticed_by:"time/test_exact"
+    [
+      ("code reads no date", {|World.at (Since s.date) world|}, {|World.at (Since (0 * s.date)) world|});
+      ("dates count from the start each", {|Bounds.exactly (float_of_int (k - date))|},
+       {|Bounds.exactly (float_of_int (k - (0 * date)))|});
+    ]
+  @ in_file "lib/time/inert.ml" ~noticed_by:"time/test_exact"
+    [ ("ends are inert where code reads the date", {|&& (not o.program.reads_now)|},
+       {|&& (not o.program.reads_now || true)|}) ]
   @ in_file "lib/explore/order/footprint.ml" ~noticed_by:"time/test_reductions"
     [ ("ends are inert where code asks who runs", {|dismisses program || program.asks_running|},
        {|dismisses program|}) ]
@@ -1080,8 +1118,8 @@ let timed =
         {|if List.mem v (Environment.lost s.outside) then put_off silence bounds else bounds in|},
         {|ignore put_off; bounds in|} );
       ( "who joins is there at once",
-        {|(World.suppose (attendance o s) o.world)|},
-        {|(ignore attendance; o.world)|} );
+        {|World.suppose (attendance o s) o.world in|},
+        {|(ignore attendance; o.world) in|} );
       ( "vehicles that joined are in the order of the fleet",
         {|List.map (fun v -> World.Late v) come @|},
         {|(ignore come; []) @|} );

@@ -100,7 +100,8 @@ let go_on ~port ~journal fd death =
     let world = Replay.world past.replay in
     let news = List.map (fun s -> { s with World.connected = false }) (World.vehicles world) in
     drive its_recorder platform
-      (Some { configuration = Replay.configuration past.replay; world; news; pending = past.pending })
+      (Some { configuration = Replay.configuration past.replay; world; news; pending = past.pending;
+              time = Replay.time past.replay })
 
 (* All that the library tells of datagrams, vehicles and timers. *)
 let log_to path =

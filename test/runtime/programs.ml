@@ -45,7 +45,7 @@ let pick_all ?timeout () =
 
 let pick n = pick_with [ ("count", Integer n) ]
 
-let program ?(reads_sensors = false) ?(globals = 0) script =
+let program ?(reads_sensors = false) ?(reads_now = false) ?(globals = 0) script =
   { source_name = "test.dol";
     locations = [||];
     global_names = Array.init globals (Printf.sprintf "g%d");
@@ -56,6 +56,7 @@ let program ?(reads_sensors = false) ?(globals = 0) script =
     on_interrupt = None;
     recruits = false;
     reads_sensors;
+    reads_now;
     asks_running = false;
     fences = Dolphin_semantics.Fences.none }
 

@@ -5,6 +5,7 @@ open Dolphin_semantics.Core
 val constant : value -> expression
 val string : string -> expression
 val number : float -> expression
+val apply : operation -> expression list -> expression
 val call : builtin -> expression list -> expression
 val global : int -> expression
 val set_global : int -> expression -> expression
@@ -32,7 +33,7 @@ val below : expression -> expression -> expression
 val pick_all : ?timeout:float -> unit -> expression
 val pick : int -> expression
 
-val program : ?reads_sensors:bool -> ?globals:int -> expression list -> program
+val program : ?reads_sensors:bool -> ?reads_now:bool -> ?globals:int -> expression list -> program
 (** The program with this script. *)
 
 val on_interrupt : expression -> program -> program

@@ -128,6 +128,44 @@ let telemetry_for_displays () =
   run ~always_telemetry:true mock (program [ pick_all (); call Execute [ task "a" ] ]) |> outcome_is "end";
   log_is mock [ "0 telemetry true"; "10 bind v1 v2"; "10 start v1 a"; "20 release v1 v2"; "20 close" ]
 
+(* {1 The date} *)
+
+let now = call Now []
+let from e n = apply (Binary Greater_equal) [ e; n ]
+let home guard = call Execute [ call Make_wait_for [ code guard; task "home" ] ]
+let dated = program ~reads_now:true ~globals:2
+
+(* Nothing happens but that time passes. *)
+let wakes_at_a_date () =
+  let mock = Mock_platform.make two_vehicles in
+  run mock (dated [ pick_all (); home (from now (number 59.5)) ]) |> outcome_is "end";
+  log_is mock
+    [ "0 telemetry true"; "10 bind v1 v2"; "10 telemetry false"; "60 start v1 home"; "70 release v1 v2"; "70 close" ]
+
+let wakes_after_a_while () =
+  let mock = Mock_platform.make two_vehicles in
+  let since = apply (Binary Subtract) [ now; global 0 ] in
+  run mock
+    (dated [ pick_all (); set_global 0 now; set_global 1 (number 30.); home (from since (global 1));
+             call Execute [ sequence (call Make_idle [ number 5. ]) (task "a") ] ])
+  |> outcome_is "end";
+  log_is mock
+    [ "0 telemetry true"; "10 bind v1 v2"; "10 telemetry false"; "40 start v1 home"; "55 start v1 a";
+      "65 release v1 v2"; "65 close" ]
+
+(* What nobody can foresee is looked at each second. *)
+let looks_each_second () =
+  let mock = Mock_platform.make two_vehicles in
+  let rest = apply (Binary Remainder) [ now; number 7. ] in
+  run mock (dated [ pick_all (); home (apply (Binary Equal) [ rest; number 2. ]) ]) |> outcome_is "end";
+  log_is mock
+    [ "0 telemetry true"; "10 bind v1 v2"; "10 telemetry false"; "16 start v1 home"; "26 release v1 v2"; "26 close" ]
+
+let after_the_last_date () =
+  let mock = Mock_platform.make two_vehicles in
+  run mock (dated [ pick_all (); home (below now (number 5.)) ])
+  |> outcome_is "stuck: nothing can make these guards true any more: oneOf { when { code } then home[v1] }"
+
 (* A script that never waits still hears of its vehicles where time passes by itself. *)
 let busy_scripts_hear () =
   let mock = Mock_platform.make [ Mock_platform.seen 0. "v1"; Mock_platform.seen ~battery:0.2 1. "v1" ] in
@@ -427,6 +465,10 @@ let tests =
     case "telemetry is on while it matters" telemetry_while_it_matters;
     case "what a vehicle has not told is said once" says_what_is_unknown;
     case "a deadlock on a battery is found" quiet;
+    case "a guard wakes at its date" wakes_at_a_date;
+    case "and so long after another one" wakes_after_a_while;
+    case "a guard of another kind is asked each second" looks_each_second;
+    case "after the last date nothing wakes" after_the_last_date;
     case "telemetry is on for displays" telemetry_for_displays;
     case "a busy script hears of its vehicles" busy_scripts_hear;
     case "a deadlock of guards is found" deadlock;

@@ -14,7 +14,7 @@ let open_world =
   let module World = Dolphin_semantics.World in
   let link = Dolphin_semantics.Core.[ Boolean true; Boolean false ] in
   let place north = (Pure_run.vehicle ~north "c").position in
-  world |> World.open_battery "a" [] |> World.open_position "a" [] |> World.open_battery "b" [ 1.; 0.2 ]
+  World.at Any world |> World.open_battery "a" [] |> World.open_position "a" [] |> World.open_battery "b" [ 1.; 0.2 ]
   |> World.open_sensor Connected "a" link |> World.open_sensor Speed "b" [] |> World.open_sensor (Measurement "T") "a" []
   |> World.open_sensor (Measurement "T") "c" [ Number 12.; Number 18. ]
   |> World.open_position "b" [] |> World.open_battery "c" [] |> World.open_position "c" [ place 200.; place 5_000. ]
@@ -103,23 +103,36 @@ let plain_guard =
 let share x = expression (Number x)
 let kept = assign "h" (call "battery" [ Positional (variable "va") ])
 
+let now = call "now" []
+
+(* A comparison of the date with a constant. *)
+let dated =
+  let* n = map integer (int_range 0 6) in
+  let* op = oneofl [ Less; Less_equal; Greater; Greater_equal; Equal; Not_equal ] in
+  oneofl
+    [ binary op now n; binary op n now;
+      binary And (binary Greater_equal now n) (binary Less now (binary Add n (integer 2))) ]
+
 (* A comparison with what a sensor shows, or has shown. *)
 let comparison =
-  let* v = map variable (oneofl [ "va"; "vb"; "vc" ]) in
-  let battery = call "battery" [ Positional v ] and position = call "position" [ Positional v ] in
-  let west = expression (Unary (Negate, share 8.7048)) in
-  let centre = call "location" [ Positional (share 41.1852); Positional west ] in
-  let near = call "area" [ Positional centre; Positional (integer 400) ] in
-  oneofl
-    [ binary Less battery (share 0.3); binary Greater_equal battery (share 0.3);
-      binary Greater (binary Multiply battery (integer 100)) (integer 50); binary Less (variable "h") (share 0.3);
-      binary Less (call "battery" [ Positional (variable "va") ]) (call "battery" [ Positional (variable "vb") ]);
-      (* It has been charged since. *)
-      binary And (binary Less (variable "h") (share 0.3))
-        (binary Greater_equal (call "battery" [ Positional (variable "va") ]) (share 0.3));
-      binary Member_of position near; call "connected" [ Positional v ];
-      binary Greater (call "speed" [ Positional v ]) (share 0.5);
-      binary Less (call "reading" [ Positional v; Positional (string "T") ]) (integer 15) ]
+  let* is_dated = frequencyl [ (4, false); (1, true) ] in
+  if is_dated then dated else
+    let* v = map variable (oneofl [ "va"; "vb"; "vc" ]) in
+    let battery = call "battery" [ Positional v ] and position = call "position" [ Positional v ] in
+    let west = expression (Unary (Negate, share 8.7048)) in
+    let centre = call "location" [ Positional (share 41.1852); Positional west ] in
+    let near = call "area" [ Positional centre; Positional (integer 400) ] in
+    oneofl
+      [ binary Less battery (share 0.3); binary Greater_equal battery (share 0.3);
+        binary Greater (binary Multiply battery (integer 100)) (integer 50); binary Less (variable "h") (share 0.3);
+        binary Less (call "battery" [ Positional (variable "va") ]) (call "battery" [ Positional (variable "vb") ]);
+        (* It has been charged since. *)
+        binary And (binary Less (variable "h") (share 0.3))
+          (binary Greater_equal (call "battery" [ Positional (variable "va") ]) (share 0.3));
+        binary Member_of position near; call "connected" [ Positional v ];
+        binary Greater (binary Subtract now (variable "h")) (integer 2);
+        binary Greater (call "speed" [ Positional v ]) (share 0.5);
+        binary Less (call "reading" [ Positional v; Positional (string "T") ]) (integer 15) ]
 
 let sensing_guard =
   let one e = code [ statement e ] in
@@ -140,6 +153,7 @@ let action_code ~sensing =
   let sensed =
     if sensing then
       [ (3, map (fun s -> code [ s ]) (deciding (post "x" 1))); (2, return (code [ kept ]));
+        (1, return (code [ statement (call "message" [ Positional now ]) ]));
         (1, map (fun s -> code [ s ]) (deciding (call "halt" [ Positional (string "h") ]))) ]
     else []
   in

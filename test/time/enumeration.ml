@@ -18,6 +18,7 @@ type state = {
   clocks : (awaited * clock) list;  (* in order *)
   patience : (string option * int) list;
   now : int;
+  date : int;  (* as code reads it: what passes at one moment comes in any order *)
   missing : (Core.vehicle * (int * int)) list;  (* now, and at the most until now; in order *)
   coming : Core.vehicle list;  (* who is heard of later, the next one first *)
 }
@@ -26,11 +27,12 @@ module Table = Hashtbl.Make (struct
     type t = state
 
     let equal a b =
-      a.now = b.now && a.coming = b.coming && a.missing = b.missing && a.clocks = b.clocks && a.patience = b.patience
+      a.now = b.now && a.date = b.date && a.coming = b.coming &&
+      a.missing = b.missing && a.clocks = b.clocks && a.patience = b.patience
       && Environment.compare a.e b.e = 0
       && Configuration.equal a.c b.c
 
-    let hash s = Hashtbl.hash (s.now, s.coming, s.missing, s.clocks, Configuration.hash s.c)
+    let hash s = Hashtbl.hash (s.now, s.date, s.coming, s.missing, s.clocks, Configuration.hash s.c)
   end)
 
 exception Too_much
@@ -115,7 +117,7 @@ let after o s (choice : Environment.choice) =
       List.fold_left (fun patience v -> (Some v, whole n) :: List.remove_assoc (Some v) patience) patience vs
     | _ -> patience
   in
-  { c = t.next; e = choice.outside; now = s.now; missing = s.missing; coming = s.coming;
+  { c = t.next; e = choice.outside; now = s.now; date = s.date; missing = s.missing; coming = s.coming;
     clocks = List.sort_uniq compare (List.map find (awaited o t.next choice.outside));
     patience = List.sort compare (List.fold_left set_patience s.patience t.effects) }
 
@@ -221,7 +223,8 @@ let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _
   let expand s =
     note_end s;
     (match s.c.control with Ended _ -> note_most s | Script _ | Waiting _ | Executing _ -> ());
-    let world = List.fold_left (fun w (v, (missing, _)) -> show v missing w) (with_those_there o s o.world) s.missing in
+    let world = World.at (Exactly s.date) (with_those_there o s o.world) in
+    let world = List.fold_left (fun w (v, (missing, _)) -> show v missing w) world s.missing in
     let choices = List.of_seq (Environment.choices_on o.environment o.program world s.e s.c) in
     let timed = List.map (fun choice -> (choice, due o s choice)) choices in
     let is_by_itself (choice : Environment.choice) =
@@ -260,10 +263,16 @@ let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _
       List.iter take (List.filter may_be_now possible);
       if is_next_there then reach { s with coming = List.tl s.coming }
     end;
+    let reads_date = o.program.reads_now and is_over = match s.c.control with Ended _ -> true | _ -> false in
+    if reads_date && waits && (not is_over) && s.date < s.now && not (List.exists is_overdue s.clocks) then
+      reach { s with date = s.now };
+    let is_dated = (not is_over) && List.exists (fun k -> k > s.date) (Result.value o.dates ~default:[]) in
     (* A second passes, if for everything that is awaited something may still happen then. *)
     let may_wait (_, clock) = match last clock with -1 -> true | most -> clock.since < most in
-    if waits && (possible <> [] || joins_later) && (not is_next_there) && List.for_all may_wait s.clocks then begin
-      if joins_later
+    let is_up_to_date = ((not reads_date) || s.date = s.now) && not is_next_there in
+    let is_something_to_come = joins_later || is_dated in
+    if waits && is_up_to_date && (possible <> [] || is_something_to_come) && List.for_all may_wait s.clocks then begin
+      if is_something_to_come
       || List.exists (fun (choice, _) -> not (Environment.is_voluntary choice.Environment.transition)) possible
       || Environment.owes o.environment o.program s.e
       then reach (tick ~batteries s)
@@ -272,13 +281,14 @@ let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _
     | Ended _ -> ()
     | Script _ | Waiting _ | Executing _ ->
       let transitions = List.map (fun ((choice : Environment.choice), _) -> choice.transition) timed in
-      if s.coming = [] && Environment.only_recruits o.environment s.e transitions
+      if s.coming = [] && (not is_dated)
+         && Environment.only_recruits o.environment s.e transitions
          && not (Environment.owes o.environment o.program s.e)
       then never_over := true
   in
   let start =
     let c = Configuration.initial o.program and e = Environment.initial in
-    { c; e; now = 0; patience = []; coming = List.map fst (joins o);
+    { c; e; now = 0; date = 0; patience = []; coming = List.map fst (joins o);
       missing = List.sort compare (List.map (fun (v, b) -> (v, (b.at_first, b.at_first))) batteries);
       clocks = List.sort compare (List.map (fun k -> (Input k, posted o k)) (inputs o c e)) }
   in

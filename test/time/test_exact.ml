@@ -68,7 +68,7 @@ let pp_moment ppf : Enumeration.moment -> unit = function
       (match m with Starts -> "starts" | Ends -> "ends" | Fails -> "fails" | Stopped -> "is stopped")
 
 let few = { Dolphin_checker.Limits.none with max_states = Some 5_000 }
-let skipped = ref 0 and endless = ref 0 and sensing = ref 0 and reduced = Hashtbl.create 7
+let skipped = ref 0 and endless = ref 0 and sensing = ref 0 and dated = ref 0 and reduced = Hashtbl.create 7
 
 let seconds = function Timing.At n -> if n mod 1000 = 0 then n / 1000 else -1 | Unbounded -> max_int
 
@@ -89,12 +89,17 @@ let is_dated (o : Timing.outcome) (run : Timing.run) later =
   in_order run.dates && last = 1000 * expected
   && (run.chain = [] || (not later) || List.fold_left (fun n (l : Schedule.link) -> n + l.lasts) 0 run.chain >= last)
 
+(* Where code does more with the date than compare it with constants, nothing is said. *)
+let enumerated ?batteries ?seen (options : Timed.options) =
+  if Result.is_ok options.dates then Enumeration.all ?batteries ?seen options else None
+
 let is_found (options : Timed.options) =
   let { Timed.program; _ } = options in
-  match Enumeration.all options with
-  | None -> incr skipped; true
+  match enumerated options with
+  | None -> if Result.is_ok options.dates then incr skipped; true
   | Some expected ->
     let o = Timing.run Dolphin_checker.Limits.none options in
+    if program.reads_now then incr dated;
     if program.reads_sensors then incr sensing;
     let say what moments =
       let one ppf (m, (a, b)) = Format.fprintf ppf "%a: %d to %d" pp_moment m a b in
@@ -121,10 +126,10 @@ let is_found (options : Timed.options) =
       Option.fold ~none:true ~some:(dated true) o.last && Option.fold ~none:true ~some:(dated false) o.first in
     (not is_bounded) || all_dated ()
 
-let agrees (ast, seed, (_, environment)) =
+let agrees_in open_ (ast, seed, (_, environment)) =
   let program = Posts.declared environment (Generate.compile ast) in
-  let world = if program.reads_sensors then Generate.open_world else Generate.world in
-  is_found { environment; program; world; durations = durations seed }
+  let world = if open_ && program.reads_sensors then Generate.open_world else Generate.world in
+  is_found { environment; program; world; durations = durations seed; dates = Dated_code.named program }
 
 let sensing_case =
   let open QCheck2.Gen in
@@ -135,7 +140,7 @@ let sensing_case =
 
 let test_agreement () =
   let cases = QCheck2.Gen.frequency [ (3, case); (1, sensing_case) ] in
-  let test = QCheck2.Test.make ~count:programs ~print ~name:"zones and enumeration agree" cases agrees in
+  let test = QCheck2.Test.make ~count:programs ~print ~name:"zones and enumeration agree" cases (agrees_in true) in
   Test_support.Property.on_each_seed ~usual:20_261_123 ~programs test;
   Printf.printf "%d skipped, %d with runs that never end, %d that look at sensors\n" !skipped !endless !sensing
 
@@ -180,13 +185,25 @@ let print_joining (text, seed, joins) =
 let test_joins () =
   let is_found (text, seed, joins) =
     let program = Test_support.Pure_run.compile_exn text in
-    is_found { environment = answering; program; world = Generate.world; durations = { (durations seed) with joins } }
+    is_found { environment = answering; program; world = Generate.world; durations = { (durations seed) with joins };
+               dates = Ok [] }
   in
   let test = QCheck2.Test.make ~count:programs ~print:print_joining ~name:"who joins when" joining is_found in
   let before = !skipped in
   Test_support.Property.on_each_seed ~usual:20_261_123 ~programs test;
   Printf.printf "%d skipped\n" (!skipped - before);
   Alcotest.(check bool) "few are skipped" true ((!skipped - before) * 2 < programs)
+
+(* {1 Dates that code reads} *)
+
+(* What sensors show stands, and the date passes. *)
+let test_dates () =
+  let test = QCheck2.Test.make ~count:programs ~print ~name:"dates that code reads" sensing_case (agrees_in false) in
+  let before = !skipped in
+  Test_support.Property.on_each_seed ~usual:20_261_124 ~programs test;
+  Printf.printf "%d skipped, %d read the date so far\n" (!skipped - before) !dated;
+  skipped := before;
+  Alcotest.(check bool) "many read the date" true (!dated > programs / 10)
 
 (* {1 Slack} *)
 
@@ -209,7 +226,8 @@ let tight = ref 0 and loose = ref 0
 (* A task may take as much longer as is said, and no second more. *)
 let slack_agrees (ast, seed, (_, environment)) =
   let program = Posts.declared environment (Generate.compile ast) in
-  let options : Timed.options = { environment; program; world = Generate.world; durations = durations seed } in
+  let options : Timed.options =
+    { environment; program; world = Generate.world; durations = durations seed; dates = Dated_code.named program } in
   match Enumeration.all options with
   | None -> true
   | Some { never_over = true; _ } -> true
@@ -257,7 +275,8 @@ let names (pairs : Side_by_side.pair list) =
 (* Nobody knows where these plans lead, so all that run at one time are told. *)
 let pairs_agree (ast, seed, (_, environment)) =
   let program = { (Posts.declared environment (Generate.compile ast)) with fences = Fences.make [ distance ] } in
-  let options : Timed.options = { environment; program; world = Generate.world; durations = durations seed } in
+  let options : Timed.options =
+    { environment; program; world = Generate.world; durations = durations seed; dates = Dated_code.named program } in
   let expected = Side_by_side.create program.fences in
   match Enumeration.all ~look:(fun c -> Side_by_side.see expected c.shared.allocation) options with
   | None | Some { never_over = true; _ } -> true
@@ -303,7 +322,8 @@ type tally = { mutable exact : int; mutable bounds : int; mutable worked : int }
 (* No run has less left than is said; the run that is shown has no less than the least of all. *)
 let batteries_agree tally (vehicles, batteries) (ast, seed, (_, environment)) =
   let program = Posts.declared environment (Generate.compile ast) in
-  let options : Timed.options = { environment; program; world = Generate.world; durations = durations seed } in
+  let options : Timed.options =
+    { environment; program; world = Generate.world; durations = durations seed; dates = Dated_code.named program } in
   match Enumeration.all ~batteries options with
   | None | Some { never_over = true; _ } -> true
   | Some expected ->
@@ -351,8 +371,9 @@ let looks_agree (ast, seed, (_, environment)) =
   let vehicles, batteries = fleet ~at_first ~charge:(if seed mod 3 = 0 then 6 else 0) in
   let program = Posts.declared environment (Generate.compile ast) in
   let world = List.fold_left (fun w (v, _) -> World.open_battery v [] w) Generate.world batteries in
-  let options world : Timed.options = { environment; program; world; durations = durations seed } in
-  match Enumeration.all ~batteries ~seen (options Generate.world) with
+  let options world : Timed.options =
+    { environment; program; world; durations = durations seed; dates = Dated_code.named program } in
+  match enumerated ~batteries ~seen (options Generate.world) with
   | None -> true
   | Some expected ->
     let o = Timing.run ~vehicles few (options world) in
@@ -378,7 +399,8 @@ let compare_one environment seed text =
   let program = Test_support.Pure_run.compile_exn text in
   let world = if program.reads_sensors then Generate.open_world else Generate.world in
   let options : Timed.options =
-    { environment = List.assoc environment environments; program; world; durations = durations seed } in
+    { environment = List.assoc environment environments; program; world; durations = durations seed;
+      dates = Dated_code.named program } in
   match Enumeration.all options with
   | None -> Alcotest.fail "too much to enumerate"
   | Some expected ->
@@ -405,6 +427,33 @@ let test_look_at_once () =
      execute until { battery(va) < 0.5 } run (action { halt 'h' } | task('p')[vb])\nexecute task('q')[va]\n"
 
 (* Whether the guard sees that a task has started makes a difference of seconds, so START comes not always first. *)
+let test_named () =
+  let named text expected =
+    let program = Test_support.Pure_run.compile_exn text in
+    Alcotest.(check (option (list int))) text expected (Result.to_option (Dated_code.named program))
+  in
+  named "post x: 1" (Some []);
+  named "if (now() < 5) { post x: 1 }" (Some [ 5 ]);
+  named "if (now() <= 5) { post x: 1 }" (Some [ 6 ]);
+  named "if (5 < now()) { post x: 1 }" (Some [ 6 ]);
+  named "if (4.5 >= now()) { post x: 1 }" (Some [ 5 ]);
+  named "if (now() == 2.min || now() != 0.5) { post x: 1 }" (Some [ 1; 120; 121 ]);
+  named "parameter p = 3\nl = p.min\nexecute condition { now() >= l - 1 }" (Some [ 179 ]);
+  named "l = 3\nexecute action { l = 8 } >> condition { now() >= l }" (Some [ 3; 8 ]);
+  named "l = 3\nexecute action { l = l + 1 } >> condition { now() >= l }" None;
+  named "message now()\nmessage \"at ${now()}\"" (Some []);
+  named "message now() + 1" None;
+  named "start = now()" None;
+  named "execute condition { now() - 1 > 3 }" None;
+  named "def late(n) { now() > n }\nexecute condition { late(3) }" None
+
+(* On the stroke of a date, whatever is due comes before or after. *)
+let test_on_the_stroke () =
+  compare_one "as planned" 7
+    "va = pick { id 'a' }\nlimit = 2\nexecute idle(2) | condition { now() >= 1 }\nif (now() < limit) \
+     { execute task('p')[va] } else { execute task('q')[va] }\nwhile (now() <= 5) { pause 2 }\n\
+     limit = 4\nif (now() < limit) { execute condition { false } }\n"
+
 let test_who_runs () =
   compare_one "as planned" 7
     "va = pick { id 'a' }\nvb = pick { id 'b' }\n\
@@ -421,6 +470,7 @@ let test_variety () =
 let () =
   Alcotest.run "exact"
     [ ("random programs", [ Alcotest.test_case "zones and enumeration" `Quick test_agreement;
+                            Alcotest.test_case "dates that code reads" `Quick test_dates;
                             Alcotest.test_case "variety" `Quick test_variety;
                             Alcotest.test_case "vehicles that join" `Quick test_joins;
                             Alcotest.test_case "slack" `Quick test_slack;
@@ -434,4 +484,6 @@ let () =
       ("programs", [ Alcotest.test_case "one loss" `Quick test_one_loss;
                      Alcotest.test_case "a look at once" `Quick test_look_at_once;
                      Alcotest.test_case "a round in no time" `Quick test_round_in_no_time;
+                     Alcotest.test_case "dates that code names" `Quick test_named;
+                     Alcotest.test_case "on the stroke of a date" `Quick test_on_the_stroke;
                      Alcotest.test_case "who runs" `Quick test_who_runs ]) ]

@@ -24,7 +24,8 @@ let outcome ?(faults = "") program scenario =
   let program = Test_support.Pure_run.compile_exn program in
   Timing.run Dolphin_checker.Limits.none
     { environment = Scenario_world.environment ~answers:[] ~faults program scenario; program;
-      world = Scenario_world.world scenario; durations = Durations.of_scenario scenario }
+      world = Scenario_world.world scenario; durations = Durations.of_scenario scenario;
+      dates = Dolphin_semantics.Dated_code.named program }
 
 let seconds (w : Timing.window) =
   (float w.earliest /. 1000., match w.latest with At n -> float n /. 1000. | Unbounded -> infinity)
@@ -214,7 +215,8 @@ let test_slack () =
     let scenario = fleet (two ^ "plan 'p', { duration 5, 9 }\nplan 'q', { duration 2 }\nplan 'r', { duration 1, 3 }") in
     let options : Timed.options =
       { environment = Scenario_world.environment ~answers:[] ~faults:Faults.none program scenario; program;
-        world = Scenario_world.world scenario; durations = Durations.of_scenario scenario } in
+        world = Scenario_world.world scenario; durations = Durations.of_scenario scenario;
+        dates = Dolphin_semantics.Dated_code.named program } in
     let limits = Dolphin_checker.Limits.none in
     let found = Timing.slacks limits options (Timing.run limits options) in
     let text : Slack.t -> string = function Any -> "any" | By ms -> string_of_int ms in
@@ -243,7 +245,8 @@ let test_batteries () =
     let program = Test_support.Pure_run.compile_exn (both ^ program) in
     Timing.run ~vehicles:scenario.vehicles Dolphin_checker.Limits.none
       { environment = Scenario_world.environment ~answers:[] ~faults program scenario; program;
-        world = Scenario_world.world scenario; durations = Durations.of_scenario scenario }
+        world = Scenario_world.world scenario; durations = Durations.of_scenario scenario;
+        dates = Dolphin_semantics.Dated_code.named program }
   in
   let tenths x = Float.to_int (Float.round (1000. *. x)) in
   let check ?faults what expected program =

@@ -99,7 +99,8 @@ let check_example name () =
   let options : Timed.options =
     { environment = Scenario_world.environment ~answers:[] ~faults:Dolphin_environment.Faults.none program scenario;
       program;
-      world = Scenario_world.world scenario; durations = Durations.of_scenario scenario }
+      world = Scenario_world.world scenario; durations = Durations.of_scenario scenario;
+      dates = Dolphin_semantics.Dated_code.named program }
   in
   if is_steady scenario then begin
     let o = Timing.run limits options in
@@ -122,7 +123,8 @@ let test_findings () =
   let program = Test_support.Pure_run.compile_exn "va = pick { id 'a' }\nexecute task('p')[va] >> idle(5)\n" in
   let options scenario : Timed.options =
     { environment = Scenario_world.environment ~answers:[] ~faults:Dolphin_environment.Faults.none program scenario;
-      program; world = Scenario_world.world scenario; durations = Durations.of_scenario scenario } in
+      program; world = Scenario_world.world scenario; durations = Durations.of_scenario scenario;
+      dates = Dolphin_semantics.Dated_code.named program } in
   let run = run ~seed:1 (fleet "50, 60") program in
   let found duration = List.map (fun (f : Recorded.finding) -> f.too_early) (follow (options (fleet duration)) run) in
   Alcotest.(check (list bool)) "as it is" [] (found "50, 60");

@@ -51,7 +51,8 @@ let time ((program : Program_file.t), (fleet : Fleet_file.t)) =
         Scenario_world.environment ~answers:[] ~faults:Dolphin_environment.Faults.none program.program
           fleet.scenario;
       program = program.program; world = Scenario_world.world fleet.scenario;
-      durations = Durations.of_scenario fleet.scenario }
+      durations = Durations.of_scenario fleet.scenario;
+      dates = Dolphin_semantics.Dated_code.named program.program }
   in
   Timing.run { Dolphin_checker.Limits.none with max_states = Some 2_000 } options
 

@@ -11,7 +11,7 @@ syntax keyword dolphinBoolean true false
 syntax keyword dolphinConstant null _
 syntax keyword dolphinTask task imcPlan mission action condition idle assert pick pos
 syntax keyword dolphinProcedure execute release setConnectionTimeout ask confirm message println pause halt post
-syntax keyword dolphinProcedure input onInterrupt consume poll position battery speed connected reading running eta location map fence area polygon corridor along coverage expandingSquare sector spiral footprint fail ignore propagate retry dismiss getSupplier
+syntax keyword dolphinProcedure input onInterrupt consume poll position battery speed connected reading running now eta location map fence area polygon corridor along coverage expandingSquare sector spiral footprint fail ignore propagate retry dismiss getSupplier
 syntax keyword dolphinFleet vehicle plan answer reply field
 
 syntax match dolphinNumber '\v<\d[0-9_]*(\.\d[0-9_]*)?([eE][-+]?\d+)?>'

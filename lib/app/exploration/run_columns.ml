@@ -38,5 +38,5 @@ let print_waiting (p : Program_file.t) steps =
   in
   match last steps [] with
   | Some ({ control = Executing _; _ } as c) ->
-    List.iter guard (Waiting.list p.program ~source:p.source World.empty c)
+    List.iter guard (Waiting.list p.program ~source:p.source (World.at Any World.empty) c)
   | Some _ | None -> ()

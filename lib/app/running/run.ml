@@ -240,7 +240,8 @@ let telling_followers socket : Observer.t =
 let beginning resumed news : Driver.beginning option =
   let of_past ({ past; _ } : Resumed.t) : Driver.beginning =
     let replay = past.replay in
-    { configuration = Replay.configuration replay; world = Replay.world replay; news; pending = past.pending }
+    { configuration = Replay.configuration replay; world = Replay.world replay; news; pending = past.pending;
+      time = Replay.time replay }
   in
   Option.map of_past resumed
 

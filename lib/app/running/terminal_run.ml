@@ -99,7 +99,7 @@ let board t ~rows ~columns =
   let { Program_file.program; source; _ } = t.program in
   Status.lines t.board ~now:(t.view.now ())
     ~estimate:(estimate (t.view.estimates ()))
-    ~waiting:(Waiting.list program ~source t.world t.configuration)
+    ~waiting:(Waiting.list program ~source (World.at (Exactly (World.whole (t.view.now ()))) t.world) t.configuration)
     ~rows ~columns ~colour:t.colour
 
 (* The time passes and the terminal changes its size although nothing happens. *)

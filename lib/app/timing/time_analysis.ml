@@ -19,7 +19,8 @@ let limits ~interrupted ~progress s : Dolphin_checker.Limits.t =
 let options s (program : Program_file.t) (fleet : Fleet_file.t) : Dolphin_time.Timed.options =
   { environment = Scenario_world.environment ~answers:s.answers ~faults:s.faults program.program fleet.scenario;
     program = program.program; world = Scenario_world.world fleet.scenario;
-    durations = Dolphin_time.Durations.of_scenario fleet.scenario }
+    durations = Dolphin_time.Durations.of_scenario fleet.scenario;
+    dates = Dolphin_semantics.Dated_code.named program.program }
 
 let run ~interrupted ~progress s program fleet =
   let { Fleet_file.scenario; _ } = fleet in

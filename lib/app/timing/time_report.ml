@@ -28,13 +28,14 @@ let item (p : Program_file.t) (pending : Timed.pending) =
   | Posting k, _ -> Printf.sprintf "a pair with the key %s" k
   | Coming { vehicle; _ }, _ -> vehicle ^ " joins"
   | Course v, _ -> "the battery of " ^ v
+  | Date k, _ -> "now() = " ^ Dolphin_trace.Phrase.time (float_of_int k)
 
 let hint (pending : Timed.pending) =
   match pending.item, pending.task with
   | Task _, Some { plan = None; name; _ } -> Printf.sprintf "; in the fleet: plan '%s', { duration 3.min, 9.min }" name
   | Task _, Some { plan = Some _; _ } -> "; nobody knows where the vehicle is when it starts"
   | Posting k, _ -> Printf.sprintf "; in the fleet: input '%s', with after" k
-  | (Task _ | Timer _ | Question _ | Recruit _ | Answer | Reply | Coming _ | Course _), _ -> ""
+  | (Task _ | Timer _ | Question _ | Recruit _ | Answer | Reply | Coming _ | Course _ | Date _), _ -> ""
 
 (* {1 For people} *)
 

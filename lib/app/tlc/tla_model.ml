@@ -18,9 +18,10 @@ let unfit_replies (program : Program_file.t) (fleet : Fleet_file.t) ~environment
 (* So many ticks are looked at: a run may go on for ever. *)
 let horizon = 1_000
 
-let times ~tick ~faults ~plans scenario world : Dolphin_tla.Times.t =
+let times ~tick ~faults ~plans program scenario world : Dolphin_tla.Times.t =
   let durations = Dolphin_time.Durations.of_scenario scenario in
-  let tick = match tick with Some tick -> tick | None -> Dolphin_tla.Times.tick durations ~faults ~plans world in
+  let usual () = Dolphin_tla.Times.tick durations ~faults ~plans program world in
+  let tick = match tick with Some tick -> tick | None -> usual () in
   { durations; tick; horizon }
 
 let make ?tick ~answers ~faults (program : Program_file.t) (fleet : Fleet_file.t) =
@@ -32,7 +33,7 @@ let make ?tick ~answers ~faults (program : Program_file.t) (fleet : Fleet_file.t
   match unfit_replies program fleet ~environment ~world with
   | _ :: _ as found -> Error (Error.Bad_text { source = fleet.source; found })
   | [] -> (
-      let times = times ~tick ~faults ~plans scenario world in
+      let times = times ~tick ~faults ~plans program.program scenario world in
       match Model.of_program ~times ~plans ~prompts ~calls:(calls fleet) ~environment world program.program with
       | Ok files -> Ok { files; environment; world }
       | Error found -> Error (Error.Bad_text { source = program.source; found }))

@@ -38,7 +38,7 @@ let of_control v (c : Configuration.t) =
 
 (* Who is in reach at a pick is not known before its choice. *)
 let waiting v (c : Configuration.t) =
-  let all = Waiting.list v.program.program ~source:v.program.source World.empty c in
+  let all = Waiting.list v.program.program ~source:v.program.source (World.at Any World.empty) c in
   match c.control with
   | Waiting (_, Pick _) -> List.map (fun w -> { w with Waiting.lacking = None }) all
   | Waiting _ | Script _ | Executing _ | Ended _ -> all

@@ -302,7 +302,7 @@ let unified keys program =
   { program with main = lambda_of program.main; functions }
 
 let unify options program =
-  if program.reads_sensors then None
+  if program.reads_sensors || program.reads_now then None
   else
     match keys options program with
     | found when Keys.is_empty found -> None

@@ -66,6 +66,7 @@ let table : (string * t) list =
     ("connected", these (Sensor_of Connected) [ Vehicles ] ~result:Truth ~reads_sensors:true);
     ("running", these Is_running [ Vehicles ] ~result:Truth);
     ("reading", these Reading_of [ Vehicles; String ] ~result:Number ~reads_sensors:true);
+    ("now", these Now [] ~result:Number);
     ("eta", these Eta [ Vehicles; Position ] ~result:Number ~reads_sensors:true);
     ("location", location);
     ("area", these Area_of [ Position; Number ] ~result:Other);

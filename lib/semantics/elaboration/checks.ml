@@ -268,7 +268,10 @@ let check_in_maker env what at =
 let check_place env (builtin : Builtins.t) name at =
   if Builtins.changes name then check_in_maker env name at;
   if builtin.reads_sensors then Scope.note_sensor env.program;
-  (match builtin.arguments with These { operation = Is_running; _ } -> Scope.note_running env.program | _ -> ());
+  (match builtin.arguments with
+   | These { operation = Is_running; _ } -> Scope.note_running env.program
+   | These { operation = Now; _ } -> Scope.note_now env.program
+   | _ -> ());
   match builtin.place with
   | Anywhere -> ()
   | Script_only -> check_in_script env name at

@@ -12,7 +12,7 @@ let computing =
 
 let procedures =
   [ "task"; "imcPlan"; "action"; "condition"; "idle"; "location"; "area"; "position"; "battery"; "speed"; "connected";
-    "reading"; "running"; "eta"; "poll" ]
+    "reading"; "running"; "now"; "eta"; "poll" ]
 
 (* What surely only computes. [is_own x] is whether the program itself says what [x] is; [has_host], whether there may
    be objects of the supplier, whose members do what they like. *)

@@ -172,6 +172,7 @@ let elaborated ?(chart = no_chart) ~source_name (ast : Ast.program) =
         on_interrupt = Scope.on_interrupt program;
         recruits = Scope.recruits program;
         reads_sensors = Scope.reads_sensors program;
+        reads_now = Scope.reads_now program;
         asks_running = Scope.asks_running program;
         fences;
       },
@@ -185,7 +186,7 @@ let first_message = function
       match d.hint with Some hint -> Printf.sprintf "%s (%s)" d.message hint | None -> d.message)
   | [] -> "it is no expression"
 
-let evaluated ?fallback (p : Core.program) ~globals (e : Ast.expression) =
+let evaluated ?fallback ?(at_any_date = true) (p : Core.program) ~globals (e : Ast.expression) =
   (* Beyond the program's own sites: what is made here has no place in the program's text. *)
   let first_site = Array.length p.locations in
   let globals = Array.to_list p.global_names @ globals in
@@ -195,6 +196,8 @@ let evaluated ?fallback (p : Core.program) ~globals (e : Ast.expression) =
   Lambdas.fill env lambda Main [] e.at [ { Ast.it = Expression e; at = e.at } ];
   report_unknown ?fallback program;
   match List.filter is_error (Scope.reports program) with
+  | [] when Scope.reads_now program && not at_any_date ->
+    Error "an answer does not read now(): type the number of seconds"
   | [] -> Ok { lambda; captured = [||] }
   | errors -> Error (first_message errors)
 
@@ -215,4 +218,5 @@ let answer p text =
   | Error ds -> Error (first_message ds)
   | Ok e ->
     let fallback name = Some (Printf.sprintf "a text stands in quotes: '%s'" name) in
-    evaluated ~fallback p ~globals:[] (spoken e)
+    (* What analyses of the text know of the date must be all. *)
+    evaluated ~fallback ~at_any_date:false p ~globals:[] (spoken e)

@@ -29,6 +29,7 @@ type program = {
   mutable texts : Location.t list;  (* where a text is wanted *)
   mutable recruits : bool;
   mutable reads_sensors : bool;
+  mutable reads_now : bool;
   mutable asks_running : bool;
   mutable calls : call list;
   blocking : (string, string) Hashtbl.t;  (* function, and what it uses *)
@@ -74,6 +75,7 @@ let create ?(first_site = 0) ?(variables = []) ?(parameters = []) ?(suppliers = 
       texts = [];
       recruits = false;
       reads_sensors = false;
+      reads_now = false;
       asks_running = false;
       calls = [];
       blocking = Hashtbl.create 16;
@@ -139,6 +141,7 @@ let note_text program at = program.texts <- at :: program.texts
 let wants_text program at = List.memq at program.texts
 let note_recruit program = program.recruits <- true
 let note_sensor program = program.reads_sensors <- true
+let note_now program = program.reads_now <- true
 let note_running program = program.asks_running <- true
 let is_parameter program name = List.mem name program.parameters
 let chart program path = program.chart path
@@ -147,6 +150,7 @@ let find_chart program name = Hashtbl.find_opt program.charted name
 let is_supplier program name = List.mem name program.suppliers
 let recruits program = program.recruits
 let reads_sensors program = program.reads_sensors
+let reads_now program = program.reads_now
 let asks_running program = program.asks_running
 
 type code = {

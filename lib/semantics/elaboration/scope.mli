@@ -86,6 +86,9 @@ val is_looked_at : program -> string -> bool
 val note_sensor : program -> unit
 (** Something looks at a sensor, or at a place. *)
 
+val note_now : program -> unit
+(** Something reads the date. *)
+
 val note_running : program -> unit
 (** Something asks whether a vehicle runs a task. *)
 
@@ -96,6 +99,7 @@ val recruits : program -> bool
 (** Whether any may. *)
 
 val reads_sensors : program -> bool
+val reads_now : program -> bool
 val asks_running : program -> bool
 
 val note_text : program -> Location.t -> unit

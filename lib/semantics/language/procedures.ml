@@ -297,6 +297,7 @@ let apply context at operation arguments =
   | Sensor_of sensor, [ Vehicles vs ] -> sense context (Sensor sensor) vs
   | Reading_of, [ Vehicles vs; String name ] -> sense context (Sensor (Measurement name)) vs
   | Reading_of, [ Vehicles _; x ] -> expected "the name of a measurement, as in reading(v, 'Temperature')" x
+  | Now, [] -> Value (Reading.now context.world)
   | Is_running, [ Vehicles vs ] ->
     let is_running (v : World.vehicle_state) = Boolean (Vehicle_map.mem v.id context.allocation) in
     of_result (Result.map is_running (Methods.one_vehicle context.world vs))
@@ -331,6 +332,6 @@ let apply context at operation arguments =
   | Math name, arguments -> mathematics name arguments
   | Geometry (name, keys), arguments -> of_result (Geometry.apply name keys arguments)
   | ( ( Execute | Release | Set_connection_timeout | Ask | Message | Pause | Halt | Position_of | Sensor_of _
-      | Is_running | Reading_of | Eta | Location_of | Area_of | Assert | Fail | Ignore | Propagate | Retry | Dismiss
-      | Get_supplier | Interrupted | Is_host | Is_there | Values_of ),
+      | Is_running | Reading_of | Now | Eta | Location_of | Area_of | Assert | Fail | Ignore | Propagate | Retry
+      | Dismiss | Get_supplier | Interrupted | Is_host | Is_there | Values_of ),
       _ ) -> Wrong (Printf.sprintf "wrong number of arguments, %d" (List.length arguments))

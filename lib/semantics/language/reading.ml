@@ -26,6 +26,11 @@ let look world subject (s : World.vehicle_state) =
       | One_of ps -> Error (World.places s ps)
       | Anything -> Ok (reading Place (Printf.sprintf "position(%s)" s.id)))
 
+let of_now = "now()"
+
+let now world : value =
+  match World.date world with Exactly n -> Integer n | Since _ | Any -> reading Amount of_now
+
 let keep (program : program) store =
   let one store (i, x) =
     match x with
@@ -77,6 +82,27 @@ let claim world at ~is text =
   | Error _ when World.claims world >= most_claims -> Unclear (unclear at text)
   | Error question -> Asks question
 
+(* [x] as a number to compare: the date, where it is as a certain one. *)
+let dated world x =
+  match x, World.date world with
+  | Reading { quantity = Amount; text }, Since n when String.equal text of_now -> Some (float_of_int n)
+  | x, _ -> Value.to_number x
+
+let compared world (op : Ast.binary) x y =
+  match dated world x, dated world y with
+  | Some a, Some b -> (
+      match op with
+      | Less -> Some (a < b)
+      | Less_equal -> Some (a <= b)
+      | Greater -> Some (a > b)
+      | Greater_equal -> Some (a >= b)
+      | Equal -> Some (a = b)
+      | Not_equal -> Some (a <> b)
+      | Member_of | Add | Subtract | Multiply | Divide | Around | Remainder | Power | Sequence | Append | Intersect
+      | Parallel | And | Or ->
+        None)
+  | None, _ | _, None -> None
+
 let binary world at (op : Ast.binary) x y =
   let holds symbol = claim world at ~is:true (spell_binary symbol x y) in
   let fails symbol = claim world at ~is:false (spell_binary symbol x y) in
@@ -118,7 +144,8 @@ let calls_code = function Closure _ :: _ -> true | _ -> false
 let apply world at operation arguments =
   let result =
     match operation, arguments with
-    | Binary op, [ x; y ] -> binary world at op x y
+    | Binary op, [ x; y ] -> (
+        match compared world op x y with Some holds -> Gives (Ok (Boolean holds)) | None -> binary world at op x y)
     | Unary Negate, [ Reading { quantity = Amount; text } ] -> Gives (Ok (reading Amount ("-" ^ enclosed text)))
     | Concatenate, parts -> Gives (Ok (reading Words (String.concat "" (List.map Value.to_string parts))))
     | Builtin (Math name), xs when List.mem name mathematical && List.for_all is_amount xs ->

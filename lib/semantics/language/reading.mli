@@ -13,6 +13,9 @@ val look : World.t -> subject -> World.vehicle_state -> (value, World.question) 
 (** [look w subject s] is what that sensor of [s] shows: if that may be anything, a reading whose text names the
     sensor; if the vehicle has not told it, {!Core.Unknown}. *)
 
+val now : World.t -> value
+(** [now w] is the date: if that is open, a reading whose text is [now()]. *)
+
 val is_reading : value -> bool
 (** Whether it is a reading. *)
 

@@ -3,6 +3,7 @@ open Core
 type timer = int
 
 let script_timer = 0
+let alarm = -1
 
 type wait = Time of float | Answer of string
 

@@ -13,6 +13,9 @@ type timer = int
 val script_timer : timer
 (** The timer of [pick] and [pause]: 0. *)
 
+val alarm : timer
+(** A timer that no program has: a driver's own, to be told of a date. *)
+
 (** What a timer waits for: that so many seconds pass, or the answer to a question. *)
 type wait = Time of float | Answer of string
 

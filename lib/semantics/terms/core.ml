@@ -160,6 +160,7 @@ and builtin =
   | Sensor_of of sensor
   | Is_running                                  (* whether A has the vehicle *)
   | Reading_of
+  | Now                                         (* whole seconds since the start *)
   | Eta
   | Location_of
   | Area_of
@@ -201,6 +202,7 @@ type program = {
   on_interrupt : lambda option;                 (* of the bound vehicles: what an interruption executes *)
   recruits : bool;                              (* some task may recruit *)
   reads_sensors : bool;                         (* some code may read sensors, places included *)
+  reads_now : bool;                             (* some code may read the date *)
   asks_running : bool;                          (* some code may ask which vehicles run a task *)
   fences : Fences.t;                            (* what platforms hold vehicles to: no rule asks *)
 }

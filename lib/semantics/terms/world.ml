@@ -33,6 +33,7 @@ type assumption =
 
 (* Vehicles by their rank in the order of first hearing; [states] has each rank that [ranks] has. *)
 type order = By_hearing | By_id
+type date = Exactly of int | Since of int | Any
 
 type t = {
   order : order;
@@ -40,12 +41,13 @@ type t = {
   states : vehicle_state Int_map.t;
   sensors : Core.value list Sensor_map.t;  (* of those that are open: what they may show *)
   positions : Position.t list String_map.t;
+  date : date;
   supposed : assumption list;  (* of sensors *)
 }
 
 let nobody order =
   { order; ranks = String_map.empty; states = Int_map.empty; sensors = Sensor_map.empty; positions = String_map.empty;
-    supposed = [] }
+    date = Exactly 0; supposed = [] }
 
 let empty = nobody By_hearing
 
@@ -101,7 +103,13 @@ let pp_assumption ppf = function
 let open_sensor s v xs world = { world with sensors = Sensor_map.add (v, s) xs world.sensors }
 let open_battery v xs = open_sensor Battery v (List.map (fun x -> Core.Number x) xs)
 let open_position v ps world = { world with positions = String_map.add v ps world.positions }
-let is_open world = not (Sensor_map.is_empty world.sensors && String_map.is_empty world.positions)
+let whole seconds = int_of_float (Float.round (seconds *. 1000.)) / 1000
+let at date world = if world.date = date then world else { world with date }
+let date world = world.date
+
+let is_open world =
+  let is_dated = match world.date with Exactly _ -> true | Since _ | Any -> false in
+  not (Sensor_map.is_empty world.sensors && String_map.is_empty world.positions && is_dated)
 
 (* [v] with the state that [change] makes of its own, after all other vehicles. *)
 let last v change world =

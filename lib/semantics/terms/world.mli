@@ -80,8 +80,20 @@ val open_battery : Core.vehicle -> float list -> t -> t
 val open_position : Core.vehicle -> Dolphin_geo.Position.t list -> t -> t
 (** Likewise where [v] is seen. *)
 
+(** The date: how many whole seconds have passed since the start of the run. *)
+type date =
+  | Exactly of int
+  | Since of int  (** open, but compared with a number it is as this one *)
+  | Any
+
+val at : date -> t -> t
+(** [at d w] is [w] with the date [d]. Worlds begin at [Exactly 0]. *)
+
+val whole : float -> int
+(** [whole s] is how many seconds have passed by [s], to the millisecond. *)
+
 val is_open : t -> bool
-(** Whether some sensor may show several values. *)
+(** Whether some sensor may show several values, or the date is open. *)
 
 val suppose : assumption list -> t -> t
 (** [suppose assumed w] is [w] in which [assumed] holds: what it says is no longer open. *)
@@ -105,6 +117,8 @@ val sensors : t -> vehicle_state -> (Core.sensor * Core.value shown option) list
 
 val position : t -> vehicle_state -> Dolphin_geo.Position.t shown
 (** [position w s] is where [s] is seen. *)
+
+val date : t -> date
 
 type question = assumption list
 (** What is open, by what may be assumed instead: one of these, and no two of them. *)

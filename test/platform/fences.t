@@ -18,7 +18,7 @@ Fences over an adapter: what breaks one is not started; a vehicle that is seen b
   > EOF
   $ timeout 300 dolphin exec m.dol --journal m.run --platform 'dolphin sim vehicles.fleet --platform --speed 20' > log 2> err
   [1]
-  $ cut -c 10- log | sed 's/ by .*//'
+  $ cut -c 10- log | grep -E '  (picks|starts|ends|fails|says|releases)' | sed 's/ by .*//'
   program     picks uav-1
   uav-1       starts near
   uav-1       ends near
@@ -57,7 +57,7 @@ Depths and heights are watched too: what an adapter tells of them, else the heig
   $ timeout 300 dolphin exec levels.dol --journal levels.run \
   >   --platform 'dolphin sim levels.fleet --platform --speed 20' > log 2> err
   [1]
-  $ cut -c 10- log | sed 's/ by .*//'
+  $ cut -c 10- log | grep -E '  (picks|starts|ends|fails|says|releases)' | sed 's/ by .*//'
   program     picks uuv-1
   program     picks uav-1
   uuv-1       starts dive

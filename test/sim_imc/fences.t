@@ -20,7 +20,7 @@ Fences over IMC: what breaks one is not started; a vehicle that is seen beyond o
   $ timeout 240 dolphin exec m.dol --imc-loopback --imc-discovery-ports 21900-21904 --journal m.run > log 2> err
   [1]
   $ kill $vehicles; wait $vehicles || true
-  $ cut -c 10- log | sed 's/ by .*//'
+  $ cut -c 10- log | grep -E '  (picks|starts|ends|fails|says|releases)' | sed 's/ by .*//'
   program     picks noptilus-1
   noptilus-1  starts near
   noptilus-1  ends near
@@ -37,7 +37,8 @@ Fences over IMC: what breaks one is not started; a vehicle that is seen beyond o
   0
   [1]
 
-Depths and heights are watched too: those of EstimatedState.
+Depths and heights are watched too: those of EstimatedState. What is remarked of vehicles depends on when they are
+heard, and is left out.
 
   $ cat > levels.fleet <<'EOF'
   > vehicle 'noptilus-1', { type 'UUV'; at 41.1850, -8.7060; speed 5.0 }
@@ -60,7 +61,7 @@ Depths and heights are watched too: those of EstimatedState.
   $ timeout 240 dolphin exec levels.dol --imc-loopback --imc-discovery-ports 21905-21909 --journal levels.run > log 2> err
   [1]
   $ kill $vehicles; wait $vehicles || true
-  $ cut -c 10- log | grep -v 'a moment ago\|ready again' | sed 's/ by .*//'
+  $ cut -c 10- log | grep -E '  (picks|starts|ends|fails|says|releases)' | sed 's/ by .*//'
   program     picks noptilus-1
   program     picks x8-02
   noptilus-1  starts dive

@@ -153,7 +153,7 @@ let suggest x xs =
   let length = String.length x in
   if length > 64 then None
   else
-    let bound = if length <= 2 then 1 else if length <= 5 then 2 else 3 in
+    let bound = if length <= 3 then 1 else if length <= 5 then 2 else 3 in
     let lower = String.lowercase_ascii x in
     let nearer best candidate =
       if candidate = x || abs (String.length candidate - length) > bound then best

@@ -42,6 +42,8 @@ let entry block =
 
 let entries = List.filter_map entry (blocks text)
 
+let find name = List.find_opt (fun (e : entry) -> e.name = name) entries
+
 (* {1 The page} *)
 
 (* In lines of at most 120 characters. *)

@@ -20,5 +20,8 @@ type entry = {
 val entries : entry list
 (** In the order of the text. *)
 
+val find : string -> entry option
+(** The function of this name. *)
+
 val manual : string
 (** All of it as a page in Markdown. *)

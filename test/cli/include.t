@@ -131,6 +131,18 @@ The prelude comes with the command. A program may have its name; a function that
     16 |     return tasks.tail().inject(tasks[0]) { beside, t -> beside | t }
        |            ^^^^^^^^^^^^
   [1]
+  $ cat > near.dol <<'END'
+  > include 'prelude'
+  > v = pick { type 'UUV' }
+  > message near(v, 500.m)
+  > END
+  $ dolphin check near.dol
+  near.dol:3:9: error: near takes 3 arguments, not 2
+    3 | message near(v, 500.m)
+      |         ^^^^^^^^^^^^^^
+      hint: write near(v, vs, d)
+  near.dol: 1 error
+  [2]
   $ cat > race.dol <<'END'
   > include 'prelude'
   > def race(x) { x }

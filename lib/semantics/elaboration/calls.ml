@@ -1,6 +1,7 @@
 open Core
 open Checks
 open Closures
+module Prelude = Dolphin_syntax.Prelude
 
 let values env = List.map (fun a -> elaborate env (value_of a))
 let is_named = function Ast.Named _ -> true | Positional _ | Keyed _ -> false
@@ -258,6 +259,13 @@ let misspells_builder env name arguments =
       | None -> false)
   | _ -> false
 
+(* What its arguments are is on a page that is elsewhere: near(v, 500.m) lacks the set that is looked through. *)
+let form_in_prelude env name (lambda : lambda) =
+  match Scope.location env.program lambda.lambda_site with
+  | Some at when Location.file at = Prelude.file ->
+    Option.map (fun (e : Prelude.entry) -> "write " ^ e.form) (Prelude.find name)
+  | Some _ | None -> None
+
 let by_name env at name (callee : Ast.expression) arguments =
   let called_value () =
     let callee = Names.variable env name callee.at in
@@ -271,7 +279,7 @@ let by_name env at name (callee : Ast.expression) arguments =
     if n <> lambda.parameters then
       error env Wrong_arity at "%s takes %d argument%s, not %d" name lambda.parameters
         (if lambda.parameters = 1 then "" else "s")
-        n;
+        n ?hint:(form_in_prelude env name lambda);
     Scope.note_call env.code name callee.at;
     called_value ()
   | None, None, Some _ when Builtins.is_geometry name && Scope.is_assigned env.program name -> called_value ()

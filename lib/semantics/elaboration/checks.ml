@@ -244,6 +244,10 @@ let builder_name : Ast.builder -> string = function
   | All_of -> "allOf"
   | One_of -> "oneOf"
 
+let builder_of_setting name =
+  let has builder = List.mem name (Builtins.settings builder) in
+  Option.map builder_name (List.find_opt has [ Ast.Pick; Pos; Imc_plan; Mission ])
+
 let check_in_script env name at =
   if env.answer then error env Deed_in_answer at "%s may not stand in an answer" name;
   Scope.note_blocking env.code name;

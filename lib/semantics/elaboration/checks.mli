@@ -120,6 +120,9 @@ val fence : string
 val builder_name : Ast.builder -> string
 (** As programs spell it. *)
 
+val builder_of_setting : string -> string option
+(** The name of the builder that has such a setting. *)
+
 val check_in_script : env -> string -> Location.t -> unit
 (** Reports what belongs to the script if it stands in code of a task or in an answer. *)
 

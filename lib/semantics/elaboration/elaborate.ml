@@ -43,17 +43,31 @@ let hint_for_unknown program name at names =
     | Some example -> Some ("write " ^ example)
     | None -> Checks.did_you_mean name names
 
-let report_unknown ?(fallback = fun _ -> None) program =
+let hint_for_prelude name =
+  Option.map
+    (fun _ -> Printf.sprintf "%s is a function of the prelude: begin the program with include 'prelude'" name)
+    (Dolphin_syntax.Prelude.find name)
+
+let hint_for_setting name =
+  Option.map
+    (fun builder -> Printf.sprintf "it is a setting of %s: %s { %s ... }" builder builder name)
+    (Checks.builder_of_setting name)
+
+let report_unknown ?fallback program =
   let names = Scope.visible_names (Scope.code program Scope.Main None) in
+  let near name at = hint_for_unknown program name at (List.filter (fun other -> other <> name) names) in
+  let first hints = List.find_map (fun hint -> hint ()) hints in
+  let hint name at =
+    match fallback with
+    | Some fallback -> first [ (fun () -> near name at); (fun () -> fallback name) ]
+    | None -> first [ (fun () -> hint_for_prelude name); (fun () -> near name at); (fun () -> hint_for_setting name) ]
+  in
   List.iter
     (fun (name, at) ->
        Scope.report program
          (Diagnostic.error ~code:Unknown_name at
             (Printf.sprintf "unknown name '%s'" name)
-            ?hint:(
-              match hint_for_unknown program name at (List.filter (fun other -> other <> name) names) with
-              | Some hint -> Some hint
-              | None -> fallback name)))
+            ?hint:(hint name at)))
     (Scope.unknown program)
 
 let report_blocking program =

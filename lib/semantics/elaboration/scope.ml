@@ -97,6 +97,7 @@ let fresh_lambda_id program =
 let report program diagnostic = program.reports <- diagnostic :: program.reports
 let reports program = List.stable_sort Diagnostic.compare (List.rev program.reports)
 let locations program = Array.of_list (List.rev program.locations)
+let location program site = List.nth_opt program.locations (program.sites - 1 - site)
 let globals program = Array.of_list (List.rev program.global_names)
 let add_function program name lambda = Hashtbl.replace program.functions name lambda
 let find_function program name = Hashtbl.find_opt program.functions name

@@ -38,6 +38,9 @@ val reports : program -> Dolphin_syntax.Diagnostic.t list
 val locations : program -> Location.t array
 (** The place of each site. *)
 
+val location : program -> int -> Location.t option
+(** The place of a site; [None] if the site is of another program, as in an answer. *)
+
 val globals : program -> string array
 (** The names of globals, by index. *)
 

@@ -264,10 +264,25 @@ let units =
 let unit_factor name = List.assoc_opt name units
 let unit_names = List.map fst units
 
+(* A name of few letters is near to the wrong unit: kn to km, nm to m. *)
+let abbreviations =
+  [ ("s", "seconds"); ("secs", "seconds"); ("mins", "minutes"); ("h", "hours"); ("hr", "hours"); ("hrs", "hours");
+    ("d", "days"); ("deg", "degrees"); ("degs", "degrees"); ("rad", "radians"); ("rads", "radians");
+    ("nm", "nauticalMiles"); ("nmi", "nauticalMiles"); ("mile", "nauticalMiles"); ("miles", "nauticalMiles");
+    ("kn", "knots"); ("kt", "knots"); ("kts", "knots"); ("ft", "feet") ]
+
 let unit_hint name =
-  match Dolphin_syntax.Diagnostic.suggest name unit_names with
-  | Some near -> Printf.sprintf "did you mean '%s'?" near
-  | None -> "units are m, km, seconds, min, hours, days, degrees, percent and the like"
+  let lower = String.lowercase_ascii name in
+  let meant =
+    match List.assoc_opt lower abbreviations with
+    | Some _ as unit -> unit
+    | None when List.mem lower unit_names -> Some lower
+    | None when String.length name <= 3 -> None
+    | None -> Dolphin_syntax.Diagnostic.suggest name unit_names
+  in
+  match meant with
+  | Some unit -> Printf.sprintf "did you mean '%s'?" unit
+  | None -> "units are m, km, seconds, min, hours, days, degrees, knots, feet, percent and the like"
 
 let in_unit n name =
   match n, unit_factor name with

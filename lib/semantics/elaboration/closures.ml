@@ -86,7 +86,7 @@ let prompt_of env at arguments =
     error env Wrong_kind e.at "all of this is the prompt of confirm, which is a text"
       ~hint:"put parentheses around the prompt, as in confirm('Retrieve now?') >> T";
     None
-  | [ Ast.Positional prompt ] -> Some prompt
+  | [ Ast.Positional prompt ] -> check_kind env "confirm" String prompt; Some prompt
   | [ Ast.Named (k, _) ] -> error env Unknown_argument k.at "confirm takes no argument by name"; None
   | arguments ->
     error env Wrong_arity at "confirm takes 1 argument, not %d" (List.length arguments)

@@ -2,7 +2,8 @@ let name = "prelude"
 let file = "<prelude>"
 let text = Prelude_text.text
 
-type entry = { name : string; form : string; text : string; example : string; law : (string * string) option }
+type entry = { name : string; form : string; text : string; example : string; law : (string * string) option;
+               weak_law : (string * string) option }
 
 (* {1 Comments} *)
 
@@ -30,14 +31,17 @@ let cut separator line =
     else from (i + 1) in
   from 0
 
+let weak = "Weak law: "
+
 let entry block =
   let lines = comment block in
   let told prefix = List.find_map (after prefix) lines in
-  let is_prose line = after "Example: " line = None && after "Law: " line = None in
+  let is_prose line = List.for_all (fun prefix -> after prefix line = None) [ "Example: "; "Law: "; weak ] in
   match cut ": " (String.concat " " (List.filter is_prose lines)), told "Example: " with
   | Some (form, text), Some example ->
     let name = match cut "(" form with Some (name, _) -> name | None -> form in
-    Some { name; form; text = String.capitalize_ascii text; example; law = Option.bind (told "Law: ") (cut " is ") }
+    Some { name; form; text = String.capitalize_ascii text; example; law = Option.bind (told "Law: ") (cut " is ");
+           weak_law = Option.bind (told weak) (cut " is ") }
   | _, _ -> None
 
 let entries = List.filter_map entry (blocks text)
@@ -55,9 +59,11 @@ let filled text =
   let last, lines = List.fold_left add ("", []) (String.split_on_char ' ' text) in
   String.concat "\n" (List.rev (last :: lines))
 
-let section ({ form; text; example; law; name = _ } : entry) =
-  let law = Option.fold law ~none:"" ~some:(fun (a, b) -> Printf.sprintf "\nLaw: `%s` is `%s`.\n" a b) in
-  Printf.sprintf "## `%s`\n\n%s\n\n```groovy\n%s\n```\n%s" form (filled text) example law
+let section ({ form; text; example; law; weak_law; name = _ } : entry) =
+  let line prefix (a, b) = "\n" ^ filled (Printf.sprintf "%s`%s` is `%s`." prefix a b) ^ "\n" in
+  let told prefix = Option.fold ~none:"" ~some:(line prefix) in
+  Printf.sprintf "## `%s`\n\n%s\n\n```groovy\n%s\n```\n%s%s" form (filled text) example (told "Law: " law)
+    (told weak weak_law)
 
 let manual =
   let introduction = String.concat " " (comment (List.hd (blocks text))) in

@@ -14,7 +14,8 @@ type entry = {
   form : string;  (** ["par(tasks)"] *)
   text : string;  (** what it is: sentences *)
   example : string;  (** statements, in which [vs] is three vehicles and [p], [q] and [r] are tasks *)
-  law : (string * string) option;  (** two tasks that are the same *)
+  law : (string * string) option;  (** two tasks that are strongly bisimilar *)
+  weak_law : (string * string) option;  (** two that are weakly so: in what vehicles do *)
 }
 
 val entries : entry list

@@ -1385,6 +1385,16 @@ let vector =
 |} );
     ]
 
+let prelude =
+  in_file "lib/syntax/prelude.dol" ~noticed_by:"prelude/test_prelude"
+    [
+      ("one less than atLeast says is enough", {|count((done): _) >= k|}, {|count((done): _) >= k - 1|});
+      ("a barrier holds nobody", {|condition { count((came): _) == n }|}, {|condition { count((came): _) >= 1 }|});
+      ("a follower is told of one end again and again", {|consume("done by $name": 1)|}, {|poll("done by $name": 1)|});
+      ("the goal of who fails is lost", {|post((goal): g, (out): 1)|}, {|post((out): 1)|});
+      ("who is at the very distance is not near", {|<= d }|}, {|< d }|});
+    ]
+
 let all =
   List.concat
     [ maps; missions; footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups;
@@ -1396,4 +1406,4 @@ let all =
       conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps;
       sets_with_events; driver; fair_cycles; limits;
       alike_values; division; arrangement; coverage; search_pattern; travel; vector;
-      zone; timed; place; timed_system; schedule; recorded; durations; share; sampled ]
+      zone; timed; place; timed_system; schedule; recorded; durations; share; sampled; prelude ]

@@ -1,5 +1,5 @@
-(* Each function of the prelude: its example runs, its law holds as strong bisimilarity, and what it says of itself
-   holds in all runs. *)
+(* Each function of the prelude: its example runs, its law holds as strong bisimilarity and its weak one as weak
+   bisimilarity, and what it says of itself holds in all runs. *)
 
 open Dolphin_semantics
 open Dolphin_syntax
@@ -60,6 +60,26 @@ let law (e : Prelude.entry) =
     Alcotest.(check bool) "bisimilar" true
       (Bisimulation.equivalent ~observed:Bisimulation.shared (graph a) (graph b)) in
   Option.map (fun law -> Alcotest.test_case (e.name ^ ": the law") `Quick (check law)) e.law
+
+let weak_law (e : Prelude.entry) =
+  let check (a, b) () =
+    let graph task = graph ("execute " ^ task) in
+    Alcotest.(check bool) "weakly bisimilar" true (Bisimulation.weakly_equivalent (graph a) (graph b)) in
+  Option.map (fun law -> Alcotest.test_case (e.name ^ ": the weak law") `Quick (check law)) e.weak_law
+
+(* What is weakly bisimilar is no matter of course. *)
+let no_weak_law (a, b) =
+  let check () =
+    let graph task = graph ("execute " ^ task) in
+    Alcotest.(check bool) "weakly bisimilar" false (Bisimulation.weakly_equivalent (graph a) (graph b)) in
+  Alcotest.test_case (Printf.sprintf "%s is not %s" a b) `Quick check
+
+let no_weak_laws =
+  List.map no_weak_law
+    [ ("p >> q", "p | q"); ("p", "q"); ("p", "p until { true }"); ("p >> action { halt() }", "p");
+      ("atLeast(2, [p, q, r])", "p | q | r"); ("leader('a', [p]) | follower('a', [q])", "p | q");
+      ("team(1, 2, vs, [p, q]) { g -> g }", "(p >> q)[vs[0]]");
+      ("forall(vs) { v -> p >> barrier('x', 2) >> q }", "forall(vs) { v -> p } >> forall(vs) { v -> q }") ]
 
 let told () =
   let functions =
@@ -141,5 +161,6 @@ let () =
   Alcotest.run "prelude"
     [ ("examples", List.map example Prelude.entries);
       ("laws", List.filter_map law Prelude.entries);
+      ("weak laws", List.filter_map weak_law Prelude.entries @ no_weak_laws);
       ("what they say", told_of_themselves);
       ("the file", [ Alcotest.test_case "each is told of" `Quick told; Alcotest.test_case "who is not used" `Quick unused ]) ]

@@ -60,3 +60,44 @@ let equivalent ?(named = spelt) ?(observed = nothing) a b =
   classes.(0) = classes.(offset)
 
 let classes a = snd (refine (nodes spelt nothing 0 a))
+
+(* {1 Weakly} *)
+
+let is_seen : Label.t -> bool = function
+  | Start _ | Done _ | Fail _ -> true
+  | Check _ | Act _ | Cut _ | Time_out | Set_time _ | Make | Allocate _ | Recruit _ | Broken _ | Did _ | Silent | Pick _
+  | Bind _ | No_vehicles _ | Ask _ | Answer _ | No_answer | Pause _ | Resume | Call _ | Reply _ | No_reply _ | Execute
+  | Cannot_execute _ | End | Halt _ | Fault _ | Input _ | Interrupt -> false
+
+(* Strong bisimilarity of what any number of hidden steps, what is seen, and any number of hidden steps make one. *)
+let saturated offset (g : Graph.t) =
+  let unseen ((t : Transition.t), s) = if is_seen t.label then None else Some s in
+  let hidden = Array.map (List.filter_map unseen) g.edges in
+  let closure first =
+    let reached = Hashtbl.create 16 in
+    let rec reach s =
+      if not (Hashtbl.mem reached s) then begin
+        Hashtbl.replace reached s ();
+        List.iter reach hidden.(s)
+      end
+    in
+    reach first;
+    List.of_seq (Hashtbl.to_seq_keys reached)
+  in
+  let closures = Array.init (Array.length g.states) closure in
+  let seen s = List.filter (fun ((t : Transition.t), _) -> is_seen t.label) g.edges.(s) in
+  let node s =
+    let silently = List.map (fun s' -> ("", offset + s')) closures.(s) in
+    let is_end s' = ended g.states.(s') <> "" in
+    let ends = List.map (fun s' -> (ended g.states.(s'), offset + s')) (List.filter is_end closures.(s)) in
+    let after ((t : Transition.t), s') = List.map (fun s'' -> (spelt t.label, offset + s'')) closures.(s') in
+    let visibly = List.concat_map (fun s' -> List.concat_map after (seen s')) closures.(s) in
+    { seen = ""; edges = List.sort_uniq compare (silently @ ends @ visibly) }
+  in
+  Array.init (Array.length g.states) node
+
+let weakly_equivalent a b =
+  let first = saturated 0 a in
+  let offset = Array.length first in
+  let classes, _ = refine (Array.append first (saturated offset b)) in
+  classes.(0) = classes.(offset)

@@ -1,4 +1,4 @@
-(** Strong bisimilarity of state graphs, by labels and by how runs end. *)
+(** Strong and weak bisimilarity of state graphs, by labels and by how runs end. *)
 
 val equivalent :
   ?named:(Dolphin_semantics.Label.t -> string) ->
@@ -11,6 +11,11 @@ val equivalent :
 
 val shared : Dolphin_semantics.Configuration.t -> string
 (** [shared c] is the store, A, B and N of [c], in a canonical text: what parts of a task can see of each other. *)
+
+val weakly_equivalent : Graph.t -> Graph.t -> bool
+(** [weakly_equivalent a b] is whether the initial states of [a] and [b] are weakly bisimilar where only starts,
+    ends and failures of vehicles' tasks and how runs end are seen: before and behind what is seen of one, the other may
+    take any number of other steps. *)
 
 val classes : Graph.t -> int
 (** [classes a] is the number of states of [a] that differ from one another. *)

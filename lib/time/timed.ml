@@ -168,7 +168,8 @@ let fresh pending is_fresh =
 
 (* With [--faults join] vehicles that are late come at any time: see [comes_late]. *)
 let knows_who_joins o = o.durations.joins <> [] && not (Faults.is_possible o.environment.faults.join)
-let may_join_during_tasks o = knows_who_joins o && Dolphin_explore.Later_picks.may_follow o.program
+let may_join_during_tasks o =
+  knows_who_joins o && (o.program.recruits || Dolphin_explore.Later_picks.may_follow o.program)
 
 let coming o =
   if knows_who_joins o then

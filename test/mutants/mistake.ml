@@ -372,6 +372,40 @@ let liveness =
         {|if may_call operation && false then Variables.union called live else live|} );
     ]
 
+let recruiting =
+  in_file "lib/explore/symmetry/canonical_vehicles.ml" ~noticed_by:"reduction/test_told_apart"
+    [
+      ( "who is known is recruited as anybody is",
+        {|n = 0 || is_known v || String.equal|},
+        {|n = 0 || String.equal|} );
+      ( "a computed id to recruit breaks nothing",
+        {|  check_id r asked;
+  let orbit|},
+        {|  ignore asked;
+  let orbit|} );
+    ]
+  @ in_file "lib/explore/steps/recruiting.ml" ~noticed_by:"reduction/test_told_apart"
+    [
+      ( "what waits for the task knows nobody",
+        {|union (union (outside_of_task t x) components) nests|},
+        {|(ignore outside_of_task; union (union Vehicles.empty components) nests)|} );
+      ( "what stands beside knows nobody",
+        {|union (union (outside_of_task t x) components) nests|},
+        {|(ignore components; union (outside_of_task t x) nests)|} );
+      ( "what stands around knows nobody",
+        {|union (union (outside_of_task t x) components) nests|},
+        {|(ignore nests; union (outside_of_task t x) components)|} );
+      ( "recruits side by side have the same vehicles in all orders",
+        {|let turn = Hashtbl.length t.turns in|},
+        {|let turn = 0 * Hashtbl.length t.turns in|} );
+    ]
+  @ in_file "lib/explore/symmetry/later_picks.ml" ~noticed_by:"reduction/test_told_apart"
+    [
+      ( "who is lost does not stay away",
+        {|if may_follow program || program.recruits then|},
+        {|if may_follow program || (program.recruits && false) then|} );
+    ]
+
 let later_picks =
   in_file "lib/explore/symmetry/later_picks.ml" ~noticed_by:"environment/test_environment"
     [
@@ -1399,7 +1433,8 @@ let all =
   List.concat
     [ maps; missions; footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups;
       quotient; expansion; portable; files_of_states;
-      vehicle_orbits; canonical_vehicles; bitstate; disk; name_flow; liveness; later_picks; environment; picks; inputs;
+      vehicle_orbits; canonical_vehicles; bitstate; disk; name_flow; liveness; recruiting; later_picks;
+      environment; picks; inputs;
       attendance;
       task_rules; local_step; run_code; answers_in_words; confirm; unknown; on_interrupt;
       fences; pick_rules; conclusion; recruits; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;

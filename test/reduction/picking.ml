@@ -82,6 +82,39 @@ let made =
       (2, f "(watch ({ task('%s') })[%s] onError { e -> if (e.vehicle) { dismiss e.vehicle; retry() } })" p v);
       (1, f "(watch (task('%s')[%s]) onError { dismiss %s ; ignore() })" p v v) ]
 
+(* Tasks that recruit: what they make knows whom they have, leaves it known, or asks who it is. *)
+let recruiting =
+  let asked =
+    frequencyl
+      [ (4, "type 'UUV'"); (4, ""); (1, "type 'UAV'"); (1, "payload 'DVL'"); (1, "id 'b'"); (1, "id 'ab'.substring(1)");
+        (1, "region location(41.18521, -8.7048), 1.km") ]
+  in
+  let recruit =
+    let* q = asked and* q' = asked and* p = plan and* v = vehicles and* k = oneofl [ "x"; "y" ] in
+    let* a = action and* c = condition in
+    let+ made =
+      frequencyl
+        [ (4, f "task('%s')" p); (3, f "task('%s')[u]" p); (2, f "(task('%s') >> action { post %s: u })" p k);
+          (2, f "action { %s }" a); (1, "action { p = u }"); (2, "(idle(1.seconds) | task('s'))");
+          (2, f "action { if (u == %s) { g = g + 1 } }" v); (1, f "action { if (poll(%s: u)) { halt 'again' } }" k);
+          (2, f "(waitFor { %s } then task('%s'))" c p); (1, f "task(\"%s${u}\")" p);
+          (1, "action { if (\"${u}\" == 'b') { halt 'b' } }");
+          (2, f "(watch (task('%s')) onError { e -> post x: e.vehicle; ignore() })" p);
+          (1, f "(watch (task('%s')[u]) onError { %s ; retry() })" p a);
+          (1, f "(waitFor { consume %s: _ } then { w -> task('%s')[w] })" k p);
+          (2, f "(recruit { %s } then { w -> action { if (w == %s) { post %s: w } else { post %s: u } } })" q' v k k);
+          (1, f "(task('s') >> recruit { %s } then { w -> task('t') })" q') ]
+    in
+    f "(recruit { %s } then { u -> %s })" q made
+  in
+  let* one = recruit and* two = recruit and* c = condition and* p = plan and* v = vehicles and* a = action in
+  frequencyl
+    [ (6, one); (4, f "(%s | %s)" one two); (2, f "(%s >> %s)" one two); (2, f "(repeat 2, %s)" one);
+      (1, f "((repeat 2, %s) | %s)" one two); (1, f "(repeat (%s >> idle(1.seconds)) until { %s })" one c);
+      (1, f "(until { %s } run (repeat (%s >> idle(1.seconds))))" c one); (1, f "(%s within 5.seconds)" one);
+      (1, f "(%s | task('%s')[%s])" one p v); (1, f "(watch (%s) onError { %s ; ignore() })" one a);
+      (1, f "(watch (%s) onError { e -> if (e.vehicle) { dismiss e.vehicle }; retry() })" one) ]
+
 let rec task depth =
   let leaf =
     let* p = plan and* v = vehicles and* a = action and* c = condition in
@@ -90,7 +123,7 @@ let rec task depth =
         (1, "idle(1.seconds)"); (1, f "assert({ !(%s) }, 'a')" c);
         (1, f "imcPlan { planName 'i'; locate 41.1852, -8.7048; goTo speed:1.0 }[%s]" v) ]
   in
-  let leaf = frequency [ (15, leaf); (4, made) ] in
+  let leaf = frequency [ (15, leaf); (4, made); (2, recruiting) ] in
   if depth = 0 then leaf
   else
     let part = task (depth - 1) in
@@ -170,16 +203,26 @@ let invariant =
     [ "g < 2"; f "%s.size() < 2" v; "!bound('b')"; "!running('s')"; "!running('t', 'c')"; f "%s != %s" v w;
       f "%s[0].getId() != 'c'" v; f "!poll(x: %s)" v; f "battery(%s[0]) > 0.5" v; f "!(bound('d') && %s == %s)" v w ]
 
+(* Few vehicles are picked, so that others are left to be recruited; what was recruited is looked at, and picked. *)
+let after_recruits =
+  let* one = recruiting and* two = recruiting and* k = pick and* v = vehicles and* w = vehicles and* a = action in
+  let* first = frequencyl [ (2, "p = pick { count 1 }\n"); (1, "p = pick { count 1 }\nrelease p\n") ] in
+  let+ then_ =
+    frequencyl
+      [ (3, ""); (2, a); (1, f "release %s" v); (2, f "q = pick { %s }" k); (1, f "release %s\nq = pick { %s }" w k);
+        (2, f "execute %s" two); (1, f "q = pick { %s }\nexecute %s" k two); (1, f "if (%s == %s) { post y: 3 }" v w) ]
+  in
+  f "g = 0\n%sq = p\nr = p\nexecute %s\n%s\n" first one then_
+
 let gen =
   let first = frequencyl [ (3, "count 1"); (3, "count 2"); (1, "type 'UUV'"); (1, "count 2; type 'UUV'") ] in
   let between = frequency [ (2, return "\n"); (1, map (fun calls -> "\n" ^ calls ^ "\n") supplied) ] in
   let body = map3 (fun first calls then_ -> first ^ calls ^ then_) (statements 1) between (statements 1) in
   let* k = first and* k' = first and* body = body in
   let* functions = functions and* world = oneofl worlds in
-  let text =
-    String.concat "\n"
-      [ functions; "g = 0"; f "p = pick { %s }" k; f "q = pick { %s }" k'; "r = p"; body; "" ]
-  in
+  let picked =
+    String.concat "\n" [ functions; "g = 0"; f "p = pick { %s }" k; f "q = pick { %s }" k'; "r = p"; body; "" ] in
+  let* text = frequency [ (3, return picked); (1, after_recruits) ] in
   let* invariant = invariant in
   return { text; world; invariant }
 

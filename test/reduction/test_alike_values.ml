@@ -29,6 +29,9 @@ let body =
       (1, "{ g -> action { if (g == 2) { halt 'two' } } }");
       (1, "{ g -> watch task(\"survey_$g\") onError { why -> post lost: \"$why\"; ignore() } }");
       (1, "{ g -> task(\"survey_$g\") >> action { last = g } }");
+      (2, "{ g -> recruit { type 'UUV' } then { v -> task(\"survey_$g\") } }");
+      (1, "{ g -> recruit { } then { v -> watch task(\"survey_$g\") onError { post goal: g, lost: v; ignore() } } }");
+      (1, "{ g -> recruit { id (g == 1 ? 'c' : 'b') } then { v -> task('s') } }");
       (1, "{ g -> (waitFor { poll over: g } then task(\"survey_$g\")) during 3 }");
       (1, "{ g -> action { post over: \"$g\" } }");
       (1, "{ g -> task(\"$g\") }") ]
@@ -47,6 +50,7 @@ let worker =
       (2, Printf.sprintf "(oneOf { when { %s } then %s\nwhen { count(goal: _) == 0 } then action { } })" guard body);
       (2, Printf.sprintf "(repeat oneOf { when { %s } then %s\nwhen { !poll('goal') } then action { } }\n\
                           until { !poll('goal') })" guard body);
+      (1, Printf.sprintf "(repeat recruit { type 'UUV' } then { %s } until { !poll('goal') })" wait);
       (1, wait ^ " >> " ^ wait) ]
 
 let after =
@@ -147,9 +151,14 @@ let alike, apart =
         (pool
            "{ g -> watch { task(\"s_$g\") } onError { e ->\n\
             if (e.vehicle) { dismiss e.vehicle; retry() } else fail \"$g: $e\" } }");
+      is true "a vehicle is recruited for it"
+        (pool "{ g -> recruit { type 'UUV' } then { v -> watch task(\"s_$g\") onError { post goal: g; ignore() } } }");
       is true "an input brings something else" ~environment:(bringing "x") (pool posting);
       is true "other plans are named" ~environment:(by_name "home" Fails) (pool posting) ],
     [ is false "a plan of such a name ends otherwise" ~environment:(by_name "s_2" Fails) (pool posting);
+      is false "it says who is recruited" (pool "{ g -> recruit { id \"$g\" } then { v -> task('s') } }");
+      is false "compared by who is recruited"
+        (pool "{ g -> recruit { } then { v -> action { if (g == 1) { halt 'x' } } } }");
       is false "compared" (pool "{ g -> action { if (g == 1) { halt 'x' } } }");
       is false "asked for" (pool ~after:"if (poll(goal: 2)) { halt 'x' }" posting);
       is false "asked for by a pattern" (pool ~after:"if (poll(goal: { it == 2 })) { halt 'x' }" posting);

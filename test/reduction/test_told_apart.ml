@@ -81,6 +81,7 @@ let by_name =
       (one ^ "execute imcPlan { planName 'i'; vehicles v; locate 41.1852, -8.7048; goTo speed:1.0 }");
   ]
 
+let late join : Environment.options = { plain with faults = { Faults.none with join }; may_be_late = (fun _ -> true) }
 let near_and_far = Pure_run.world [ uuv "a" ~north:5_000.; uuv "b"; uuv "c"; uuv "d" ]
 let open_alike = World.open_battery "c" [] (World.open_battery "b" [] three)
 let weak = Pure_run.world [ uuv "a"; uuv "b"; uuv "c" ~battery:0.2 ]
@@ -187,6 +188,54 @@ let by_what_is_made =
       (one ^ "execute action { if (idle(v).ids == ['C'.toLowerCase()]) { halt 'h' } }");
     tells "the name of who failed" ~environment:(Environment.failing plain) [ No_halt ]
       (one ^ "execute watch task('p')[v] onError { e -> if (e.vehicle.id == 'C'.toLowerCase()) { halt 'h' }\nidle(1) }");
+  ]
+
+(* [v] was there before, and may be recruited or another one: what knows it says [h] of one of the two. *)
+let before = "v = pick { type 'UUV' }\nrelease v\n"
+let posting = "recruit { type 'UUV' } then { u -> action { post at: u } }"
+
+let by_recruits =
+  [
+    keeps "whoever is recruited" [] "execute recruit { type 'UUV' } then { v -> task('p') }";
+    tells "the name of who is recruited" [ No_halt ]
+      "execute recruit { type 'UUV' } then { v -> action { if (\"$v\" == 'C'.toLowerCase()) { halt 'h' } } }";
+    tells "a plan with the name of who is recruited" ~environment:{ (on_c "pc" Fails) with plans = [ "pc" ] } [ No_error ]
+      "execute recruit { type 'UUV' } then { v -> task(\"p$v\") }";
+    keeps "a plan that fails on one who is recruited" ~environment:(on_c "p" Fails) [ No_error ]
+      "execute recruit { type 'UUV' } then { v -> task('P'.toLowerCase()) }";
+    keeps "a name to recruit" [ No_deadlock ] (one ^ "execute recruit { id 'c' } then { u -> task('p') }");
+    keeps "a name to recruit that is computed" [ No_deadlock ]
+      (one ^ "execute recruit { id 'C'.toLowerCase() } then { u -> task('p') }");
+    keeps "a name to recruit that is computed, later" [ No_deadlock ]
+      (one ^ "execute idle(1) >> { recruit { id 'C'.toLowerCase() } then { u -> task('p') } }");
+    keeps "a region to recruit from" ~world:near_and_far [ No_deadlock ]
+      "execute recruit { region location(41.1851, -8.7048), 1.km } then { u ->\n\
+       if (position(u) in area(location(41.1851, -8.7048), 10.km)) task('p') else condition { false } }\n\
+       v = pick { count 3; type 'UUV' }\n\
+       execute recruit { region location(41.1851, -8.7048), 1.km } then { u -> task('p') }";
+    keeps "another than who is in a variable" [ No_halt ]
+      (before ^ "execute recruit { type 'UUV' } then { u -> action { if (u != v) { halt 'h' } } }");
+    keeps "another than who is in N" [ No_halt ]
+      (before ^ "post at: v\nv = null\n\
+                 execute recruit { type 'UUV' } then { u -> action { if (!consume(at: u)) { halt 'h' } } }");
+    keeps "another than who is known beside" [ No_halt ]
+      ("def go(x) { " ^ posting ^ " | (waitFor { poll at: _ } then action { if (!consume(at: x)) { halt 'h' } }) }\n"
+       ^ before ^ "t = go(v)\nv = null\nexecute t");
+    keeps "another than who is known around" [ No_halt ]
+      ("def go(x) { (" ^ posting ^ " | condition { poll at: _ }) >> action { if (!consume(at: x)) { halt 'h' } } }\n"
+       ^ before ^ "t = go(v)\nv = null\nexecute t");
+    keeps "another than who was lost" ~environment:{ plain with faults = { Faults.none with loss = At_most 1 } }
+      [ Vehicles ]
+      (one ^ "execute watch (task('p')[v]) onError { ignore() }\nrelease v\nv = null\n\
+              execute recruit { type 'UUV' } then { u -> idle(1) }\n\
+              for (i in 1..3) { w = pick { type 'UUV' } }");
+    keeps "who recruits again" [ No_halt; No_leftover ]
+      "execute repeat 2, recruit { type 'UUV' } then { u -> action { if (poll(at: u)) { halt 'h' } ; post at: u } }";
+    keeps "those who were lost stay away" ~environment:{ plain with faults = { Faults.none with loss = Any_number } }
+      [ No_deadlock ]
+      "execute repeat 4, recruit { type 'UUV' } then { v -> watch task('p') onError { ignore() } }";
+    keeps "some go on for ever without one" ~environment:(late Faults.Any_number) [ Vehicles; No_leftover ]
+      (one ^ "execute (repeat idle(1) until { poll(x: 1) }) | recruit { type 'UUV' } then { u -> action { post x: 1 } }");
   ]
 
 (* A supplier [s], which replies this. *)
@@ -327,6 +376,29 @@ let test_run () =
     ignore (List.fold_left step (Configuration.initial program, Environment.initial) steps)
   | Holds | By_design _ | Unreached _ | Inconclusive _ -> Alcotest.fail "it halts"
 
+(* Two side by side, in any round whoever is there. *)
+let recruits =
+  {|for (i in 1..4) { post cell: i }
+    def searching(c) {
+      watch task("search_$c") >> action { post searched: c } onError { why ->
+        message "$c is left to others: $why"
+        post cell: c
+        ignore()
+      }
+    }
+    def search() { repeat recruit { type 'UUV' } then { v -> waitFor { consume cell: _ } then { c -> searching(c) } } }
+    execute until { count(searched: _) == 4 } run search() | search()|}
+
+let test_recruits () =
+  let states ?(reduction = Reduction.All) n =
+    let program = Pure_run.compile_exn recruits in
+    let options = { Search.default with environment = Environment.failing plain; reduction } in
+    (Search.run options program (large n)).states
+  in
+  Alcotest.(check int) "all" 27_192 (states ~reduction:Whole 3);
+  let check n = Alcotest.(check int) (Printf.sprintf "%d vehicles" n) 322 (states n) in
+  List.iter check [ 2; 3; 10; 100 ]
+
 let large_fleets =
   [
     small "three teams" 30 three_teams;
@@ -362,10 +434,11 @@ let large_fleets =
         }
         execute worker(vs[0]) | worker(vs[1]) | worker(vs[2]) | worker(vs[3])|};
     Alcotest.test_case "a run that is shown" `Quick test_run;
+    Alcotest.test_case "recruits" `Quick test_recruits;
   ]
 
 let () =
   Alcotest.run "vehicles told apart"
     [ ("by name", by_name); ("by what they are", by_what_they_are);
-      ("by what is made", by_what_is_made); ("by replies", by_replies); ("by order", by_order);
+      ("by what is made", by_what_is_made); ("by recruits", by_recruits); ("by replies", by_replies); ("by order", by_order);
       ("large fleets", large_fleets) ]

@@ -22,6 +22,7 @@ type t = {
   labelling : Labelling.t option;
   task_groups : Task_groups.t option;
   vehicles : Canonical_vehicles.t option;
+  recruiting : Recruiting.t option;  (* where tasks recruit vehicles of which some are alike *)
   tick : (unit -> unit) ref;  (* while a state of the script is expanded, from which tasks begin: the visitor's *)
 }
 
@@ -65,6 +66,9 @@ let expand_script t number (visitor : via System.visitor) =
 let unknown = Memoised_steps.unknown
 let special = Memoised_steps.special
 
+let is_followed t x step =
+  match t.recruiting with None -> true | Some recruiting -> Recruiting.follows recruiting x step
+
 (* Of a step that is possible, and not [special]. *)
 let action t step shared =
   match step.dependence with
@@ -94,7 +98,7 @@ let take_all t (x : Expansion.source) place steps =
       let action = if is_observed then action t step shared else Valuation.nothing in
       Expansion.go_to x place step.successor ~action shared'
     end
-    else if shared' = special then taken := !taken + Expansion.take_dependent x place step
+    else if shared' = special && is_followed t x step then taken := !taken + Expansion.take_dependent x place step
   done;
   !taken
 
@@ -323,7 +327,7 @@ let examine t key ~possible ~taken visitor =
       | Moves _ | Ends | Depends _ ->
         let at, name = position step.index in
         let here = { at; name; stays = stays step.source; step } in
-        let is_chosen = match choice with None -> true | Some chosen -> chosen c k in
+        let is_chosen = match choice with None -> is_followed t x step | Some chosen -> chosen c k in
         possible here;
         follow here place ~is_chosen ~may_end:analysis.ends.(k) step layers
     in
@@ -494,5 +498,6 @@ let create ?(reduction = Reduction.Whole) ?(symmetry = Symmetry.none) ?(asked = 
   let observe = Option.map (fun labelling -> Valuation.action_of_local (Labelling.valuations labelling)) labelling in
   let steps = Memoised_steps.create ?observe components encoding and quotient = Quotient.create components encoding in
   let expansion = Expansion.create options components encoding steps quotient labelling in
+  let recruiting = if program.recruits then Option.map (fun v -> Recruiting.create v encoding) vehicles else None in
   { options; reduction; program; world; components; encoding; layouts = Encoding.layouts encoding; steps; expansion;
-    quotient; labelling; task_groups; vehicles; tick }
+    quotient; labelling; task_groups; vehicles; recruiting; tick }

@@ -124,7 +124,7 @@ and applied code operation arguments given =
     | ( (Builtin
            (Make_watch | Make_until _ | Make_during _ | Make_wait_for | Make_action | Make_condition | Make_repeat _)
         | Binary (Sequence | Parallel | Divide)), _, _ ) -> task given
-    | Element, _, [ Task; Other ] -> Task
+    | Element, _, [ Task; Other ] | Make_recruit, _, [ Other; Task ] -> Task
     | Call names, { node = Constant (Closure { lambda; captured = [||] }) | Make_closure (lambda, []); _ } :: _,
       _ :: given
       when List.for_all (( = ) None) names && List.length given = lambda.parameters ->

@@ -157,8 +157,11 @@ let check_order r accepted =
   let last, _, runs = List.fold_left number (0, None, []) accepted in
   if last > List.length (by_orbit r accepted) then split r (fun v -> List.assoc_opt v runs)
 
+(* The id of one that can be exchanged is no text of the program: it was computed. *)
+let check_id r (asked : Vehicle_filter.t) = Option.iter (fun id -> if is_movable r id then fix r [ id ]) asked.id
+
 let picking r outside (c : Configuration.t) (pick : Settings.pick) =
-  Option.iter (fun id -> if is_movable r id then fix r [ id ]) pick.filter.id;
+  check_id r pick.filter;
   (* If the program looks at a region, the vehicles of an orbit stand at one place. *)
   let is_accepted = Settings.accepts { pick.filter with region = None } in
   let id (s : World.vehicle_state) = s.id in
@@ -187,6 +190,32 @@ let picking r outside (c : Configuration.t) (pick : Settings.pick) =
   in
   if List.exists exchanged (by_orbit r free) then r.used <- true;
   alike
+
+(* {2 Recruits} *)
+
+let known r c outside =
+  match vehicles_of r c outside with
+  | found -> List.filter (is_movable r) (Vehicles.elements found)
+  | exception Renaming.Too_large -> fix_all r
+
+let known_in_task r t =
+  let found = ref Vehicles.empty in
+  let look v = if is_movable r v then found := Vehicles.add v !found; v in
+  match Renaming.residual look t with
+  | (_ : Residual.t) -> Vehicles.elements !found
+  | exception Renaming.Too_large -> fix_all r
+
+(* Those of an orbit that nobody knows fit if one of them does: who is named by the task, or bound, is known. *)
+let follows_recruit r (asked : Vehicle_filter.t) ~turn ~is_known v =
+  check_id r asked;
+  let orbit = orbit r v in
+  let n = Array.length orbit in
+  let rec first i = if is_known orbit.((turn + i) mod n) then first (i + 1) else orbit.((turn + i) mod n) in
+  let follows = n = 0 || is_known v || String.equal v (first 0) in
+  if not follows then r.used <- true;
+  follows
+
+(* {2 The outside} *)
 
 (* Answers are code from outside of the program: they must read no variable. *)
 let check_answers r prompt =

@@ -21,5 +21,25 @@ val choices : t -> Environment.t -> Configuration.t -> (Transition.t * Environme
 (** [choices r e c] is some of [Environment.choices]: of those that lead to one {!canonical} form, at least one.
     @raise Symmetry.Broken *)
 
+(** {1:recruits Recruits}
+
+    Of the vehicles of an orbit that a configuration does not know, a [recruit] may have any: one is enough. *)
+
+val known : t -> Configuration.t -> Environment.t -> Core.vehicle list
+(** [known r c e] is the vehicles with others in their orbits that [c] or [e] names, but for what is forgotten.
+    @raise Symmetry.Broken *)
+
+val known_in_task : t -> Residual.t -> Core.vehicle list
+(** [known_in_task r t] is those that [t] names: a configuration that executes [t] knows these too.
+    @raise Symmetry.Broken *)
+
+val follows_recruit : t -> Vehicle_filter.t -> turn:int -> is_known:(Core.vehicle -> bool) -> Core.vehicle -> bool
+(** [follows_recruit r q ~turn ~is_known v] is whether the [recruit] of [v] must be followed, for one that asks for [q]:
+    whether [v] is known, alone in its orbit, or the first one of it that is not known, from the one numbered [turn] on,
+    around.
+    @raise Symmetry.Broken *)
+
+(** {1:use Use} *)
+
 val is_used : t -> bool
 (** Whether some canonical form differed from the configuration, or some transition was left out. *)

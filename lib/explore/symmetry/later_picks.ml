@@ -67,7 +67,8 @@ and applied called note operation next =
 let may_follow (program : program) =
   let found = ref false in
   ignore (before (called_code program) (fun () -> found := true) program.main.code over : bool);
-  !found || program.recruits
+  !found
 
-let forgetting program options =
-  if may_follow program then options else Environment.forgetting_losses options
+(* Who is lost may stay away from a [recruit] for ever. *)
+let forgetting (program : program) options =
+  if may_follow program || program.recruits then options else Environment.forgetting_losses options

@@ -270,6 +270,7 @@ and applied w lambda at operation arguments =
                 | Make_watch | Make_repeat _) ),
       es ) -> values es land vehicles
   | Make_recruit, [ settings; code ] ->
+    w.found <- { w.found with picks = true };
     ignore (value_of settings);
     ignore (call_value w code (value_of code) (fun _ -> vehicles));
     vehicles

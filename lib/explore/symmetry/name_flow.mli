@@ -13,7 +13,7 @@ type t = {
   (** whether steps depend on where vehicles are: [position], a [region] to pick in, allocation of inline plans *)
   sensors : bool;  (** whether they depend on what other sensors show: batteries, speeds, links, measurements *)
   abilities : bool;  (** whether they depend on how fast vehicles are and what that takes of their batteries *)
-  picks : bool;  (** whether there is a [pick] *)
+  picks : bool;  (** whether there is a [pick] or a [recruit] *)
   texts : string list;  (** all texts in the program *)
 }
 

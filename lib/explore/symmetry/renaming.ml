@@ -71,8 +71,8 @@ and branch r b =
   let guard = closure r b.guard in
   { guard; body = task r b.body }
 
-let rec residual r (t : Residual.t) : Residual.t =
-  let go = residual r in
+let rec residual_by r (t : Residual.t) : Residual.t =
+  let go = residual_by r in
   match t with
   | Ready (p, v) -> Ready (p, r.f v)
   | Running (p, v) -> Running (p, r.f v)
@@ -119,7 +119,7 @@ and made r (q : Residual.request) = { q with allowed = Option.map (List.map r.f)
 
 and residual_branch r (b : Residual.branch) : Residual.branch =
   let guard = closure r b.guard in
-  { guard; body = residual r b.body }
+  { guard; body = residual_by r b.body }
 
 let items r : Machine.items -> Machine.items = function
   | Items (xs, i) -> Items (Array.map (value_by r) xs, i)
@@ -149,6 +149,7 @@ let request r : Code.request -> Code.request = function
   | (Pick _ | Ask _ | Pause _) as request -> request
 
 let value f x = value_by (renaming f) x
+let residual f t = residual_by (renaming f) t
 
 let control f : Configuration.control -> Configuration.control =
   let r = renaming f in
@@ -159,7 +160,7 @@ let control f : Configuration.control -> Configuration.control =
     Waiting (m, request r q)
   | Executing (m, t) ->
     let m = machine r m in
-    Executing (m, residual r t)
+    Executing (m, residual_by r t)
   | Ended _ as ended -> ended
 
 let tuples (program : program) f ~unordered n =

@@ -10,6 +10,10 @@ val value : (Core.vehicle -> Core.vehicle) -> Core.value -> Core.value
     their names.
     @raise Too_large *)
 
+val residual : (Core.vehicle -> Core.vehicle) -> Residual.t -> Residual.t
+(** Likewise.
+    @raise Too_large *)
+
 val control : (Core.vehicle -> Core.vehicle) -> Configuration.control -> Configuration.control
 (** Likewise.
     @raise Too_large *)

@@ -8,12 +8,13 @@ exception Broken of t
 
 let none = { vehicles = Vehicle_orbits.none; tasks = None }
 
-(* A state of a task up to symmetry does not say which vehicle runs what. *)
+(* A state of a task up to symmetry does not say which vehicle runs what: a [recruit] may have who runs nothing. *)
 let find options program ~asked world =
-  if Environment.may_leave options program || program.recruits then none
+  if Environment.may_leave options program then none
   else
     let posts = options.Environment.inputs <> [] in
-    let tasks = if posts || Environment.endings_remember options then None else Some [] in
+    let is_exact = posts || Environment.endings_remember options || program.recruits in
+    let tasks = if is_exact then None else Some [] in
     { vehicles = Vehicle_orbits.find options program ~asked world; tasks }
 
 let without_tasks s = { s with tasks = None }

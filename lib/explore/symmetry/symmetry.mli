@@ -26,6 +26,6 @@ val none : t
 
 val find : Environment.options -> Core.program -> asked:Condition.t list -> World.t -> t
 (** [find o p ~asked w] is what can be assumed before anything is explored: {!Vehicle_orbits.find}, and symmetries of
-    tasks unless the outside remembers vehicles, or posts. *)
+    tasks unless the outside remembers vehicles, or posts, or some task recruits. *)
 
 val without_tasks : t -> t

@@ -264,7 +264,7 @@ let rec seen x (options : options) ~enough =
 
 (* Which pairs there might be is known from fewer states: each plan that may run starts in one of them. *)
 let candidates x (options : options) =
-  if options.reduction = Whole then None
+  if options.reduction = Whole || x.program.recruits then None
   else
     let all = seen x { options with reduction = Partial_order } ~enough:(fun _ -> false) in
     if all.stopped = None then Some (Side_by_side.candidates all.beside, all) else None
@@ -360,10 +360,12 @@ let relevant program (options : options) =
   | Partial_order | Symmetry | All ->
     { options with environment = Later_picks.forgetting program options.environment }
 
-(* What an interruption executes depends on all of the state that it comes in; so does who can be recruited. *)
+(* What an interruption executes depends on all of the state that it comes in. Who can be recruited depends on all that
+   the task names, so on the order of its steps. *)
 let reducible program (options : options) =
-  if Environment.may_leave options.environment program || program.Core.recruits
-  then { options with reduction = Whole } else options
+  if Environment.may_leave options.environment program then { options with reduction = Whole }
+  else if program.Core.recruits then { options with reduction = Reduction.without_order options.reduction }
+  else options
 
 let judged (options : options) program world =
   let symmetry =

@@ -1,0 +1,10 @@
+(** Which vehicles are recruited in a state, where some are alike: docs/explorer.md, Symmetry of vehicles. *)
+
+type t
+
+val create : Canonical_vehicles.t -> Encoding.t -> t
+
+val follows : t -> Expansion.source -> Component.step -> bool
+(** [follows t x step] is whether [step] of [x], if it is possible, must be followed: not if it recruits a vehicle in
+    whose place another one of its orbit is recruited by such a step.
+    @raise Symmetry.Broken *)

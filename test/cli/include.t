@@ -127,8 +127,8 @@ The prelude comes with the command. A program may have its name; a function that
      0:00  program     says: 1
      0:00  program     says: 2
      0:00  program     fails: a number has no method 'tail'
-  <prelude>:16:12: error: a number has no method 'tail'
-    16 |     return tasks.tail().inject(tasks[0]) { beside, t -> beside | t }
+  <prelude>:17:12: error: a number has no method 'tail'
+    17 |     return tasks.tail().inject(tasks[0]) { beside, t -> beside | t }
        |            ^^^^^^^^^^^^
   [1]
   $ cat > near.dol <<'END'

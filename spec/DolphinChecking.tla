@@ -253,7 +253,7 @@ EffectText(e) ==
            [] e[2].how = "failed" -> "end: " \o e[2].message
            [] e[2].how = "interrupted" -> "end: interrupted"
 
-(* In which order vehicles stop that stop one after another is not said: here in pick order. *)
+(* In which order vehicles stop that stop one after another is not said: here in pick order, recruits last. *)
 RECURSIVE InPickOrder(_)
 InPickOrder(effects) ==
   LET isStop(j) == effects[j][1] = "stop"
@@ -262,7 +262,7 @@ InPickOrder(effects) ==
       stopped == { effects[j][2] : j \in 1 .. n }
   IN CASE effects = << >> -> << >>
        [] n = 0 -> << Head(effects) >> \o InPickOrder(Tail(effects))
-       [] OTHER -> Each(SelectSeq(B, LAMBDA v : v \in stopped), LAMBDA v : << "stop", v >>)
+       [] OTHER -> Each(SelectSeq(B \o RecruitsOf(control), LAMBDA v : v \in stopped), LAMBDA v : << "stop", v >>)
                    \o InPickOrder(SubSeq(effects, n + 1, Len(effects)))
 
 (* The label of t, and its effects after that. *)

@@ -19,7 +19,7 @@ let effect_text : Effect.t -> string = function
   | Call_host { subject; member; _ } -> "call " ^ Machine.name_of_call ~subject ~member
   | e -> Format.asprintf "%a" Effect.pp e
 
-(* Vehicles that stop one after another, in pick order: the semantics leaves open in which. *)
+(* Vehicles that stop one after another, in pick order, recruits last: the semantics leaves open in which. *)
 let rec in_pick_order bound : Effect.t list -> Effect.t list = function
   | Stop _ :: _ as effects ->
     let rec split stopped : Effect.t list -> _ = function
@@ -33,7 +33,7 @@ let rec in_pick_order bound : Effect.t list -> Effect.t list = function
   | [] -> []
 
 let label_and_effects (c : Configuration.t) (t : Transition.t) =
-  match in_pick_order c.shared.bound t.effects with
+  match in_pick_order (c.shared.bound @ Configuration.recruits c) t.effects with
   | [] -> label_text t
   | effects -> label_text t ^ " ! " ^ String.concat "; " (List.map effect_text effects)
 

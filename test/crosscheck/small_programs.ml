@@ -95,6 +95,8 @@ let tasks =
        "a = pick { id 'a' }\n\
         execute watch { recruit { id 'b' } then { (task('p') >> idle(1.seconds)) | task('q') } } onError { why -> message why; ignore() }\n\
         | { recruit { type 'UAV' } then { idle(1.seconds) } }");
+      ("only whom a task recruited is stopped, and what is done on an interruption has it",
+       "onInterrupt task('q')\na = pick { id 'a' }\nexecute task('p')[a] >> recruit { id 'b' } then { task('q') }");
       ("whom a task recruited is free for the next one",
        "a = pick { id 'a' }\nexecute (recruit { id 'b' } then { task('p') }) >> recruit { id 'b' } then { task('q') }\nrelease a");
       ("within a time, and not",

@@ -166,6 +166,10 @@ val heard_of : Core.vehicle -> t -> t
 val may_stay_away : options -> t -> Core.vehicle -> bool
 (** [may_stay_away o e v] is whether [v], which is there, may never come to a [recruit]: it is lost, or may be late. *)
 
+val may_all_stay_away : options -> t -> Core.vehicle list -> bool
+(** [may_all_stay_away o e vs] is whether all of [vs] {!may_stay_away} together: no more of them are late for the first
+    time than may be. *)
+
 val only_recruits : options -> t -> Transition.t list -> bool
 (** [only_recruits o e ts] is whether none of the transitions [ts] must happen: all are {!is_voluntary}, or wait for
     vehicles that may all stay away. *)

@@ -263,6 +263,31 @@ let test_special () =
   let check source = List.iter (in_environment (picks ^ source)) environments in
   List.iter check special
 
+(* A recruit is owed where some vehicle that may come is never late, or where not all that may be late may be so in one
+   run. [a] and [b] fit, [c] does not. *)
+let test_recruits () =
+  let program =
+    Pure_run.compile_exn
+      "v1 = pick { id 'c' }\n\
+       execute (repeat idle(1) until { poll(k: 1) }) | recruit { type 'UUV' } then { action { post k: 1 } }"
+  in
+  let verdict late faults reduction =
+    let may_be_late v = List.mem v late in
+    let environment = { Environment.default with may_be_late; faults = Result.get_ok (Faults.of_string faults) } in
+    let o = Search.run { Search.default with environment; reduction; search_again = 0 } program world in
+    said (List.assoc Property.Termination o.verdicts)
+  in
+  let check (late, faults, expected) =
+    let name = Printf.sprintf "%s late, %s" (String.concat ", " late) faults in
+    List.iter
+      (fun reduction -> Alcotest.(check string) name expected (verdict late faults reduction))
+      [ Reduction.Whole; Partial_order; All ]
+  in
+  List.iter check
+    [ ([], "join", "holds"); ([ "a" ], "join", "holds"); ([ "b" ], "join", "holds"); ([ "a"; "b" ], "join", "violated");
+      ([ "a"; "b" ], "join=1", "holds"); ([ "a"; "b" ], "join=2", "violated"); ([ "c" ], "join", "holds");
+      ([], "loss=1", "holds") ]
+
 (* Without programs of each kind, agreement says little. *)
 let test_variety () =
   let enough verdict =
@@ -275,5 +300,6 @@ let () =
   Alcotest.run "fairness"
     [ ( "random programs",
         [ Alcotest.test_case "special programs" `Quick test_special;
+          Alcotest.test_case "recruits are owed unless all may stay away" `Quick test_recruits;
           Alcotest.test_case "termination is that of the definition" `Quick test_fairness;
           Alcotest.test_case "every verdict is given" `Quick test_variety ] ) ]

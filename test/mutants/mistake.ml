@@ -985,8 +985,14 @@ let fair_cycles =
         {|begins_with (repeat @ [ Space.inside ]) at) renewed|},
         {|begins_with [] at && repeat <> []) renewed|} );
       ( "nothing is owed",
-        {|List.filter (fun k -> not (Hashtbl.mem taken k || may_never_come t k)) (owed t edges members)|},
-        {|List.filter (fun k -> not (Hashtbl.mem taken k || may_never_come t k) && false) (owed t edges members)|} );
+        {|List.filter (fun k -> not (Hashtbl.mem taken k)) (owed t edges members)|},
+        {|List.filter (fun k -> not (Hashtbl.mem taken k) && false) (owed t edges members)|} );
+      ( "a recruit is owed whoever may stay away",
+        {|not (Space.may_all_stay_away system key vs)|},
+        {|Space.may_all_stay_away system key vs || true|} );
+      ( "the first who comes decides whether a recruit is owed",
+        {|not (Space.may_all_stay_away system key vs)|},
+        {|not (Space.may_all_stay_away system key [ List.hd vs ])|} );
     ]
 
 let missions =
@@ -1377,7 +1383,7 @@ let sampled =
       ("times to the second", {|Canonical.number s.seconds|}, {|Canonical.number (Float.round s.seconds)|});
       ( "tasks failed whoever had them",
         {|("cause", `String "task"); ("vehicle", `String vehicle); ("task", `String task)|},
-        {|("cause", `String "task"); ("vehicle", `String ""); ("task", `String task)|} );
+        {|("cause", `String "task"); ("vehicle", `String (vehicle ^ "?")); ("task", `String task)|} );
       ("runs may be missing", {|when seed = last + 1 -> Ok ()|}, {|when seed > last -> Ok ()|});
     ]
 
@@ -1408,7 +1414,7 @@ let vector =
       ( "lists are copied whenever they are appended to",
         {|if xs.length < Array.length xs.buffer && |},
         {|if xs.length < 0 && |} );
-      ("a copy has no room", {|(max least_room (2 * xs.length))|}, {|(xs.length + 1)|});
+      ("a copy has no room", {|(max least_room (2 * xs.length))|}, {|(max (least_room * 0) (xs.length + 1))|});
     ]
   @ in_file "lib/semantics/language/operators.ml" ~noticed_by:"semantics/test_vector"
     [

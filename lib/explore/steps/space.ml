@@ -288,9 +288,10 @@ let positions (layout : Layout.t) key (place : Layout.place) =
     let position index = if index < n then (cuts.(index), []) else (inner, name index) in
     (position, asked @ repeats (layers @ around))
 
-let may_stay_away t v =
-  Dolphin_environment.Faults.is_possible t.options.faults.loss
-  || Environment.may_stay_away t.options Environment.initial v
+let may_all_stay_away t key vs =
+  let shared = Layouts.shared t.layouts key.(0) in
+  let { Surroundings.outside; _ } = Surroundings.Numbers.value (Encoding.shareds t.encoding) shared in
+  Environment.may_all_stay_away t.options outside vs
 
 let inputs_at t outside = List.map (fun (k, _, _) -> k) (Environment.inputs t.options t.program outside)
 

@@ -75,8 +75,8 @@ val may_cycle_in_script : t -> bool
     it [stays] possible, whatever others do, unless it is a guard. *)
 type possible = { at : int list; name : int list; stays : bool; step : Component.step }
 
-val may_stay_away : t -> Dolphin_semantics.Core.vehicle -> bool
-(** [may_stay_away t v] is whether [v] may never come to a [recruit], for it is late or lost in some run. *)
+val may_all_stay_away : t -> int array -> Dolphin_semantics.Core.vehicle list -> bool
+(** [may_all_stay_away t key vs] is {!Environment.may_all_stay_away} in the state [key], in which a task executes. *)
 
 val inside : int
 

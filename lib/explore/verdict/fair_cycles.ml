@@ -15,7 +15,7 @@ type verdict =
 (* Of a step, by its number: see {!Space.possible}. [renews] is the places of the repeats that begin a round. *)
 type edge = { into : int; by : int; is_event : bool; rounds : Task_rules.round list; renews : int list list }
 
-(* The steps that are possible, and where those lead that are followed. *)
+(* The steps that are possible and that nobody may prevent by staying away, and where those lead that are followed. *)
 type node = { possible : int list; edges : edge list }
 
 type t = {
@@ -52,16 +52,28 @@ let places_of rounds layers =
 let is_event (p : Space.possible) =
   match p.step.event with Some (Recruited _) | None -> false | Some _ -> true
 
+(* To recruit is one step, whoever comes. It need not be taken where all who may come may stay away. *)
+let certain t key found =
+  let system = State_graph.system t.graph and recruits = Hashtbl.create 4 in
+  let note (k, (p : Space.possible)) =
+    match p.step.event with Some (Recruited (_, v)) -> Hashtbl.add recruits k v | Some _ | None -> ()
+  in
+  List.iter note found;
+  let is_certain (k, _) =
+    match Hashtbl.find_all recruits k with [] -> true | vs -> not (Space.may_all_stay_away system key vs)
+  in
+  List.sort_uniq Int.compare (List.map fst (List.filter is_certain found))
+
 let examined t i =
   State_graph.visiting t.graph i (fun key arrived visitor ->
       let found = ref [] and edges = ref [] in
-      let possible p = found := number t p :: !found in
+      let possible p = found := (number t p, p) :: !found in
       let taken (p : Space.possible) rounds layers =
         let by = number t p and is_event = is_event p and renews = places_of rounds layers in
         arrived := fun into -> edges := { into; by; is_event; rounds; renews } :: !edges
       in
       Space.examine (State_graph.system t.graph) key ~possible ~taken visitor;
-      { possible = List.sort_uniq Int.compare !found; edges = List.rev !edges })
+      { possible = certain t key !found; edges = List.rev !edges })
 
 let node t i =
   match Hashtbl.find_opt t.nodes i with
@@ -161,17 +173,11 @@ let kept_inside t keeps members =
   let is_in = inside members in
   fun i -> List.filter (fun e -> is_in e.into) (successors t keeps i)
 
-(* A vehicle that is recruited, if it comes. *)
-let may_never_come t k =
-  match (Hashtbl.find t.steps k).step.event with
-  | Some (Recruited (_, v)) -> Space.may_stay_away (State_graph.system t.graph) v
-  | Some _ | None -> false
-
 let fairness t keeps members =
   let edges = kept_inside t keeps members in
   let taken = Hashtbl.create 100 in
   List.iter (fun i -> List.iter (fun e -> Hashtbl.replace taken e.by ()) (edges i)) members;
-  match List.filter (fun k -> not (Hashtbl.mem taken k || may_never_come t k)) (owed t edges members) with
+  match List.filter (fun k -> not (Hashtbl.mem taken k)) (owed t edges members) with
   | [] -> Fair
   | missing -> if List.exists (fun k -> (Hashtbl.find t.steps k).stays) missing then Unfair else Perhaps
 

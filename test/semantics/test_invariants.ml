@@ -27,6 +27,17 @@ let along ?(count = 3_000) name property =
       let program = Generate.compile program in
       List.for_all (property program) (Walk.run ~choices program Generate.world))
 
+(* Recruits side by side, of vehicles that fit more than one of them. *)
+let recruiting ?(count = 100) name property =
+  let program =
+    Pure_run.compile_exn
+      "execute recruit { type 'UUV' } then { idle(1) } | recruit { type 'UUV' } then { idle(2) }\n\
+       | recruit { } then { v -> task('p')[v] }"
+  in
+  let print _ = "recruits side by side" in
+  Property.case ~count name ~print Walk.choices (fun choices ->
+      List.for_all (property program) (Walk.run ~choices program Generate.world))
+
 (* {1 Properties of one step} *)
 
 let keeps_the_invariant _ (s : Walk.step) =
@@ -271,6 +282,7 @@ let () =
         [ along "keeps the invariant of configurations" keeps_the_invariant;
           along "changes B by PICK-BIND, RELEASE, dismiss or the end alone" b_changes_only_so;
           along "binds and releases whom it takes and leaves" recruits_balance;
+          recruiting "recruits nobody twice" keeps_the_invariant;
           along "conserves tuples" tuples_are_conserved;
           along "ends well" ends_well;
           along "balances starts and stops" starts_and_stops_balance;

@@ -65,7 +65,21 @@ NoDeadlock == HasEnded \/ Possible(IsOwed)
 
 TuplesConserved == \A ts \in { Known(vars) } : \A j \in DOMAIN ts : ConservesTuples(ts[j])
 
-Termination == <>HasEnded
+(* r may begin rounds without a number: of a repeat, or of a task that its handler tries again. *)
+RECURSIVE GoesRound(_)
+GoesRound(r) ==
+  CASE r.op = "repeat" -> r.left = << >> \/ \E j \in DOMAIN r.runs : GoesRound(r.runs[j])
+    [] r.op = "watch" -> r.anew # << >> \/ GoesRound(r.body)
+    [] r.op = "seq" -> GoesRound(r.first)
+    [] r.op = "par" -> \E j \in DOMAIN r.branches : GoesRound(r.branches[j])
+    [] r.op = "allOf" -> \E j \in DOMAIN r.runs : GoesRound(r.runs[j])
+    [] r.op \in { "until", "during", "hold", "recruited" } -> GoesRound(r.body)
+    [] OTHER -> FALSE
+
+InRounds == control.at = "exec" /\ GoesRound(control.r)
+
+(* Of runs that stay in the rounds of one task nothing is said: Fairness is too weak for them. *)
+Termination == <>HasEnded \/ <>[]InRounds
 
 (* Of every program; NoDeadlock and Termination are of some only. *)
 THEOREM Conservation == Spec => []TuplesConserved

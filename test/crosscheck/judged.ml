@@ -1,3 +1,4 @@
+open Dolphin_semantics
 open Dolphin_tlc
 module Run = Dolphin_tla.Run
 module Search = Dolphin_explore.Search
@@ -11,11 +12,19 @@ let properties =
 
 let all_hold = "all hold"
 
+(* TLC is not asked of runs that stay in the rounds of one task. *)
+let is_asked_of_tlc property (run : Search.run) =
+  let executes (t : Transition.t) =
+    match t.next.control with Executing _ -> true | Script _ | Waiting _ | Ended _ -> false
+  in
+  List.exists (fun (_, p) -> p = property) properties
+  && not (property = Property.Termination && run.cycle <> [] && List.for_all executes run.cycle)
+
 let violated_here (c : Case.t) =
   let o = Search.run { Search.default with environment = c.environment } c.program c.world in
   let violated (property, (verdict : Search.verdict)) =
     match verdict with
-    | Violated _ when List.exists (fun (_, p) -> p = property) properties -> Some (Property.name property)
+    | Violated run when is_asked_of_tlc property run -> Some (Property.name property)
     | Violated _ | Holds | By_design _ | Unreached _ | Inconclusive _ -> None
   in
   List.filter_map violated o.verdicts

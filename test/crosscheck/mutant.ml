@@ -576,6 +576,14 @@ let all =
       file = rules;
       pattern = {|<< << "release", d.vehicles >> >>|};
       replacement = {|<< >>|} };
+    { name = "a run that goes on is taken for one of rounds";
+      file = checking;
+      pattern = {|control.at = "exec" /\ GoesRound(control.r)|};
+      replacement = {|TRUE|} };
+    { name = "rounds without end break termination";
+      file = checking;
+      pattern = {|control.at = "exec" /\ GoesRound(control.r)|};
+      replacement = {|FALSE|} };
     { name = "a transition that changes nothing is no step";
       file = checking;
       pattern = {|again' = (vars' = vars /\ ~again)|};

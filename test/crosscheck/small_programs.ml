@@ -379,11 +379,18 @@ let ends =
     [ ("an answer comes", "x = ask 'how many?'");
       ("a task ends", two ^ "execute task('p')[a] | task('q')[b]");
       ("a timer expires", "execute idle(5.seconds) >> idle(5.seconds)");
-      ("a program goes on", "x = 0\nwhile (x < 3) { x = x + 1; message x }") ]
+      ("a program goes on", "x = 0\nwhile (x < 3) { x = x + 1; message x }");
+      ("rounds without end", "execute repeat idle(5.seconds)") ]
 
 let verdicts =
   let stuck = List.filter (fun (c : Case.t) -> c.name = "interrupted where it is stuck") interruptions in
   List.hd loops :: stuck @ ends @ List.tl loops
+
+(* Questions that are answered by yes or no. *)
+let confirmed =
+  let asked name source = of_text name source Generate.world { answering with answers = (fun _ -> []) } in
+  [ asked "a task goes on if the answer is yes" "execute confirm('go?')";
+    asked "an answer of no is an error" "execute watch confirm('go?') onError { why -> message why; ignore() }" ]
 
 let lost_once = "v = pick { id 'a' }\nt = watch task('p')[v] onError { post failed: 1; ignore() }\nexecute t\n"
 
@@ -418,4 +425,4 @@ let faults =
   in
   List.concat_map (fun program -> List.map (one program) kinds) programs
 
-let all = tasks @ failing @ questions @ calls @ inputs @ interruptions @ sensors @ loops @ ends @ faults
+let all = tasks @ failing @ questions @ confirmed @ calls @ inputs @ interruptions @ sensors @ loops @ ends @ faults

@@ -55,6 +55,7 @@ let program ?(reads_sensors = false) ?(reads_now = false) ?(globals = 0) script 
     inputs = [];
     on_interrupt = None;
     recruits = false;
+    goes_round = false;
     reads_sensors;
     reads_now;
     asks_running = false;

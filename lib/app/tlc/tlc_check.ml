@@ -86,15 +86,20 @@ let length (c : Outcome.counter_example) =
 
 (* TLC stops at the first violation, except of temporal properties: these it checks when it has all states, and now and
    then before. What is asked of the specification rather than of the program is only shown where it does not hold. *)
-let print_verdicts names (o : Outcome.t) =
+let print_verdicts names (program : Program_file.t) (o : Outcome.t) =
   let broken = match o.verdict with Violated c -> Some (violated c.violation, length c) | _ -> None in
   let all_states = match o.verdict with Violated { violation = Temporal; _ } -> o.queue = 0 | _ -> false in
+  let holds name =
+    if name = "Termination" && program.program.goes_round then
+      "holds of runs that do not stay in the rounds of one task: dolphin explore judges those"
+    else "holds"
+  in
   let print name =
     match broken, o.verdict with
     | Some (broken, how), _ when broken = name -> Printf.printf "%s: violated %s\n" (phrase name) how
     | _, _ when not (List.mem_assoc name properties) -> ()
-    | None, Holds -> Printf.printf "%s: holds\n" (phrase name)
-    | Some _, _ when all_states -> Printf.printf "%s: holds\n" (phrase name)
+    | None, Holds -> Printf.printf "%s: %s\n" (phrase name) (holds name)
+    | Some _, _ when all_states -> Printf.printf "%s: %s\n" (phrase name) (holds name)
     | Some _, _ -> Printf.printf "%s: not decided: TLC stops at a violation\n" (phrase name)
     | None, _ -> Printf.printf "%s: not decided\n" (phrase name)
   in
@@ -107,7 +112,7 @@ let print_counts (o : Outcome.t) =
 
 let print names options program world (o : Outcome.t) =
   Option.iter print_endline o.version;
-  print_verdicts names o;
+  print_verdicts names program o;
   print_counts o;
   match o.verdict with
   | Violated ({ violation = Unnamed; _ } as c) -> print_last_step c

@@ -275,6 +275,7 @@ let check_place env (builtin : Builtins.t) name at =
   (match builtin.arguments with
    | These { operation = Is_running; _ } -> Scope.note_running env.program
    | These { operation = Now; _ } -> Scope.note_now env.program
+   | These { operation = Retry; _ } -> Scope.note_rounds env.program
    | _ -> ());
   match builtin.place with
   | Anywhere -> ()

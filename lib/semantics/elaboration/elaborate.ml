@@ -185,6 +185,7 @@ let elaborated ?(chart = no_chart) ~source_name (ast : Ast.program) =
         inputs = List.map (fun (k : string Ast.located) -> k.it) (Scope.inputs program);
         on_interrupt = Scope.on_interrupt program;
         recruits = Scope.recruits program;
+        goes_round = Scope.goes_round program;
         reads_sensors = Scope.reads_sensors program;
         reads_now = Scope.reads_now program;
         asks_running = Scope.asks_running program;

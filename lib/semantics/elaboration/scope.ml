@@ -28,6 +28,7 @@ type program = {
   mutable all_ordered : bool;
   mutable texts : Location.t list;  (* where a text is wanted *)
   mutable recruits : bool;
+  mutable goes_round : bool;
   mutable reads_sensors : bool;
   mutable reads_now : bool;
   mutable asks_running : bool;
@@ -74,6 +75,7 @@ let create ?(first_site = 0) ?(variables = []) ?(parameters = []) ?(suppliers = 
       all_ordered = false;
       texts = [];
       recruits = false;
+      goes_round = false;
       reads_sensors = false;
       reads_now = false;
       asks_running = false;
@@ -141,6 +143,7 @@ let ordered_keys program : Tuple_space.order =
 let note_text program at = program.texts <- at :: program.texts
 let wants_text program at = List.memq at program.texts
 let note_recruit program = program.recruits <- true
+let note_rounds program = program.goes_round <- true
 let note_sensor program = program.reads_sensors <- true
 let note_now program = program.reads_now <- true
 let note_running program = program.asks_running <- true
@@ -150,6 +153,7 @@ let note_chart program name path keys = Hashtbl.replace program.charted name (pa
 let find_chart program name = Hashtbl.find_opt program.charted name
 let is_supplier program name = List.mem name program.suppliers
 let recruits program = program.recruits
+let goes_round program = program.goes_round
 let reads_sensors program = program.reads_sensors
 let reads_now program = program.reads_now
 let asks_running program = program.asks_running

@@ -101,6 +101,12 @@ val note_recruit : program -> unit
 val recruits : program -> bool
 (** Whether any may. *)
 
+val note_rounds : program -> unit
+(** Some task may begin rounds without a number: by [repeat], or by [retry()]. *)
+
+val goes_round : program -> bool
+(** Whether any may. *)
+
 val reads_sensors : program -> bool
 val reads_now : program -> bool
 val asks_running : program -> bool

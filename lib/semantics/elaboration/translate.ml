@@ -228,6 +228,7 @@ and repeat env at rounds body until =
   in
   check_kind env "repeat" Task body;
   if rounds = None && until = None && never_waits env body then error env Wrong_value at "%s" Procedures.spins;
+  if rounds = None then Scope.note_rounds env.program;
   let n = Option.map of_rounds rounds in
   let t = task_operand env body in
   let c = Option.map (task_code env at "repeat") until in

@@ -201,6 +201,7 @@ type program = {
   inputs : string list;                         (* keys of the pairs that the outside may post *)
   on_interrupt : lambda option;                 (* of the bound vehicles: what an interruption executes *)
   recruits : bool;                              (* some task may recruit *)
+  goes_round : bool;                            (* some task may begin rounds without a number *)
   reads_sensors : bool;                         (* some code may read sensors, places included *)
   reads_now : bool;                             (* some code may read the date *)
   asks_running : bool;                          (* some code may ask which vehicles run a task *)

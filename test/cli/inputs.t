@@ -111,4 +111,4 @@ Of what was observed elsewhere, inputs are labels:
     what could come: nothing
     before it: 1 line
   [1]
-
+  $ check-journals

@@ -134,6 +134,29 @@ A second one stops it.
   $ dolphin trace check long.dol two.run | sed 's/ in .*;/;/'
   two.run: a run, of 8 transitions; interrupted
 
+A third one ends the process at once. Here a supplier that ignores the end of its input keeps the second one waiting;
+it is there still when the third one has come.
+
+  $ (echo 'supplier = getSupplier()'; cat long.dol) > supplied.dol
+  $ rm log.txt; dolphin exec supplied.dol --fleet long.fleet --supplier 'exec python3 suppliers.py stays' --speed 1 \
+  >   --journal three.run > log.txt & run=$!
+  $ await 'starts survey'; kill -HUP $run; await 'starts home'; kill -TERM $run; signal INT 'is interrupted$' log.txt
+  [130]
+  $ kill -KILL $(cat supplier.pid) && rm supplier.pid
+  $ cut -c 10- log.txt
+  program     calls getSupplier
+  program     is told host object supplier
+  program     picks a
+  a           starts survey
+  program     is interrupted: executes onInterrupt
+  a           stops survey
+  a           starts home
+  a           stops home
+  program     releases a
+  program     is interrupted
+  $ dolphin trace check supplied.dol three.run | sed 's/ in .*;/;/'
+  three.run: the beginning of a run, of 10 transitions; it breaks off
+
 So do two requests to stop, by the socket.
 
   $ rm two.run log.txt; dolphin exec long.dol --fleet long.fleet --speed 1 --journal two.run > log.txt & run=$!

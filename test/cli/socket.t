@@ -147,3 +147,4 @@ Requests and replies are as the schema says.
   $ wait
   $ cat requests replies | python3 ../conformance/schema.py ../../conformance/schema/socket.schema.json --lines
   6 checked, 0 wrong
+  $ check-journals

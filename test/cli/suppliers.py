@@ -1,11 +1,20 @@
 """Suppliers that misbehave, each in its own way: the first argument says how."""
 import json
+import os
+import signal
 import sys
 import time
 
 how = sys.argv[1]
 if how == "dies at once":
     sys.exit(3)
+
+
+if how == "stays":
+    for ignored in (signal.SIGHUP, signal.SIGINT, signal.SIGTERM):
+        signal.signal(ignored, signal.SIG_IGN)
+    with open("supplier.pid", "w") as file:
+        file.write(str(os.getpid()))
 
 
 def reply(request, value):
@@ -34,3 +43,6 @@ for number, line in enumerate(sys.stdin):
     elif how == "echoes":
         arguments = request.get("arguments", [])
         reply(request, arguments[0] if arguments else {"object": "supplier"})
+
+if how == "stays":
+    time.sleep(600)

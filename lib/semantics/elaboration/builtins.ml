@@ -49,7 +49,7 @@ let table : (string * t) list =
     ("execute", other Execute ~place:Script_only);
     ("release", these Release [ Vehicles ] ~place:Script_only ~result:Other);
     ("setConnectionTimeout", other Set_connection_timeout);
-    ("ask", these Ask [ Any ] ~place:Script_only);
+    ("ask", these Ask [ String ] ~place:Script_only);
     ("confirm", { (other Confirm ~place:Script_only) with result = Any });
     ("input", other Input);
     ("onInterrupt", other On_interrupt);

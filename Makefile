@@ -28,7 +28,7 @@ mutate: tlc
 	dune build test/crosscheck/crosscheck.exe
 	_build/default/test/crosscheck/crosscheck.exe mutate
 
-# Mistakes in lib/, each of which a test must notice. MISTAKES="words of their names" makes some of them only.
+# Mistakes in lib/, each of which a test must notice. MISTAKES="words of their names or files" makes some of them only.
 mutate-code:
 	dune build test/mutants/mutants.exe
 	_build/default/test/mutants/mutants.exe $(MISTAKES)

@@ -1,4 +1,4 @@
-(* usage: mutants.exe [NAME...]: the mistakes whose names contain one of these texts, or all.
+(* usage: mutants.exe [TEXT...]: the mistakes whose names or files contain one of these texts, or all.
 
    The exit status is 0 if each is noticed by the test that must notice it.
 
@@ -40,9 +40,10 @@ let shell format = Printf.ksprintf (fun command -> Sys.command command = 0) form
 
 let build tree target = shell "dune build --root %s %s >%s/build.log 2>&1" tree target tree
 
-(* A mistake may make a test run for ever, or take all memory. *)
+(* A mistake may make a test run for ever, wait for ever, or take all memory. What a test may run is counted in seconds
+   of CPU, so that other load makes no test fail. *)
 let run tree target =
-  shell "cd %s/%s && (ulimit -v 4000000; timeout 100 %s/_build/default/%s >%s/run.log 2>&1)" tree
+  shell "cd %s/%s && (ulimit -v 4000000; ulimit -t 100; timeout 1000 %s/_build/default/%s >%s/run.log 2>&1)" tree
     (Filename.dirname target) tree target tree
 
 type verdict = Noticed | Not_noticed | Trouble of string
@@ -68,7 +69,9 @@ let judged tree mistake =
 let chosen =
   match List.tl (Array.to_list Sys.argv) with
   | [] -> all
-  | parts -> List.filter (fun m -> List.exists (fun part -> occurrences part m.name <> []) parts) all
+  | parts ->
+    let is_of m part = occurrences part m.name <> [] || occurrences part m.file <> [] in
+    List.filter (fun m -> List.exists (is_of m) parts) all
 
 (* Tests that fail anyway would notice anything. *)
 let sound tree =

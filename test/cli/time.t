@@ -491,6 +491,7 @@ What code does with the date is exact where it compares it with constants. Else 
   > limit = 5.min
   > v = pick { id 'a' }
   > execute (repeat task('survey')[v] until { now() >= limit }) >> action { message "done at ${now()}" }
+  > message 'it took ' + (now() / 60).round(1) + " min, ${limit - now()} s less than planned"
   > END
   $ cat > dusk.fleet <<'END'
   > vehicle 'a', { type 'UUV' }
@@ -502,28 +503,54 @@ What code does with the date is exact where it compares it with constants. Else 
   survey  a        0:00 to 5:00  2:00 to 8:00  dusk.dol:3
   vehicle  least battery
   a        98.6 %
-  38 states, depth 15
+  41 states, depth 16
   
   a run that ends last:
-         program                       a              where
-  0:00   pick(1 vehicle with id 'a')                  dusk.dol:2
-  0:00   picks a                                      dusk.dol:2
-  0:00   execute                                      dusk.dol:3
-  0:00                                 starts survey  dusk.dol:3
-  3:00                                 ends survey    dusk.dol:3
-  3:00   check                                        dusk.dol:3
-  3:00                                 starts survey  dusk.dol:3
-  5:00                                 ends survey    dusk.dol:3
-  5:00   check                                        dusk.dol:3
-  5:00                                 starts survey  dusk.dol:3
-  8:00                                 ends survey    dusk.dol:3
-  8:00   check                                        dusk.dol:3
-  8:00   act(message 'done at now()')                 dusk.dol:3
+         program                                   a              where
+  0:00   pick(1 vehicle with id 'a')                              dusk.dol:2
+  0:00   picks a                                                  dusk.dol:2
+  0:00   execute                                                  dusk.dol:3
+  0:00                                             starts survey  dusk.dol:3
+  3:00                                             ends survey    dusk.dol:3
+  3:00   check                                                    dusk.dol:3
+  3:00                                             starts survey  dusk.dol:3
+  5:00                                             ends survey    dusk.dol:3
+  5:00   check                                                    dusk.dol:3
+  5:00                                             starts survey  dusk.dol:3
+  8:00                                             ends survey    dusk.dol:3
+  8:00   check                                                    dusk.dol:3
+  8:00   act(message 'done at now()')                             dusk.dol:3
+  8:00   message 'it took (now() / 60).round(1...                 dusk.dol:4
   8:00   end
   its end depends on: now() = 5:00 (5:00), then dusk.dol:3:17: survey on a (3:00)
   $ echo 'if (now() - 10 > limit) { message limit }' >> dusk.dol
   $ dolphin time dusk.dol 2>&1 | sed 's/, [0-9.]* s, [0-9]* MiB//'
-  inconclusive: dusk.dol:4:5: now() is not only compared with constants, as in now() < 20.min: what follows from it is not known here; times are of the runs until then
+  inconclusive: dusk.dol:5:5: now() is not only compared with constants, as in now() < 20.min: what follows from it is not known here; times are of the runs until then
   2 states, depth 0
   $ dolphin time dusk.dol > /dev/null 2>&1
   [3]
+
+Neither locals nor parameters of functions are constants, nor is what is kept of the date. That a comparison held is.
+
+  $ cat > kept.dol <<'END'
+  > v = pick { id 'a' }
+  > execute task('survey')[v]
+  > early = now() < 150
+  > execute { early ? task('survey') : task('survey') >> task('survey') }[v]
+  > END
+  $ dolphin time kept.dol --fleet dusk.fleet | head -1
+  completed: 4:00 at the earliest, 9:00 at the latest
+  $ cat > start.dol <<'END'
+  > v = pick { id 'a' }
+  > start = now()
+  > execute task('survey')[v] until { now() - start > 1.min }
+  > END
+  $ dolphin time start.dol --fleet dusk.fleet 2>&1 | head -1
+  inconclusive: start.dol:2:9: now() is not only compared with constants, as in now() < 20.min: what follows from it is not known here; times are of the runs until then
+  $ cat > local.dol <<'END'
+  > v = pick { id 'a' }
+  > def survey(limit) { task('survey') until { now() >= limit } }
+  > execute survey(1.min)[v]
+  > END
+  $ dolphin time local.dol --fleet dusk.fleet 2>&1 | head -1
+  inconclusive: local.dol:2:44: now() is not only compared with constants, as in now() < 20.min: what follows from it is not known here; times are of the runs until then

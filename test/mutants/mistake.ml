@@ -882,8 +882,8 @@ let unknown =
        {|op = (ignore mirrored; op); shift; bound = a|});
       ("a variable has the value that was assigned last", {|(Hashtbl.find_all assigned i)|},
        {|(Option.to_list (Hashtbl.find_opt assigned i))|});
-      ("what is said counts as compared", {|  | Apply (Concatenate, es) -> List.filter is_now es|},
-       {|  | Apply (_, es) -> List.filter is_now es|});
+      ("what is said may be compared", {|Binary (Add | Subtract | Multiply | Divide)), es)|},
+       {|Binary (Add | Subtract | Multiply | Divide | Greater)), es)|});
     ]
   @ in_file "lib/semantics/language/dated_code.ml" ~noticed_by:"runtime/test_runtime"
     [

@@ -442,7 +442,10 @@ let test_named () =
   named "l = 3\nexecute action { l = 8 } >> condition { now() >= l }" (Some [ 3; 8 ]);
   named "l = 3\nexecute action { l = l + 1 } >> condition { now() >= l }" None;
   named "message now()\nmessage \"at ${now()}\"" (Some []);
-  named "message now() + 1" None;
+  named "message now() + 1\nmessage \"${(now() / 60).round(1)} min\"" (Some []);
+  named "message(now() / 2 > 3)" None;
+  named "message(now() + 1 > 3)" None;
+  named "message((now() - 1) in [3])" None;
   named "start = now()" None;
   named "execute condition { now() - 1 > 3 }" None;
   named "def late(n) { now() > n }\nexecute condition { late(3) }" None

@@ -53,13 +53,12 @@ let comparison e =
       | _, _ -> None)
   | _ -> None
 
-(* Those in what is only said. *)
+(* Those in what is only said, of which nothing is asked: in texts, and in numbers that are computed for them. *)
 let rec said e =
   match e.node with
-  | Apply (Builtin Message, [ e ]) | Apply (Concatenate, [ e ]) when is_now e -> [ e ]
-  | Apply (Builtin Message, [ e ]) -> said e
-  | Apply (Concatenate, es) -> List.filter is_now es
-  | _ -> []
+  | Apply ((Builtin Message | Concatenate | Unary Negate | Binary (Add | Subtract | Multiply | Divide)), es)
+  | Apply (Method (("round" | "abs" | "toInteger"), _), es) -> List.concat_map said es
+  | _ -> if is_now e then [ e ] else []
 
 (* The code that runs once and for all: what it reads is of that moment. *)
 let running_once (program : program) =

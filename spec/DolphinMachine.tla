@@ -251,7 +251,8 @@ NoTelling(m, x) == Stop(m, << "unsettled", x[3] >>)
 
 OpenHere(text, at) ==
   SiteOf(at) \o ": what " \o text
-  \o " is, is open, and more than a comparison depends on it: the fleet can give the values it may have"
+  \o " is, is open, and more than a comparison depends on it: a fleet may list what batteries, positions and "
+  \o "measurements show"
 
 Result(m, x) == [ m EXCEPT !.focus = Give(x) ]
 Settle(m, result) == [ m EXCEPT !.focus = << "result", result >> ]

@@ -354,7 +354,7 @@ What has been violated stays so: not all states need be seen. What nobody can li
   > post b: battery(v)
   > END
   $ explore unlisted.dol --ltl 'G !message' --ltl '!bind W pick' | grep formula
-  formula G !message: inconclusive, unlisted.dol:3:1: what battery(noptilus-1) is, is open, and more than a comparison depends on it: the fleet can give the values it may have
+  formula G !message: inconclusive, unlisted.dol:3:1: what battery(noptilus-1) is, is open, and more than a comparison depends on it: a fleet may list what batteries, positions and measurements show
   formula !bind W pick: holds
   4 states, 3 transitions, depth 3; reduced by partial order; 1 states for formulas
   $ explore again.dol --ltl 'G (strat(a))'

@@ -48,9 +48,9 @@ With values in the fleet, any expression may depend on them.
   > execute auv: task("go${reading(auv, 'Temperature')}")
   > END
   $ dolphin explore sorted.dol --fleet front.fleet | head -3
-  no deadlock: inconclusive, sorted.dol:2:14: what goreading(lauv-1,'Temperature') is, is open, and more than a comparison depends on it: the fleet can give the values it may have
-  termination: inconclusive, sorted.dol:2:14: what goreading(lauv-1,'Temperature') is, is open, and more than a comparison depends on it: the fleet can give the values it may have
-  no unhandled error: inconclusive, sorted.dol:2:14: what goreading(lauv-1,'Temperature') is, is open, and more than a comparison depends on it: the fleet can give the values it may have
+  no deadlock: inconclusive, sorted.dol:2:14: what goreading(lauv-1,'Temperature') is, is open, and more than a comparison depends on it: a fleet may list what batteries, positions and measurements show
+  termination: inconclusive, sorted.dol:2:14: what goreading(lauv-1,'Temperature') is, is open, and more than a comparison depends on it: a fleet may list what batteries, positions and measurements show
+  no unhandled error: inconclusive, sorted.dol:2:14: what goreading(lauv-1,'Temperature') is, is open, and more than a comparison depends on it: a fleet may list what batteries, positions and measurements show
   $ sed "s/shows 'Temperature'/shows 'Temperature', 12, 18/" front.fleet > two.fleet
   $ dolphin explore sorted.dol --fleet two.fleet | grep deadlock
   no deadlock: holds

@@ -239,12 +239,12 @@ Whatever a sensor may show is a choice; what nobody can list is said, and one ma
   N         -
   script    charge.dol:2
   What may happen here cannot be listed:
-  charge.dol:3:1: error: what battery(noptilus-1) is, is open, and more than a comparison depends on it: the fleet can give the values it may have
+  charge.dol:3:1: error: what battery(noptilus-1) is, is open, and more than a comparison depends on it: a fleet may list what batteries, positions and measurements show
     3 | post level: battery(v)
       | ^^^^^^^^^^^^^^^^^^^^^^
   3> 1
   What may happen here cannot be listed:
-  charge.dol:3:1: error: what battery(noptilus-1) is, is open, and more than a comparison depends on it: the fleet can give the values it may have
+  charge.dol:3:1: error: what battery(noptilus-1) is, is open, and more than a comparison depends on it: a fleet may list what batteries, positions and measurements show
     3 | post level: battery(v)
       | ^^^^^^^^^^^^^^^^^^^^^^
   3> u 2

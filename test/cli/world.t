@@ -90,11 +90,11 @@ What is more than compared cannot be explored, unless the fleet says what it may
   > post level: battery(v)
   > END
   $ explore level.dol | grep deadlock
-  no deadlock: inconclusive, level.dol:2:1: what battery(noptilus-1) is, is open, and more than a comparison depends on it: the fleet can give the values it may have
+  no deadlock: inconclusive, level.dol:2:1: what battery(noptilus-1) is, is open, and more than a comparison depends on it: a fleet may list what batteries, positions and measurements show
   $ explore level.dol > shown
   [3]
   $ dolphin lts level.dol
-  level.dol:2:1: error: what battery(noptilus-1) is, is open, and more than a comparison depends on it: the fleet can give the values it may have
+  level.dol:2:1: error: what battery(noptilus-1) is, is open, and more than a comparison depends on it: a fleet may list what batteries, positions and measurements show
     2 | post level: battery(v)
       | ^^^^^^^^^^^^^^^^^^^^^^
   [3]
@@ -260,7 +260,7 @@ A file that says less than it must is refused.
   $ rm level.fleet
   $ dolphin exec --follow level.run level.dol
      2  program     picks noptilus-1
-  dolphin: level.run: level.dol does not fit, at step 3: what battery(noptilus-1) is, is open, and more than a comparison depends on it: the fleet can give the values it may have
+  dolphin: level.run: level.dol does not fit, at step 3: what battery(noptilus-1) is, is open, and more than a comparison depends on it: a fleet may list what batteries, positions and measurements show
   [2]
 
 The programs that ran did what the semantics allows.

@@ -45,7 +45,9 @@ let is_reading = function Reading _ -> true | _ -> false
 let unclear at text =
   Fault.make at
     (Printf.sprintf
-       "what %s is, is open, and more than a comparison depends on it: the fleet can give the values it may have" text)
+       "what %s is, is open, and more than a comparison depends on it: a fleet may list what batteries, positions and \
+        measurements show"
+       text)
 
 let settled at = function Reading r -> Error (unclear at r.text) | x -> Ok x
 

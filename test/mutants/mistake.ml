@@ -101,6 +101,45 @@ let step_footprints =
         {|futures.(level).breaks && futures.(level).halts && List.exists ignores (handlers_of c contexts)|} );
     ]
 
+let order_of_recruits =
+  in_file "lib/explore/order/step_footprints.ml" ~noticed_by:"reduction/test_recruits"
+    [
+      ( "two may recruit one vehicle in either order",
+        {|Some (Recruited (_, v)) -> { Footprint.empty with claims = Footprint.these [ v ] }|},
+        {|Some (Recruited _) -> Footprint.empty|} );
+      ( "who waits for a vehicle takes none from others",
+        {|{ breaking with claims = Footprint.all_vehicles; frees = Footprint.all_vehicles } in
+  union any|},
+        {|breaking in
+  union any|} );
+      ( "who was recruited is not free later",
+        {|union { Footprint.empty with frees = freed c [ v ] } (future c r)|},
+        {|(ignore v; future c r)|} );
+      ( "whom a nest has recruited is not free after it",
+        {|    | Having v -> { Footprint.empty with frees = freed c [ v ] }|},
+        {|    | Having _ -> Footprint.empty|} );
+      ( "the end of what a nest has recruited somebody for frees nobody",
+        {|    | Having v -> [ v ]
+|},
+        {|    | Having _ -> []
+|} );
+      ( "whatever is allocated is the component's own",
+        {|if is_own request then breaking|},
+        {|if is_own request || request.allowed <> None then breaking|} );
+      ( "who is asked for comes some time",
+        {|Faults.is_possible faults.join || Faults.is_possible faults.loss|},
+        {|Faults.is_possible faults.join && false|} );
+    ]
+  @ in_file "lib/explore/order/step_footprints.ml" ~noticed_by:"reduction/test_traps"
+    [
+      ( "a branch that runs first may hold a vehicle",
+        {|  | Sequence (r, _) | All_of (Some r, _) -> first_branches|},
+        {|  | Sequence (r, _) | All_of (Some r, _) | Hold (_, r) -> first_branches|} );
+      ( "a branch that runs first may be in a nest that holds a vehicle",
+        {|if List.exists (List.exists holds) nests then|},
+        {|if List.exists (List.exists holds) nests && false then|} );
+    ]
+
 let stubborn =
   in_file "lib/explore/order/stubborn.ml" ~noticed_by:"reduction/test_traps"
     [
@@ -943,8 +982,8 @@ let on_interrupt =
   @ in_file "lib/explore/steps/space.ml" ~noticed_by:"reduction/test_traps"
     [
       ( "what an interruption executes is the same in all orders",
-        {|let is_whole = Environment.may_leave options program || program.recruits in|},
-        {|let is_whole = (Environment.may_leave options program && reduction = Whole) || program.recruits in|} );
+        {|if Environment.may_leave options program then Reduction.Whole else reduction in|},
+        {|if Environment.may_leave options program && false then Reduction.Whole else reduction in|} );
     ]
 
 let driver =
@@ -1437,8 +1476,8 @@ let prelude =
 
 let all =
   List.concat
-    [ maps; missions; footprint; step_footprints; stubborn; automorphism; task_isomorphism; task_groups;
-      quotient; expansion; portable; files_of_states;
+    [ maps; missions; footprint; step_footprints; order_of_recruits; stubborn; automorphism; task_isomorphism;
+      task_groups; quotient; expansion; portable; files_of_states;
       vehicle_orbits; canonical_vehicles; bitstate; disk; name_flow; liveness; recruiting; later_picks;
       environment; picks; inputs;
       attendance;

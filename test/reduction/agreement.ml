@@ -48,9 +48,15 @@ let shows options program world property (run : Search.run) =
 (* {1 Outcomes}
 
    More than any property asks: what the executing of tasks comes to, in all runs. How many failures there were is left
-   out: a reduced run may do with fewer. And a deadlock beside branches of an [allOf] may be shown after those only. *)
+   out: a reduced run may do with fewer. And a deadlock beside branches of an [allOf] may be shown after those only. In
+   programs that recruit, which make tasks in tasks, deadlocks are compared as texts: the numbers of timers and recruits
+   depend on what else had any at that time. *)
 
-type outcome = Of_script of Configuration.t | Stuck of Configuration.t | Broken of Configuration.ending
+type outcome =
+  | Of_script of Configuration.t
+  | Stuck of Configuration.t
+  | Stuck_like of string
+  | Broken of Configuration.ending
 
 module Outcomes = Set.Make (struct
     type t = outcome
@@ -58,9 +64,10 @@ module Outcomes = Set.Make (struct
     let compare a b =
       match a, b with
       | Of_script c, Of_script c' | Stuck c, Stuck c' -> Configuration.compare c c'
+      | Stuck_like text, Stuck_like text' -> String.compare text text'
       | Broken e, Broken e' -> Stdlib.compare e e'
-      | (Of_script _ | Stuck _ | Broken _), _ ->
-        let rank = function Of_script _ -> 0 | Stuck _ -> 1 | Broken _ -> 2 in
+      | (Of_script _ | Stuck _ | Stuck_like _ | Broken _), _ ->
+        let rank = function Of_script _ -> 0 | Stuck _ -> 1 | Stuck_like _ -> 2 | Broken _ -> 3 in
         Int.compare (rank a) (rank b)
   end)
 
@@ -69,16 +76,19 @@ let rec is_in_all_of : Residual.t -> bool = function
   | Parallel rs -> List.exists is_in_all_of rs
   | r -> ( match Residual.opened r with Some (_, body) -> is_in_all_of body | None -> false)
 
-let outcome (c : Configuration.t) ~stuck outcomes =
+let stuck_in (program : Core.program) c =
+  if program.recruits then Stuck_like (Format.asprintf "%a" (Configuration.pp program) c) else Stuck c
+
+let outcome program (c : Configuration.t) ~stuck outcomes =
   match c.control with
   | Ended ((Halted _ | Failed _ | Interrupted) as ending) -> Outcomes.add (Broken ending) outcomes
   | Ended Completed | Script _ | Waiting _ -> Outcomes.add (Of_script c) outcomes
-  | Executing (_, r) -> if stuck && not (is_in_all_of r) then Outcomes.add (Stuck c) outcomes else outcomes
+  | Executing (_, r) -> if stuck && not (is_in_all_of r) then Outcomes.add (stuck_in program c) outcomes else outcomes
 
 let all_outcomes (g : Reference.t) =
   let found = ref Outcomes.empty in
   let is_stuck i = Environment.is_stuck g.options g.program g.states.(i).outside (List.to_seq g.edges.(i)) in
-  let state i (s : Reference.state) = found := outcome s.configuration ~stuck:(is_stuck i) !found in
+  let state i (s : Reference.state) = found := outcome g.program s.configuration ~stuck:(is_stuck i) !found in
   Array.iteri state g.states;
   !found
 
@@ -97,7 +107,7 @@ let reduced_outcomes environment program world =
         if simple && not program.Core.recruits then n <= interruptions
         else Environment.is_stuck environment program e (Environment.choices environment program world e c)
       in
-      from (i + 1) (outcome c ~stuck found)
+      from (i + 1) (outcome program c ~stuck found)
     end
   in
   from 0 Outcomes.empty
@@ -108,6 +118,7 @@ let same_outcomes program environment world graph =
   | None -> Ok ()
   | Some (Of_script c) -> Error (Format.asprintf "the script never comes to %a" (Configuration.pp program) c)
   | Some (Stuck c) -> Error (Format.asprintf "no run gets stuck in %a" (Configuration.pp program) c)
+  | Some (Stuck_like text) -> Error (Printf.sprintf "no run gets stuck in %s" text)
   | Some (Broken (Halted m)) -> Error ("no run halts with " ^ m)
   | Some (Broken (Failed fault)) -> Error ("no run fails with " ^ fault.message)
   | Some (Broken (Completed | Interrupted)) -> Error "an end is missing"

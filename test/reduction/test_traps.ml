@@ -61,6 +61,21 @@ let traps =
             assert { !poll(y: 1) || poll(x: 1) }, 'y alone'
         }
         execute action { post x: 1 } | action { post y: 1 }|};
+    breaks "a branch that runs first, of a task that holds a vehicle" ~environment:failing [ No_error; No_halt ]
+      {|post x: 1
+        execute ({ task('p') >> allOf { when { true } then idle(1.seconds)
+                                        when { consume x: 1 } then action { post go: 1 } } })[a]
+            | watch (waitFor { consume go: 1 } then ({ task('q') })[a + b]) onError { e ->
+                  if (e.vehicle == b) { halt 'a was held' }
+                  ignore() }|};
+    breaks "a branch that runs first, beside another part of a task that holds a vehicle" ~environment:failing
+      [ No_error; No_halt ]
+      {|post x: 1
+        execute ({ task('p') >> (condition { true } | allOf { when { true } then idle(1.seconds)
+                                                              when { consume x: 1 } then action { post go: 1 } }) })[a]
+            | watch (waitFor { consume go: 1 } then ({ task('q') })[a + b]) onError { e ->
+                  if (e.vehicle == b) { halt 'a was held' }
+                  ignore() }|};
     breaks "an input between two looks" ~environment:posting [ No_deadlock; No_halt ]
       {|input 'x'
         g = 0

@@ -5,6 +5,7 @@ open Core
 type t = {
   footprints : Footprint.t array;
   ends : bool array;
+  put_off : bool array;
   futures : Footprint.t array;
   cut_by_error : bool array;
   runs_first : Footprint.t option array;
@@ -66,6 +67,11 @@ let recovering c (code : closure) request =
   let given = if Recovery.may_give code.lambda then Footprint.of_maker c.code code else Footprint.empty in
   all [ claiming request; given; { Footprint.empty with ignores = true } ]
 
+(* Of who waits for a vehicle: whoever is recruited may be recruited by nobody else, and is free after it. *)
+let recruiting c code =
+  let any = { breaking with claims = Footprint.all_vehicles; frees = Footprint.all_vehicles } in
+  union any (Footprint.of_maker c.code code)
+
 let rec future c (r : Residual.t) =
   match r with
   | Ready (p, v) | Running (p, v) -> { (ending c p v) with frees = freed c [ v ] }
@@ -87,9 +93,8 @@ let rec future c (r : Residual.t) =
   | Made { code; request; _ } -> union (Footprint.of_maker c.code code) (claiming request)
   | Unallocated { task; request } -> union (claiming request) (of_term c task)
   | Hold (vs, r) -> union { Footprint.empty with frees = freed c vs } (future c r)
-  (* Of programs that recruit all steps are taken: see {!Space.create}. *)
-  | Recruit { code; _ } -> union breaking (Footprint.of_maker c.code code)
-  | Recruited (_, r) -> future c r
+  | Recruit { code; _ } -> recruiting c code
+  | Recruited (v, r) -> union { Footprint.empty with frees = freed c [ v ] } (future c r)
 
 and rounds c (again : Residual.again) =
   let asked = Option.fold again.until ~none:Footprint.empty ~some:(Footprint.of_code c.code) in
@@ -123,7 +128,8 @@ and of_term c (t : task) =
     if not f.breaks then f
     else if not (Recovery.possible code.lambda) then union f (Footprint.of_code c.code code)
     else all [ f; Footprint.of_code c.code code; recovering c code { allowed = None; place = 0; depth = 0 } ]
-  | Made code | Recruit { code; _ } -> Footprint.of_maker c.code code
+  | Made code -> Footprint.of_maker c.code code
+  | Recruit { code; _ } -> recruiting c code
   | Repeat { until; body; _ } ->
     union (Option.fold until ~none:Footprint.empty ~some:(Footprint.of_code c.code)) (of_term c body)
 
@@ -145,7 +151,11 @@ let handlers source =
   in
   Option.fold ~none:[] ~some:of_change (Task_rules.broken source error)
 
-let footprint c { source = Step { offer; continue; _ } as source; event; _ } =
+(* [own] is whom the component has recruited: nobody else may have, or look for, one of them. *)
+let footprint ?(own = []) c { source = Step { offer; continue; _ } as source; event; _ } =
+  let is_own (request : Residual.request) =
+    match request.allowed with Some vs -> List.for_all (fun v -> List.mem v own) vs | None -> false
+  in
   let f =
     match offer, event with
     | End_of (p, v), Some (Vehicle_failed _) -> ending c p v
@@ -154,7 +164,8 @@ let footprint c { source = Step { offer; continue; _ } as source; event; _ } =
     | Expiry_of _, _ -> if is_error (continue ()) then breaking else Footprint.empty
     | Answer_to _, Some (Confirmed (_, Ok true)) -> Footprint.empty
     | Answer_to _, _ -> breaking
-    | Recruit_for _, _ -> Footprint.empty
+    | Recruit_for _, Some (Recruited (_, v)) -> { Footprint.empty with claims = Footprint.these [ v ] }
+    | Recruit_for _, _ -> { Footprint.empty with claims = Footprint.all_vehicles }
     | Perform a, _ -> Footprint.of_code c.code a
     | Check g, _ -> Footprint.of_guard c.code g
     | Refute g, _ -> of_refuted c g
@@ -162,7 +173,7 @@ let footprint c { source = Step { offer; continue; _ } as source; event; _ } =
     | Take g, _ -> Footprint.of_guard c.code g
     | Measure d, _ -> union breaking (Footprint.of_code c.code d)
     | Make (code, _, _), _ -> union breaking (Footprint.of_code c.code code)
-    | Allocate (_, request), _ -> claiming request
+    | Allocate (_, request), _ -> if is_own request then breaking else claiming request
   in
   if f.breaks then all (f :: List.map (handling c) (handlers source)) else f
 
@@ -236,15 +247,16 @@ let branches_first c around (bs : Residual.branch list) =
   in
   each [] whole bs
 
-(* Those of an [allOf] that waits, where errors cannot be ignored; [around] as above. *)
+(* Those of an [allOf] that waits, where errors cannot be ignored; [around] as above. What holds vehicles until the
+   [allOf] is over would hold them no longer if another branch came last. *)
 let rec first_branches c around (r : Residual.t) =
   match r with
-  | Sequence (r, _) | All_of (Some r, _) | Hold (_, r) | Recruited (_, r) -> first_branches c around r
+  | Sequence (r, _) | All_of (Some r, _) -> first_branches c around r
   | Watch (r, handler) when not ((of_handler c handler).ignores && (future c r).breaks) ->
     first_branches c (union around (of_handler c handler)) r
   | All_of (None, bs) -> branches_first c around bs
   | Parallel _ | Ready _ | Running _ | Action _ | Condition _ | One_of _ | Until _ | Idle _ | Confirm _
-  | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ | Recruit _ -> []
+  | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ | Recruit _ | Recruited _ -> []
 
 (* {1 Components} *)
 
@@ -262,12 +274,21 @@ let following c contexts =
     | Branch_of bs -> all (List.map (of_branch c) bs)
     | Round_of again -> rounds c again
     | Holding vs -> { Footprint.empty with frees = freed c vs }
-    | Having _ | Body_until _ | Body_during _ | Watched_by _ -> Footprint.empty
+    | Having v -> { Footprint.empty with frees = freed c [ v ] }
+    | Body_until _ | Body_during _ | Watched_by _ -> Footprint.empty
   in
   all (List.map following contexts)
 
+(* Who is asked for may stay away for ever. *)
+let may_be_put_off c { source = Step { offer; _ }; _ } =
+  let { Environment.faults; _ } = c.options in
+  match offer with
+  | Recruit_for _ -> Faults.is_possible faults.join || Faults.is_possible faults.loss
+  | Start _ | Perform _ | Check _ | Refute _ | Decide _ | Take _ | Measure _ | Make _ | Allocate _ | End_of _
+  | Expiry_of _ | Answer_to _ -> false
+
 (* [first] is what the component itself may do. An error may reach any handler around. *)
-let analyse c nests (first : Footprint.t) branches ~lost steps =
+let analyse ?own c nests (first : Footprint.t) branches ~lost steps =
   let around = all (List.concat_map (handlers_of c) nests) in
   let ignoring = around.ignores || first.ignores in
   let first = with_lost c ~ignoring (fun () -> Footprint.these []) () first in
@@ -280,11 +301,12 @@ let analyse c nests (first : Footprint.t) branches ~lost steps =
   let futures = Array.of_list (List.rev (List.fold_left further (further [] []) nests)) in
   let ignores (f : Footprint.t) = f.ignores in
   let cut_by_error level contexts = futures.(level).breaks && List.exists ignores (handlers_of c contexts) in
-  let footprints = Array.map (fun step -> with_lost c ~ignoring lost step (footprint c step)) steps in
+  let footprints = Array.map (fun step -> with_lost c ~ignoring lost step (footprint ?own c step)) steps in
   let may_end (f : Footprint.t) = f.breaks || f.halts in
   {
     footprints;
     ends = Array.map may_end footprints;
+    put_off = Array.map (may_be_put_off c) steps;
     futures;
     cut_by_error = Array.of_list (false :: List.mapi cut_by_error nests);
     runs_first = Array.map (fun step -> Option.join (List.nth_opt branches step.index)) steps;
@@ -301,7 +323,13 @@ let of_component c nests r steps =
     | Body_until _ | Body_during _ | Watched_by _ -> []
   in
   let outer = if concerns_holding c then List.concat_map (List.concat_map named) nests else [] in
-  analyse c nests (future c r) (first_branches c around r) ~lost:(lost r outer) steps
+  let own = Residual.recruits (Residual.plug (fst (Residual.decompose r)) Residual.hole) in
+  let holds = function
+    | Residual.Holding _ | Having _ -> true
+    | Before _ | Branch_of _ | Body_until _ | Body_during _ | Watched_by _ | Round_of _ -> false
+  in
+  let branches = if List.exists (List.exists holds) nests then [] else first_branches c around r in
+  analyse ~own c nests (future c r) branches ~lost:(lost r outer) steps
 
 let of_cuts c nests steps =
   match nests with

@@ -8,6 +8,7 @@ open Dolphin_environment
 type t = {
   footprints : Footprint.t array;  (** of each step *)
   ends : bool array;  (** by step: whether it may end the run *)
+  put_off : bool array;  (** by step: whether it need not come, though it is possible for ever *)
   futures : Footprint.t array;
   (** by level: all that the component may do until it is over, with what follows it inside of so many nests *)
   cut_by_error : bool array;

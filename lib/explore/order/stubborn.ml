@@ -103,7 +103,7 @@ let key t x =
     List.filter (fun y -> y <> x && is_in_the_way t x k y) (List.init (Array.length t.components) Fun.id)
   in
   let try_step k =
-    if may_move t x k then
+    if may_move t x k && not t.components.(x).analysis.put_off.(k) then
       let others = others k in
       match !best with
       | Some best when List.compare_lengths best others <= 0 -> ()

@@ -136,7 +136,7 @@ let expand_all t (x : Expansion.source) =
 let local_status t (x : Expansion.source) place step : Stubborn.status =
   let move level target rounds : Stubborn.move =
     { level; over = (match target with Gone -> true | Stays _ | Becomes _ | Ends _ -> false); closes = rounds <> [];
-      on_event = step.event <> None }
+      on_event = (match step.event with None | Some (Recruited _) -> false | Some _ -> true) }
   in
   let of_outcome (outcome : outcome) = move outcome.level outcome.target outcome.rounds in
   let dependent () : Stubborn.status =
@@ -211,7 +211,7 @@ let expand_some t (x : Expansion.source) =
   let taken = ref 0 in
   let go c ({ Stubborn.place; analysis }, steps) =
     let take k step =
-      let is_chosen = match choice with None -> true | Some chosen -> chosen c k in
+      let is_chosen = (match choice with None -> true | Some chosen -> chosen c k) && is_followed t x step in
       if is_chosen || analysis.ends.(k) then begin
         let status = status_in t x components c k in
         Encoding.check_fit t.encoding;
@@ -328,7 +328,7 @@ let examine t key ~possible ~taken visitor =
       | Moves _ | Ends | Depends _ ->
         let at, name = position step.index in
         let here = { at; name; stays = stays step.source; step } in
-        let is_chosen = match choice with None -> is_followed t x step | Some chosen -> chosen c k in
+        let is_chosen = (match choice with None -> true | Some chosen -> chosen c k) && is_followed t x step in
         possible here;
         follow here place ~is_chosen ~may_end:analysis.ends.(k) step layers
     in
@@ -481,8 +481,7 @@ let coverage t =
 (* {1 Beginning} *)
 
 let create ?(reduction = Reduction.Whole) ?(symmetry = Symmetry.none) ?(asked = []) ?labelling options program world =
-  let is_whole = Environment.may_leave options program || program.recruits in
-  let reduction = if is_whole then Reduction.Whole else reduction in
+  let reduction = if Environment.may_leave options program then Reduction.Whole else reduction in
   let foreseen = if Reduction.by_order reduction then Some 0 else None in
   let components = Components.create ?foreseen options program world in
   let shareds = Surroundings.Numbers.create () in

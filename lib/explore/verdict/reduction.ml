@@ -4,8 +4,6 @@ let by_order = function Whole | Symmetry -> false | Partial_order | All -> true
 let by_symmetry = function Whole | Partial_order -> false | Symmetry | All -> true
 let without_symmetry = function Whole | Symmetry -> Whole | Partial_order | All -> Partial_order
 
-let without_order = function Whole | Partial_order -> Whole | Symmetry | All -> Symmetry
-
 let names = function
   | Whole -> []
   | Partial_order -> [ "partial order" ]

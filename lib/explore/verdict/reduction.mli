@@ -11,7 +11,6 @@ type t =
 val by_order : t -> bool
 val by_symmetry : t -> bool
 val without_symmetry : t -> t
-val without_order : t -> t
 
 val names : t -> string list
 (** Of the reductions: ["partial order"], ["symmetry"]. *)

@@ -360,12 +360,9 @@ let relevant program (options : options) =
   | Partial_order | Symmetry | All ->
     { options with environment = Later_picks.forgetting program options.environment }
 
-(* What an interruption executes depends on all of the state that it comes in. Who can be recruited depends on all that
-   the task names, so on the order of its steps. *)
+(* What an interruption executes depends on all of the state that it comes in. *)
 let reducible program (options : options) =
-  if Environment.may_leave options.environment program then { options with reduction = Whole }
-  else if program.Core.recruits then { options with reduction = Reduction.without_order options.reduction }
-  else options
+  if Environment.may_leave options.environment program then { options with reduction = Whole } else options
 
 let judged (options : options) program world =
   let symmetry =

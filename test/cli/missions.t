@@ -17,6 +17,7 @@ faults.
   leader_and_follower.dol: 29 states, 5 hold
   mine_hunting.dol: 69 states, 5 hold
   patrol.dol: 48 states, 5 hold
+  relief.dol: 1132 states, 5 hold
   replacement.dol: 432 states, 5 hold
   search_and_rescue.dol: 38 states, 5 hold
 
@@ -30,6 +31,16 @@ A strip is done though a vehicle is lost or fails, as long as one is left: nothi
   no unhandled error: holds
   assertions: holds
   vehicles for all tasks: holds
+
+Whoever comes, as long as anybody comes, and whatever fails or is lost: a time that is given ends it.
+
+  $ dolphin explore --faults all relief.dol 2> progress.txt | grep -v 'states'
+  no deadlock: holds
+  termination: holds
+  no unhandled error: holds
+  assertions: holds
+  vehicles for all tasks: holds
+  note: no leftover tuples: violated after 7 steps: tuples are left when the program completes
 
 Those among the examples that go on whatever happens: who fails, is lost or does not come. A search with whoever is
 there ends well in every run.

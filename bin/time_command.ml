@@ -57,7 +57,7 @@ let run path set fleet answers faults deadline slack fewest json trace drawing m
      let* question = Sweep.question ~set path in
      let* fleet = Fleet_file.load_for ~program:path fleet in
      let* question = Sweep.within fleet question in
-     let left_out = if fewest then Left_out.sentences else Left_out.of_links in
+     let left_out = if fewest then Left_out.sentences else Left_out.of_time in
      List.iter Report.complain (left_out faults fleet);
      match question with
      | Several _ when slack -> Error no_slack

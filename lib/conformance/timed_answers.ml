@@ -64,7 +64,7 @@ let ended (item : Timed.item) =
   match item with
   | Task v -> Timed_data.Vehicle v
   | Timer i -> Timer i
-  | Question _ | Recruit _ | Answer | Reply | Posting _ | Coming _ | Course _ | Date _ ->
+  | Question _ | Recruit _ | Answer | Reply | Posting _ | Links | Silence _ | Course _ | Date _ ->
     invalid_arg "Timed_answers: what has no bounds"
 
 let finding (f : Recorded.finding) : Timed_data.finding =

@@ -8,7 +8,7 @@ type t = {
   silence : Bounds.t;
   posted : string -> Bounds.t;
   place : Core.vehicle -> Position.t option;
-  joins : (Core.vehicle * Bounds.t) list;
+  links : Links.t;
 }
 
 let tolerance = 0.1
@@ -58,7 +58,5 @@ let of_scenario (s : Scenario.t) =
     | _ -> Some_time
   in
   let place id = Option.map (fun (v : Scenario.vehicle) -> v.position) (vehicle id) in
-  let late = List.filter (fun (v : Scenario.vehicle) -> v.joins > 0.) s.vehicles in
-  let by_date (v : Scenario.vehicle) (w : Scenario.vehicle) = Float.compare v.joins w.joins in
-  let joins = List.map (fun (v : Scenario.vehicle) -> (v.id, Bounds.exactly v.joins)) (List.stable_sort by_date late) in
-  { task; announced = Bounds.exactly announced; silence = Bounds.exactly silence; posted; place; joins }
+  let links = Links.of_silences (List.map (fun (v : Scenario.vehicle) -> (v.id, Scenario.silences v)) s.vehicles) in
+  { task; announced = Bounds.exactly announced; silence = Bounds.exactly silence; posted; place; links }

@@ -9,8 +9,7 @@ type t = {
   silence : Bounds.t;  (** how long nothing is heard of a vehicle before its task fails, unless the program says so *)
   posted : string -> Bounds.t;  (** until a pair with this key is posted, from the start or the time before *)
   place : Core.vehicle -> Dolphin_geo.Position.t option;  (** at the start *)
-  joins : (Core.vehicle * Bounds.t) list;
-  (** the vehicles that are heard of later, one after another, and how long after the start *)
+  links : Links.t;  (** when vehicles join, leave, and lose their links *)
 }
 (** Answers and replies come at once. *)
 
@@ -23,4 +22,4 @@ val moves : Core.platform_task -> Dolphin_geo.Position.t option option
 
 val of_scenario : Dolphin_scenario.Scenario.t -> t
 (** [of_scenario s] is what [s] says: [duration] of plans by name, [speed] of vehicles for plans that are described in
-    the program, [after] of inputs, [joins] of vehicles; some time, where it says nothing. *)
+    the program, [after] of inputs, [joins], [leaves], [drops] of vehicles; some time, where it says nothing. *)

@@ -38,4 +38,4 @@ let missed (before : Timed.state) (step : Timed.step) =
 let ending (next : Timed.state) (i : Inert.item) =
   match i.awaited with
   | Task v -> Option.map (task v) (Vehicle_map.find_opt v next.configuration.shared.allocation)
-  | Timer _ | Question _ | Recruit _ | Answer | Reply | Posting _ | Coming _ | Course _ | Date _ -> None
+  | Timer _ | Question _ | Recruit _ | Answer | Reply | Posting _ | Links | Silence _ | Course _ | Date _ -> None

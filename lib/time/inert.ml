@@ -10,7 +10,7 @@ let names_are_free (o : Timed.options) =
   (not (may faults.loss)) && (not (may faults.join)) && (not faults.interrupt)
   && List.for_all (fun (i : Environment.input) -> not (List.mem i.key o.program.inputs)) inputs
   && (not o.program.reads_sensors) && (not o.program.reads_now)
-  && (not (Timed.may_join_during_tasks o))
+  && (not (Timed.may_change_during_tasks o))
   && not (Footprint.asks_held o.program)
 
 let create options = { options; possible = names_are_free options }

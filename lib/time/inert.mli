@@ -7,7 +7,7 @@ type t
 
 val names_are_free : Timed.options -> bool
 (** [names_are_free o] is whether it matters to no step which vehicle is held or lost, or comes late, and nobody posts,
-    interrupts, or joins during tasks. *)
+    or interrupts, and no link comes or goes during tasks. *)
 
 val create : Timed.options -> t
 

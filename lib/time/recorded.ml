@@ -6,21 +6,49 @@ type t = {
   state : Timed.state;
   began : (Timed.item * int) list;
   told : Timed.item list;  (* of what is said to be late *)
+  silent : Core.vehicle list;  (* whose links are *)
+  ordered : Core.vehicle list;  (* whose orders wait for the link *)
+  back : (Core.vehicle * int) list;  (* since when there is a link again *)
 }
 
 type finding = { pending : Timed.pending; began : int; seen : int; too_early : bool }
 
-let start ~tolerance options =
+(* A run tells itself what is heard of its vehicles. *)
+let start ~tolerance (options : Timed.options) =
+  let options = { options with durations = { options.durations with links = Links.none } } in
   let state = Timed.initial options in
-  { options; tolerance; state; began = List.map (fun (p : Timed.pending) -> (p.item, 0)) state.pending; told = [] }
+  let began = List.map (fun (p : Timed.pending) -> (p.item, 0)) state.pending in
+  { options; tolerance; state; began; told = []; silent = []; ordered = []; back = [] }
 
 let with_tolerance tolerance r = { r with tolerance }
 
-(* People and suppliers take their time, and post when they like; vehicles join when they are heard of. *)
+(* {1 Links} *)
+
+let less v = List.filter (fun w -> not (String.equal v w))
+
+let heard (r : t) ~date v connected =
+  match connected, List.mem v r.silent with
+  | true, true ->
+    let again (item, began) = (item, if item = Timed.Task v && List.mem v r.ordered then date else began) in
+    { r with silent = less v r.silent; ordered = less v r.ordered; began = List.map again r.began;
+             back = (v, date) :: List.remove_assoc v r.back }
+  | false, false -> { r with silent = v :: r.silent }
+  | true, false | false, true -> r
+
+(* When a task that is over by [date] is heard to be, at the latest; never while nothing is heard. *)
+let heard_by (r : t) (item : Timed.item) date =
+  match item with
+  | Task v when List.mem v r.silent -> max_int
+  | Task v -> max date (Option.value (List.assoc_opt v r.back) ~default:0)
+  | _ -> date
+
+(* {1 Transitions} *)
+
+(* People and suppliers take their time, and post when they like. *)
 let is_timed (p : Timed.pending) =
   match p.item with
   | Task _ | Timer _ -> true
-  | Question _ | Recruit _ | Answer | Reply | Posting _ | Coming _ | Course _ | Date _ -> false
+  | Question _ | Recruit _ | Answer | Reply | Posting _ | Links | Silence _ | Course _ | Date _ -> false
 
 let is_lost = String.starts_with ~prefix:Dolphin_environment.Environment.loss
 
@@ -37,7 +65,7 @@ let compare_with (r : t) ~date ~on (p : Timed.pending) =
   let must_be_over, must_have_run = judged on p.item in
   let finding too_early = Some { pending = p; began; seen = date; too_early } in
   match p.bounds with
-  | Within { most; _ } when must_be_over && date - began > most + r.tolerance -> finding false
+  | Within { most; _ } when must_be_over && date - r.tolerance > heard_by r p.item (began + most) -> finding false
   | Within { least; _ } when must_have_run && date - began < least - r.tolerance -> finding true
   | Within _ | Some_time | Never -> None
 
@@ -50,4 +78,6 @@ let transition (r : t) ~date ~on t =
   let is_still item =
     (not (List.mem item step.fresh)) && List.exists (fun (p : Timed.pending) -> p.item = item) step.next.pending in
   let told = List.filter is_still (List.map (fun f -> f.pending.item) found @ r.told) in
-  ({ r with state = step.next; began = List.map begins step.next.pending; told }, found)
+  let ordered : Effect.t -> _ = function Start (v, _) when List.mem v r.silent -> Some v | _ -> None in
+  let ordered = List.filter_map ordered step.transition.effects in
+  ({ r with state = step.next; began = List.map begins step.next.pending; told; ordered = ordered @ r.ordered }, found)

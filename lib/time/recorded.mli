@@ -20,6 +20,10 @@ val start : tolerance:int -> Timed.options -> t
 val with_tolerance : int -> t -> t
 (** [with_tolerance ms r] is [r], with this one from now on. *)
 
+val heard : t -> date:int -> Core.vehicle -> bool -> t
+(** [heard r ~date v connected] is [r] after the news whether there is a link to [v]. What happens without one is told
+    when it is back: tasks may end later by that much, and those whose order waited for it begin then. *)
+
 val transition : t -> date:int -> on:Transition.event option -> Transition.t -> t * finding list
 (** [transition r ~date ~on t] is [r] after [t], on the event [on], [date] milliseconds after the start; and what is
     wrong with it, each thing once. Tasks must end within their bounds, and fail by their end; if the link was lost, by

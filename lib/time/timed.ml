@@ -17,11 +17,20 @@ type item =
   | Answer
   | Reply
   | Posting of string
-  | Coming of { vehicle : Core.vehicle; always : bool }
+  | Links
+  | Silence of Core.vehicle
   | Course of Core.vehicle
   | Date of int
 
-type pending = { item : item; bounds : Bounds.t; task : Core.platform_task option; prompt : string option }
+type progress = Under_way | Ordered | Over
+
+type pending = {
+  item : item;
+  bounds : Bounds.t;
+  task : Core.platform_task option;
+  prompt : string option;
+  progress : progress;
+}
 
 type state = {
   configuration : Configuration.t;
@@ -30,24 +39,27 @@ type state = {
   elsewhere : (Core.vehicle * Dolphin_geo.Position.t option) list;
   patience : (Core.vehicle option * Bounds.t) list;
   date : int;  (* that code has reached: what is pending says it, too *)
+  changes : int;  (* of links before this one are over, or do not matter *)
+  settled : bool;  (* the program looks for no vehicles any more *)
 }
 
 (* {1 States} *)
 
-let compare_pending a b = Stdlib.compare (a.item, a.bounds) (b.item, b.bounds)
+let compare_pending a b = Stdlib.compare (a.item, a.bounds, a.progress) (b.item, b.bounds, b.progress)
+let rest s = (s.elsewhere, s.patience, s.changes, s.settled)
 
 let compare a b =
   let both first second = if first <> 0 then first else second () in
   both (List.compare compare_pending a.pending b.pending) (fun () ->
       both (Environment.compare a.outside b.outside) (fun () ->
-          both (Stdlib.compare (a.elsewhere, a.patience) (b.elsewhere, b.patience)) (fun () ->
+          both (Stdlib.compare (rest a) (rest b)) (fun () ->
               Configuration.compare a.configuration b.configuration)))
 
 let equal a b =
   List.compare_lengths a.pending b.pending = 0
   && List.for_all2 (fun p q -> compare_pending p q = 0) a.pending b.pending
   && Environment.compare a.outside b.outside = 0
-  && Stdlib.compare (a.elsewhere, a.patience) (b.elsewhere, b.patience) = 0
+  && Stdlib.compare (rest a) (rest b) = 0
   && Configuration.equal a.configuration b.configuration
 
 let hash s = (Configuration.hash s.configuration * 31) + Environment.hash s.outside
@@ -61,10 +73,11 @@ let is_same (a : item) (b : item) =
   | Timer m, Timer n | Question m, Question n | Recruit m, Recruit n -> Int.equal m n
   | Answer, Answer | Reply, Reply -> true
   | Posting k, Posting l -> String.equal k l
-  | Coming { vehicle = v; _ }, Coming { vehicle = w; _ } -> String.equal v w
-  | Course v, Course w -> String.equal v w
+  | Silence v, Silence w | Course v, Course w -> String.equal v w
+  | Links, Links -> true
   | Date m, Date n -> Int.equal m n
-  | (Task _ | Timer _ | Question _ | Recruit _ | Answer | Reply | Posting _ | Coming _ | Course _ | Date _), _ -> false
+  | (Task _ | Timer _ | Question _ | Recruit _ | Answer | Reply | Posting _ | Links | Silence _ | Course _ | Date _), _
+    -> false
 
 let of_awaited : Transition.awaited -> item = function
   | End_of v -> Task v
@@ -91,20 +104,64 @@ let may_wait_for_recruits o =
 let place o elsewhere v =
   match List.assoc_opt v elsewhere with Some place -> place | None -> o.durations.place v
 
-(* What begins with an effect. *)
-let begun o elsewhere : Effect.t -> pending option =
-  let some ?task ?prompt item bounds = Some { item; bounds; task; prompt } in
-  let timer timer bounds = some (Timer timer) bounds in
+(* {2 Links} *)
+
+(* With [--faults join] vehicles that are late come at any time: see [comes_late]. With [--faults loss] links are lost
+   at any time, too. *)
+let links o =
+  let { Environment.faults; _ } = o.environment in
+  if Faults.is_possible faults.join then Links.none
+  else if Faults.is_possible faults.loss then Links.only_first o.durations.links
+  else o.durations.links
+
+let has_links o = Links.count (links o) > 0 || Links.late (links o) <> []
+
+let may_join_during_tasks o =
+  has_links o && (o.program.recruits || Dolphin_explore.Later_picks.may_follow o.program)
+
+let may_change_during_tasks o =
+  may_join_during_tasks o || Links.count (links o) > Links.count (Links.only_first (links o))
+
+let is_silent o s v = Links.is_silent (links o) s.changes v
+
+(* Who is there matters as long as the program may look for vehicles, and whose link is silent as long as it has the
+   vehicle. *)
+let with_changes_that_matter o s =
+  let links = links o in
+  if s.changes = Links.count links then s
+  else
+    match s.configuration.control with
+    | Ended _ -> { s with changes = Links.count links }
+    | Script _ | Waiting _ | Executing _ as control ->
+      let executes = match control with Executing _ -> true | _ -> false in
+      let settled = s.settled || (executes && not (may_join_during_tasks o)) in
+      let matters v = (not settled) || List.mem v s.configuration.shared.bound in
+      { s with settled; changes = Links.next links s.changes ~matters }
+
+let patience o s v =
+  match List.assoc_opt (Some v) s.patience with
+  | Some bounds -> bounds
+  | None -> Option.value (List.assoc_opt None s.patience) ~default:o.durations.silence
+
+(* {2 By themselves, and with effects} *)
+
+let no_more item bounds = { item; bounds; task = None; prompt = None; progress = Under_way }
+
+(* What begins with an effect that leads to [s]. *)
+let begun o s : Effect.t -> pending list =
+  let timer timer bounds = [ no_more (Timer timer) bounds ] in
   function
-  | Start (v, p) -> some ~task:p (Task v) (o.durations.task v (place o elsewhere v) p)
+  | Start (v, p) ->
+    let bounds = o.durations.task v (place o s.elsewhere v) p in
+    let task progress = { (no_more (Task v) bounds) with task = Some p; progress } in
+    if is_silent o s v then [ task Ordered; no_more (Silence v) (patience o s v) ] else [ task Under_way ]
   | Set_timer (i, seconds) -> timer i (Bounds.exactly seconds)
   | Look_for pick ->
     timer Residual.script_timer (Option.fold ~none:o.durations.announced ~some:Bounds.exactly pick.timeout)
-  | Put_question (question, prompt) -> some ~prompt (Question question) Some_time
-  | Ask prompt -> some ~prompt Answer Bounds.at_once
-  | Call_host _ -> some Reply Bounds.at_once
-  | Stop _ | Cancel_timer _ | Withdraw_question _ | Bind _ | Release _ | Set_connection_timeout _ | Say _ | End _ ->
-    None
+  | Put_question (question, prompt) -> [ { (no_more (Question question) Some_time) with prompt = Some prompt } ]
+  | Ask prompt -> [ { (no_more Answer Bounds.at_once) with prompt = Some prompt } ]
+  | Call_host _ -> [ no_more Reply Bounds.at_once ]
+  | Stop _ | Cancel_timer _ | Withdraw_question _ | Bind _ | Release _ | Set_connection_timeout _ | Say _ | End _ -> []
 
 (* Pairs may be posted until the end. *)
 let postings o (c : Configuration.t) outside =
@@ -114,15 +171,6 @@ let postings o (c : Configuration.t) outside =
     let key (k, _, _) = k in
     List.sort_uniq String.compare (List.map key (Environment.inputs o.environment o.program outside))
 
-(* Who is there matters as long as the program may look for vehicles. *)
-let still_coming (c : Configuration.t) before =
-  let matters = function
-    | Coming { always; _ } -> (
-        match c.control with Ended _ -> false | Executing _ -> always | Script _ | Waiting _ -> true)
-    | _ -> false
-  in
-  List.filter matters (List.map (fun p -> p.item) before)
-
 (* {2 The date} *)
 
 (* The next date that code names. *)
@@ -131,18 +179,45 @@ let next_date o (c : Configuration.t) date =
   | Ok (_ :: _ as dates), (Script _ | Waiting _ | Executing _) -> List.find_opt (fun k -> k > date) dates
   | (Ok [] | Error _), _ | _, Ended _ -> None
 
-let awaited o c outside date ~before =
-  List.map of_awaited (Transition.awaited c)
-  @ List.map (fun k -> Posting k) (postings o c outside)
-  @ Option.fold (next_date o c date) ~none:[] ~some:(fun k -> [ Date k ])
-  @ still_coming c before
+(* The next change of a link that matters. *)
+let change o s =
+  let links = links o in
+  if s.changes = Links.count links then None else Some (Links.change links s.changes)
+
+let awaited o s =
+  let c = s.configuration in
+  let awaited = List.map of_awaited (Transition.awaited c) in
+  let silence = function Task v when is_silent o s v -> Some (Silence v) | _ -> None in
+  awaited @ List.filter_map silence awaited
+  @ List.map (fun k -> Posting k) (postings o c s.outside)
+  @ Option.fold (next_date o c s.date) ~none:[] ~some:(fun k -> [ Date k ])
+  @ Option.fold (change o s) ~none:[] ~some:(fun _ -> [ Links ])
 
 let in_order = List.sort_uniq Stdlib.compare
 
-(* [before] is what is awaited before a transition that answers [over] and asks for [effects], which leads to [c]: what
-   is awaited there, and of it what has begun with the transition. *)
-let pending o elsewhere ~before ~over effects c outside date =
-  let now = List.filter_map (begun o elsewhere) effects in
+let by_itself o s item =
+  let bounds : Bounds.t =
+    match item with
+    | Posting k -> o.durations.posted k
+    | Date k -> Bounds.exactly (float_of_int (k - s.date))
+    | Silence v -> patience o s v
+    | Answer -> Bounds.at_once
+    | Task _ | Timer _ | Question _ | Recruit _ | Reply | Links | Course _ -> Some_time
+  in
+  no_more item bounds
+
+(* The clock of links goes on from the start; what it waits for changes. *)
+let until_change o s p =
+  match change o s with
+  | Some (_, ms) ->
+    { p with bounds = Within { least = ms; most = ms }; prompt = Some (Links.words (links o) s.changes) }
+  | None -> p
+
+(* [s] with what is pending there, and of this what has begun with a transition that leads to [s], answers [over] and
+   asks for [effects], where [before] was pending before. *)
+let with_pending o ~before ~over effects s =
+  let s = with_changes_that_matter o s in
+  let now = List.concat_map (begun o s) effects in
   let latest item = List.fold_left (fun found p -> if is_same p.item item then Some p else found) None now in
   let is_over item = match over with Some other -> is_same other item | None -> false in
   let find item =
@@ -151,37 +226,18 @@ let pending o elsewhere ~before ~over effects c outside date =
     | None -> (
         match List.find_opt (fun p -> is_same p.item item && not (is_over item)) before with
         | Some p -> (p, false)
-        | None ->
-          let bounds : Bounds.t =
-            match item with
-            | Posting k -> o.durations.posted k
-            | Date k -> Bounds.exactly (float_of_int (k - date))
-            | Answer -> Bounds.at_once
-            | _ -> Some_time
-          in
-          ({ item; bounds; task = None; prompt = None }, true))
+        | None -> (by_itself o s item, true))
   in
-  List.split (List.map find (in_order (awaited o c outside date ~before)))
-
-let fresh pending is_fresh =
-  List.filter_map Fun.id (List.map2 (fun p fresh -> if fresh then Some p.item else None) pending is_fresh)
-
-(* With [--faults join] vehicles that are late come at any time: see [comes_late]. *)
-let knows_who_joins o = o.durations.joins <> [] && not (Faults.is_possible o.environment.faults.join)
-let may_join_during_tasks o =
-  knows_who_joins o && (o.program.recruits || Dolphin_explore.Later_picks.may_follow o.program)
-
-let coming o =
-  if knows_who_joins o then
-    let always = may_join_during_tasks o in
-    let pending (vehicle, bounds) = { item = Coming { vehicle; always }; bounds; task = None; prompt = None } in
-    List.map pending o.durations.joins
-  else []
+  let known (p, fresh) = ((match p.item with Links -> until_change o s p | _ -> p), fresh) in
+  let found = List.map (fun item -> known (find item)) (in_order (awaited o s)) in
+  let fresh (p, is_fresh) = if is_fresh then Some p.item else None in
+  ({ s with pending = List.map fst found }, List.filter_map fresh found)
 
 let initial o =
   let configuration = Configuration.initial o.program and outside = Environment.initial in
-  let pending, _ = pending o [] ~before:(coming o) ~over:None [] configuration outside 0 in
-  { configuration; outside; pending; elsewhere = []; patience = []; date = 0 }
+  let s =
+    { configuration; outside; pending = []; elsewhere = []; patience = []; date = 0; changes = 0; settled = false } in
+  fst (with_pending o ~before:[] ~over:None [] s)
 
 (* {1 Where vehicles are} *)
 
@@ -217,12 +273,8 @@ let patience_after o s (t : Transition.t) =
       List.sort Stdlib.compare (List.fold_left set patience vs)
     | _ -> patience
   in
-  if Faults.is_possible o.environment.faults.loss then List.fold_left set s.patience t.effects else []
-
-let patience o s v =
-  match List.assoc_opt (Some v) s.patience with
-  | Some bounds -> bounds
-  | None -> Option.value (List.assoc_opt None s.patience) ~default:o.durations.silence
+  let matters = Faults.is_possible o.environment.faults.loss || has_links o in
+  if matters then List.fold_left set s.patience t.effects else []
 
 (* {1 Steps} *)
 
@@ -278,6 +330,7 @@ let due o s (choice : Environment.choice) =
   let with_bounds change = Option.map (fun item -> (item, change (bounds_of s item))) in
   match choice.on with
   | Some (Vehicle_done v) -> let bounds, _, _ = ends_of o s v in Some (Task v, bounds)
+  | Some (Vehicle_failed (v, _)) when is_silent o s v -> with_bounds Fun.id (Some (Silence v))
   | Some (Vehicle_failed (v, why)) ->
     let _, failed, lost = ends_of o s v in
     Some (Task v, if why = Environment.loss then lost else failed)
@@ -285,20 +338,31 @@ let due o s (choice : Environment.choice) =
   | Some event -> with_bounds Fun.id (of_event event)
   | None when is_pick && comes_late choice.transition ->
     with_bounds Bounds.from_the_start (Some (Timer Residual.script_timer))
-  | None when is_pick && not (knows_who_joins o) -> Some (Timer Residual.script_timer, Bounds.at_once)
+  | None when is_pick && not (has_links o) -> Some (Timer Residual.script_timer, Bounds.at_once)
   | None -> None
+
+let impatient v = "while nothing is heard of " ^ v ^ ", its connection timeout changes: what follows is not known here"
+
+(* How long a link has been silent is not asked when the program changes its patience. *)
+let check_patience o s next =
+  let check (p : pending) =
+    match p.item with
+    | Silence v when List.exists (fun q -> is_same q.item p.item) s.pending && patience o s v <> patience o next v ->
+      raise (Environment.Unclear (Fault.make Fault.unknown_site (impatient v)))
+    | _ -> ()
+  in
+  List.iter check next.pending
 
 let step o s (choice : Environment.choice) =
   let t = choice.transition in
-  let over = Option.bind choice.on of_event in
-  let elsewhere = elsewhere_after s t choice.on in
-  let pending, is_fresh = pending o elsewhere ~before:s.pending ~over t.effects t.next choice.outside s.date in
-  { transition = t; due = due o s choice;
-    urgent = (not (is_event o s choice)) && (not (may_wait t)) && not (comes_late t);
-    fresh = fresh pending is_fresh;
-    next =
-      { configuration = t.next; outside = choice.outside; pending; elsewhere; patience = patience_after o s t;
-        date = s.date } }
+  let next, fresh =
+    with_pending o ~before:s.pending ~over:(Option.bind choice.on of_event) t.effects
+      { s with configuration = t.next; outside = choice.outside; elsewhere = elsewhere_after s t choice.on;
+               patience = patience_after o s t }
+  in
+  check_patience o s next;
+  { transition = t; due = due o s choice; fresh; next;
+    urgent = (not (is_event o s choice)) && (not (may_wait t)) && not (comes_late t) }
 
 let taken o s ~on transition = step o s { transition; outside = s.outside; on }
 
@@ -308,33 +372,57 @@ let is_possible step = match step.due with Some (_, Never) -> false | Some (_, (
 let starts_without_moving step =
   match step.transition.effects with [ Start (_, p) ] -> Durations.moves p = None | _ -> false
 
+(* {2 What is none of the program} *)
+
+let is_of_program step = step.transition.rules <> []
+
+(* That [item] is over leads to [next], in which [before] was pending. *)
+let of_outside s ~before ~over due next o =
+  let transition : Transition.t =
+    { rules = []; label = Silent; next = s.configuration; effects = []; assumed = [] } in
+  let next, fresh = with_pending o ~before ~over [] next in
+  { transition; due; fresh; next; urgent = false }
+
+let date_step o s =
+  let reached k =
+    let over = Some (Date k) in
+    of_outside s ~before:s.pending ~over (Some (Date k, bounds_of s (Date k))) { s with date = k } o
+  in
+  Option.map reached (next_date o s.configuration s.date)
+
+(* The link of [v] comes or goes. What waits for it goes on, and is new: the order is carried out, and what is over is
+   told. *)
+let link_step o s =
+  let changed (v, _) =
+    let goes_on p = p.item = Task v && is_silent o s v && p.progress <> Under_way in
+    let again p = { p with progress = Under_way; bounds = if p.progress = Over then Bounds.at_once else p.bounds } in
+    let going_on, before = List.partition goes_on s.pending in
+    let step = of_outside s ~before ~over:None (Some (Links, bounds_of s Links)) { s with changes = s.changes + 1 } o in
+    let task p = match List.find_opt (fun q -> is_same p.item q.item) going_on with Some q -> again q | None -> p in
+    { step with next = { step.next with pending = List.map task step.next.pending } }
+  in
+  Option.map changed (change o s)
+
+(* A task that is over while nothing is heard of its vehicle. It may be over sooner: that it ends as soon as its link is
+   back is among what may happen to one that is under way. *)
+let unheard_ends o s =
+  let over p =
+    match p.item, p.bounds with
+    | Task v, Within { most; _ } when is_silent o s v && p.progress = Under_way ->
+      let before = List.map (fun q -> if q == p then { p with progress = Over } else q) s.pending in
+      Some (of_outside s ~before ~over:None (Some (p.item, Within { least = most; most })) s o)
+    | _ -> None
+  in
+  List.filter_map over s.pending
+
 (* {2 Who is there} *)
-
-let coming_of v p = match p.item with Coming { vehicle; _ } -> String.equal vehicle v | _ -> false
-let is_away s v = List.exists (coming_of v) s.pending
-
-(* In the order in which they are heard of. *)
-let late_ones o = if knows_who_joins o then List.map fst o.durations.joins else []
 
 (* What is to be assumed of the whole fleet in [s]. *)
 let attendance o s =
-  let away, come = List.partition (is_away s) (late_ones o) in
-  List.map (fun v -> World.Late v) come @ List.map (fun v -> World.Missing v) away
-
-(* The next vehicle is heard of. *)
-let arrival o s =
-  let of_pending p =
-    let transition : Transition.t =
-      { rules = []; label = Silent; next = s.configuration; effects = []; assumed = [] } in
-    { transition; due = Some (p.item, p.bounds); urgent = false; fresh = [];
-      next = { s with pending = List.filter (fun q -> q != p) s.pending } }
-  in
-  match List.find_opt (is_away s) (late_ones o) with
-  | Some v -> Option.map of_pending (List.find_opt (coming_of v) s.pending)
-  | None -> None
-
-let is_of_date step = match step.due with Some (Date _, _) -> true | Some _ | None -> false
-let is_arrival step = match step.due with Some (Coming _, _) -> true | Some _ | None -> false
+  let links = links o in
+  let silent = Links.silent links s.changes in
+  let late = List.filter (fun v -> not (List.mem v silent)) (Links.late links) in
+  List.map (fun v -> World.Late v) late @ List.map (fun v -> World.Missing v) silent
 
 (* It matters where vehicles are looked for. *)
 let in_whole_fleet o s step =
@@ -344,7 +432,7 @@ let in_whole_fleet o s step =
     | Waiting (_, Pick _), _ | _, Recruit _ -> true
     | (Script _ | Waiting _ | Executing _ | Ended _), _ -> false
   in
-  if is_arrival step || is_of_date step then None
+  if not (is_of_program step) then None
   else if looks then Some { t with assumed = attendance o s @ t.assumed }
   else Some t
 
@@ -352,33 +440,42 @@ let transitions o s steps =
   let add (s, found) step = (step.next, in_whole_fleet o s step :: found) in
   List.rev (snd (List.fold_left add (s, []) steps))
 
-(* {2 The date} *)
-
-(* No transition: only what code reads of the date changes. *)
-let date_step o s =
-  let reached k =
-    let c = s.configuration in
-    let transition : Transition.t = { rules = []; label = Silent; next = c; effects = []; assumed = [] } in
-    let pending, is_fresh =
-      pending o s.elsewhere ~before:s.pending ~over:(Some (Date k)) [] c s.outside k in
-    { transition; due = Some (Date k, bounds_of s (Date k)); fresh = fresh pending is_fresh; urgent = false;
-      next = { s with pending; date = k } }
-  in
-  Option.map reached (next_date o s.configuration s.date)
-
 let world o s =
   let world = World.suppose (attendance o s) o.world in
   if o.program.reads_now then World.at (Since s.date) world else world
 
+(* The order is given up, and so is the task. *)
+let given_up o world s =
+  let fails (p : pending) =
+    match p.item with
+    | Silence v ->
+      let event = Transition.Vehicle_failed (v, Environment.loss) in
+      let choice : (Transition.t, Transition.refusal) result -> Environment.choice option = function
+        | Ok transition -> Some { transition; outside = s.outside; on = Some event }
+        | Error _ -> None
+      in
+      List.filter_map choice (Environment.clear (Transition.accept_all o.program world s.configuration event))
+    | _ -> []
+  in
+  List.concat_map fails s.pending
+
+(* Nothing is heard of its end. *)
+let is_heard o s (choice : Environment.choice) =
+  match choice.on with
+  | Some (Vehicle_done v | Vehicle_failed (v, _)) -> not (is_silent o s v)
+  | Some _ | None -> true
+
 let all_steps o s =
+  let world = world o s in
   let with_step (choice : Environment.choice) = (choice, step o s choice) in
   let choices =
-    Environment.choices_on o.environment o.program (world o s) s.outside s.configuration
+    Environment.choices_on o.environment o.program world s.outside s.configuration
+    |> Seq.filter (is_heard o s) |> Fun.flip Seq.append (List.to_seq (given_up o world s))
     |> Seq.map with_step |> Seq.filter (fun (_, step) -> is_possible step) |> List.of_seq
   in
   let all = List.map snd choices @ Option.to_list (date_step o s) in
   if not (List.exists (fun step -> step.urgent) all) then
-    all @ List.filter is_possible (Option.to_list (arrival o s))
+    all @ unheard_ends o s @ Option.to_list (link_step o s)
   else if List.exists (fun step -> comes_late step.transition) all then
     List.map (fun step -> { step with urgent = false }) all
   else

@@ -21,17 +21,24 @@ type item =
   | Answer
   | Reply
   | Posting of string  (** of a pair with this key *)
-  | Coming of { vehicle : Core.vehicle; always : bool }
-  (** that it is heard of for the first time; [always]: not only before the first task *)
+  | Links  (** the next change of a link that matters, from the start *)
+  | Silence of Core.vehicle  (** that a task, or an order, is given up, as nothing is heard of its vehicle *)
   | Course of Core.vehicle
   (** never in a {!state}: since when the battery of a vehicle that is observed goes as it does ({!Course}) *)
   | Date of int  (** that so many seconds have passed since the start, at which code may come to do something else *)
+
+(** Of a task whose vehicle nothing is heard of. *)
+type progress =
+  | Under_way  (** and of all else *)
+  | Ordered  (** the order waits for the link; the bounds of the task begin with it *)
+  | Over  (** that it is waits for the link *)
 
 type pending = {
   item : item;
   bounds : Bounds.t;  (** from when it began *)
   task : Core.platform_task option;  (** of a [Task] *)
-  prompt : string option;  (** of a [Question], or an [Answer] *)
+  prompt : string option;  (** of a [Question], or an [Answer]; of [Links], what changes *)
+  progress : progress;
 }
 
 (** A configuration without its clocks. *)
@@ -45,6 +52,8 @@ type state = private {
   (** how long the link of a vehicle, or of all others, may be silent, where the program said so; [[]] if none is lost
   *)
   date : int;  (** as code reads it: the latest that it names, of those that have passed *)
+  changes : int;  (** the changes of links before this one are over, or do not matter *)
+  settled : bool;  (** whether only links of vehicles in B matter: the program looks for no others any more *)
 }
 
 val initial : options -> state
@@ -53,8 +62,9 @@ val compare : state -> state -> int
 val equal : state -> state -> bool
 val hash : state -> int
 
-(** What may happen. That a vehicle is heard of is no transition of the semantics, which knows no time: it is a step
-    that changes nothing but who is there. *)
+(** What may happen. That a link comes or goes, that a task is over of which nothing is heard, and that a date passes
+    that code names, are no transitions of the semantics, which knows no time: they are steps that leave the
+    configuration as it is. *)
 type step = {
   transition : Transition.t;
   next : state;
@@ -63,8 +73,8 @@ type step = {
   urgent : bool;  (** whether no time passes while it is possible *)
 }
 
-val is_of_date : step -> bool
-(** Whether it is none of the program, but a date passes that code names. Its [transition] changes nothing. *)
+val is_of_program : step -> bool
+(** Whether it is a transition of the semantics. *)
 
 val steps : options -> state -> step list
 (** [steps o s] is what may happen in [s]. If some step is urgent, only what needs no event; of [START]s only
@@ -80,14 +90,14 @@ val taken : options -> state -> on:Transition.event option -> Transition.t -> st
 
 val transitions : options -> state -> step list -> Transition.t option list
 (** [transitions o s steps] is the transitions of [steps], which are one after the other from [s], in the whole fleet:
-    each [pick] and [recruit] also assumes who is late and who is missing. [None] where a vehicle is heard of. *)
+    each [pick] and [recruit] also assumes who is late and who is missing. [None] where it is none of the semantics. *)
 
 val holds_up : step list -> (item * int) list
 (** [holds_up steps] is until when time may pass in a state with [steps], none of which is urgent: not longer than so
     many milliseconds after each [item] began. *)
 
-val may_join_during_tasks : options -> bool
-(** Whether vehicles may be heard of while a task executes, and that matters. *)
+val may_change_during_tasks : options -> bool
+(** Whether links may come or go while a task executes, and that matters. *)
 
 val may_wait_for_recruits : options -> bool
 (** Whether nobody knows how long a vehicle that a [recruit] asks for stays away. *)

@@ -289,7 +289,7 @@ let apart ~started limits (options : Timed.options) =
   let found (fence : Fences.fence) =
     let pairs, cut_short =
       match untimed limits options with
-      | _ when options.durations.joins <> [] -> pairs ~started limits options ~candidates:None
+      | _ when Links.count options.durations.links > 0 -> pairs ~started limits options ~candidates:None
       | [], stopped -> ([], stopped)
       | candidates, None -> pairs ~started limits options ~candidates:(Some (List.length candidates))
       | _, Some _ -> pairs ~started limits options ~candidates:None

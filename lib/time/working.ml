@@ -53,7 +53,8 @@ let ended (before : Timed_place.t) zone (step : Timed.step) (p : Timed.pending) 
       && not (is_inert p.item || is_mapped before.execution (label v task)) ->
     let since = Option.bind (List.assoc_opt p.item before.clocks) (fun clock -> Zone.most clock zone) in
     Some (v, Option.value since ~default:unknown)
-  | (Task _ | Timer _ | Question _ | Recruit _ | Answer | Reply | Posting _ | Coming _ | Course _ | Date _), _ -> None
+  | ( Task _ | Timer _ | Question _ | Recruit _ | Answer | Reply | Posting _ | Links | Silence _ | Course _ | Date _ ),
+    _ -> None
 
 let begun execution (step : Timed.step) (i : Inert.item) =
   match Happening.ending step.next i with

@@ -18,7 +18,7 @@ let hashed seed plans : Durations.t =
   in
   let posted key = if key = "y" then Bounds.exactly 2. else Bounds.between 1. 2. in
   { task; announced = Bounds.exactly 1.; silence = Bounds.exactly 2.; posted; place = (fun _ -> None);
-    joins = [] }
+    links = Links.none }
 
 let random ~seed n =
   let plans = [ "p"; "q" ] in

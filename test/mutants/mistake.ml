@@ -945,8 +945,8 @@ let unknown =
   @ in_file "lib/time/timed.ml" ~noticed_by:"time/test_exact"
     [
       ("code reads no date", {|World.at (Since s.date) world|}, {|World.at (Since (0 * s.date)) world|});
-      ("dates count from the start each", {|Bounds.exactly (float_of_int (k - date))|},
-       {|Bounds.exactly (float_of_int (k - (0 * date)))|});
+      ("dates count from the start each", {|Bounds.exactly (float_of_int (k - s.date))|},
+       {|Bounds.exactly (float_of_int (k - (0 * s.date)))|});
     ]
   @ in_file "lib/time/inert.ml" ~noticed_by:"time/test_exact"
     [ ("ends are inert where code reads the date", {|&& (not o.program.reads_now)|},
@@ -1200,11 +1200,29 @@ let timed =
         {|World.suppose (attendance o s) o.world in|},
         {|(ignore attendance; o.world) in|} );
       ( "vehicles that joined are in the order of the fleet",
-        {|List.map (fun v -> World.Late v) come @|},
-        {|(ignore come; []) @|} );
+        {|List.map (fun v -> World.Late v) late @|},
+        {|(ignore late; []) @|} );
       ( "a pick does not wait for who joins",
-        {|| None when is_pick && not (knows_who_joins o) ->|},
+        {|| None when is_pick && not (has_links o) ->|},
         {|| None when is_pick ->|} );
+      ( "an order does not wait for the link",
+        {|[ task Ordered; no_more (Silence v) (patience o s v) ] else|},
+        {|[ task Under_way; no_more (Silence v) (patience o s v) ] else|} );
+      ( "nothing ends while nothing is heard",
+        {|all @ unheard_ends o s @|},
+        {|all @ (ignore unheard_ends; []) @|} );
+      ( "what has ended unheard goes on",
+        {|if p.progress = Over then Bounds.at_once else p.bounds|},
+        {|p.bounds|} );
+      ( "a silent vehicle is heard",
+        {|Seq.filter (is_heard o s)|},
+        {|Seq.filter (fun c -> is_heard o s c || true)|} );
+      ( "a silent link is waited for without end",
+        {|(List.to_seq (given_up o world s))|},
+        {|(ignore given_up; Seq.empty)|} );
+      ( "links of vehicles in B do not matter during tasks",
+        {|let matters v = (not settled) || List.mem v s.configuration.shared.bound in|},
+        {|let matters _ = not settled in|} );
     ]
 
 let place =

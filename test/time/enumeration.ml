@@ -6,8 +6,12 @@ type moment = Ended of Timed_system.ending | Task of Timing.task * Timed_system.
 type battery = { at_first : int; work : int; rest : int }
 type t = { dates : (moment * (int * int)) list; never_over : bool; most : (Core.vehicle * int) list }
 
-(* What is awaited: a vehicle, a timer, an input, or what people and the supplier say. *)
-type awaited = Vehicle of string | Timer of int | Input of string | Word
+(* What is awaited: a vehicle, a timer, an input, or what people and the supplier say; and how long nothing is heard of
+   a vehicle that has a task. *)
+type awaited = Vehicle of string | Timer of int | Input of string | Word | Quiet of string
+
+(* Of a vehicle whose link is silent, if its task is not under way: the order waits, or it has ended, well or not. *)
+type errand = Waits | Ended_well | Ended_badly
 
 (* Since so many seconds something is awaited that comes from the first to the second number of seconds. *)
 type clock = { since : int; least : int; most : int }
@@ -20,19 +24,20 @@ type state = {
   now : int;
   date : int;  (* as code reads it: what passes at one moment comes in any order *)
   missing : (Core.vehicle * (int * int)) list;  (* now, and at the most until now; in order *)
-  coming : Core.vehicle list;  (* who is heard of later, the next one first *)
+  changes : int;  (* of links, so far *)
+  errands : (Core.vehicle * errand) list;  (* in order *)
 }
 
 module Table = Hashtbl.Make (struct
     type t = state
 
     let equal a b =
-      a.now = b.now && a.date = b.date && a.coming = b.coming &&
+      a.now = b.now && a.date = b.date && a.changes = b.changes && a.errands = b.errands &&
       a.missing = b.missing && a.clocks = b.clocks && a.patience = b.patience
       && Environment.compare a.e b.e = 0
       && Configuration.equal a.c b.c
 
-    let hash s = Hashtbl.hash (s.now, s.date, s.coming, s.missing, s.clocks, Configuration.hash s.c)
+    let hash s = Hashtbl.hash (s.now, s.date, s.changes, s.errands, s.missing, s.clocks, Configuration.hash s.c)
   end)
 
 exception Too_much
@@ -75,14 +80,30 @@ let inputs (o : Timed.options) c e =
   | _ ->
     List.sort_uniq compare (List.map (fun (k, _, _) -> k) (Environment.inputs o.environment o.program e))
 
-let awaited o (c : Configuration.t) e =
+(* Where vehicles may be late, they come at any time; where links may be lost, so may they. *)
+let links (o : Timed.options) =
+  match o.environment.faults with
+  | { join = Never; loss = Never; _ } -> o.durations.links
+  | { join = Never; _ } -> Links.only_first o.durations.links
+  | _ -> Links.none
+
+let is_silent o s v = Links.is_silent (links o) s.changes v
+
+let awaited o s (c : Configuration.t) e =
   let what : Transition.awaited -> awaited option = function
     | End_of v -> Some (Vehicle v)
     | Expiry_of i | Answer_to (i, _) -> Some (Timer i)
     | Answer | Reply -> Some Word
     | Recruit_for _ -> None (* a vehicle is recruited at once, or may stay away for any time *)
   in
-  List.filter_map what (Transition.awaited c) @ List.map (fun k -> Input k) (inputs o c e)
+  let of_task = List.filter_map what (Transition.awaited c) in
+  let quiet = function Vehicle v when is_silent o s v -> Some (Quiet v) | _ -> None in
+  of_task @ List.filter_map quiet of_task @ List.map (fun k -> Input k) (inputs o c e)
+
+let patience (o : Timed.options) s v =
+  match List.assoc_opt (Some v) s.patience, List.assoc_opt None s.patience with
+  | Some n, _ | None, Some n -> n
+  | None, None -> snd (in_seconds o.durations.silence)
 
 let over : Transition.event -> awaited option = function
   | Vehicle_done v | Vehicle_failed (v, _) -> Some (Vehicle v)
@@ -109,6 +130,7 @@ let after o s (choice : Environment.choice) =
     match what, List.assoc_opt what clocks with
     | _, Some clock -> (what, clock)
     | Input k, None -> (what, posted o k)
+    | Quiet v, None -> let n = patience o s v in (what, { since = 0; least = n; most = n })
     | _, None -> failwith "awaited, and never begun"
   in
   let set_patience patience : Effect.t -> _ = function
@@ -117,14 +139,15 @@ let after o s (choice : Environment.choice) =
       List.fold_left (fun patience v -> (Some v, whole n) :: List.remove_assoc (Some v) patience) patience vs
     | _ -> patience
   in
-  { c = t.next; e = choice.outside; now = s.now; date = s.date; missing = s.missing; coming = s.coming;
-    clocks = List.sort_uniq compare (List.map find (awaited o t.next choice.outside));
-    patience = List.sort compare (List.fold_left set_patience s.patience t.effects) }
-
-let patience (o : Timed.options) s v =
-  match List.assoc_opt (Some v) s.patience, List.assoc_opt None s.patience with
-  | Some n, _ | None, Some n -> n
-  | None, None -> snd (in_seconds o.durations.silence)
+  let awaited = awaited o s t.next choice.outside in
+  let started = List.filter_map (function Effect.Start (v, _) -> Some v | _ -> None) t.effects in
+  let waiting = List.map (fun v -> (v, Waits)) (List.filter (is_silent o s) started) in
+  let is_kept (v, _) =
+    List.mem (Vehicle v) awaited && Option.bind choice.on over <> Some (Vehicle v) && not (List.mem v started) in
+  { s with c = t.next; e = choice.outside;
+           clocks = List.sort_uniq compare (List.map find awaited);
+           errands = List.sort compare (waiting @ List.filter is_kept s.errands);
+           patience = List.sort compare (List.fold_left set_patience s.patience t.effects) }
 
 let comes_late (t : Transition.t) = List.exists (function World.Late _ -> true | _ -> false) t.assumed
 
@@ -134,16 +157,15 @@ let is_open (t : Transition.t) =
   && match t.rules with (Condition | Recruit | Allof_when | Oneof_when | Until_cut | Assure_cut) :: _ -> true
                       | _ -> false
 
-(* Who joins, and when. Where vehicles may be late, they come at any time. *)
-let joins (o : Timed.options) =
-  let second (v, bounds) = (v, fst (in_seconds bounds)) in
-  if o.environment.faults.join = Never then List.map second o.durations.joins else []
-
 (* From how many to how many seconds, of which clock. *)
 let due o s (choice : Environment.choice) =
   let clock what = List.assoc what s.clocks in
   let waits v = if List.mem v (Environment.lost s.e) then patience o s v else 0 in
   match choice.on, s.c.control with
+  | Some (Vehicle_failed (v, _)), _ when is_silent o s v ->
+    let c = clock (Quiet v) in Some (c, c.least, c.most)
+  | Some (Vehicle_done v | Vehicle_failed (v, _)), _ when List.mem_assoc v s.errands ->
+    let c = clock (Vehicle v) in Some (c, 0, c.since)
   | Some (Vehicle_done v), _ ->
     let c = clock (Vehicle v) in
     Some (c, c.least, c.most + waits v)
@@ -151,15 +173,38 @@ let due o s (choice : Environment.choice) =
     let c = clock (Vehicle v) and silence = patience o s v in
     Some (if why = Environment.loss then (c, silence, c.most + waits v + silence) else (c, 0, c.most + waits v))
   | Some event, _ -> Option.map (fun what -> let c = clock what in (c, c.least, c.most)) (over event)
-  | None, Waiting (_, Pick _) when joins o = [] ->
+  | None, Waiting (_, Pick _) when Links.count (links o) = 0 && Links.late (links o) = [] ->
     let c = clock (Timer 0) in
     Some (c, 0, if comes_late choice.transition then c.most else 0)
   | None, _ -> None
 
 (* Who was heard of later than others comes after them. *)
 let with_those_there o s world =
-  let come, coming = List.partition (fun v -> not (List.mem v s.coming)) (List.map fst (joins o)) in
-  World.suppose (List.map (fun v -> World.Late v) come @ List.map (fun v -> World.Missing v) coming) world
+  let links = links o in
+  let silent = Links.silent links s.changes in
+  let late = List.filter (fun v -> not (List.mem v silent)) (Links.late links) in
+  World.suppose (List.map (fun v -> World.Late v) late @ List.map (fun v -> World.Missing v) silent) world
+
+(* The link of [v] comes or goes. *)
+let after_change o s v =
+  let s' = { s with changes = s.changes + 1 } in
+  let is_back = is_silent o s v in
+  let clocks =
+    List.filter_map
+      (fun (what, clock) ->
+         match what with
+         | Vehicle w when w = v && is_back && List.assoc_opt v s.errands = Some Waits ->
+           Some (what, { clock with since = 0 })
+         | Quiet w when w = v -> None
+         | _ -> Some (what, clock))
+      s.clocks
+  in
+  let n = patience o s v in
+  let quiet =
+    if (not is_back) && List.mem_assoc (Vehicle v) s.clocks then [ (Quiet v, { since = 0; least = n; most = n }) ]
+    else [] in
+  { s' with clocks = List.sort compare (quiet @ clocks);
+            errands = List.filter (fun (w, errand) -> not (w = v && errand = Waits)) s.errands }
 
 (* A second later. *)
 let tick ~batteries s =
@@ -226,7 +271,39 @@ let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _
     let world = World.at (Exactly s.date) (with_those_there o s o.world) in
     let world = List.fold_left (fun w (v, (missing, _)) -> show v missing w) world s.missing in
     let choices = List.of_seq (Environment.choices_on o.environment o.program world s.e s.c) in
-    let timed = List.map (fun choice -> (choice, due o s choice)) choices in
+    let told (choice : Environment.choice) =
+      match choice.on with
+      | Some (Vehicle_done v) -> (not (is_silent o s v)) && List.assoc_opt v s.errands <> Some Ended_badly
+      | Some (Vehicle_failed (v, _)) -> (not (is_silent o s v)) && List.assoc_opt v s.errands <> Some Ended_well
+      | Some _ | None -> true
+    in
+    let given_up (what, _) =
+      match what with
+      | Quiet v -> (
+          match Transition.accept_all o.program world s.c (Vehicle_failed (v, Environment.loss)) with
+          | Ok found ->
+            List.filter_map
+              (function
+                | Ok transition ->
+                  Some { Environment.transition; outside = s.e; on = Some (Vehicle_failed (v, Environment.loss)) }
+                | Error _ -> None)
+              found
+          | Error _ -> [])
+      | _ -> []
+    in
+    let told_choices = List.filter told choices @ List.concat_map given_up s.clocks in
+    let timed = List.map (fun choice -> (choice, due o s choice)) told_choices in
+    (* What ends while nobody hears of it. *)
+    let ends_unheard (choice : Environment.choice) =
+      match choice.on with
+      | Some (Vehicle_done v | Vehicle_failed (v, _)) when is_silent o s v && not (List.mem_assoc v s.errands) ->
+        let clock = List.assoc (Vehicle v) s.clocks in
+        let well = match choice.on with Some (Vehicle_done _) -> true | _ -> false in
+        let least = if well then clock.least else 0 in
+        Some (v, (if well then Ended_well else Ended_badly), clock, least, clock.most)
+      | _ -> None
+    in
+    let unheard = List.filter_map ends_unheard choices in
     let is_by_itself (choice : Environment.choice) =
       match choice.on with
       | None -> true
@@ -250,8 +327,8 @@ let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _
         (-1) possible
     in
     let waits = own = [] || waits_for_others in
-    let joins_later = match s.c.control with Ended _ -> false | _ -> s.coming <> [] in
-    let is_next_there = waits && joins_later && List.assoc (List.hd s.coming) (joins o) <= s.now in
+    let changes_later = match s.c.control with Ended _ -> false | _ -> s.changes < Links.count (links o) in
+    let is_next_there = waits && changes_later && snd (Links.change (links o) s.changes) <= 1000 * s.now in
     (* Time has passed because something might be lost, and something else was lost: that is no run. *)
     let is_overdue (_, clock) = match last clock with -1 -> false | most -> clock.since > most in
     let take ((choice : Environment.choice), _) =
@@ -261,16 +338,24 @@ let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _
     if not (waits && List.exists is_overdue s.clocks) then begin
       look s.c;
       List.iter take (List.filter may_be_now possible);
-      if is_next_there then reach { s with coming = List.tl s.coming }
+      let end_unheard (v, errand, clock, least, most) =
+        if waits && clock.since >= least && clock.since <= most then
+          reach { s with errands = List.sort compare ((v, errand) :: s.errands) }
+      in
+      List.iter end_unheard unheard;
+      if is_next_there then reach (after_change o s (fst (Links.change (links o) s.changes)))
     end;
     let reads_date = o.program.reads_now and is_over = match s.c.control with Ended _ -> true | _ -> false in
     if reads_date && waits && (not is_over) && s.date < s.now && not (List.exists is_overdue s.clocks) then
       reach { s with date = s.now };
     let is_dated = (not is_over) && List.exists (fun k -> k > s.date) (Result.value o.dates ~default:[]) in
     (* A second passes, if for everything that is awaited something may still happen then. *)
-    let may_wait (_, clock) = match last clock with -1 -> true | most -> clock.since < most in
+    let is_under_way (_, _, clock, _, most) = clock.since < most in
+    let may_wait (_, clock) =
+      (match last clock with -1 -> true | most -> clock.since < most)
+      && List.for_all is_under_way (List.filter (fun (_, _, c, _, _) -> c == clock) unheard) in
     let is_up_to_date = ((not reads_date) || s.date = s.now) && not is_next_there in
-    let is_something_to_come = joins_later || is_dated in
+    let is_something_to_come = changes_later || unheard <> [] || is_dated in
     if waits && is_up_to_date && (possible <> [] || is_something_to_come) && List.for_all may_wait s.clocks then begin
       if is_something_to_come
       || List.exists (fun (choice, _) -> not (Environment.is_voluntary choice.Environment.transition)) possible
@@ -281,14 +366,14 @@ let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _
     | Ended _ -> ()
     | Script _ | Waiting _ | Executing _ ->
       let transitions = List.map (fun ((choice : Environment.choice), _) -> choice.transition) timed in
-      if s.coming = [] && (not is_dated)
+      if (not changes_later) && (not is_dated)
          && Environment.only_recruits o.environment s.e transitions
          && not (Environment.owes o.environment o.program s.e)
       then never_over := true
   in
   let start =
     let c = Configuration.initial o.program and e = Environment.initial in
-    { c; e; now = 0; date = 0; patience = []; coming = List.map fst (joins o);
+    { c; e; now = 0; date = 0; patience = []; changes = 0; errands = [];
       missing = List.sort compare (List.map (fun (v, b) -> (v, (b.at_first, b.at_first))) batteries);
       clocks = List.sort compare (List.map (fun k -> (Input k, posted o k)) (inputs o c e)) }
   in

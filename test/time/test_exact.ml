@@ -37,13 +37,17 @@ let durations seed : Durations.t =
     Bounds.Within { least = 1000 * least; most = 1000 * (least + (n / 3 mod 3)) }
   in
   let posted key = if key = "y" then Bounds.exactly 2. else Bounds.between 1. 2. in
-  let joins =
-    match seed mod 6 with
-    | 0 -> [ ("b", Bounds.exactly (float (seed mod 4))); ("a", Bounds.exactly 3.) ]
-    | 1 -> [ ("c", Bounds.exactly 1.) ]
-    | _ -> []
+  let links =
+    Links.of_silences
+      (match seed mod 12 with
+       | 0 | 1 -> [ ("b", [ (0., float (seed mod 4)) ]); ("a", [ (0., 3.) ]) ]
+       | 2 -> [ ("c", [ (0., 1.) ]) ]
+       | 3 -> [ ("a", [ (1., 4.) ]); ("b", [ (0., 1.); (2., 3.) ]) ]
+       | 4 -> [ ("a", [ (2., infinity) ]); ("c", [ (1., 2.); (4., 5.) ]) ]
+       | 5 -> [ ("a", [ (1., 2.) ]); ("b", [ (3., 6.) ]) ]
+       | _ -> [])
   in
-  { task; announced = Bounds.exactly 1.; silence = Bounds.exactly 2.; posted; place = (fun _ -> None); joins }
+  { task; announced = Bounds.exactly 1.; silence = Bounds.exactly 2.; posted; place = (fun _ -> None); links }
 
 let nested =
   let open QCheck2.Gen in
@@ -158,6 +162,8 @@ let looking =
     let* deed =
       oneofl
         [ ""; Printf.sprintf "if (v%d) execute task('p')[%s]\n" i first;
+          Printf.sprintf "if (v%d) execute watch (idle(1) >> task('q')[%s]) onError { ignore() }\n" i first;
+          Printf.sprintf "if (v%d) execute (watch task('p')[%s] onError { retry() }) during 6\n" i first;
           Printf.sprintf "if (v%d) execute task('q')[%s] | idle(1)\n" i first;
           Printf.sprintf "if (v%d) { execute task('q')[%s]; release %s } else pause 1\n" i first first ] in
     return (whom what ^ deed)
@@ -170,25 +176,42 @@ let looking =
   let* n = int_range 1 3 in
   map (String.concat "") (flatten_l (List.init n statement))
 
-let joining =
+(* Each vehicle is silent for none, one or two spans, which do not touch. *)
+let silences =
   let open QCheck2.Gen in
-  let late v = map (Option.map (fun n -> (v, Bounds.exactly (Stdlib.float n)))) (opt ~ratio:0.6 (int_range 1 4)) in
-  let* found = flatten_l (List.map late [ "a"; "b"; "c" ]) in
-  let joins = List.stable_sort (fun (_, a) (_, b) -> Bounds.compare a b) (List.filter_map Fun.id found) in
-  triple looking (int_bound 1_000_000) (return joins)
-
-let print_joining (text, seed, joins) =
-  let one ppf (v, bounds) =
-    match (bounds : Bounds.t) with Within { least; _ } -> Format.fprintf ppf "%s at %d ms" v least | _ -> () in
-  Format.asprintf "%a join, durations %d:@.%s" (Format.pp_print_list ~pp_sep:Format.pp_print_space one) joins seed text
-
-let test_joins () =
-  let is_found (text, seed, joins) =
-    let program = Test_support.Pure_run.compile_exn text in
-    is_found { environment = answering; program; world = Generate.world; durations = { (durations seed) with joins };
-               dates = Ok [] }
+  let of_dates dates =
+    let rec pairs = function
+      | a :: b :: rest -> (Stdlib.float a, Stdlib.float b) :: pairs rest
+      | [ a ] -> [ (Stdlib.float a, infinity) ]
+      | [] -> []
+    in
+    pairs (List.sort_uniq Int.compare dates)
   in
-  let test = QCheck2.Test.make ~count:programs ~print:print_joining ~name:"who joins when" joining is_found in
+  let dates = frequency [ (2, return []); (2, map (fun n -> [ 0; n ]) (int_range 1 4));
+                          (4, list_size (int_range 1 4) (int_range 0 6)) ] in
+  map of_dates dates
+
+let linked =
+  let open QCheck2.Gen in
+  let of_vehicle v = map (fun spans -> (v, spans)) silences in
+  triple looking (int_bound 1_000_000) (flatten_l (List.map of_vehicle [ "a"; "b"; "c" ]))
+
+let print_linked (text, seed, silences) =
+  let span ppf (from, until) = Format.fprintf ppf " %g-%g" from until in
+  let one ppf (v, spans) = Format.fprintf ppf "%s:%a" v (Format.pp_print_list ~pp_sep:(fun _ () -> ()) span) spans in
+  Format.asprintf "silent %a, durations %d:@.%s" (Format.pp_print_list ~pp_sep:Format.pp_print_space one) silences seed
+    text
+
+let test_links () =
+  let is_found ((text, seed, silences), environment) =
+    let program = Test_support.Pure_run.compile_exn text in
+    is_found { environment; program; world = Generate.world;
+               durations = { (durations seed) with links = Links.of_silences silences }; dates = Ok [] }
+  in
+  let cases =
+    QCheck2.Gen.(pair linked (oneofl [ answering; Environment.failing answering ])) in
+  let print (case, _) = print_linked case in
+  let test = QCheck2.Test.make ~count:programs ~print ~name:"whose link is silent when" cases is_found in
   let before = !skipped in
   Test_support.Property.on_each_seed ~usual:20_261_123 ~programs test;
   Printf.printf "%d skipped\n" (!skipped - before);
@@ -475,7 +498,7 @@ let () =
     [ ("random programs", [ Alcotest.test_case "zones and enumeration" `Quick test_agreement;
                             Alcotest.test_case "dates that code reads" `Quick test_dates;
                             Alcotest.test_case "variety" `Quick test_variety;
-                            Alcotest.test_case "vehicles that join" `Quick test_joins;
+                            Alcotest.test_case "links that come and go" `Quick test_links;
                             Alcotest.test_case "slack" `Quick test_slack;
                             Alcotest.test_case "plans side by side" `Quick test_pairs;
                             Alcotest.test_case "batteries" `Quick (test_batteries ~at_first:0 ~charge:0 ~programs);

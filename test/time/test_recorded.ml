@@ -1,6 +1,7 @@
 (* Simulated runs lie within the bounds of the timed semantics: of all examples, with several seeds, each run ends,
    and each task starts and ends, when it may; no task or timer takes longer or shorter than it may. SEEDS in the
-   environment is how many seeds are tried, 8 by default. *)
+   environment is how many seeds are tried, 8 by default; PROGRAMS is how many programs with links that come and go, 200
+   by default. *)
 
 open Dolphin_semantics
 open Dolphin_runtime
@@ -13,6 +14,7 @@ module Platform = Simulator.Virtual
 module Answering = Test_support.Answering
 
 let seeds = match Sys.getenv_opt "SEEDS" with Some n -> int_of_string n | None -> 8
+let programs = match Sys.getenv_opt "PROGRAMS" with Some n -> int_of_string n | None -> 200
 let folder = Test_support.Examples.folder
 
 let read_file path =
@@ -25,31 +27,31 @@ exception Enough
 
 let most_steps = 2_000
 
-(* The transitions of a run, each with its date and its cause. *)
+type line = Taken of Transition.event option * Transition.t | Heard of Core.vehicle * bool
+
+(* The transitions of a run, each with its date and its cause, and what is heard of links. *)
 let run ~seed scenario program =
   let taken = ref [] and left = ref most_steps in
   let transition ~time ~cause t =
     decr left;
     if !left = 0 then raise Enough;
-    taken := (Option.get (Bounds.milliseconds time), cause, t) :: !taken
+    taken := (Option.get (Bounds.milliseconds time), Taken (cause, t)) :: !taken
   in
+  let news ~time (s : World.vehicle_state) =
+    taken := (Option.get (Bounds.milliseconds time), Heard (s.id, s.connected)) :: !taken in
   let whole () =
-    Driver.run (module Platform) (Platform.create ~seed scenario) ~observer:{ Observer.nobody with transition }
+    Driver.run (module Platform) (Platform.create ~seed scenario) ~observer:{ Observer.nobody with transition; news }
       ~host:(Answering.host scenario) ~console:(Answering.console scenario) ~interruption:(fst (Lwt.wait ())) program
   in
   (match Lwt_main.run (whole ()) with Ended _ | Stuck _ | Spins _ -> () | exception Enough -> ());
   List.rev !taken
 
 let follow options run =
-  let next (r, found) (date, on, t) =
-    let r, more = Recorded.transition r ~date ~on t in
-    (r, found @ more)
+  let next (r, found) = function
+    | date, Taken (on, t) -> let r, more = Recorded.transition r ~date ~on t in (r, found @ more)
+    | date, Heard (v, connected) -> (Recorded.heard r ~date v connected, found)
   in
   snd (List.fold_left next (Recorded.start ~tolerance:0 options, []) run)
-
-(* What {!Durations} does not know of: who leaves, and batteries. *)
-let is_steady (s : Scenario.t) =
-  List.for_all (fun (v : Scenario.vehicle) -> v.leaves = None && v.drops = []) s.vehicles
 
 let is_within (w : Timing.window) date =
   date >= w.earliest - 1 && (match w.latest with At latest -> date <= latest + 1 | Unbounded -> true)
@@ -72,7 +74,7 @@ let check_dates name (o : Timing.outcome) run =
     let task : Timing.task = { name = p.name; vehicle = v; site = p.task_site } in
     check_window (p.name ^ " on " ^ v) (Option.bind (List.assoc_opt task o.tasks) (List.assoc_opt moment)) date
   in
-  let step allocation (date, _, (t : Transition.t)) =
+  let step allocation date (t : Transition.t) =
     let start : Effect.t -> unit = function Start (v, p) -> of_task v p Starts date | _ -> () in
     List.iter start t.effects;
     let running v f = Option.iter f (Vehicle_map.find_opt v allocation) in
@@ -84,36 +86,84 @@ let check_dates name (o : Timing.outcome) run =
      | _, _ -> ());
     t.next.shared.allocation
   in
-  ignore (List.fold_left step Vehicle_map.empty run)
+  let line allocation = function date, Taken (_, t) -> step allocation date t | _, Heard _ -> allocation in
+  ignore (List.fold_left line Vehicle_map.empty run)
 
 let limits = { Dolphin_checker.Limits.none with max_states = Some 2_000 }
 let compared = ref 0
 
-let check_example name () =
+let check name ~seeds ~fleet source =
   let scenario =
-    match Scenario.read ~file:name (read_file (Filename.concat folder (name ^ ".fleet"))) with
+    match Scenario.read ~file:name fleet with
     | Ok scenario -> scenario
     | Error _ -> Alcotest.fail "the fleet is wrong"
   in
-  let program = Test_support.Pure_run.compile_exn (read_file (Filename.concat folder (name ^ ".dol"))) in
+  let program = Test_support.Pure_run.compile_exn source in
   let options : Timed.options =
     { environment = Scenario_world.environment ~answers:[] ~faults:Dolphin_environment.Faults.none program scenario;
       program;
       world = Scenario_world.world scenario; durations = Durations.of_scenario scenario;
       dates = Dolphin_semantics.Dated_code.named program }
   in
-  if is_steady scenario then begin
-    let o = Timing.run limits options in
-    for seed = 1 to seeds do
-      let run = run ~seed scenario program in
-      (match follow options run with
-       | [] -> ()
-       | { pending; began; seen; _ } :: _ ->
-         let what = match pending.task with Some p -> p.name | None -> "a timer" in
-         Alcotest.failf "seed %d: %s from %d to %d ms is outside of its bounds" seed what began seen);
-      if o.stopped = None then begin incr compared; check_dates name o run end
-    done
-  end
+  let o = Timing.run limits options in
+  for seed = 1 to seeds do
+    let run = run ~seed scenario program in
+    (match follow options run with
+     | [] -> ()
+     | { pending; began; seen; _ } :: _ ->
+       let what = match pending.task with Some p -> p.name | None -> "a timer" in
+       Alcotest.failf "%s, seed %d: %s from %d to %d ms is outside of its bounds" name seed what began seen);
+    if o.stopped = None then begin incr compared; check_dates name o run end
+  done
+
+let check_example name () =
+  let file ending = read_file (Filename.concat folder (name ^ ending)) in
+  check name ~seeds ~fleet:(file ".fleet") (file ".dol")
+
+(* {1 Links that come and go} *)
+
+(* Vehicles that join, leave, and lose their links for longer or shorter than the connection timeout, at dates of all
+   kinds; the order, the way and the end of tasks fall into these spans. *)
+let fleets =
+  let open QCheck2.Gen in
+  let vehicle id =
+    let* drops = list_size (int_bound 2) (pair (int_bound 60) (int_range 1 25)) in
+    let* joins = oneof [ return 0; int_range 1 20 ] in
+    let* leaves = oneof [ return None; map Option.some (int_range 21 70) ] in
+    let drop (from, lasts) = Printf.sprintf "; drops %d.seconds, %d.seconds" from lasts in
+    let leaves = Option.fold leaves ~none:"" ~some:(Printf.sprintf "; leaves %d.seconds") in
+    let joins = if joins > 0 then Printf.sprintf "; joins %d.seconds" joins else "" in
+    return
+      (Printf.sprintf "vehicle '%s', { type 'UUV'%s%s%s }\n" id joins leaves (String.concat "" (List.map drop drops)))
+  in
+  let* vehicles = flatten_l (List.map vehicle [ "a"; "b" ]) in
+  let* least = int_bound 15 in
+  let* most = int_range least 20 in
+  return
+    (String.concat "" vehicles
+     ^ Printf.sprintf "plan 'p', { duration %d, %d }\nplan 'q', { duration 4, 9; mayFail 0.3 }\nplan 'r', { fails }\n"
+       least most)
+
+let linked_program =
+  let open QCheck2.Gen in
+  let task = oneofl [ "task('p')[v]"; "task('q')[v]"; "task('p')[v] >> task('q')[v]"; "idle(7) >> task('p')[v]";
+                      "watch task('q')[v] onError { retry() }"; "watch task('r')[v] onError { task('p') }";
+                      "task('p')[v] during 12" ] in
+  let execute = map (Printf.sprintf "if (v) execute watch (%s) onError { ignore() }\n") task in
+  let pick =
+    oneofl [ "v = pick { type 'UUV'; timeout 15 } else { null }\n"; "v = pick { id 'b'; timeout 30 } else { null }\n" ] in
+  let part = frequency [ (3, execute); (1, pick); (1, return "pause 5\n"); (1, return "setConnectionTimeout 12\n") ] in
+  map (fun parts -> "setConnectionTimeout 8\nv = pick { type 'UUV'; timeout 40 } else { null }\n" ^ String.concat "" parts)
+    (list_size (int_range 1 4) part)
+
+let test_links () =
+  let before = !compared in
+  let within (fleet, source) = check "random" ~seeds:3 ~fleet source; true in
+  let print (fleet, source) = fleet ^ source in
+  let test = QCheck2.Test.make ~count:programs ~print ~name:"runs lie within" QCheck2.Gen.(pair fleets linked_program) within in
+  Test_support.Property.on_each_seed ~usual:20_261_125 ~programs test;
+  Printf.printf "%d of %d runs compared\n" (!compared - before) (3 * programs);
+  Alcotest.(check bool) "most" true (!compared - before > 2 * programs)
 
 (* A plan that takes longer than the fleet says, or shorter, is found. *)
 let test_findings () =
@@ -130,8 +180,8 @@ let test_findings () =
   Alcotest.(check (list bool)) "as it is" [] (found "50, 60");
   Alcotest.(check (list bool)) "too late" [ false ] (found "20, 30");
   Alcotest.(check (list bool)) "too early" [ true ] (found "100, 110");
-  let put_off (date, on, t) =
-    ((match on with Some (Transition.Timer_expired _) -> date + 9_000 | Some _ | None -> date), on, t) in
+  let put_off (date, line) =
+    ((match line with Taken (Some (Transition.Timer_expired _), _) -> date + 9_000 | _ -> date), line) in
   let late = List.map put_off run in
   Alcotest.(check (list bool)) "a timer" [ false ]
     (List.map (fun (f : Recorded.finding) -> f.too_early) (follow (options (fleet "50, 60")) late))
@@ -140,6 +190,7 @@ let () =
   let case name = Alcotest.test_case name `Quick (check_example name) in
   Alcotest.run "recorded"
     [ ("examples", List.map case (Test_support.Examples.with_fleets ()));
+      ("links", [ Alcotest.test_case "that come and go" `Quick test_links ]);
       ("findings", [ Alcotest.test_case "too early and too late" `Quick test_findings;
                      Alcotest.test_case "many were compared" `Quick (fun () ->
                          Alcotest.(check bool) "most" true (!compared > 20 * seeds)) ]) ]

@@ -7,13 +7,16 @@ let sentence limit what (fleet : Fleet_file.t) does =
   | _ :: _ as vehicles when not (Faults.is_possible limit) -> [ Printf.sprintf what (String.concat ", " vehicles) ]
   | _ -> []
 
+let is_unsteady (v : Scenario.vehicle) = v.leaves <> None || v.drops <> []
+
 let of_links (faults : Faults.t) fleet =
   sentence faults.loss
-    "by the fleet these leave, or lose their links: %s; here they stay, unless --faults has loss" fleet
-    (fun v -> v.leaves <> None || v.drops <> [])
+    "by the fleet these leave, or lose their links: %s; here they stay, unless --faults has loss" fleet is_unsteady
 
 let sentences (faults : Faults.t) fleet =
   sentence faults.join
     "by the fleet these join late: %s; here they are there from the start, unless --faults has join" fleet
     (fun v -> v.joins > 0.)
   @ of_links faults fleet
+
+let of_time (faults : Faults.t) fleet = if Faults.is_possible faults.join then of_links faults fleet else []

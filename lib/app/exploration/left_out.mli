@@ -4,5 +4,6 @@ val sentences : Dolphin_environment.Faults.t -> Fleet_file.t -> string list
 (** [sentences faults fleet] names the vehicles that join late in [fleet], and those that leave or lose their links,
     each with the fault that would let them; none for what [faults] has. They have no full stop. *)
 
-val of_links : Dolphin_environment.Faults.t -> Fleet_file.t -> string list
-(** Likewise, only of those that leave or lose their links: [dolphin time] knows who joins. *)
+val of_time : Dolphin_environment.Faults.t -> Fleet_file.t -> string list
+(** Likewise, of [dolphin time], which knows when vehicles join, leave, and lose their links: none, unless [faults] has
+    [join] and not [loss]. *)

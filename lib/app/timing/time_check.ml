@@ -40,6 +40,9 @@ let check ?tolerance (p : Program_file.t) (fleet : Fleet_file.t) path =
     (match entry with
      | Header header -> tolerate (usual_of header)
      | Resumed _ -> tolerate usual
+     | Vehicle { time; state } ->
+       let date = Option.value (Bounds.milliseconds time) ~default:0 in
+       recorded := Recorded.heard !recorded ~date state.id state.connected
      | _ -> ());
     match Replay.feed !replay entry with
     | Ok next -> replay := next; Option.iter (take (Dolphin_trace.Entry.time entry)) (Replay.latest next)

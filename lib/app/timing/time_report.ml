@@ -26,7 +26,8 @@ let item (p : Program_file.t) (pending : Timed.pending) =
   | Recruit _, _ -> "a vehicle to recruit"
   | Reply, _ -> "a reply"
   | Posting k, _ -> Printf.sprintf "a pair with the key %s" k
-  | Coming { vehicle; _ }, _ -> vehicle ^ " joins"
+  | Links, _ -> Option.value pending.prompt ~default:"a link"
+  | Silence v, _ -> "nothing is heard of " ^ v
   | Course v, _ -> "the battery of " ^ v
   | Date k, _ -> "now() = " ^ Dolphin_trace.Phrase.time (float_of_int k)
 
@@ -35,7 +36,7 @@ let hint (pending : Timed.pending) =
   | Task _, Some { plan = None; name; _ } -> Printf.sprintf "; in the fleet: plan '%s', { duration 3.min, 9.min }" name
   | Task _, Some { plan = Some _; _ } -> "; nobody knows where the vehicle is when it starts"
   | Posting k, _ -> Printf.sprintf "; in the fleet: input '%s', with after" k
-  | (Task _ | Timer _ | Question _ | Recruit _ | Answer | Reply | Coming _ | Course _ | Date _), _ -> ""
+  | (Task _ | Timer _ | Question _ | Recruit _ | Answer | Reply | Links | Silence _ | Course _ | Date _), _ -> ""
 
 (* {1 For people} *)
 

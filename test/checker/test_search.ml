@@ -15,6 +15,7 @@ module Vectors = struct
     mutable bits : int;  (* of a number *)
     mutable reserved : int;
     mutable outgrown : bool;  (* whether the next expansion outgrows the encoding, whatever it visits *)
+    is_known : bool;  (* whether the system can say what its initial state is *)
   }
 
   type via = unit
@@ -22,8 +23,8 @@ module Vectors = struct
 
   exception Outgrown
 
-  let make ?(is_end = false) ?(is_broken = fun _ -> false) start successors =
-    { start; successors; is_end; is_broken; bits = 0; reserved = 0; outgrown = false }
+  let make ?(is_end = false) ?(is_broken = fun _ -> false) ?(is_known = true) start successors =
+    { start; successors; is_end; is_broken; bits = 0; reserved = 0; outgrown = false; is_known }
 
   let words s = List.length s.start
   let first s word = word lsr s.reserved
@@ -50,7 +51,9 @@ module Vectors = struct
     write s key numbers;
     visitor.visit key 0 ()
 
-  let initial s visitor = visit s visitor s.start
+  let initial s visitor =
+    if not s.is_known then raise (Limits.Stop (Unsettled "what it is"));
+    visit s visitor s.start
 
   let expand s key visitor =
     if s.outgrown then raise Outgrown;
@@ -397,6 +400,16 @@ let test_bound_on_disk () =
 (* It rests at 3. *)
 let resting () = Vectors.make ~is_end:true [ 0 ] (function [ 3 ] -> [] | numbers -> [ List.map succ numbers ])
 
+(* A system that cannot say what its initial state is: nothing is searched, and nothing is called true. *)
+let test_no_beginning () =
+  let search = searched (Vectors.make ~is_known:false [ 0 ] (fun _ -> [])) in
+  check_int "states" 0 (Search.count search);
+  check_int "depth" 0 (Search.depth search);
+  let is_inconclusive = function Breadth_first.Inconclusive (Limits.Unsettled "what it is") -> true | _ -> false in
+  Alcotest.(check bool) "no deadlock" true (is_inconclusive (Search.no_deadlock search));
+  Alcotest.(check bool) "never" true (is_inconclusive (Search.never search Too_large));
+  Alcotest.(check bool) "termination" true (is_inconclusive (Search.termination search ~exact:(fun _ -> true)))
+
 let () =
   let case name f = Alcotest.test_case name `Quick f in
   Alcotest.run "search"
@@ -414,7 +427,7 @@ let () =
         [ case "its cycle" (fun () -> test_cycle ~outgrown:false ());
           case "its cycle, after outgrowing" (fun () -> test_cycle ~outgrown:true ());
           case "a state that is reached" test_reached; case "bounds" test_bounds;
-          case "a bound within an expansion" test_wide ] );
+          case "a bound within an expansion" test_wide; case "no beginning" test_no_beginning ] );
       ( "random walks",
         [ case "everywhere" test_everywhere; case "not everywhere" test_some; case "estimates" test_estimates;
           case "a run that they show" test_walked_path ] );

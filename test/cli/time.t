@@ -576,3 +576,14 @@ Neither locals nor parameters of functions are constants, nor is what is kept of
   > END
   $ dolphin time local.dol --fleet dusk.fleet 2>&1 | head -1
   inconclusive: local.dol:2:44: now() is not only compared with constants, as in now() < 20.min: what follows from it is not known here; times are of the runs until then
+
+What nobody can tell of the very first state is said, too.
+
+  $ cat > first.dol <<'END'
+  > message 5 / now()
+  > END
+  $ dolphin time first.dol 2>&1 | sed 's/; times are.*//; s/, [0-9.]* s, [0-9]* MiB//'
+  inconclusive: first.dol:1:9: what now() is, is open, and more than a comparison depends on it: a fleet may list what batteries, positions and measurements show
+  0 states, depth 0
+  $ dolphin time first.dol > /dev/null 2>&1
+  [3]

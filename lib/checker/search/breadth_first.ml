@@ -53,7 +53,7 @@ module Make (S : System.S) = struct
 
   let sample t = Option.map (Sample.summary ~seen:(count t)) t.sample
   let bitstate t = Option.map (fun deep -> Bitstate.summary deep.bits) t.deep
-  let depth t = t.depth
+  let depth t = max 0 t.depth
   let bytes_of_bits t = Option.fold ~none:0 ~some:(fun deep -> Bitstate.bytes deep.bits) t.deep
   let memory t = States.bytes t.states + bytes_of_bits t + (8 * (Gc.quick_stat ()).heap_words)
   let found i = if i < 0 then None else Some i
@@ -235,7 +235,10 @@ module Make (S : System.S) = struct
         visitor = { visit; tick = (fun () -> look_around ~by:256 t t.phase); rest = (fun () -> rest t) } }
     and visit key action _ = arrive t key action in
     let rec begin_with () =
-      match widen t; S.initial system t.visitor with () -> flush t | exception S.Outgrown -> begin_with ()
+      match widen t; S.initial system t.visitor with
+      | () -> flush t
+      | exception S.Outgrown -> begin_with ()
+      | exception Limits.Stop bound -> t.stopped <- Some bound
     in
     begin_with ();
     t
@@ -432,7 +435,7 @@ module Make (S : System.S) = struct
     let settled expand_all =
       match expand_all () with () -> settle None | exception Limits.Stop bound -> settle (Some bound)
     in
-    match settled expand_all with
+    match if t.stopped = None then settled expand_all with
     | () -> ()
     | exception Limits.Stop bound -> give_up bound
     | exception Out_of_memory -> give_up No_memory

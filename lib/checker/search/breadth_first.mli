@@ -33,8 +33,9 @@ module Make (S : System.S) : sig
   (** [create limits s] is the search of [s] with nothing but its initial state. [compress] is as for
       {!States.create}, [false] by default. [spill] is a directory where states go, if they are not compressed, once
       three quarters of [limits.max_memory] are taken; it is for {!run} alone, not for {!run_walks} or
-      {!run_bitstate}. Under a monitor there may be no state at all. [phase] says what is being
-      done, in reports of progress. [started] is as for {!Limits.guard}. *)
+      {!run_bitstate}. Under a monitor there may be no state at all; nor is there one if the system cannot say what it
+      is: then the search is {!stopped}. [phase] says what is being done, in reports of progress. [started] is as for
+      {!Limits.guard}. *)
 
   val close : t -> unit
   (** [close t] gives back what [t] has on disk. Only what needs no state may be asked of it then: {!count}, {!memory},

@@ -52,7 +52,8 @@ module type S = sig
 
   val initial : t -> via visitor -> unit
   (** [initial t v] visits the initial state.
-      @raise Outgrown *)
+      @raise Outgrown
+      @raise Limits.Stop with [Unsettled] if the system cannot say what it is: then the search has no state. *)
 
   val expand : t -> int array -> via visitor -> int
   (** [expand t key v] visits the states that transitions of the state [key] lead to. It may change [key]. The result

@@ -121,8 +121,22 @@ let apply_settled context at operation arguments =
       | Make_recruit ),
       _ ) -> Wrong "wrong number of operands"
 
+(* What goes through all parts of its arguments, to write or to keep them. *)
+let takes_all_parts operation arguments =
+  match operation, arguments with
+  | (Concatenate | Builtin (Message | Halt | Assert | Fail | Ask | Make_confirm | Post _ | Consume _ | Poll _)), _
+  | Method (("toString" | "join"), _), _ -> true
+  | Binary Add, [ x; y ] -> (match x, y with String _, _ | _, String _ -> true | _, _ -> false)
+  | _, _ -> false
+
+let is_too_large x = not (Value.has_at_most Value.most_items x)
+
 let rec apply context at operation arguments =
-  if List.exists Unknown.is arguments then
+  if takes_all_parts operation arguments && List.exists is_too_large arguments then
+    Wrong
+      (Printf.sprintf "a value of more than %d parts, each counted as often as it stands there, is too large for this"
+         Value.most_items)
+  else if List.exists Unknown.is arguments then
     match Unknown.apply operation arguments with
     | Gives x -> Value x
     | Needs u -> Wrong_at (Fault.unknown at u)

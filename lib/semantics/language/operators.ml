@@ -2,13 +2,14 @@ open Core
 module Ast = Dolphin_syntax.Ast
 
 let instead_of what x =
-  let text = Value.to_string x in
   let found =
     match x with
+    | x when not (Value.has_at_most 60 x) -> Value.kind x
     | Null | Closure _ | Settings _ | Reading _ | Unknown _ -> Value.kind x
     | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | List _ | Map _ | Range _ | Position _
     | Area _ | Vehicles _ | Task _ | Host _ ->
-      if String.length text > 60 then Value.kind x else Format.asprintf "%s, %a" (Value.kind x) Value.pp x
+      if String.length (Value.to_string x) > 60 then Value.kind x
+      else Format.asprintf "%s, %a" (Value.kind x) Value.pp x
   in
   Printf.sprintf "expected %s, found %s" what found
 

@@ -188,20 +188,55 @@ let rec is_alone x =
   | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Range _ | Position _ | Area _
   | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ -> true
 
+(* Two lists may hold their parts many times over. Pairs of parts that took long to compare, and are equal, are
+   remembered: so many of the latest. *)
+let long = 1_000
+let remembered = 16
+
 (* As [compare (normal x) (normal y) = 0], but what both share is not gone through. *)
-let rec equals x y =
-  x == y
-  ||
-  match x, y with
-  | (Integer _ | Number _), (Integer _ | Number _) -> compare (canonical_number x) (canonical_number y) = 0
-  | List xs, List ys -> Vector.equal equals xs ys
-  | Map a, Map b ->
-    let same (k, x) (k', y) = String.equal k k' && equals x y in
-    List.compare_lengths a b = 0 && List.for_all2 same (List.sort by_key a) (List.sort by_key b)
-  | Vehicles a, Vehicles b -> List.equal String.equal (List.sort String.compare a) (List.sort String.compare b)
-  | ( ( Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | List _ | Map _ | Range _ | Position _
-      | Area _ | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ ),
-      _ ) -> compare x y = 0
+let equals x y =
+  let steps = ref 0 and known = ref [] in
+  let once x y compared =
+    List.exists (fun (x', y') -> x == x' && y == y') !known
+    ||
+    let before = !steps in
+    compared ()
+    && begin
+      if !steps - before > long then known := (x, y) :: List.filteri (fun i _ -> i < remembered - 1) !known;
+      true
+    end
+  in
+  let rec same x y =
+    incr steps;
+    x == y
+    ||
+    match x, y with
+    | (Integer _ | Number _), (Integer _ | Number _) -> compare (canonical_number x) (canonical_number y) = 0
+    | List xs, List ys -> once x y (fun () -> Vector.equal same xs ys)
+    | Map a, Map b ->
+      let same_entry (k, x) (k', y) = String.equal k k' && same x y in
+      let alike () = List.for_all2 same_entry (List.sort by_key a) (List.sort by_key b) in
+      List.compare_lengths a b = 0 && once x y alike
+    | Vehicles a, Vehicles b -> List.equal String.equal (List.sort String.compare a) (List.sort String.compare b)
+    | ( ( Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | List _ | Map _ | Range _
+        | Position _ | Area _ | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ ),
+        _ ) -> compare x y = 0
+  in
+  same x y
+
+let has_at_most n x =
+  let left = ref n in
+  let rec fits x =
+    decr left;
+    !left >= 0
+    &&
+    match x with
+    | List xs -> Vector.for_all fits xs
+    | Map entries -> List.for_all (fun (_, x) -> fits x) entries
+    | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Range _ | Position _ | Area _
+    | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ -> true
+  in
+  fits x
 
 let rec made_at site x =
   match x with

@@ -23,7 +23,8 @@ val hash_closure : Core.closure -> int
 
 val equals : t -> t -> bool
 (** [equals x y] is [x == y] in a program: numbers by their value, so that [1 == 1.0]; vehicle sets without regard to
-    the order of picks, maps to that of keys. What [x] and [y] share takes no time. *)
+    the order of picks, maps to that of keys. What [x] and [y] share takes no time, and what each of them holds many
+    times is compared once. *)
 
 val canonical : t -> t
 (** [canonical x] is [x] with numbers that are whole as integers. Tuples hold such values. *)
@@ -56,6 +57,10 @@ val made_at : Core.site -> t -> t
 val most_items : int
 (** How long lists and strings may become, and a range that is made into a list: one million. A program that doubles a
     list in a loop must end in a fault, not without memory. *)
+
+val has_at_most : int -> t -> bool
+(** [has_at_most n x] is whether [x] has at most [n] parts, in all of its lists and maps, each counted as often as it
+    stands there. It takes [n] steps at most. *)
 
 val length : t -> int option
 (** [length x] is the number of items of [x]. *)

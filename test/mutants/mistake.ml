@@ -115,17 +115,6 @@ let order_of_recruits =
       ( "who was recruited is not free later",
         {|union { Footprint.empty with frees = freed c [ v ] } (future c r)|},
         {|(ignore v; future c r)|} );
-      ( "whom a nest has recruited is not free after it",
-        {|    | Having v -> { Footprint.empty with frees = freed c [ v ] }|},
-        {|    | Having _ -> Footprint.empty|} );
-      ( "the end of what a nest has recruited somebody for frees nobody",
-        {|    | Having v -> [ v ]
-|},
-        {|    | Having _ -> []
-|} );
-      ( "whatever is allocated is the component's own",
-        {|if is_own request then breaking|},
-        {|if is_own request || request.allowed <> None then breaking|} );
       ( "who is asked for comes some time",
         {|Faults.is_possible faults.join || Faults.is_possible faults.loss|},
         {|Faults.is_possible faults.join && false|} );
@@ -133,8 +122,15 @@ let order_of_recruits =
   @ in_file "lib/explore/order/step_footprints.ml" ~noticed_by:"reduction/test_traps"
     [
       ( "a branch that runs first may hold a vehicle",
-        {|  | Sequence (r, _) | All_of (Some r, _) -> first_branches|},
-        {|  | Sequence (r, _) | All_of (Some r, _) | Hold (_, r) -> first_branches|} );
+        {|  | Sequence (r, _) | All_of (Some r, _) -> first_branches c around r|},
+        {|  | Sequence (r, _) | All_of (Some r, _) -> first_branches c around r
+  | Hold (_, r) when not (is_settled c r) -> first_branches c around r|} );
+      ( "whom a nest has recruited is not free after it",
+        {|    | Having v -> { Footprint.empty with frees = freed c [ v ] }|},
+        {|    | Having _ -> Footprint.empty|} );
+      ( "whatever is allocated is the component's own",
+        {|if is_own request then breaking|},
+        {|if is_own request || request.allowed <> None then breaking|} );
       ( "a branch that runs first may be in a nest that holds a vehicle",
         {|if List.exists (List.exists holds) nests then|},
         {|if List.exists (List.exists holds) nests && false then|} );

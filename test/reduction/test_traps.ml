@@ -70,12 +70,18 @@ let traps =
                   ignore() }|};
     breaks "a branch that runs first, beside another part of a task that holds a vehicle" ~environment:failing
       [ No_error; No_halt ]
-      {|post x: 1
-        execute ({ task('p') >> (condition { true } | allOf { when { true } then idle(1.seconds)
-                                                              when { consume x: 1 } then action { post go: 1 } }) })[a]
-            | watch (waitFor { consume go: 1 } then ({ task('q') })[a + b]) onError { e ->
+      {|post x: 1, y: 1
+        execute ({ task('p') >> (condition { consume y: 1 } | allOf {
+                when { true } then idle(1.seconds)
+                when { consume x: 1 } then action { post go: 1 } }) })[a]
+            | watch (waitFor { !poll(y: 1) && consume(go: 1) } then ({ task('q') })[a + b]) onError { e ->
                   if (e.vehicle == b) { halt 'a was held' }
                   ignore() }|};
+    breaks "who is free when all that somebody recruited it for is over" [ No_halt; No_leftover ]
+      {|release c
+        post z: 1
+        execute recruit { id 'c' } then { (action { post go: 1 } >> idle(1.seconds)) | idle(2.seconds) }
+            | waitFor { consume go: 1 } then (until { poll z: 1 } run recruit { id 'c' } then { action { halt 'h' } })|};
     breaks "an input between two looks" ~environment:posting [ No_deadlock; No_halt ]
       {|input 'x'
         g = 0

@@ -1,4 +1,5 @@
 open Dolphin_semantics
+module Vehicle_set = Set.Make (String)
 
 type ending = Succeeds | May_fail | Fails
 
@@ -277,10 +278,10 @@ let once world (pick : Settings.pick) choices () =
    outside of the region, so that what holds then holds of [world]; or are missing, where they never are. Then the first
    [n] of theirs are within it, and the pick does not fail. *)
 let hidden alike n world (pick : Settings.pick) bound =
-  let seen = Hashtbl.create 8 in
+  let seen = Hashtbl.create 8 and bound = Vehicle_set.of_list bound in
   let is_hidden (s : World.vehicle_state) =
     match alike s.id with
-    | Some c when Settings.accepts { pick.filter with region = None } s && not (List.mem s.id bound) ->
+    | Some c when Settings.accepts { pick.filter with region = None } s && not (Vehicle_set.mem s.id bound) ->
       let before = Option.value (Hashtbl.find_opt seen c) ~default:0 in
       Hashtbl.replace seen c (before + 1);
       before >= n

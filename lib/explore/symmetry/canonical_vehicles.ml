@@ -171,7 +171,8 @@ let picking r outside (c : Configuration.t) (pick : Settings.pick) =
     | known -> fun v -> Vehicles.mem v known
     | exception Renaming.Too_large -> fix_all r
   in
-  let free = List.filter (fun v -> not (List.mem v c.shared.bound)) accepted in
+  let bound = Vehicles.of_list c.shared.bound in
+  let free = List.filter (fun v -> not (Vehicles.mem v bound)) accepted in
   if pick.count <> Exactly 1 then begin
     check_order r accepted;
     let check = function

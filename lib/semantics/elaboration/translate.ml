@@ -2,6 +2,9 @@ open Core
 open Checks
 open Closures
 
+(* An error is also its text. *)
+let members_of_text = [ "size"; "length"; "isEmpty"; "empty" ]
+
 (* What a [break] or [return] would leave half done. *)
 let check_not_in_settings env at what =
   match Scope.settings env.code with
@@ -134,6 +137,11 @@ let rec elaborate env (e : Ast.expression) : expression =
     when Scope.has_fields env.code error -> elaborate env { e with it = Variable error }
   | Member { subject = { it = Variable error; _ }; name = { it = ("vehicle" | "task") as field; _ }; _ }
     when Scope.has_fields env.code error -> elaborate env { e with it = Variable (Scope.field error field) }
+  | Member { subject = { it = Variable error; _ }; name; _ }
+    when Scope.has_fields env.code error && not (List.mem name.it members_of_text) ->
+    Checks.error env Unknown_name name.at "an error has no property '%s'" name.it
+      ~hint:(Printf.sprintf "%s.message says what went wrong, %s.vehicle and %s.task where" error error error);
+    null env at
   | Member { subject; name; safe } -> Names.member env e subject name safe
   | Index (subject, index) ->
     check_index env subject index;

@@ -1,13 +1,20 @@
-let lines path =
-  match open_in_bin path with
-  | exception Sys_error _ -> []
-  | channel ->
-    let rec read found =
-      match input_line channel with
-      | line -> read (line :: found)
-      | exception (End_of_file | Sys_error _) -> List.rev found
+let chunk = 4_096
+
+(* Without channels: for each that is opened, the garbage collector works as if 64 KiB more were in use. *)
+let text path =
+  match Unix.openfile path [ O_RDONLY; O_CLOEXEC ] 0 with
+  | exception Unix.Unix_error _ -> ""
+  | file ->
+    let bytes = Bytes.create chunk and found = Buffer.create chunk in
+    let rec read () =
+      match Unix.read file bytes 0 chunk with
+      | 0 -> Buffer.contents found
+      | n -> Buffer.add_subbytes found bytes 0 n; read ()
+      | exception Unix.Unix_error _ -> Buffer.contents found
     in
-    Fun.protect ~finally:(fun () -> close_in_noerr channel) (fun () -> read [])
+    Fun.protect ~finally:(fun () -> Unix.close file) read
+
+let lines path = String.split_on_char '\n' (text path)
 
 let words line = List.filter (fun word -> word <> "") (String.split_on_char ' ' line)
 

@@ -284,6 +284,15 @@ A plan of which the fleet does not say how long it takes.
   visit   b        4:00 to 7:00  4:00 or later  relay.dol:4
   38 states, depth 14, T
 
+It is said once, however often the program starts it.
+
+  $ cat > again.dol << 'X'
+  > b = pick { id 'b' }
+  > for (i in 1..2) { execute task('visit')[b] }
+  > X
+  $ dolphin time again.dol --fleet relay.fleet | grep nobody
+  nobody knows how long it takes: again.dol:2:27: visit on b; in the fleet: plan 'visit', { duration 3.min, 9.min }
+
 A program that goes round for ever, and one that waits in vain.
 
   $ cat > patrol.dol << 'X'

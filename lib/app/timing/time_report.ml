@@ -178,8 +178,13 @@ let print_within p (o : Timing.outcome) (site, missed) =
   in
   say "%s: within: %s" (Option.value (Program_file.at p site) ~default:"") verdict
 
+(* Each once, though the program may start it again and again. *)
 let print_unknown p (o : Timing.outcome) =
-  List.iter (fun u -> say "nobody knows how long it takes: %s%s" (item p u) (hint u)) o.unknown
+  let add found u =
+    let line = item p u ^ hint u in
+    if List.mem line found then found else line :: found
+  in
+  List.iter (say "nobody knows how long it takes: %s") (List.rev (List.fold_left add [] o.unknown))
 
 (* To a tenth of a percent, rounded down: never more than there is. *)
 let share x = Printf.sprintf "%g %%" (Float.floor ((x *. 1000.) +. 1e-6) /. 10.)

@@ -27,8 +27,9 @@ let random ~seed n =
 
 (* {2 With fleets} *)
 
+(* In TLA+ all links are there all the time. *)
 let in_fleet (case, scenario) =
-  { case; durations = Durations.of_scenario scenario;
+  { case; durations = { (Durations.of_scenario scenario) with links = Links.none };
     plans = List.map (fun (p : Scenario.plan) -> p.name) scenario.plans }
 
 let no_fault = ("", Faults.none)

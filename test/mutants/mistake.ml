@@ -1390,8 +1390,14 @@ let recorded =
   in_file "lib/time/recorded.ml" ~noticed_by:"time/test_recorded"
     [
       ( "what takes too long is not seen",
-        {|when must_be_over && date - began > most + r.tolerance -> finding false|},
-        {|when must_be_over && date - began > (10 * most) + r.tolerance -> finding false|} );
+        {|heard_by r p.item (began + most) -> finding false|},
+        {|heard_by r p.item (began + (10 * most)) -> finding false|} );
+      ( "tasks end in time though nothing is heard of them",
+        {|Task v when List.mem v r.silent -> max_int|},
+        {|Task v when List.mem v r.silent && date < 0 -> max_int|} );
+      ( "orders that wait for the link have begun",
+        {|if item = Timed.Task v && List.mem v r.ordered then date else began|},
+        {|if item = Timed.Task v && date < 0 then date else began|} );
       ( "what is over too soon is not seen",
         {|when must_have_run && date - began < least - r.tolerance -> finding true|},
         {|when must_have_run && date - began < min 0 least -> finding true|} );

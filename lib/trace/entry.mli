@@ -3,7 +3,7 @@
 open Dolphin_semantics
 
 (** The way of a plan that a vehicle starts: of one that the program describes, from where the vehicle was last heard
-    of, perhaps with fewer points; of another, only the vehicle knows it. *)
+    of, perhaps without points that are on the way between others; of another, only the vehicle knows it. *)
 type way = Path of Dolphin_geo.Position.t list  (** not empty *) | By_name
 
 type t =

@@ -86,15 +86,12 @@ let may_depend_on_vehicles r (t : Transition.t) =
     r.program.reads_sensors || not (Fences.is_none r.program.fences)
     || Transition.depends_on_sensors r.program r.configuration
 
-(* Longer ways are written with fewer points. *)
+(* Longer ways are written without the points that make no difference of half a metre. *)
 let most_points = 1000
 
 let fewer points =
-  let n = List.length points in
-  if n <= most_points then points
-  else
-    let each = ((n - 1) / most_points) + 1 in
-    List.filteri (fun i _ -> i mod each = 0 || i = n - 1) points
+  if List.compare_length_with points most_points <= 0 then points
+  else Dolphin_geo.Polyline.simplified ~tolerance:0.5 points
 
 let ways r (t : Transition.t) : (Core.vehicle * Entry.way) list =
   let way v (plan : Inline_plan.t option) : Entry.way option =

@@ -20,10 +20,37 @@ let by_name draw (plan : Scenario.plan option) (vehicle : Scenario.vehicle) posi
   | Some { place = None; _ } | None ->
     Track.circuit position ~bearing:(360. *. draw Course) ~speed:vehicle.speed ~duration:drawn, drawn
 
+(* What a vehicle makes of a height of [unit]; [None]: it stays as high as it is. How deep the sea is, nobody says. *)
+let reached kind (unit : Plan.z_unit) =
+  match String.uppercase_ascii kind, unit with
+  | _, Unspecified -> None
+  | ("UUV" | "AUV" | "ROV"), (Depth | Height) -> Some (Float.min 0.)
+  | ("UUV" | "AUV" | "ROV"), Altitude -> None
+  | "UAV", (Height | Altitude) -> Some (Float.max 0.)
+  | "UAV", Depth -> None
+  | ("USV" | "ASV" | "UGV"), (Depth | Height | Altitude) -> None
+  | _, (Depth | Height | Altitude) -> Some Fun.id
+
+(* Metres per second. *)
+let climb kind = if String.uppercase_ascii kind = "UAV" then 3. else 0.5
+
+let leg kind ({ waypoints; level; dwell; speed; _ } : Inline_plan.leg) : Track.leg =
+  match reached kind level.measured_from with
+  | None -> { waypoints; vertical = Level; dwell; speed }
+  | Some height ->
+    let at (p : Dolphin_geo.Position.t) = { p with height = height p.height } in
+    let swing =
+      if level.amplitude = 0. then None
+      else
+        let low = height (level.stays_at -. level.amplitude) and high = height (level.stays_at +. level.amplitude) in
+        Some { Track.low; high; slope = speed *. Float.abs (sin (Dolphin_geo.Angle.radians level.pitch)) }
+    in
+    let vertical = Track.Reaching { rate = climb kind; stays_at = height level.stays_at; swing } in
+    { waypoints = List.rev (List.rev_map at waypoints); vertical; dwell; speed }
+
 let inline plan (vehicle : Scenario.vehicle) position =
-  let leg ({ waypoints; dwell; speed } : Inline_plan.leg) : Track.leg = { waypoints; dwell; speed } in
   let path = Inline_plan.path ~from:position ~speed:vehicle.speed plan in
-  let track = Track.through position (List.rev (List.rev_map leg path)) in
+  let track = Track.through position (List.rev (List.rev_map (leg vehicle.kind) path)) in
   track, Track.duration track
 
 let fails draw (plan : Scenario.plan option) =

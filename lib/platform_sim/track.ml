@@ -2,10 +2,14 @@ open Dolphin_geo
 
 (* Straight on, or staying if [from] is [towards]. *)
 type stretch = { starts : float; lasts : float; from : Position.t; towards : Position.t }
-type leg = { waypoints : Position.t list; speed : float; dwell : float }
+type vertical = Level | Reaching of { rate : float; stays_at : float; swing : swing option }
+and swing = { low : float; high : float; slope : float }
+
+type leg = { waypoints : Position.t list; vertical : vertical; speed : float; dwell : float }
 
 type t =
-  | Stretches of { stretches : stretch array; final : Position.t; duration : float }
+  | Stretches of { stretches : stretch array; heights : Profile.t option; final : Position.t; duration : float }
+  (* Without [heights], they are those of the positions. *)
   | Circuit of {
       home : Position.t;
       centre : Position.t;
@@ -18,40 +22,52 @@ type t =
 
 (* {1 Making ways} *)
 
-(* A way as far as it is known: stretches latest first, and where and when it ends. *)
-type sketch = { reversed : stretch list; here : Position.t; time : float }
+(* A way as far as it is known: stretches latest first, each with its phase, and where and when it ends. *)
+type sketch = { reversed : (stretch * Profile.phase) list; here : Position.t; time : float }
 
-let go speed sketch towards =
-  let lasts = Wgs84.distance sketch.here towards /. speed in
+let add lasts course towards sketch =
   let stretch = { starts = sketch.time; lasts; from = sketch.here; towards } in
-  if lasts = 0. then { sketch with here = towards }
-  else { reversed = stretch :: sketch.reversed; here = towards; time = sketch.time +. lasts }
+  if not (lasts > 0.) then { sketch with here = towards }
+  else
+    { reversed = (stretch, { Profile.lasts; course }) :: sketch.reversed; here = towards;
+      time = sketch.time +. lasts }
 
-let wait seconds sketch =
-  let stretch = { starts = sketch.time; lasts = seconds; from = sketch.here; towards = sketch.here } in
-  if not (seconds > 0.) then sketch
-  else { sketch with reversed = stretch :: sketch.reversed; time = sketch.time +. seconds }
+(* To be at [height], or if it [swings] and is to, where it does. *)
+let course leg height ~swings : Profile.course =
+  match leg.vertical with
+  | Level -> Keep
+  | Reaching { rate; swing = Some { low; high; slope }; _ } when swings -> Swing { low; high; slope; rate }
+  | Reaching { rate; _ } -> Reach { height; rate }
+
+let go leg sketch (towards : Position.t) =
+  let course = course leg towards.height ~swings:(leg.dwell = 0.) in
+  add (Wgs84.distance sketch.here towards /. leg.speed) course towards sketch
+
+let wait leg sketch =
+  let height = match leg.vertical with Level -> 0. | Reaching { stays_at; _ } -> stays_at in
+  add leg.dwell (course leg height ~swings:true) sketch.here sketch
 
 (* Nothing comes after a stay without end. *)
 let follow sketch leg =
-  if sketch.time = infinity then sketch
-  else wait leg.dwell (List.fold_left (go leg.speed) sketch leg.waypoints)
+  if sketch.time = infinity then sketch else wait leg (List.fold_left (go leg) sketch leg.waypoints)
 
-let finish sketch =
-  let stretches = Array.of_list (List.rev sketch.reversed) in
-  Stretches { stretches; final = sketch.here; duration = sketch.time }
+let sketch here legs = List.fold_left follow { reversed = []; here; time = 0. } legs
 
-let start here = { reversed = []; here; time = 0. }
-let stay here = finish (start here)
-let through here legs = finish (List.fold_left follow (start here) legs)
+let finish ~heights ~duration sketch =
+  Stretches { stretches = Array.of_list (List.rev_map fst sketch.reversed); heights; final = sketch.here; duration }
+
+let stay here = finish ~heights:None ~duration:0. (sketch here [])
+
+let through (here : Position.t) legs =
+  let s = sketch here legs in
+  finish ~heights:(Some (Profile.make here.height (List.rev_map snd s.reversed))) ~duration:s.time s
 
 let there_and_back home place ~speed ~duration =
   let one_way = Float.min (Wgs84.distance home place /. speed) (duration /. 2.) in
   let turn = Wgs84.towards home place (one_way *. speed) in
-  let leg waypoint dwell = { waypoints = [ waypoint ]; speed; dwell } in
-  match through home [ leg turn (duration -. (2. *. one_way)); leg home 0. ] with
-  | Stretches way -> Stretches { way with duration }  (* whatever rounding has made of it *)
-  | Circuit _ as way -> way
+  let leg waypoint dwell = { waypoints = [ waypoint ]; vertical = Level; speed; dwell } in
+  (* [duration], whatever rounding makes of it. *)
+  finish ~heights:None ~duration (sketch home [ leg turn (duration -. (2. *. one_way)); leg home 0. ])
 
 let usual_radius = 100.
 
@@ -78,7 +94,7 @@ let rec current stretches time low high =
     if stretches.(middle).starts <= time then current stretches time middle high
     else current stretches time low middle
 
-let position way time =
+let on_ground way time =
   match way with
   | Stretches { stretches; final; duration } when time >= duration || stretches = [||] -> final
   | Circuit { home; duration; _ } when time >= duration || time <= 0. -> home
@@ -87,6 +103,13 @@ let position way time =
     if from == towards || lasts = infinity then from else Wgs84.interpolate from towards ((time -. starts) /. lasts)
   | Circuit { centre; outward; radius; laps; duration; _ } ->
     Wgs84.move centre ~bearing:(outward +. (360. *. laps *. time /. duration)) radius
+
+let position way time =
+  let here = on_ground way time in
+  match way with
+  | Stretches { heights = Some profile; duration; _ } ->
+    { here with height = Profile.height profile (Float.min time duration) }
+  | Stretches { heights = None; _ } | Circuit _ -> here
 
 let speed way time =
   match way with
@@ -99,6 +122,8 @@ let speed way time =
 
 let still_from = function
   | Circuit { duration; _ } -> duration
-  | Stretches { stretches; duration; _ } ->
+  | Stretches { stretches; heights; duration; _ } ->
     let last = Array.length stretches - 1 in
-    if last >= 0 && stretches.(last).from == stretches.(last).towards then stretches.(last).starts else duration
+    let moves_until =
+      if last >= 0 && stretches.(last).from == stretches.(last).towards then stretches.(last).starts else duration in
+    Option.fold heights ~none:moves_until ~some:(fun profile -> Float.max moves_until (Profile.still_from profile))

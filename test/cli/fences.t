@@ -194,7 +194,7 @@ that a handler may ignore. Trace and journal are those of any other run.
      1:51  b           fails in crosses: not started: the way to 1.Goto comes as near as 0.0 m to the way to 1.Goto of plan 'meets' of a, at (41.186441, -8.703378): it breaks fence distance 30.m (late.dol:4)
      5:35  a           ends meets
      5:35  a           starts drift
-     9:17  a           fails in drift: stopped: the vehicle breaks fence inside basin (late.dol:3) by 0.3 m, at (41.184998, -8.703844)
+     9:17  a           fails in drift: stopped: the vehicle breaks fence inside basin (late.dol:3) by 0.3 m, at (41.184998, -8.703844, -0.6 m)
      9:17  a           starts back
     11:06  a           ends back
     11:06  a           starts stays

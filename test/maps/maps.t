@@ -103,8 +103,8 @@ What Dolphin exports, it reads: the same positions in each format.
   >   message \"\${m.keys()} \${m['noptilus-2'].size()} \${m['noptilus-2'][0]} \${m['look 2']}\"" > again.dol
   >   dolphin exec again.dol | grep says
   > done | sort -u | sed 's/ [0-9]* (/ N (/'
-     0:00  program     says: [look, look 2, noptilus-2] N (41.186500, -8.706500) (41.184566, -8.707737)
-     0:00  program     says: [noptilus-2, look, look 2] N (41.186500, -8.706500) (41.184566, -8.707737)
+     0:00  program     says: [look, look 2, noptilus-2] N (41.186500, -8.706500) (41.184566, -8.707737, -2.0 m)
+     0:00  program     says: [noptilus-2, look, look 2] N (41.186500, -8.706500) (41.184566, -8.707737, -2.0 m)
 
 Archives: those of Google Earth and Neptus.
 

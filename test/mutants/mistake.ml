@@ -1470,6 +1470,38 @@ let search_pattern =
       ("spirals end early", {|((radius /. spacing) +. 0.5)|}, {|(radius /. spacing)|});
     ]
 
+let heights =
+  in_file "lib/platform_sim/profile.ml" ~noticed_by:"platform_sim/test_track"
+    [
+      ("vehicles dive deeper than they were told", {|Float.max height (from -. metres)|}, {|from -. metres|});
+      ("yo-yos jump into their bounds", {|(Float.abs (nearest -. s.now) /. rate)|}, {|0.|});
+      ("yo-yos only come up", {|if gone <= span then high -. gone|}, {|if gone > 0. then high -. gone|});
+    ]
+  @ in_file "lib/platform_sim/track.ml" ~noticed_by:"platform_sim/test_track"
+    [
+      ("yo-yos on the way to where they are asked for", {|~swings:(leg.dwell = 0.)|}, {|~swings:true|});
+      ("depths are left to the next place", {|~some:(fun profile -> Float.max moves_until (Profile.still_from profile))|},
+       {|~some:(fun _ -> moves_until)|});
+    ]
+  @ in_file "lib/platform_sim/execution.ml" ~noticed_by:"platform_sim/test_fleet"
+    [
+      ("divers fly", {|(Depth | Height) -> Some (Float.min 0.)|}, {|(Depth | Height) -> Some Fun.id|});
+      ("planes dive", {|"UAV", Depth -> None|}, {|"UAV", Depth -> Some Fun.id|});
+    ]
+  @ in_file "lib/semantics/terms/plan.ml" ~noticed_by:"plan/test_plan_path"
+    [
+      ("paths go up instead of down", {|0. -. (z +. down)|}, {|0. -. (z -. down)|});
+      ("who pops up stays below", {|measured_from = Depth; stays_at = 0. }|}, {|measured_from = Depth }|});
+    ]
+  @ in_file "lib/semantics/terms/mission_plan.ml" ~noticed_by:"plan/test_mission"
+    [ ("who lands stays in the air", {|[ "returnHomeAndLand"; "landingPoint" ]|}, {|[ "landingPoint" ]|}) ]
+  @ in_file "lib/geo/polyline.ml" ~noticed_by:"geo/test_polyline"
+    [
+      ("ways end early", {|min last ((k + 1) * most_at_once)|}, {|(k + 1) * most_at_once - 1|});
+      ("ways there and back are cut short", {|along <= 0. then ap|}, {|along <= 0. then 0.|});
+      ("only one corner is found", {|look ((from, i) :: (i, until) :: others)|}, {|look ((i, until) :: others)|});
+    ]
+
 let vector =
   in_file "lib/semantics/terms/vector.ml" ~noticed_by:"semantics/test_vector"
     [
@@ -1509,5 +1541,5 @@ let all =
       fences; pick_rules; conclusion; recruits; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;
       conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps;
       sets_with_events; driver; fair_cycles; limits;
-      alike_values; division; arrangement; coverage; search_pattern; travel; vector;
+      alike_values; division; arrangement; coverage; search_pattern; travel; heights; vector;
       zone; timed; place; timed_system; schedule; recorded; durations; share; sampled; prelude ]

@@ -147,6 +147,18 @@ let ways =
         set "loiterPos" []; set "move" [] ]
       [ 30.; 5.; 4. *. Float.pi; infinity; 0. ];
     stays "without end, at the end" [ set "loiterPos" [ place home ] ] [ 0. ];
+    case "at the altitude that it says, home being at 0" (fun () ->
+        let heights settings =
+          List.concat_map
+            (fun (l : Mission_plan.leg) ->
+               l.level.stays_at :: List.map (fun (p : Position.t) -> p.height) l.waypoints) (path settings) in
+        Alcotest.(check (list (float 0.))) "heights" [ 30.; 30.; 30.; 20.; 20.; 25.; 25.; 0.; 0. ]
+          (heights
+             [ set "takeOff" [ i 30 ]; set "move" []; set "altitude" [ i 20 ]; set "move" [ i 9 ];
+               set "move" [ i 0; i 0; i 5 ]; set "returnHomeAndLand" [] ]);
+        let rounds = path [ set "move" [ i 0; i 0; i 5 ]; set "jumpToItem" [ i 1; i 2 ] ] in
+        let unit = (List.hd rounds).level.measured_from in
+        Alcotest.(check bool) "round by round nobody knows" true (unit = Plan.Unspecified));
     case "at the speed that it says" (fun () ->
         let speeds = List.map (fun (l : Mission_plan.leg) -> l.speed)
             (path [ set "move" []; set "speed" [ i 3 ]; set "move" []; set "move" [] ~named:[ ("speed", i 4) ] ]) in

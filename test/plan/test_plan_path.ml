@@ -40,6 +40,28 @@ let pop_ups () =
   check "wherever it is" (pop_up true false) [] 0.;
   check "at a place, waiting" (pop_up false true) here 180.
 
+(* The heights of a maneuver's places, where it stays, and how it goes up and down, with [z] of [unit]. *)
+let levels () =
+  let check what kind z ?(above = 0.) places (stays_at, amplitude, pitch) =
+    let m = { (maneuver kind) with z; location = { Place.apdl with height = above } } in
+    let leg = List.hd (Plan.path (plan [ m ])) in
+    let heights = List.map (fun (p : Position.t) -> p.height) leg.waypoints in
+    Alcotest.(check (list (float 1e-9))) what (places @ [ stays_at; amplitude; pitch ])
+      (heights @ [ leg.level.stays_at; leg.level.amplitude; leg.level.pitch ])
+  in
+  check "depth" Go_to (5., Depth) ~above:30. [ -5. ] (-5., 0., 0.);
+  check "height" Go_to (5., Height) ~above:30. [ 5. ] (5., 0., 0.);
+  check "altitude" Go_to (5., Altitude) ~above:30. [ 35. ] (35., 0., 0.);
+  check "yoyo" (Yo_yo { amplitude = 18.; pitch = 15. }) (11., Depth) [ -11. ] (-11., 9., 15.);
+  check "compassCalibration"
+    (Compass_calibration { amplitude = 1.; radius = 5.; pitch = 10.; duration = 300.; direction = Clockwise })
+    (11., Depth) [ -11. ] (-11., 1., 10.);
+  check "followPath" (Follow_path [ (1., 0., 2.); (2., 0., -1.) ]) (4., Depth) [ -6.; -3. ] (-4., 0., 0.);
+  let pop_up current_position =
+    Plan.Pop_up { duration = 9.; current_position; wait_at_surface = true; station_keep = false } in
+  check "popup" (pop_up true) (4., Depth) [] (0., 0., 0.);
+  check "popup elsewhere" (pop_up false) (4., Depth) [ -4. ] (0., 0., 0.)
+
 let follow_path () =
   let points = [ (10., 0., 1.); (10., 20., 2.); (-5., 0., 0.) ] in
   check "points" (Follow_path points) (List.map (fun (north, east, _) -> (north, east)) points) 0.
@@ -105,6 +127,6 @@ let speeds () =
 let () =
   Alcotest.run "plan path"
     [ ( "path",
-        [ case "single places" single_places; case "popup" pop_ups; case "followPath" follow_path;
+        [ case "single places" single_places; case "popup" pop_ups; case "levels" levels; case "followPath" follow_path;
           case "rows" all_rows; case "legs" legs ] );
       ("speed", [ case "metres per second" speeds ]) ]

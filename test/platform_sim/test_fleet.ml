@@ -242,6 +242,31 @@ let inline_plan () =
   let f = after 1000. (Fleet.stop "a" f) in
   Alcotest.(check (float 0.01)) "stays where it was stopped" 250. (Wgs84.distance start (position_of f))
 
+(* Where a vehicle of each type is after half a plan, and after it, that is to be at [z]. *)
+let levels () =
+  let there = Wgs84.displace start ~north:300. ~east:400. in
+  let check kind before z expected =
+    let settings = Printf.sprintf "type '%s'; speed 2; drain 0; at 41.185, -8.7062, %g" kind before in
+    let f = after 0. (Fleet.create ~seed:0 (scenario (Printf.sprintf "vehicle 'a', { %s }" settings))) in
+    let maneuver = { (List.hd (go_to [ there ]).maneuvers) with z } in
+    let f = Fleet.start "a" (task ~plan:{ (go_to [ there ]) with maneuvers = [ maneuver ] } "route") f in
+    let height time = (position_of (after time f)).height in
+    Alcotest.(check (list (float 1e-6))) (kind ^ Printf.sprintf " %g" (fst z)) expected [ height 5.; height 250. ]
+  in
+  check "UUV" 0. (8., Depth) [ -2.5; -8. ];
+  check "AUV" (-10.) (3., Depth) [ -7.5; -3. ];
+  check "ROV" 0. (-5., Height) [ -2.5; -5. ];
+  check "uuv" (-1.) (40., Height) [ 0.; 0. ];
+  check "UUV" (-7.) (5., Altitude) [ -7.; -7. ];
+  check "UUV" (-7.) (5., Unspecified) [ -7.; -7. ];
+  check "UAV" 0. (60., Height) [ 15.; 60. ];
+  check "UAV" 70. (60., Altitude) [ 60.; 60. ];
+  check "UAV" 70. (2., Depth) [ 70.; 70. ];
+  check "USV" 0. (2., Depth) [ 0.; 0. ];
+  check "UGV" 12. (2., Height) [ 12.; 12. ];
+  check "crawler" 0. (2., Depth) [ -2.; -2. ];
+  check "crawler" 0. (2., Height) [ 2.; 2. ]
+
 let endless_plan () =
   let f = after 0. (single "drain 0; speed 2; at 41.185, -8.7062") in
   let f = Fleet.start "a" (task ~plan:(go_to ~dwell:0. [ start ]) "route") f in
@@ -358,7 +383,7 @@ let () =
       ("timers", [ case "timers" timers; timers_in_order ]);
       ("batteries", [ case "level" batteries; case "empty" battery_empty ]);
       ( "ways",
-        [ case "inline plan" inline_plan; case "plan without end" endless_plan; case "circuit" circuit;
+        [ case "inline plan" inline_plan; case "heights by type" levels; case "plan without end" endless_plan; case "circuit" circuit;
           case "there and back" place ] );
       ("telemetry", [ case "beats" telemetry; case "end" telemetry_ends ]);
       ("runs", [ case "reproducible" reproducible; case "draws" draws_are_even ]) ]

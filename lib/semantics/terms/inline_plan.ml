@@ -7,19 +7,26 @@ let vehicles = function Maneuvers p -> p.vehicles | Mission m -> m.vehicles
 let required_payload = function Maneuvers p -> Plan.required_payload p | Mission m -> Mission_plan.required_payload m
 let reference = function Maneuvers p -> Some (Plan.reference p) | Mission m -> Mission_plan.reference m
 
-type leg = { named : string; waypoints : Position.t list; speed : float; dwell : float; radius : float }
+type leg = {
+  named : string;
+  waypoints : Position.t list;
+  level : Plan.level;
+  speed : float;
+  dwell : float;
+  radius : float;
+}
 
 let path ~from ~speed = function
   | Maneuvers p ->
-    let leg (m : Plan.maneuver) ({ maneuver = named; waypoints; dwell; radius } : Plan.leg) =
+    let leg (m : Plan.maneuver) ({ maneuver = named; waypoints; level; dwell; radius } : Plan.leg) =
       let metres = Plan.metres_per_second m ~default:speed in
-      { named; waypoints; dwell; speed = (if metres > 0. then metres else speed); radius }
+      { named; waypoints; level; dwell; speed = (if metres > 0. then metres else speed); radius }
     in
     List.rev (List.rev_map2 leg p.maneuvers (Plan.path p))
   | Mission m ->
     List.map
-      (fun ({ item = named; waypoints; dwell; speed; radius } : Mission_plan.leg) ->
-         { named; waypoints; dwell; speed; radius })
+      (fun ({ item = named; waypoints; level; dwell; speed; radius } : Mission_plan.leg) ->
+         { named; waypoints; level; dwell; speed; radius })
       (Mission_plan.path ~from ~speed m)
 
 let is_stay leg = leg.waypoints = []

@@ -19,7 +19,14 @@ val reference : t -> Position.t option
 
 (** A part of the way, the maneuver or item [named]: straight to each of [waypoints], then [dwell] seconds at the last,
     perhaps [infinity], or at most [radius] metres from it. *)
-type leg = { named : string; waypoints : Position.t list; speed : float; dwell : float; radius : float }
+type leg = {
+  named : string;
+  waypoints : Position.t list;
+  level : Plan.level;
+  speed : float;
+  dwell : float;
+  radius : float;
+}
 
 val path : from:Position.t -> speed:float -> t -> leg list
 (** [path ~from ~speed p] is the way of a vehicle at [from], where what is not said in metres per second is [speed]:

@@ -24,9 +24,42 @@ let place_of item =
 let reference m = List.find_map place_of m.items
 let is_numbered item = not (List.mem item.word [ "arm"; "altitude" ])
 
+(* {1 Heights} *)
+
+let optional name item =
+  match List.assoc_opt name item.arguments with
+  | Some (Number x) -> Some x
+  | Some (Truth _ | Text _ | Place _ | Places _) | None -> None
+
+(* Until a mission says how high it is, it is at its home. Rounds that go up each time go nobody knows how far. *)
+let heights m =
+  let climbs item = optional "up" item <> None and jumps item = item.word = "jumpToItem" in
+  let is_known = not (List.exists climbs m.items && List.exists jumps m.items) in
+  let add (height, i, found) item =
+    let height =
+      Option.value (optional "altitude" item) ~default:height +. Option.value (optional "up" item) ~default:0. in
+    if not (is_numbered item) then (height, i, found)
+    else (height, i + 1, (Printf.sprintf "%d.%s" i item.word, (if is_known then Some height else None)) :: found)
+  in
+  let _, _, found = List.fold_left add (0., 1, []) m.items in
+  List.rev found
+
+(* Above home, which is taken to be at height 0. Who lands is there. *)
+let level item height : Plan.level =
+  let height = if List.mem item.word [ "returnHomeAndLand"; "landingPoint" ] then Some 0. else height in
+  { measured_from = (if height = None then Unspecified else Height); stays_at = Option.value height ~default:0.;
+    amplitude = 0.; pitch = 0. }
+
 (* {1 The way} *)
 
-type leg = { item : string; waypoints : Position.t list; dwell : float; speed : float; radius : float }
+type leg = {
+  item : string;
+  waypoints : Position.t list;
+  level : Plan.level;
+  dwell : float;
+  speed : float;
+  radius : float;
+}
 
 let number name ~default item =
   match List.assoc_opt name item.arguments with
@@ -92,12 +125,14 @@ let most_steps = 20_000
 (* [jumps] is how often each jump was taken. *)
 let path ~from ~speed m =
   let items = Array.of_list (List.filter is_numbered m.items) in
+  let heights = Array.of_list (List.map snd (heights m)) in
   let rec go i steps jumps s legs =
     if i >= Array.length items then legs
     else
       let item = items.(i) in
       let named = Printf.sprintf "%d.%s" (i + 1) item.word in
-      let stays = { item = named; waypoints = []; dwell = infinity; speed = s.now; radius = 0. } in
+      let level = level items.(i) heights.(i) in
+      let stays = { item = named; waypoints = []; level; dwell = infinity; speed = s.now; radius = 0. } in
       if steps = most_steps then stays :: legs
       else if item.word = "jumpToItem" then
         let taken = Option.value (List.assoc_opt i jumps) ~default:0. in
@@ -109,31 +144,15 @@ let path ~from ~speed m =
       else
         let s, waypoints, dwell = carry_out item s in
         let dwell = if dwell = infinity && i = Array.length items - 1 then 0. else dwell in
-        go (i + 1) (steps + 1) jumps s 
-          (let radius = if goes_round item then radius item else 0. in
-           { item = named; waypoints; dwell; speed = s.now; radius } :: legs)
+        let at_height (p : Position.t) =
+          if level.measured_from = Unspecified then p else { p with height = level.stays_at } in
+        let radius = if goes_round item then radius item else 0. in
+        let leg =
+          { item = named; waypoints = List.rev (List.rev_map at_height waypoints); level; dwell; speed = s.now; radius }
+        in
+        go (i + 1) (steps + 1) jumps s (leg :: legs)
   in
   List.rev (go 0 0 [] { here = from; home = from; now = speed } [])
-
-(* {1 Heights} *)
-
-let optional name item =
-  match List.assoc_opt name item.arguments with
-  | Some (Number x) -> Some x
-  | Some (Truth _ | Text _ | Place _ | Places _) | None -> None
-
-(* Until a mission says how high it is, it is at its home. Rounds that go up each time go nobody knows how far. *)
-let heights m =
-  let climbs item = optional "up" item <> None and jumps item = item.word = "jumpToItem" in
-  let is_known = not (List.exists climbs m.items && List.exists jumps m.items) in
-  let add (height, i, found) item =
-    let height =
-      Option.value (optional "altitude" item) ~default:height +. Option.value (optional "up" item) ~default:0. in
-    if not (is_numbered item) then (height, i, found)
-    else (height, i + 1, (Printf.sprintf "%d.%s" i item.word, (if is_known then Some height else None)) :: found)
-  in
-  let _, _, found = List.fold_left add (0., 1, []) m.items in
-  List.rev found
 
 (* Missions are plain data without functions or cycles. *)
 let compare (a : t) (b : t) = Stdlib.compare a b

@@ -37,6 +37,7 @@ val is_numbered : item -> bool
 type leg = {
   item : string;  (** its number and word, ["2.goPos"] *)
   waypoints : Position.t list;  (** visited in order *)
+  level : Plan.level;  (** that of {!heights}, home being at height 0, where it lands; as before if not known *)
   dwell : float;  (** seconds at the last of them; [infinity] for an item without end *)
   speed : float;
   radius : float;  (** metres around the last of them within which it is done: those of its circles *)

@@ -53,7 +53,31 @@ let reference p =
 
 (* {1 The way} *)
 
-type leg = { maneuver : string; waypoints : Dolphin_geo.Position.t list; dwell : float; radius : float }
+type level = { measured_from : z_unit; stays_at : float; amplitude : float; pitch : float }
+
+type leg = {
+  maneuver : string;
+  waypoints : Dolphin_geo.Position.t list;
+  level : level;
+  dwell : float;
+  radius : float;
+}
+
+(* Metres above the ellipsoid, [down] below the maneuver's [z]. *)
+let height (m : maneuver) down =
+  match m.z with
+  | z, Depth -> 0. -. (z +. down)
+  | z, Height -> z -. down
+  | z, Altitude -> m.location.height +. z -. down
+  | _, Unspecified -> m.location.height
+
+let level (m : maneuver) =
+  let at_z = { measured_from = snd m.z; stays_at = height m 0.; amplitude = 0.; pitch = 0. } in
+  match m.kind with
+  | Yo_yo { amplitude; pitch } -> { at_z with amplitude = amplitude /. 2.; pitch }
+  | Compass_calibration { amplitude; pitch; _ } -> { at_z with amplitude; pitch }
+  | Pop_up _ -> { at_z with measured_from = Depth; stays_at = 0. }
+  | Go_to | Loiter _ | Station_keeping _ | Launch | Rows _ | Follow_path _ -> at_z
 
 (* How the rows run: metres ahead of the start (along the bearing) and metres to the right of it. The first point lies
    [offset] before the start, so that the vehicle is on course when it gets there; each row runs on for [offset] too.
@@ -83,10 +107,12 @@ let turned bearing (x, y) =
 let unending seconds = if seconds > 0. then seconds else infinity
 
 let leg (m : maneuver) =
-  let at_location dwell = { maneuver = m.id; waypoints = [ m.location ]; dwell; radius = 0. } in
+  let place down = { m.location with height = height m down } in
+  let along waypoints dwell = { maneuver = m.id; waypoints; level = level m; dwell; radius = 0. } in
+  let at_location = along [ place 0. ] in
   let through offsets =
-    let waypoint (north, east) = Dolphin_geo.Wgs84.displace m.location ~north ~east in
-    { maneuver = m.id; waypoints = List.rev (List.rev_map waypoint offsets); dwell = 0.; radius = 0. }
+    let waypoint (north, east, down) = Dolphin_geo.Wgs84.displace (place down) ~north ~east in
+    along (List.rev (List.rev_map waypoint offsets)) 0.
   in
   match m.kind with
   | Go_to | Yo_yo _ | Launch -> at_location 0.
@@ -96,14 +122,16 @@ let leg (m : maneuver) =
   | Pop_up { duration; current_position; wait_at_surface; station_keep } ->
     (* Without reason to stay, a vehicle dives again as soon as it has a fix. *)
     let dwell = if wait_at_surface || station_keep then duration else 0. in
-    { (at_location dwell) with waypoints = (if current_position then [] else [ m.location ]) }
-  | Follow_path points -> through (List.rev (List.rev_map (fun (north, east, _) -> (north, east)) points))
+    if current_position then along [] dwell else at_location dwell
+  | Follow_path points -> through points
   | Rows r ->
     let step = r.horizontal_step in
     let curves = if step > 0. then int_of_float (r.width /. step) else 0 in
     offsets_of_rows ~length:r.length ~offset:r.curve_offset ~step ~share:(r.alternation /. 100.) ~curves
       ~cross_angle:(Dolphin_geo.Angle.radians r.cross_angle) ~square:r.square_curve ~right:r.first_curve_right
-    |> List.rev_map (turned (Dolphin_geo.Angle.radians r.bearing))
+    |> List.rev_map (fun offset ->
+        let north, east = turned (Dolphin_geo.Angle.radians r.bearing) offset in
+        (north, east, 0.))
     |> List.rev |> through
 
 let path p = List.map leg p.maneuvers

@@ -68,18 +68,27 @@ val reference : t -> Dolphin_geo.Position.t
 
 (** {1:path The way that a vehicle goes} *)
 
+(** How deep or high a vehicle is on a leg. The heights of its waypoints are those that [z] says, altitudes counted from
+    the height of the maneuver's location. *)
+type level = {
+  measured_from : z_unit;  (** what the heights come of; of [Unspecified], they mean nothing *)
+  stays_at : float;  (** metres above the ellipsoid, after the last of the waypoints *)
+  amplitude : float;  (** metres up and down from there: while it stays, or if it does not, on the way *)
+  pitch : float;  (** degrees, with which it goes up and down *)
+}
+
 (** One maneuver as a simulated vehicle carries it out. *)
 type leg = {
   maneuver : string;  (** its identifier *)
   waypoints : Dolphin_geo.Position.t list;  (** visited in order; [[]] if it is done wherever the vehicle is *)
+  level : level;
   dwell : float;  (** seconds at the last of them; [infinity] for a maneuver without end *)
   radius : float;  (** metres around the last of them within which it is done, such as a loiter's circle *)
 }
 
 val path : t -> leg list
 (** [path p] is a leg for each maneuver of [p], in order: the rows of [Rows] as DUNE runs them, the points of
-    [Follow_path], for others the location. Circles and movements up and down are left out, and heights are those of
-    the locations. *)
+    [Follow_path], for others the location. Circles are left out. *)
 
 val metres_per_second : maneuver -> default:float -> float
 (** [metres_per_second m ~default] is the speed of [m] in metres per second. What revolutions per minute or percent of

@@ -1502,6 +1502,13 @@ let heights =
       ("only one corner is found", {|look ((from, i) :: (i, until) :: others)|}, {|look ((i, until) :: others)|});
     ]
 
+let narrow_bars =
+  in_file "lib/trace/picture/timeline.ml" ~noticed_by:"trace/test_pictures"
+    [
+      ("names of narrow bars lie on each other", {|before +. wide last > x|}, {|before > x|});
+      ("names of narrow bars leave the picture", {|Float.min x (f.right +. 10. -. wide group)|}, {|x|});
+    ]
+
 let vector =
   in_file "lib/semantics/terms/vector.ml" ~noticed_by:"semantics/test_vector"
     [
@@ -1541,5 +1548,5 @@ let all =
       fences; pick_rules; conclusion; recruits; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;
       conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps;
       sets_with_events; driver; fair_cycles; limits;
-      alike_values; division; arrangement; coverage; search_pattern; travel; heights; vector;
+      alike_values; division; arrangement; coverage; search_pattern; travel; heights; narrow_bars; vector;
       zone; timed; place; timed_system; schedule; recorded; durations; share; sampled; prelude ]

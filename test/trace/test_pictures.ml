@@ -255,6 +255,36 @@ let planned_and_invented () =
   let silent = { silent with vehicles = List.map without silent.vehicles } in
   List.iter (fun text -> check text false (Picture.svg silent)) [ planned; invented; told; ">planned<" ]
 
+(* Bars that are too narrow for their names have them below: together where they are near to each other, apart where not,
+   and at the right edge before it. *)
+let narrow_bars () =
+  let builder = Summary.create () in
+  Summary.add builder (Header (header ~platform:"sim"));
+  let request time requests =
+    Summary.add builder (Transition { time; index = 0; step = { (bind [ "v" ]) with requests }; ways = [] }) in
+  let run from until plan =
+    request from [ Request.Start { vehicle = "v"; plan } ];
+    request until [ Request.Stop "v" ]
+  in
+  request 0. [ Bind [ "v" ] ];
+  run 1. 2. "first";
+  run 3. 4. "se<ond";
+  run 5. 400. "a long survey";
+  run 500. 501. "in-between";
+  run 998. 999. "last";
+  request 1000. [];
+  let drawn = Picture.svg (Summary.finish builder) in
+  let labels name =
+    let rec from i =
+      match Str.search_forward (Str.regexp (Printf.sprintf "class=\"%s[^>]*><title>[^<]*</title>\\([^<]*\\)<" name)) drawn i with
+      | found -> let text = Str.matched_group 1 drawn in text :: from (found + 1)
+      | exception Not_found -> []
+    in
+    from 0
+  in
+  Alcotest.(check (list string)) "below" [ "first, se&lt;ond"; "in-between"; "last" ] (labels "name below");
+  Alcotest.(check (list string)) "within" [ "a long survey" ] (labels "within")
+
 let nothing_at_all () = ignore (Picture.svg (Summary.finish (Summary.create ())))
 
 (* {1 Scales} *)
@@ -349,5 +379,6 @@ let () =
           case "clocks on the wall" on_the_wall;
           case "runs without times" by_steps;
           case "planned ways and those that nobody knows" planned_and_invented;
+          case "names of narrow bars" narrow_bars;
           case "an empty story" nothing_at_all;
           case "scales" scales ] ) ]

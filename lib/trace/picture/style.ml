@@ -25,6 +25,7 @@ let light =
 .leader { stroke: #9aa5b0; stroke-width: 0.7; }
 .within { fill: #ffffff; font-weight: 500; }
 .name { font-weight: 600; }
+.name.below { font-size: 10px; font-weight: 500; }
 .on-map { paint-order: stroke; stroke: #ffffff; stroke-width: 3px; stroke-opacity: 0.8; stroke-linejoin: round; }
 .bar { stroke: none; }
 .bar.open { fill-opacity: 0.38; }

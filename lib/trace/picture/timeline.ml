@@ -99,6 +99,15 @@ let describe f v (task : task) =
 
 let least_width = 2.
 
+(* A task as it is drawn; without a [name], its bar is too narrow for it. *)
+type drawn_task = {
+  bar : Svg.t;
+  name : Svg.t list;
+  finish : Svg.t list;  (* how it ended *)
+  from : float;
+  task : task;
+}
+
 let draw_task f colour v ~y ~height (task : task) =
   let x = at f task.from in
   let width = Float.max least_width (at f task.until -. x -. 1.) in
@@ -118,14 +127,38 @@ let draw_task f colour v ~y ~height (task : task) =
     | Stopped ->
       ([ Svg.rect ~name:"end-stopped" ~tip ~x:(right -. 3.) ~y:(y -. 2.) ~width:3. ~height:(height +. 4.) () ], 4.)
   in
-  let text = if height < 12. then "" else Svg.fit (width -. 6. -. taken) task.plan in
-  let legible = Svg.width text > 14. || text = task.plan in
-  let name =
-    if text = "" || not legible then []
-    else [ Svg.text ~name:"within" ~tip (x +. 4., y +. (height /. 2.) +. 4.) text ]
-  in
-  (bar, name @ finish)
+  let text = Svg.fit (width -. 6. -. taken) task.plan in
+  let legible = text <> "" && (Svg.width text > 14. || text = task.plan) in
+  let name = if legible then [ Svg.text ~name:"within" ~tip (x +. 4., y +. (height /. 2.) +. 4.) text ] else [] in
+  { bar; name; finish; from = x; task }
 
+(* {2 Names of narrow bars}
+
+   They stand below the bars, each group where its first bar begins, one name after the other. *)
+
+let lane_height = 12.
+let legible_height = 12.
+let size_below = 10.
+
+(* From the left; where two would overlap they are one group. *)
+let groups f drawn =
+  let text (_, names) = String.concat ", " names in
+  let wide group = Svg.width ~size:size_below (text group) +. 10. in
+  let rec add groups ((x, names) as group) =
+    let x = Float.max f.left (Float.min x (f.right +. 10. -. wide group)) in
+    match groups with
+    | ((before, earlier) as last) :: others when before +. wide last > x -> add others (before, earlier @ names)
+    | _ -> (x, names) :: groups
+  in
+  let narrow = List.filter_map (fun d -> if d.name = [] then Some (d.from, [ d.task.plan ]) else None) drawn in
+  List.rev_map (fun group -> (fst group, text group)) (List.fold_left add [] narrow)
+
+let names_below f i ~y drawn =
+  let label (x, names) =
+    Svg.text ~name:("name below " ^ Style.vehicle i) ~tip:names (x, y) (Svg.fit ~size:size_below (f.right +. 1. -. x) names) in
+  List.map label (groups f drawn)
+
+(* The row of [v], and how high it is. *)
 let draw_row f i v ~y ~row =
   let colour = Style.vehicle i in
   let height = Float.min 22. (row -. 8.) in
@@ -139,12 +172,27 @@ let draw_row f i v ~y ~row =
     let tip = Printf.sprintf "%s has no link from %s to %s" v.id (f.moment s.from) (f.moment s.until) in
     Svg.rect ~name:"silent" ~tip ~x ~y:(top +. height +. 1.) ~width:(Float.max 2. (at f s.until -. x)) ~height:3. ()
   in
-  (* How a task ended is seen even if another one begins at once. *)
-  let bars, others = List.split (List.map (draw_task f colour v ~y:top ~height) v.tasks) in
+  let drawn = List.map (draw_task f colour v ~y:top ~height) v.tasks in
+  let is_legible = height >= legible_height in
+  let within = if is_legible then List.concat_map (fun d -> d.name) drawn else [] in
+  let below = if is_legible then names_below f i ~y:(y +. row +. 8.) drawn else [] in
   let name =
     Svg.text ~name:("name " ^ colour) ~anchor:End (f.left -. 10., top +. (height /. 2.) +. 4.) (Svg.fit 150. v.id)
   in
-  Style.group i (List.map band v.held @ bars @ List.concat others @ List.map silence v.silent @ [ name ])
+  (* How a task ended is seen even if another one begins at once. *)
+  let parts =
+    List.map band v.held @ List.map (fun d -> d.bar) drawn @ within @ List.concat_map (fun d -> d.finish) drawn
+    @ List.map silence v.silent @ below @ [ name ] in
+  (Style.group i parts, if below = [] then row else row +. lane_height)
+
+(* One below the other from [y] on, and where they end. *)
+let draw_rows f vehicles ~y ~row =
+  let add (i, y, rows) v =
+    let drawn, height = draw_row f i v ~y ~row in
+    (i + 1, y +. height, drawn :: rows)
+  in
+  let _, bottom, rows = List.fold_left add (0, y, []) vehicles in
+  (List.rev rows, bottom)
 
 (* {1 The legend} *)
 
@@ -203,7 +251,8 @@ let draw summary ~x ~y ~width =
   let count = List.length summary.vehicles in
   let row = if count <= 24 then 34. else if count <= 80 then 22. else 14. in
   let rows_top = base +. 14. in
-  let bottom = rows_top +. (float_of_int count *. row) +. 4. in
+  let rows, rows_bottom = draw_rows f summary.vehicles ~y:rows_top ~row in
+  let bottom = rows_bottom +. 4. in
   let step =
     match summary.clock with
     | Seconds -> Scale.time_step ~most:12 seconds
@@ -235,7 +284,6 @@ let draw summary ~x ~y ~width =
     Svg.text ~name:"small" ~anchor:End (f.left -. 10., base +. 4.) "program"
     :: List.concat_map (draw_mark f base) marks
   in
-  let rows = List.mapi (fun i v -> draw_row f i v ~y:(rows_top +. (float_of_int i *. row)) ~row) summary.vehicles in
   let parts =
     List.concat_map tick (Scale.multiples step ~from:0. ~until:seconds)
     @ [ Svg.line ~name:"frame" (f.left, bottom) (f.right, bottom) ]

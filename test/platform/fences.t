@@ -69,3 +69,60 @@ Depths and heights are watched too: what an adapter tells of them, else the heig
   program     fails: climb failed on uav-1: stopped: the vehicle breaks fence height 100.m (levels.dol:2)
   $ dolphin trace check levels.dol levels.run | sed 's/, of [^;]*;/;/; s/ by .*//'
   levels.run: a run; failed: climb failed on uav-1: stopped: the vehicle breaks fence height 100.m (levels.dol:2)
+
+A run goes on with the fences of the fleet that it began with: with that fleet, named again or not; not with another one,
+nor with one that has changed since; nor with any that has fences, if it began without.
+
+  $ echo "vehicle 'uav-1', { type 'UAV'; at 41.1850, -8.7060; speed 20.0 }" > one.fleet
+  $ echo "fence inside location(41.1850, -8.7060) ^ 500.m" > kept.fleet
+  $ echo "fence inside location(41.1850, -8.7060) ^ 5.km" > wide.fleet
+  $ cat > go.dol <<'EOF'
+  > quay = location 41.1850, -8.7060
+  > def go(name, metres) { imcPlan { planName name; locate quay.displace(metres, 0); goTo() } }
+  > v = pick { type 'UAV' }
+  > execute go('near', 100)[v]
+  > execute watch go('far', 900)[v] onError { e -> message e.message; ignore() }
+  > execute go('home', 0)[v]
+  > EOF
+  $ run() { timeout 100 dolphin exec go.dol --platform 'dolphin sim one.fleet --platform --speed 20' "$@"; }
+  $ told() { cut -c 10- | grep -E '  (starts|ends|fails)' | sed 's/ by .*//'; }
+  $ run --fleet kept.fleet --journal whole.run | told
+  uav-1       starts near
+  uav-1       ends near
+  uav-1       starts far
+  uav-1       fails in far: not started: the way to 1.Goto breaks fence inside location(41.185, -8.706) ^ 500.m (kept.fleet:1)
+  uav-1       starts home
+  uav-1       ends home
+  program     ends
+  $ until_far() { awk '/"start\(uav-1, far\)"/ { exit } { print }' $1 > $2; }
+  $ until_far whole.run named.run && run --resume named.run --fleet kept.fleet | told
+  uav-1       starts far
+  uav-1       fails in far: not started: the way to 1.Goto breaks fence inside location(41.185, -8.706) ^ 500.m (kept.fleet:1)
+  uav-1       starts home
+  uav-1       ends home
+  program     ends
+  $ until_far whole.run unnamed.run && run --resume unnamed.run | told
+  uav-1       starts far
+  uav-1       fails in far: not started: the way to 1.Goto breaks fence inside location(41.185, -8.706) ^ 500.m (kept.fleet:1)
+  uav-1       starts home
+  uav-1       ends home
+  program     ends
+  $ dolphin trace check go.dol unnamed.run | sed 's/, of [^;]*;/;/'
+  unnamed.run: a run; completed
+  $ until_far whole.run other.run && run --resume other.run --fleet wide.fleet
+  dolphin: wide.fleet: this is not the fleet that the run was on, or it has changed since
+  [2]
+  $ until_far whole.run other.run && cp wide.fleet kept.fleet && run --resume other.run
+  dolphin: kept.fleet: this is not the fleet that the run was on, or it has changed since
+  [2]
+  $ run --journal free.run | told
+  uav-1       starts near
+  uav-1       ends near
+  uav-1       starts far
+  uav-1       ends far
+  uav-1       starts home
+  uav-1       ends home
+  program     ends
+  $ until_far free.run begun.run && run --resume begun.run --fleet wide.fleet
+  dolphin: wide.fleet: a run goes on with the fences that it began with, and it had no fleet
+  [2]

@@ -255,8 +255,8 @@ let planned_and_invented () =
   let silent = { silent with vehicles = List.map without silent.vehicles } in
   List.iter (fun text -> check text false (Picture.svg silent)) [ planned; invented; told; ">planned<" ]
 
-(* Bars that are too narrow for their names have them below: together where they are near to each other, apart where not,
-   and at the right edge before it. *)
+(* Bars that are too narrow for their names have them below: together where they are near to each other, apart where
+   not, and at the right edge before it. *)
 let narrow_bars () =
   let builder = Summary.create () in
   Summary.add builder (Header (header ~platform:"sim"));

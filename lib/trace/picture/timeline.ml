@@ -155,7 +155,9 @@ let groups f drawn =
 
 let names_below f i ~y drawn =
   let label (x, names) =
-    Svg.text ~name:("name below " ^ Style.vehicle i) ~tip:names (x, y) (Svg.fit ~size:size_below (f.right +. 1. -. x) names) in
+    let text = Svg.fit ~size:size_below (f.right +. 1. -. x) names in
+    Svg.text ~name:("name below " ^ Style.vehicle i) ~tip:names (x, y) text
+  in
   List.map label (groups f drawn)
 
 (* The row of [v], and how high it is. *)

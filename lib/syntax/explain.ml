@@ -110,11 +110,12 @@ let word_before_closure place =
     if opener > 0 then kind place (opener - 1) else EOF
   | _ -> EOF
 
-(* The rest of the statement from token [i], as written. *)
-let rest_of_statement place i =
+(* What stands from token [i] on, up to the end of the statement or a token that [ends] it, as written. *)
+let rest ?(ends = fun _ -> false) place i =
   let rec last i depth =
     match kind place (i + 1) with
     | EOF -> i
+    | token when depth = 0 && ends token -> i
     | SEPARATOR when depth = 0 -> i
     | token when is_opener token -> last (i + 1) (depth + 1)
     | token when is_closer token -> if depth = 0 then i else last (i + 1) (depth - 1)
@@ -125,6 +126,15 @@ let rest_of_statement place i =
   let last = place.tokens.(last i depth).stop.Lexing.pos_cnum in
   let text = String.sub place.source first (last - first) in
   if String.length text <= 60 && not (String.contains text '\n') then text else "..."
+
+let rest_of_statement place i = rest place i
+
+(* What is given to a call without parentheses within a task: operators of tasks and their words go on after it. *)
+let arguments place i =
+  let ends = function
+    | SHIFT_RIGHT | BAR | THEN | RUN | ON_ERROR | AFTER_UNTIL _ | AFTER_DURING _ -> true
+    | _ -> false in
+  rest ~ends place i
 
 (* {1 Likely mistakes}
 
@@ -276,7 +286,7 @@ let command place =
   match this place, kind place (place.index + 1) with
   | COMMAND f, _ when place.acceptable (INTEGER 0) ->
     Some ("a call within an expression needs parentheses",
-          Printf.sprintf "write %s(%s)" f (rest_of_statement place (place.index + 1)))
+          Printf.sprintf "write %s(%s)" f (arguments place (place.index + 1)))
   | COMMAND _, NAME x when place.acceptable (NAME x) ->
     Some ("a name has no type before it", Printf.sprintf "write only %s" x)
   | _ -> None
@@ -302,6 +312,10 @@ let greedy_bracket place =
     Some ("unexpected ','", Printf.sprintf "brackets behind %s are for one of its elements: %s" f (call f))
   | COLON, NAME (("post" | "consume" | "poll" | "count") as f), LPAREN when before place 1 = RPAREN ->
     Some ("unexpected ':'", Printf.sprintf "parentheses behind %s hold all its pairs: %s" f (call f))
+  | COLON, (NAME "execute" | COMMAND "execute"), _ when opener < first && before place 2 = BAR ->
+    Some ("unexpected ':'",
+          Printf.sprintf "what other vehicles do stands behind a ',': execute v: T, %s: U"
+            (text_of place (place.index - 1)))
   | COLON, (NAME "execute" | COMMAND "execute"), _ when before place 1 = RBRACKET || before place 1 = RPAREN ->
     Some ("unexpected ':'", "before a ':' stands a name: give these vehicles one, or write execute (task)[vehicles]")
   | _ -> None
@@ -319,6 +333,14 @@ let unit_without_point place =
     let unit = Option.value (List.assoc_opt x misspelt_units) ~default:x in
     Some (Printf.sprintf "unexpected %s" (spelt place place.index),
           Printf.sprintf "a unit stands behind a point: %s.%s" (text_of place (place.index - 1)) unit)
+  | _ -> None
+
+(* [30%]. *)
+let percent_sign place =
+  match before place 2, before place 1 with
+  | (INTEGER _ | NUMBER _), PERCENT ->
+    Some (Printf.sprintf "unexpected %s" (spelt place place.index),
+          Printf.sprintf "a share is written %s.percent" (text_of place (place.index - 2)))
   | _ -> None
 
 (* [parameter n = 3, how many]. *)
@@ -349,7 +371,7 @@ let stray place =
 
 let rules = [
   missing_parenthesis; missing_block; assigned_word; missing_brace; missing_parameters; negative_argument;
-  greedy_bracket; assignment; missing_word; misplaced_word; command; unit_without_point;
+  greedy_bracket; assignment; missing_word; misplaced_word; command; unit_without_point; percent_sign;
   described_parameter; stray;
 ]
 

@@ -69,7 +69,7 @@ let table : (string * t) list =
     ("now", these Now [] ~result:Number);
     ("eta", these Eta [ Vehicles; Position ] ~result:Number ~reads_sensors:true);
     ("location", location);
-    ("area", these Area_of [ Position; Number ] ~result:Other);
+    ("area", these Area_of [ Position; Number ]);
     ("polygon", geometry [ Any ] ~named:[ ("holes", Any) ] ~result:Any);
     ("corridor", geometry [ Any; Number ] ~result:Any);
     ("along", geometry [ Any; Number ] ~result:Position);
@@ -135,6 +135,9 @@ let table_of_constants : (string * Core.value) list =
 let owners = [ "Location"; "Math"; "Speed"; "Z" ]
 
 (* A call [position(v)] is told from a variable [position] by its parentheses, [message x] is not. *)
+let takes_nothing name =
+  match find name with Some { arguments = These { required = []; _ }; _ } -> true | Some _ | None -> false
+
 let is_reserved name =
   List.mem name owners || match find name with Some { result = Other; _ } -> true | Some _ | None -> false
 

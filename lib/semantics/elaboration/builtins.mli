@@ -66,6 +66,9 @@ val constants : string list
 val owners : string list
 (** The first names of constants and of [Math]'s functions: [Location], [Speed], [Z], [Math]. *)
 
+val takes_nothing : string -> bool
+(** Whether it is a procedure that needs no argument: [ignore()]. *)
+
 val is_reserved : string -> bool
 (** Whether no variable may have this name: it is an owner, or a procedure that gives nothing. *)
 

@@ -201,6 +201,11 @@ let rec to_builtin env at name (builtin : Builtins.t) arguments =
   | Text_or { required; optional; operation } ->
     let these =
       match arguments with
+      | [ Ast.Positional { it = Binary (Subtract, a, b); _ } ] when known_kind env a = Number ->
+        error env Wrong_arity at "%s takes a latitude and a longitude: a ',' is missing" name
+          ~hint:(Format.asprintf "write %s %a, -%a" name Dolphin_syntax.Print.expression a
+                   Dolphin_syntax.Print.expression b);
+        Builtins.These { required = [ Number ]; optional = []; operation }
       | [ Ast.Positional e ] when could_be String (known_kind env e) ->
         Builtins.These { required = [ String ]; optional = []; operation }
       | _ -> These { required; optional; operation }

@@ -31,9 +31,8 @@ let declare_parameters program (ast : Ast.program) =
   in
   ignore (List.fold_left declare [] ast)
 
-let hint_for_unknown program name at names =
-  if Scope.wants_text program at then Some (Printf.sprintf "a text stands in quotes: '%s'" name)
-  else if name = "include" then Some "include 'lib.dol' stands at the top of a file, outside of all braces"
+let hint_for_unknown name names =
+  if name = "include" then Some "include 'lib.dol' stands at the top of a file, outside of all braces"
   else if name = "parameter" then Some "a parameter has a value: parameter n = 3, 'what it is'"
   else if name = Checks.sends_message then Some Checks.hint_for_message
   else if Builtins.math name then Some (Printf.sprintf "write Math.%s" name)
@@ -55,12 +54,17 @@ let hint_for_setting name =
 
 let report_unknown ?fallback program =
   let names = Scope.visible_names (Scope.code program Scope.Main None) in
-  let near name at = hint_for_unknown program name at (List.filter (fun other -> other <> name) names) in
+  let near name = hint_for_unknown name (List.filter (fun other -> other <> name) names) in
   let first hints = List.find_map (fun hint -> hint ()) hints in
   let hint name at =
+    let there = Option.map (fun hint -> hint name) (Scope.hint_at program at) in
     match fallback with
-    | Some fallback -> first [ (fun () -> near name at); (fun () -> fallback name) ]
-    | None -> first [ (fun () -> hint_for_prelude name); (fun () -> near name at); (fun () -> hint_for_setting name) ]
+    | Some fallback -> first [ (fun () -> near name); (fun () -> fallback name) ]
+    | None when Scope.is_hint_certain program at -> there
+    | None ->
+      first
+        [ (fun () -> hint_for_prelude name); (fun () -> near name); (fun () -> there);
+          (fun () -> hint_for_setting name) ]
   in
   List.iter
     (fun (name, at) ->

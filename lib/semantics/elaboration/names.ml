@@ -20,8 +20,12 @@ let elaborate env name at =
       null env at
     end
     else if Builtins.find name <> None && not (is_hidden env name || Scope.is_assigned env.program name) then begin
-      error env No_value at "'%s' is a procedure: it needs its arguments" name
-        ~hint:(Printf.sprintf "write %s(...)" name);
+      if Builtins.takes_nothing name then
+        error env No_value at "'%s' is a procedure: it needs its parentheses" name
+          ~hint:(Printf.sprintf "write %s()" name)
+      else
+        error env No_value at "'%s' is a procedure: it needs its arguments" name
+          ~hint:(Printf.sprintf "write %s(...)" name);
       null env at
     end
     else variable env name at

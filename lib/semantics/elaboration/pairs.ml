@@ -166,8 +166,14 @@ let elaborate env at name (construct : Builtins.pairs) arguments =
     List.iter (check_pattern env name) pairs;
     List.iter (fun p -> match p.key with Written k -> check_value env name k p.value | Computed _ -> ()) pairs
   end;
+  let missing (e : Ast.expression) hint = match e.it with Variable _ -> Scope.note_hint env.program ~certain:false e.at hint | _ -> () in
+  if construct <> Post then
+    List.iter
+      (fun p -> missing p.value (fun x -> Printf.sprintf "any value is _, as in %s k: _; a text is '%s'" name x))
+      pairs;
   match construct, positional, pairs with
   | Poll, [ e ], [] ->
+    missing e (fun key -> Printf.sprintf "write poll '%s', or poll %s: value" key key);
     check_kind env name String e;
     Scope.note_looked_at env.program (match e.it with String key -> Some key | _ -> None);
     apply env at (Builtin (Poll [])) [ elaborate env e ]

@@ -26,7 +26,7 @@ type program = {
   mutable on_interrupt : Core.lambda option;
   mutable looked_at : string list option;  (* the keys that code consumes or polls; [None]: any *)
   mutable all_ordered : bool;
-  mutable texts : Location.t list;  (* where a text is wanted *)
+  mutable hints : (Location.t * (bool * (string -> string))) list;    (* for names that are unknown *)
   mutable recruits : bool;
   mutable goes_round : bool;
   mutable reads_sensors : bool;
@@ -73,7 +73,7 @@ let create ?(first_site = 0) ?(variables = []) ?(parameters = []) ?(suppliers = 
       on_interrupt = None;
       looked_at = Some [];
       all_ordered = false;
-      texts = [];
+      hints = [];
       recruits = false;
       goes_round = false;
       reads_sensors = false;
@@ -140,8 +140,9 @@ let ordered_keys program : Tuple_space.order =
   | true, _ -> Every_key
   | false, [] -> No_key
   | false, keys -> Keys (List.sort String.compare keys)
-let note_text program at = program.texts <- at :: program.texts
-let wants_text program at = List.memq at program.texts
+let note_hint program ~certain at hint = program.hints <- (at, (certain, hint)) :: program.hints
+let hint_at program at = Option.map snd (List.assq_opt at program.hints)
+let is_hint_certain program at = match List.assq_opt at program.hints with Some (certain, _) -> certain | None -> false
 let note_recruit program = program.recruits <- true
 let note_rounds program = program.goes_round <- true
 let note_sensor program = program.reads_sensors <- true

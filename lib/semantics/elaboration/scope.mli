@@ -111,11 +111,15 @@ val reads_sensors : program -> bool
 val reads_now : program -> bool
 val asks_running : program -> bool
 
-val note_text : program -> Location.t -> unit
-(** Only a text can stand there. *)
+val note_hint : program -> certain:bool -> Location.t -> (string -> string) -> unit
+(** [note_hint program ~certain at hint]: if the name there is unknown, [hint name] is what would be right; if it is
+    not [certain], then only if no known name is like it. *)
 
-val wants_text : program -> Location.t -> bool
-(** Whether {!note_text} said so. *)
+val hint_at : program -> Location.t -> (string -> string) option
+(** What {!note_hint} said of this place. *)
+
+val is_hint_certain : program -> Location.t -> bool
+(** Whether {!note_hint} said so of this place. *)
 
 val is_assigned : program -> string -> bool
 (** Whether something gives a value to a variable of this name. *)

@@ -44,15 +44,28 @@ let with_offset env (arguments : Ast.argument list) =
         List.rev before)
   | _ -> arguments
 
+let called arguments =
+  List.filter_map
+    (function
+      | Ast.Positional { Ast.it = Call { callee = { it = Variable name; _ }; _ }; _ } -> Some name
+      | Ast.Positional _ | Named _ | Keyed _ -> None)
+    arguments
+
 let add env at slot name arguments =
   let in_mission = match Scope.settings env.code with Some (Mission, _) -> true | Some _ | None -> false in
   let arguments = if in_mission then with_offset env arguments else arguments in
   let outside f = Scope.inside_settings env.code None f in
   let wants_text =
     List.mem name [ "id"; "type"; "payload"; "planName"; "name"; "description"; "vehicles"; "stored" ] in
+  let is_setting other = in_settings env other <> None && not (is_hidden env other) in
+  let is_setting = Fun.flip List.mem (List.filter is_setting (called arguments)) in
   let argument = function
     | Ast.Positional { Ast.it = Variable _; at } as argument when wants_text ->
-      Scope.note_text env.program at;
+      Scope.note_hint env.program ~certain:true at (Printf.sprintf "a text stands in quotes: '%s'");
+      elaborate env (value_of argument)
+    | Ast.Positional { Ast.it = Call { callee = { it = Variable other; at }; _ }; _ } as argument
+      when is_setting other ->
+      Scope.note_hint env.program ~certain:true at (Printf.sprintf "settings have a ';' or a new line between them: ...; %s ...");
       elaborate env (value_of argument)
     | Ast.Positional { Ast.it = Wildcard; at } when name = "count" -> constant env at Wildcard
     | argument -> elaborate env (value_of argument)

@@ -3,6 +3,7 @@ open Grammar
 type t = { tokens : Token.t array; partner : int array; faults : Diagnostic.t list }
 
 let limit = 1_000
+let most_tokens = 500_000
 
 type shape = Round | Square | Curly | Hole
 
@@ -34,6 +35,7 @@ type opener = { index : int; shape : shape; indentation : int; token : Token.t }
 type state = {
   mutable reversed : (Token.t * int) list;    (* the result, each with its partner *)
   mutable count : int;
+  mutable read : int;                         (* tokens and ends of lines *)
   mutable openers : opener list;
   mutable depth : int;
   mutable found : Diagnostic.t list;
@@ -121,10 +123,14 @@ let finish state token =
   go ()
 
 exception Too_deep of Token.t
+exception Too_many of Token.t
 
 let step state (token : Token.t) =
   let starts_line = token.newline || state.count = 0 in
   if starts_line then state.indentation <- column token;
+  (* A line's end is as good as a ';'. *)
+  state.read <- state.read + if token.newline then 2 else 1;
+  if state.read > most_tokens then raise (Too_many token);
   match role token.token with
   | Opens shape ->
     if state.depth >= limit then raise (Too_deep token);
@@ -139,7 +145,7 @@ let step state (token : Token.t) =
 
 let match_up tokens =
   let state =
-    { reversed = []; count = 0; openers = []; depth = 0; found = []; indentation = 1; suspect = None } in
+    { reversed = []; count = 0; read = 0; openers = []; depth = 0; found = []; indentation = 1; suspect = None } in
   match Array.iter (step state) tokens with
   | () ->
     let result = Array.of_list (List.rev state.reversed) in
@@ -150,3 +156,8 @@ let match_up tokens =
     Error
       (Diagnostic.error (Token.at token) (Printf.sprintf "brackets nest deeper than %d here" limit)
          ~hint:"give the inner parts names")
+  | exception Too_many token ->
+    Error
+      (Diagnostic.error (Token.at token)
+         (Printf.sprintf "the program has more than %d words and signs up to here" most_tokens)
+         ~hint:"a program is what people write: let it compute, or get as inputs, what is this much")

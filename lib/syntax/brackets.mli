@@ -9,6 +9,9 @@ type t = {
 val limit : int
 (** The deepest nesting of brackets that is read: 1,000. *)
 
+val most_tokens : int
+(** The most tokens that are read, ends of lines among them: 500,000. *)
+
 val match_up : Token.t array -> (t, Diagnostic.t) result
 (** [match_up tokens] pairs the brackets of [tokens]: parentheses, square brackets, braces, and holes
-    of strings. It is an error if they nest deeper than {!limit}. *)
+    of strings. It is an error if they nest deeper than {!limit}, or if there are more than {!most_tokens}. *)

@@ -26,6 +26,8 @@ let within seconds name source =
 let brackets = "brackets nest deeper than 1000 here"
 let nesting = "the program nests deeper than 10000 here"
 
+let size = "the program has more than 500000 words and signs up to here"
+
 let deep =
   [ refused "parentheses" ("x = " ^ repeat 100_000 "(") brackets 1 1005;
     refused "closed parentheses" ("x = " ^ repeat 1_001 "(" ^ "1" ^ repeat 1_001 ")") brackets 1 1005;
@@ -39,10 +41,12 @@ let deep =
     refused "a long path" ("x = a" ^ repeat 100_000 ".a") nesting 1 5;
     refused "commands" (repeat 100_000 "a " ^ "1") nesting 1 19_997;
     refused "tasks in tasks" ("x = " ^ repeat 100_000 "during 1 run " ^ "a") nesting 1 129_992;
-    refused "alternatives" (repeat 100_000 "if (a) b else " ^ "c") nesting 1 139_980;
+    refused "alternatives" (repeat 50_000 "if (a) b else " ^ "c") nesting 1 139_980;
     refused "conditionals" ("x = " ^ repeat 100_000 "a ? b : " ^ "c") nesting 1 79_997;
     refused "limits" ("x = a" ^ repeat 100_000 " during 1") nesting 1 5;
     accepted "a sum of 9,000" ("x = 1" ^ repeat 9_000 " + 1");
+    refused "300,000 statements" (repeat 300_000 "a b\n") size 166_668 1;
+    refused "a list of a million" ("x = [1" ^ repeat 1_000_000 ", 1" ^ "]") size 1 750_001;
     accepted "a list of 200,000" ("x = [1" ^ repeat 200_000 ", 1" ^ "]") ]
 
 let strange =

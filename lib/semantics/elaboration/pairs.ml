@@ -166,7 +166,8 @@ let elaborate env at name (construct : Builtins.pairs) arguments =
     List.iter (check_pattern env name) pairs;
     List.iter (fun p -> match p.key with Written k -> check_value env name k p.value | Computed _ -> ()) pairs
   end;
-  let missing (e : Ast.expression) hint = match e.it with Variable _ -> Scope.note_hint env.program ~certain:false e.at hint | _ -> () in
+  let missing (e : Ast.expression) hint =
+    match e.it with Variable _ -> Scope.note_hint env.program ~certain:false e.at hint | _ -> () in
   if construct <> Post then
     List.iter
       (fun p -> missing p.value (fun x -> Printf.sprintf "any value is _, as in %s k: _; a text is '%s'" name x))

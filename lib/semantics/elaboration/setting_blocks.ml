@@ -65,7 +65,8 @@ let add env at slot name arguments =
       elaborate env (value_of argument)
     | Ast.Positional { Ast.it = Call { callee = { it = Variable other; at }; _ }; _ } as argument
       when is_setting other ->
-      Scope.note_hint env.program ~certain:true at (Printf.sprintf "settings have a ';' or a new line between them: ...; %s ...");
+      Scope.note_hint env.program ~certain:true at
+        (Printf.sprintf "settings have a ';' or a new line between them: ...; %s ...");
       elaborate env (value_of argument)
     | Ast.Positional { Ast.it = Wildcard; at } when name = "count" -> constant env at Wildcard
     | argument -> elaborate env (value_of argument)

@@ -275,6 +275,31 @@ let moments =
         let c = after program c [ Replied (Host "supplier"); Replied (Integer 7) ] in
         Alcotest.(check string) "x" "7" (variable program c "x")) ]
 
+(* {1 Equality} *)
+
+let list xs : Core.value = List (Vector.of_list xs)
+
+(* In 60 levels, each of which holds the one below twice, with [last] between: an own copy at each call. *)
+let doubled last =
+  let rec from level x = if level = 0 then x else from (level - 1) (list [ x; last; x ]) in
+  from 60 (list [ Integer 1 ])
+
+let equality =
+  let check what expected x y = Alcotest.(check bool) what expected (Value.equals x y) in
+  [ case "of what is held many times" (fun () ->
+        check "alike" true (doubled (Integer 2)) (doubled (Number 2.));
+        check "not alike" false (doubled (Integer 2)) (doubled (Integer 3));
+        check "not alike at the top" false (list [ doubled Null; Integer 1 ]) (list [ doubled Null; Integer 2 ]));
+    case "of long lists, in their last elements" (fun () ->
+        let long last = list (List.init 5_000 (fun i : Core.value -> Integer (if i = 4_999 then last else i))) in
+        check "alike" true (list [ long 1; long 2 ]) (list [ long 1; long 2 ]);
+        let one = long 1 in
+        check "not alike" false (list [ one; one ]) (list [ long 1; long 2 ]));
+    case "how many parts there are" (fun () ->
+        let x = list [ Integer 1; Map [ ("k", list [ Null ]) ] ] in
+        Alcotest.(check (list bool)) "of 5" [ false; true ] [ Value.has_at_most 4 x; Value.has_at_most 5 x ];
+        Alcotest.(check bool) "of many" false (Value.has_at_most 1_000_000 (doubled Null))) ]
+
 let () =
   Alcotest.run "language"
     [ ( "without end",
@@ -285,4 +310,5 @@ let () =
       ("picks", picks);
       ("tuples", tuples);
       ("unknown", unknown);
-      ("moments", moments) ]
+      ("moments", moments);
+      ("equality", equality) ]

@@ -32,7 +32,7 @@ let command =
       Tla_command.command; Trace_command.command; Walk_command.command ] in
   Cmd.group info (Help_command.command ~others:(List.map Cmd.name commands) :: commands)
 
-(* [--sim] alone would take the next argument for its fleet. *)
+(* [--sim] alone would take the next argument for its fleet. [dolphin --help PROG] is [dolphin help PROG]. *)
 let arguments =
   let rec complete = function
     | [] -> []
@@ -40,7 +40,9 @@ let arguments =
     | "--sim" :: rest -> "--sim=" :: complete rest
     | argument :: rest -> argument :: complete rest
   in
-  Array.of_list (complete (Array.to_list Sys.argv))
+  match Array.to_list Sys.argv with
+  | [ dolphin; "--help"; program ] when Sys.file_exists program -> [| dolphin; "help"; program |]
+  | arguments -> Array.of_list (complete arguments)
 
 let evaluate () =
   match Cmd.eval_value ~catch:false ~argv:arguments command with

@@ -8,6 +8,8 @@ What a program leaves to whoever starts it: parameters, which dolphin help lists
     vehicles = 2     how many vehicles survey
     rounds = 2       how often each of them does
     limit = 30.min   after which they come home, wherever they are
+  $ dolphin --help parameters.dol | tail -1
+    limit = 30.min   after which they come home, wherever they are
   $ dolphin exec parameters.dol -q | grep -v '^  journal'
     16:00  program     says: vehicles: 2, rounds: 2
     16:00  program     ends

@@ -28,7 +28,12 @@ heights, points of a way.
   >     goTo location: quay.displace(150, 450)
   >   },
   >   imcPlan { planName 'rows'; locate quay.displace(200, 100); rows bearing: 90, length: 300, width: 100 },
-  >   imcPlan { planName 'deep'; locate quay.displace(50, 50); yoyo max_depth: 15, min_depth: 2 },
+  >   imcPlan {
+  >     planName 'deep'
+  >     speed 1.5, Speed.Units.METERS_PS
+  >     locate quay.displace(50, 50)
+  >     yoyo max_depth: 15, min_depth: 2
+  >   },
   >   imcPlan { planName 'low'; locate quay.displace(50, 50); z 3, Z.Units.ALTITUDE; goTo() },
   >   imcPlan { planName 'high'; locate quay.displace(50, 50); z 130, Z.Units.HEIGHT; goTo() },
   >   imcPlan {
@@ -47,20 +52,20 @@ heights, points of a way.
   broken.dol:18:5: error: plan 'crosses': 2.Goto breaks fence outside quay.displace(150, 250) ^ 30 (broken.dol:4) by 30.0 m, at (41.186351, -8.703020)
     18 |     goTo location: quay.displace(150, 450)
        |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
-  broken.dol:21:60: error: plan 'deep': 1.YoYo breaks fence depth 12.m (broken.dol:5) by 3.0 m
-    21 |   imcPlan { planName 'deep'; locate quay.displace(50, 50); yoyo max_depth: 15, min_depth: 2 },
-       |                                                            ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
-  broken.dol:22:82: error: plan 'low': 1.Goto may break fence depth 12.m (broken.dol:5): its z is above the ground, and how deep that is is not known
-    22 |   imcPlan { planName 'low'; locate quay.displace(50, 50); z 3, Z.Units.ALTITUDE; goTo() },
+  broken.dol:25:5: error: plan 'deep': 1.YoYo breaks fence depth 12.m (broken.dol:5) by 3.0 m
+    25 |     yoyo max_depth: 15, min_depth: 2
+       |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+  broken.dol:27:82: error: plan 'low': 1.Goto may break fence depth 12.m (broken.dol:5): its z is above the ground, and how deep that is is not known
+    27 |   imcPlan { planName 'low'; locate quay.displace(50, 50); z 3, Z.Units.ALTITUDE; goTo() },
        |                                                                                  ^^^^^^
-  broken.dol:23:83: error: plan 'high': 1.Goto breaks fence height 100.m (broken.dol:6) by 30.0 m
-    23 |   imcPlan { planName 'high'; locate quay.displace(50, 50); z 130, Z.Units.HEIGHT; goTo() },
+  broken.dol:28:83: error: plan 'high': 1.Goto breaks fence height 100.m (broken.dol:6) by 30.0 m
+    28 |   imcPlan { planName 'high'; locate quay.displace(50, 50); z 130, Z.Units.HEIGHT; goTo() },
        |                                                                                   ^^^^^^
-  broken.dol:27:5: error: plan 'follows': 1.FollowPath breaks fence depth 12.m (broken.dol:5) by 1.0 m
-    27 |     followPath points: [[0, 0], [10, 20, 11]]
+  broken.dol:32:5: error: plan 'follows': 1.FollowPath breaks fence depth 12.m (broken.dol:5) by 1.0 m
+    32 |     followPath points: [[0, 0], [10, 20, 11]]
        |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
-  broken.dol:29:3: error: plan 'flies': 4.loiterTurns breaks fence inside basin, margin: 10.m (broken.dol:3) by 15.0 m, at (41.185180, -8.705642)
-    29 |   mission { name 'flies'; takeOff 20; goPos quay.displace(20, 20); move 0, 10, 90; loiterTurns 2, radius: 25 }...
+  broken.dol:34:3: error: plan 'flies': 4.loiterTurns breaks fence inside basin, margin: 10.m (broken.dol:3) by 15.0 m, at (41.185180, -8.705642)
+    34 |   mission { name 'flies'; takeOff 20; goPos quay.displace(20, 20); move 0, 10, 90; loiterTurns 2, radius: 25 }...
        |   ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
   broken.dol: 7 errors
 

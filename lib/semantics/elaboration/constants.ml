@@ -10,6 +10,9 @@ type t = { known : value String_map.t; own : string list; chart : string -> (val
 
 let computing_calls = [ "location"; "area"; "imcPlan"; "task"; "map" ]
 
+(* Of plans; [speed] is also a function of vehicles, which are not known. *)
+let is_setting name = List.mem_assoc name Plan_builder.vocabulary || List.mem_assoc name Mission_builder.vocabulary
+
 let computes constants locals (e : Ast.expression) =
   let is_own name = List.mem name constants.own in
   match e.it with
@@ -17,7 +20,7 @@ let computes constants locals (e : Ast.expression) =
     if String_map.mem name constants.known || List.mem name locals || not (is_own name) then None
     else Some (Printf.sprintf "the value of '%s' is not known before the program runs" name)
   | Call { callee = { it = Variable name; _ }; _ } ->
-    if (not (is_own name)) && (List.mem name computing_calls || Builtins.is_geometry name) then None
+    if (not (is_own name)) && (List.mem name computing_calls || is_setting name || Builtins.is_geometry name) then None
     else if Builtins.find name = None && not (is_own name) then None  (* a setting, or a name that is unknown *)
     else Some (Printf.sprintf "%s(...) is not known before the program runs" name)
   | Call { callee = { it = Member { name; _ }; _ }; _ } when Methods.updates name.it ->

@@ -1503,8 +1503,8 @@ let heights =
 let narrow_bars =
   in_file "lib/trace/picture/timeline.ml" ~noticed_by:"trace/test_pictures"
     [
-      ("names of narrow bars lie on each other", {|before +. wide last > x|}, {|before > x|});
-      ("names of narrow bars leave the picture", {|Float.min x (f.right +. 10. -. wide group)|}, {|x|});
+      ("names of narrow bars lie on each other", {|before +. wide last > x|}, {|before +. (0. *. wide last) > x|});
+      ("names of narrow bars leave the picture", {|Float.min x (f.right +. 10. -. wide group)|}, {|Float.min x (f.right +. wide group)|});
     ]
 
 let vector =

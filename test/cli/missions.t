@@ -5,7 +5,7 @@ faults.
   $ for f in *.dol; do
   >   dolphin check "$f" > checked || cat checked
   >   dolphin exec "$f" --sim="${f%.dol}.fleet" > log 2>&1 || tail -1 log
-  >   dolphin explore "$f" > verdicts || cat verdicts
+  >   dolphin explore "$f" > verdicts 2> told || cat told verdicts
   >   echo "$f: $(grep -o '^[0-9]* states' verdicts), $(grep -c ': holds' verdicts) hold"
   > done
   adaptive_sampling.dol: 28 states, 5 hold

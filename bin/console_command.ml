@@ -79,7 +79,8 @@ let sim =
 
 let port =
   let doc = "Serve port $(docv); 0 is any that is free." in
-  Arg.(value & opt int 8642 & info [ "port" ] ~docv:"PORT" ~doc)
+  let port = Options.between ~docv:"PORT" ~least:0 ~most:0xFFFF "a port" in
+  Arg.(value & opt port 8642 & info [ "port" ] ~docv:"PORT" ~doc)
 
 let tiles =
   let doc =

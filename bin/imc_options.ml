@@ -36,20 +36,12 @@ let interfaces =
   in
   Arg.(value & opt_all address [] & info [ "imc-interface" ] ~docs:s_network ~docv:"ADDRESS" ~doc)
 
-let number ~least ~most what =
-  let parse text =
-    match int_of_string_opt text with
-    | Some n when n >= least && n <= most -> Ok n
-    | Some _ | None -> Error (`Msg (Printf.sprintf "'%s' is not %s, from %d to %d" text what least most))
-  in
-  Arg.conv (parse, Format.pp_print_int)
-
 let port =
   let doc =
     "Have vehicles send to port $(docv) of this machine, for a firewall's sake. By default any free one. Implies \
      $(b,--imc)."
   in
-  let ports = number ~least:1 ~most:65535 "a port" in
+  let ports = Options.between ~docv:"PORT" ~least:1 ~most:65535 "a port" in
   Arg.(value & opt (some ports) None & info [ "imc-port" ] ~docs:s_network ~docv:"PORT" ~doc)
 
 let id =
@@ -57,7 +49,7 @@ let id =
     "Be the system $(docv) of the network, for example 0x4001. By default one is drawn for each run, as vehicles \
      forget a console that comes back on another port only when they restart. Implies $(b,--imc)."
   in
-  let ids = number ~least:0x4000 ~most:0x5FFF "the IMC address of a console" in
+  let ids = Options.between ~docv:"ID" ~least:0x4000 ~most:0x5FFF "the IMC address of a console" in
   Arg.(value & opt (some ids) None & info [ "imc-id" ] ~docs:s_network ~docv:"ID" ~doc)
 
 let devices =

@@ -52,6 +52,14 @@ let whole ~docv what =
   in
   Arg.conv ~docv (parse, Format.pp_print_int)
 
+let between ~docv ~least ~most what =
+  let parse text =
+    match int_of_string_opt text with
+    | Some n when n >= least && n <= most -> Ok n
+    | Some _ | None -> Error (`Msg (Printf.sprintf "'%s' is not %s, from %d to %d" text what least most))
+  in
+  Arg.conv ~docv (parse, Format.pp_print_int)
+
 let number ~docv what accepts =
   let parse text =
     match float_of_string_opt text with

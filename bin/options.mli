@@ -17,6 +17,9 @@ val set_range : (string * string) list Term.t
 val whole : docv:string -> string -> int Arg.conv
 (** [whole ~docv what] is the whole numbers from 1 on; of others it is told that they are [what]. *)
 
+val between : docv:string -> least:int -> most:int -> string -> int Arg.conv
+(** [between ~docv ~least ~most what] is the whole numbers from [least] to [most]; others are not [what]. *)
+
 val drawing : Dolphin_app.Drawing.t Arg.conv
 (** The name of a picture. *)
 

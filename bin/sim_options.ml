@@ -7,13 +7,7 @@ let positive = Options.positive ~docv:"NUMBER"
 let natural = Options.number ~docv:"SECONDS" "a number, 0 or greater" (fun x -> x >= 0. && x < infinity)
 let share = Options.number ~docv:"SHARE" "a number from 0 to 1" (fun x -> x >= 0. && x <= 1.)
 
-let port =
-  let parse text =
-    match int_of_string_opt text with
-    | Some n when n > 0 && n <= 0xFFFF -> Ok n
-    | Some _ | None -> Error (`Msg (Printf.sprintf "'%s' is not a number from 1 to 65535" text))
-  in
-  Arg.conv ~docv:"PORT" (parse, Format.pp_print_int)
+let port = Options.between ~docv:"PORT" ~least:1 ~most:0xFFFF "a number"
 
 (* [SECONDS], or [LEAST-MOST]. *)
 let delay =

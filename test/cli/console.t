@@ -98,6 +98,8 @@ The port is taken; there is no such folder:
 
   $ dolphin console . --port $port 2>&1 | sed "s/$port/PORT/"
   dolphin: port PORT cannot be had: Address already in use
+  $ dolphin console . --port 99999999 2>&1 | head -1
+  dolphin: option '--port': '99999999' is not a port, from 0 to 65535
   $ dolphin console . --listen here 2>&1 | head -1
   dolphin: option '--listen': 'here' is no address such as 192.168.1.5
   $ dolphin console . --tiles https://tile.example/ 2>&1 | head -1

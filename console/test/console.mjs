@@ -234,6 +234,8 @@ await test("a server that is killed in a run offers to resume it", async () => {
   await serve();
   await page.waitForSelector("#banner >> text=can be resumed", { timeout: 60000 });
   await page.evaluate(() => document.querySelector("dialog").close());
+  const right = async (what) => { const box = await page.locator(what).first().boundingBox(); return box.x + box.width; };
+  same(await right("#runs tbody tr >> text=Resume") <= await right("#runs"), true, "the button is in sight");
   await page.click("#runs tbody tr >> text=Resume");
   await page.waitForSelector("dialog[open] >> text=Radius");
   await page.fill("#answer", "2");

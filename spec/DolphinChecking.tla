@@ -31,8 +31,8 @@ Possible(Which(_)) == \E ts \in { Known(vars) } : \E j \in DOMAIN ts : Which(ts[
 -----------------------------------------------------------------------------
 (* {1 Runs} *)
 
-CheckedInitAt(date) == InitAt(date) /\ label = "" /\ again = FALSE
-CheckedInit == CheckedInitAt(AnyDate)
+CheckedInitAt(date, silent) == InitAt(date, silent) /\ label = "" /\ again = FALSE
+CheckedInit == CheckedInitAt(AnyDate, << >>)
 
 (* A transition may leave the state as it is: each round of "while (true) { message 'x' }" does. To TLA+ such a
    transition is stuttering, and a run of nothing else looks unfair, as if the program stood still though it could go

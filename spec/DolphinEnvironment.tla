@@ -24,7 +24,8 @@ CONSTANTS
   Interruptions  \* whether the program may be interrupted
 
 (* outside is how many failures and losses there were, who is lost, who was late, how often each question was asked,
-   each call made and each input posted; and the date. *)
+   each call made and each input posted; and the date. Where links come and go by the time, it is whose links are
+   silent, and who came later than the others, in that order: Timed says when. *)
 vars == << control, store, A, B, N, outside >>
 
 Identifiers == { Fleet[j].id : j \in DOMAIN Fleet }
@@ -57,8 +58,9 @@ MayFail(v) == Ending(v, A[v].name) = "may fail"
    the vehicle, it is no further loss. *)
 MayBeLost(v) == v \in outside.lost \/ Losses = -1 \/ outside.losses < Losses
 
-(* How the task that v runs may end now. *)
+(* How the task that v runs may end now: as long as its link is silent, only by that. *)
 EndsOf(v) ==
+  IF v \in Range(outside.silent) THEN << LostConnection(v) >> ELSE
   LET fails == Ending(v, A[v].name) = "fails"
       mayFail == MayFail(v) /\ (Failures = -1 \/ outside.failed < Failures)
   IN (IF fails THEN << >> ELSE << Done(v) >>)
@@ -95,7 +97,8 @@ MayBeIn(q, vehicle) == q.region = << >> \/ \E place \in Range(vehicle.places) : 
 RecruitsFor(r) ==
   LET waiting == Waiting_(r)
       named == HeldBy(<< r >>)
-      wanted(q) == SelectSeq(Fleet, LAMBDA vehicle : /\ Accepts(q, vehicle) /\ vehicle.id \notin Range(B) \cup named
+      away == Range(B) \cup named \cup Range(outside.silent)
+      wanted(q) == SelectSeq(Fleet, LAMBDA vehicle : /\ Accepts(q, vehicle) /\ vehicle.id \notin away
                                                      /\ MayBeIn(q, vehicle))
       pairs == Flatten(Each(waiting, LAMBDA w : Each(wanted(w.asked), LAMBDA vehicle : << w.timer, vehicle.id >>)))
       isOwed == ~MayAllStayAway({ pair[2] : pair \in Range(pairs) })
@@ -111,7 +114,7 @@ AfterEnd(event) ==
       heard == [ outside EXCEPT !.lost = @ \ { v } ]
   IN CASE event = Failure(v) /\ Failures # -1 /\ MayFail(v) -> [ heard EXCEPT !.failed = @ + 1 ]
        [] event # LostConnection(v) -> heard
-       [] v \in outside.lost -> outside
+       [] v \in outside.lost \cup Range(outside.silent) -> outside
        [] OTHER -> [ outside EXCEPT !.lost = @ \cup { v }, !.losses = IF Losses = -1 THEN @ ELSE @ + 1 ]
 
 (* Something was heard of a vehicle that is recruited. *)
@@ -129,9 +132,10 @@ ExecutingTransitions(M, r) ==
 
 (* An attendance is who comes after all others, in this order, and who is missing. *)
 WorldOf(a, sees) ==
-  LET moved == a.coming \o a.missing
+  LET missing == a.missing \o outside.silent
+      moved == outside.came \o a.coming \o missing
   IN [ vehicles |-> SelectSeq(Fleet, LAMBDA vehicle : vehicle.id \notin Range(moved)) \o Each(moved, VehicleOf),
-       missing |-> a.missing,
+       missing |-> missing,
        sees |-> sees ]
 
 Subsequences(xs) == Flatten([ n \in 1 .. Len(xs) + 1 |-> Choices(n - 1, xs) ])
@@ -146,7 +150,7 @@ Arrangements(n, xs) ==
 (* The vehicles that q looks for, wherever they are. Nothing was heard of the silent ones since they were lost; the
    unsure may be late. *)
 Wanted(q) ==
-  Each(SelectSeq(Fleet, LAMBDA vehicle : Accepts(q, vehicle) /\ vehicle.id \notin Range(B)),
+  Each(SelectSeq(Fleet, LAMBDA vehicle : Accepts(q, vehicle) /\ vehicle.id \notin Range(B \o outside.silent)),
        LAMBDA vehicle : vehicle.id)
 Silent(q) == SelectSeq(Wanted(q), LAMBDA v : v \in outside.lost)
 Unsure(q) == SelectSeq(Wanted(q), LAMBDA v : v \notin outside.lost /\ Latecomers # 0 /\ v \in MayBeLate)
@@ -288,7 +292,7 @@ Becomes(t) ==
   /\ N' = t.S.N
   /\ outside' = t.outside
 
-InitAt(date) ==
+InitAt(date, silent) ==
   /\ control = Script(Call(Main, << >>))
   /\ store = << >> \o [ i \in DOMAIN GlobalNames |-> << >> ]
   /\ A = << >>
@@ -296,9 +300,9 @@ InitAt(date) ==
   /\ N = NoTuples
   /\ outside = [ failed |-> 0, losses |-> 0, lost |-> { }, late |-> { }, asked |-> [ prompt \in Prompts |-> 0 ],
                   called |-> [ call \in Calls |-> 0 ], sent |-> << >> \o [ i \in DOMAIN Inputs |-> 0 ],
-                  date |-> date ]
+                  date |-> date, silent |-> silent, came |-> << >> ]
 
-Init == InitAt(AnyDate)
+Init == InitAt(AnyDate, << >>)
 
 Next == \E j \in DOMAIN Transitions : Becomes(Transitions[j])
 
@@ -347,6 +351,7 @@ TypeOK ==
   /\ outside.date \in Nat \cup { AnyDate }
   /\ outside.losses \in Nat
   /\ outside.lost \subseteq Identifiers
+  /\ Range(outside.silent) \cup Range(outside.came) \subseteq Identifiers
   /\ \A i \in DOMAIN Inputs : outside.sent[i] \in 0 .. Inputs[i].times
   /\ outside.late \subseteq MayBeLate
 

@@ -16,14 +16,17 @@ CONSTANTS
                 \* seconds and in ascending order
   Announced,    \* the time-out of a pick that has none, in milliseconds
   Silence,      \* how long nothing is heard of a vehicle before its task fails, unless the program says so; likewise
+  Links,        \* the changes of links, one after another: whose link comes or goes, and when, in milliseconds
+  SilentAtFirst,  \* the vehicles that are not heard of at the start, in the order in which they are
   Horizon       \* so many ticks are looked at
 
 VARIABLES
   now,      \* ticks since the start
   awaited,  \* all that is awaited: since when, and within what bounds from then on
+  changes,  \* how many of Links there were
   patience  \* how long links may be silent: of vehicles of which the program has said so, and of all others
 
-timedVars == << vars, now, awaited, patience >>
+timedVars == << vars, now, awaited, changes, patience >>
 
 (* What tells states apart, for TLC. *)
 TimedView == timedVars
@@ -57,6 +60,8 @@ BoundsInTicks(b) ==
 (* A number of seconds, as the language has it. *)
 Seconds(x) == InTicks(Numerator(x) * 1000, Denominator(x))
 
+HasLinks == Links # << >> \/ SilentAtFirst # << >>
+
 (* A time that is no longer than a and b, one after the other. *)
 Added(a, b) == IF Unlimited \in { a, b } THEN Unlimited ELSE a + b
 
@@ -71,6 +76,7 @@ Question(i) == << "question", i >>
 Word == << "word" >>  \* of whom the script asks, or calls
 Posting(k) == << "posting", k >>
 Date(n) == << "date", n >>
+SilenceOf(v) == << "silence", v >>  \* that v is given up
 
 (* The next of the dates that code names. *)
 NextDates(remembered) == { CodeDates[i] : i \in { i \in DOMAIN CodeDates : CodeDates[i] > remembered.date } }
@@ -93,6 +99,7 @@ ItemsOf(kappa, remembered) ==
       byControl ==
         CASE kappa.at = "exec" ->
                { Task(v) : v \in Range(Running(kappa.r)) }
+               \cup { SilenceOf(v) : v \in Range(Running(kappa.r)) \cap Range(remembered.silent) }
                \cup { IF IsQuestion(timer) THEN Question(timer.i) ELSE Timer(timer.i) :
                       timer \in Range(Timers(kappa.r)) }
           [] kappa.at = "wait" ->
@@ -117,25 +124,6 @@ BegunBy(e) ==
     [] e[1] = "put question" -> << << Question(e[2]), AnyTime >> >>
     [] OTHER -> << >>
 
-(* Without any effect: words come at once, and pairs are awaited from the start, or from the time before. *)
-ByItself(item, remembered) ==
-  CASE item[1] = "posting" -> BoundsInTicks(Posts(item[2]))
-    [] item[1] = "date" -> Precisely(InTicks((item[2] - remembered.date) * 1000, 1))
-    [] OTHER -> AtOnce
-
-Clock(b) == [ since |-> now, bounds |-> b ]
-
-(* What is awaited after the transition t. *)
-AwaitedAfter(t) ==
-  LET begun == Flatten(Each(t.effects, BegunBy))
-      over == ItemOf(t.event)
-      clock(item) ==
-        LET latest == SelectSeq(begun, LAMBDA b : b[1] = item)
-        IN CASE latest # << >> -> Clock(Last(latest)[2])
-             [] item \in DOMAIN awaited /\ item # over -> awaited[item]
-             [] OTHER -> Clock(ByItself(item, t.outside))
-  IN [ item \in ItemsOf(t.control, t.outside) |-> clock(item) ]
-
 (* {2 Silent links} *)
 
 SaidOfSilence(silent, e) ==
@@ -152,6 +140,29 @@ PatienceWith(v) ==
   CASE v \in DOMAIN patience.of -> patience.of[v]
     [] patience.others = Unlimited -> InTicks(Silence, 1)
     [] OTHER -> patience.others
+
+(* Without any effect: words come at once, and pairs are awaited from the start, or from the time before. *)
+ByItself(item, remembered) ==
+  CASE item[1] = "posting" -> BoundsInTicks(Posts(item[2]))
+    [] item[1] = "date" -> Precisely(InTicks((item[2] - remembered.date) * 1000, 1))
+    [] item[1] = "silence" -> Precisely(PatienceWith(item[2]))
+    [] OTHER -> AtOnce
+
+(* Of a task that waits for the link, until it begins. *)
+ClockOf(b, waits) == [ since |-> now, bounds |-> b, waits |-> waits ]
+Clock(b) == ClockOf(b, FALSE)
+
+(* What is awaited after the transition t. *)
+AwaitedAfter(t) ==
+  LET begun == Flatten(Each(t.effects, BegunBy))
+      over == ItemOf(t.event)
+      clock(item) ==
+        LET latest == SelectSeq(begun, LAMBDA b : b[1] = item)
+            waits == item[1] = "task" /\ item[2] \in Range(t.outside.silent)
+        IN CASE latest # << >> -> ClockOf(Last(latest)[2], waits)
+             [] item \in DOMAIN awaited /\ item # over -> awaited[item]
+             [] OTHER -> Clock(ByItself(item, t.outside))
+  IN [ item \in ItemsOf(t.control, t.outside) |-> clock(item) ]
 
 -----------------------------------------------------------------------------
 (* {1 When} *)
@@ -195,6 +206,7 @@ PickWithin(t) ==
   LET q == control.request[2]
   IN CASE t.event # Program -> Precisely(PickTimeout(q))
        [] ComesLate(t) -> << 0, PickTimeout(q) >>
+       [] HasLinks -> AnyTime
        [] OTHER -> AtOnce
 
 IsOfPick(t) ==
@@ -206,6 +218,8 @@ Due(t) ==
       b == awaited[item].bounds
   IN CASE IsOfPick(t) -> << Timer(ScriptTimer), PickWithin(t) >>
        [] item = << >> -> << >>
+       [] item[1] = "task" /\ item[2] \in Range(outside.silent) ->
+            << SilenceOf(item[2]), awaited[SilenceOf(item[2])].bounds >>
        [] item[1] = "task" -> << item, EndsWithin(item[2], t.event, b) >>
        [] OTHER -> << item, b >>
 
@@ -239,31 +253,37 @@ TakenNow(timely) ==
 (* The date that code comes to next, if there is one. *)
 DatesToCome == { item \in DOMAIN awaited : item[1] = "date" }
 
+(* When the next link comes or goes, if one does. *)
+ChangesToCome == control.at # "end" /\ changes < Len(Links)
+NextChange == InTicks(Links[changes + 1][2], 1)
+
 (* Something is still to come. *)
-IsAnythingOwed(timely) == DatesToCome # { } \/ \E s \in Range(timely.steps) : IsOwed(s.t.event)
+IsAnythingOwed(timely) == DatesToCome # { } \/ ChangesToCome \/ \E s \in Range(timely.steps) : IsOwed(s.t.event)
 
 (* A tick may pass: something is still to come, and of each item that is awaited something may happen after it. *)
 MayTick(timely) ==
   /\ ~timely.urgent
   /\ IsAnythingOwed(timely)
   /\ \A item \in DatesToCome : ~IsOver(awaited[item].bounds[2], Age(item) + 1)
+  /\ IF ChangesToCome THEN now < NextChange ELSE TRUE
   /\ NoneIsOver(timely, 1)
 
 -----------------------------------------------------------------------------
 (* {1 Runs} *)
 
 TimedInit ==
-  /\ CheckedInitAt(0)
+  /\ CheckedInitAt(0, SilentAtFirst)
   /\ now = 0
+  /\ changes = 0
   /\ awaited = [ item \in ItemsOf(control, outside) |-> Clock(ByItself(item, outside)) ]
   /\ patience = [ others |-> Unlimited, of |-> << >> ]
 
 Step_(t) ==
   /\ Becomes(t)
   /\ awaited' = AwaitedAfter(t)
-  /\ patience' = IF Losses = 0 THEN patience ELSE PatienceAfter(patience, t.effects)
+  /\ patience' = IF Losses = 0 /\ ~HasLinks THEN patience ELSE PatienceAfter(patience, t.effects)
   /\ label' = t.label
-  /\ UNCHANGED << now, again >>
+  /\ UNCHANGED << now, changes, again >>
 
 Take ==
   \E ts \in { Known(vars) } : \E timely \in { Timely(ts) } :
@@ -274,7 +294,7 @@ Tick ==
   /\ \E ts \in { Known(vars) } : MayTick(Timely(ts))
   /\ now' = now + 1
   /\ label' = "tick"
-  /\ UNCHANGED << vars, awaited, patience, again >>
+  /\ UNCHANGED << vars, awaited, changes, patience, again >>
 
 (* A date passes that code names, before or after whatever else happens at that moment. Who reads it sees it from now
    on. *)
@@ -287,14 +307,42 @@ Pass(item) ==
              [ other \in (DOMAIN awaited \ { item }) \cup NextDate(after) |->
                IF other \in DOMAIN awaited THEN awaited[other] ELSE Clock(ByItself(other, after)) ]
   /\ label' = "date"
+  /\ UNCHANGED << now, changes, patience, again >>
+
+(* The link of v comes or goes. When it is back, an order that waited for it is carried out: its task begins; and a task
+   that cannot last that long is over, which is told now. *)
+AwaitedWithLink(item, v, after) ==
+  LET isBack == item = Task(v) /\ v \in Range(outside.silent)
+      isKnown == item \in DOMAIN awaited
+      b == IF isKnown THEN awaited[item].bounds ELSE << >>
+  IN CASE ~isKnown -> Clock(ByItself(item, after))
+       [] isBack /\ awaited[item].waits -> Clock(b)
+       [] isBack /\ b # << >> /\ IsOver(b[2], Age(item)) -> Clock(AtOnce)
+       [] OTHER -> awaited[item]
+
+Change ==
+  /\ ChangesToCome
+  /\ now = NextChange
+  /\ \E ts \in { Known(vars) } : ~Timely(ts).urgent
+  /\ LET v == Links[changes + 1][1]
+         isIn(vs) == v \in Range(vs)
+         others(vs) == SelectSeq(vs, LAMBDA w : w # v)
+         silent == IF isIn(outside.silent) THEN others(outside.silent) ELSE Append(outside.silent, v)
+         after == [ outside EXCEPT !.silent = silent,
+                                   !.came = SelectSeq(SilentAtFirst, LAMBDA w : w \notin Range(silent)) ]
+     IN /\ Becomes([ control |-> control, S |-> Shared, outside |-> after ])
+        /\ awaited' = [ item \in ItemsOf(control, after) |-> AwaitedWithLink(item, v, after) ]
+  /\ changes' = changes + 1
+  /\ label' = "link"
   /\ UNCHANGED << now, patience, again >>
 
-TimedNext == Take \/ Tick \/ \E item \in DatesToCome : Pass(item)
+TimedNext == Take \/ Tick \/ Change \/ \E item \in DatesToCome : Pass(item)
 
-(* Time can be erased: with an open date, where code reads it. *)
+(* Time can be erased: with an open date, where code reads it; with vehicles that are late or lost, where links come and
+   go. *)
 THEOREM Erasure ==
-  CodeDates = << >> /\ ~ReadsDate =>
-    (TimedInit /\ [][TimedNext]_<< timedVars, label, again >> => InitAt(0) /\ [][Next]_vars)
+  CodeDates = << >> /\ ~ReadsDate /\ ~HasLinks =>
+    (TimedInit /\ [][TimedNext]_<< timedVars, label, again >> => InitAt(0, << >>) /\ [][Next]_vars)
 
 -----------------------------------------------------------------------------
 (* {1 Dates} *)

@@ -37,6 +37,12 @@ let inline (v : Scenario.vehicle) from plan =
 
 (* {1 Fleets} *)
 
+let links_with (faults : Dolphin_environment.Faults.t) d =
+  let is_possible = Dolphin_environment.Faults.is_possible in
+  if is_possible faults.join then Links.none
+  else if is_possible faults.loss then Links.only_first d.links
+  else d.links
+
 (* The simulator's, and the usual one of links: see docs/language.md. *)
 let announced = 10.
 let silence = 60.

@@ -20,6 +20,10 @@ val moves : Core.platform_task -> Dolphin_geo.Position.t option option
 (** [moves p] is where [p] leaves its vehicle, if that is elsewhere than where it was: [Some None] if that depends on
     where it was. *)
 
+val links_with : Dolphin_environment.Faults.t -> t -> Links.t
+(** [links_with faults d] is the [links] of [d], as far as [faults] do not let them come and go at any time: with
+    [join], none; with [loss], only those of vehicles that come later. *)
+
 val of_scenario : Dolphin_scenario.Scenario.t -> t
 (** [of_scenario s] is what [s] says: [duration] of plans by name, [speed] of vehicles for plans that are described in
     the program, [after] of inputs, [joins], [leaves], [drops] of vehicles; some time, where it says nothing. *)

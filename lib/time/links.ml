@@ -56,6 +56,7 @@ let only_first l =
 let late l = l.late
 let count l = Array.length l.changes
 let change l k = l.changes.(k)
+let changes l = Array.to_list l.changes
 let silent l k = l.silent.(k)
 let is_silent l k v = is_in v l.silent.(k)
 

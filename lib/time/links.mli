@@ -26,6 +26,9 @@ val count : t -> int
 val change : t -> int -> Core.vehicle * int
 (** [change l k] is the vehicle of change [k], from 0, and how many milliseconds after the start it comes. *)
 
+val changes : t -> (Core.vehicle * int) list
+(** All of them. *)
+
 val words : t -> int -> string
 (** What change [k] is: ["b joins"], ["b's link goes"], ["b's link is back"]. *)
 

@@ -108,12 +108,7 @@ let place o elsewhere v =
 
 (* With [--faults join] vehicles that are late come at any time: see [comes_late]. With [--faults loss] links are lost
    at any time, too. *)
-let links o =
-  let { Environment.faults; _ } = o.environment in
-  if Faults.is_possible faults.join then Links.none
-  else if Faults.is_possible faults.loss then Links.only_first o.durations.links
-  else o.durations.links
-
+let links o = Durations.links_with o.environment.faults o.durations
 let has_links o = Links.count (links o) > 0 || Links.late (links o) <> []
 
 let may_join_during_tasks o =

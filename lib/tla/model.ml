@@ -218,9 +218,9 @@ let text program world (environment : Environment.options) plans prompts calls t
   Buffer.contents b
 
 (* The module of the program with its times. *)
-let timed_text (times : Times.t) ~plans world (program : Core.program) =
+let timed_text (times : Times.t) ~faults ~plans world (program : Core.program) =
   let definition (head, body) = Printf.sprintf "MC%s ==\n  %s\n\n" head body in
-  let definitions = Times.definitions times ~plans program world in
+  let definitions = Times.definitions times ~faults ~plans program world in
   "---- MODULE MCTimed ----\nEXTENDS MC, Timed\n\n" ^ String.concat "" (List.map definition definitions) ^ "====\n"
 
 let constants (environment : Environment.options) =
@@ -255,12 +255,13 @@ let refinement environment =
 let timed times environment =
   let value (name, n) = Printf.sprintf "  %s = %d\n" name n in
   "INIT TimedInit\nNEXT TimedNext\nVIEW TimedView\n" ^ constants environment
-  ^ "  Lasts <- MCLasts\n  Posts <- MCPosts\n  CodeDates <- MCCodeDates\n"
+  ^ "  Lasts <- MCLasts\n  Posts <- MCPosts\n  CodeDates <- MCCodeDates\n  Links <- MCLinks\n\
+    \  SilentAtFirst <- MCSilentAtFirst\n"
   ^ String.concat "" (List.map value (Times.values times))
   ^ "INVARIANT Dates\nCHECK_DEADLOCK FALSE\n"
 
 let timed_files times ~plans ~environment world program =
-  [ { name = "MCTimed.tla"; text = timed_text times ~plans world program };
+  [ { name = "MCTimed.tla"; text = timed_text times ~faults:environment.Environment.faults ~plans world program };
     { name = "Timed.cfg"; text = timed times environment } ]
 
 let unfit_replies ~environment ~calls world program =

@@ -1,6 +1,7 @@
 open Dolphin_semantics
 module Bounds = Dolphin_time.Bounds
 module Durations = Dolphin_time.Durations
+module Links = Dolphin_time.Links
 module Faults = Dolphin_environment.Faults
 
 type t = { durations : Durations.t; tick : int; horizon : int }
@@ -15,6 +16,8 @@ let ids world = List.map (fun (s : World.vehicle_state) -> s.id) (World.vehicles
 
 let rec divisor a b = if b = 0 then a else divisor b (a mod b)
 
+let has_links links = Links.count links > 0 || Links.late links <> []
+
 let tick (durations : Durations.t) ~(faults : Faults.t) ~plans program world =
   let longest found : Bounds.t -> int = function
     | Within { least; most } -> divisor (divisor found least) most
@@ -25,7 +28,14 @@ let tick (durations : Durations.t) ~(faults : Faults.t) ~plans program world =
   let dates = Result.value (Dated_code.named program) ~default:[] in
   let of_dates = List.fold_left (fun found n -> divisor found (1000 * n)) 0 dates in
   let of_plans = List.fold_left of_vehicle of_dates (ids world) in
-  match if_possible faults.join durations.announced (if_possible faults.loss durations.silence of_plans) with
+  let links = Durations.links_with faults durations in
+  let of_links =
+    if has_links links then
+      let changes = List.fold_left (fun found (_, ms) -> divisor found ms) of_plans (Links.changes links) in
+      longest (longest changes durations.announced) durations.silence
+    else of_plans
+  in
+  match if_possible faults.join durations.announced (if_possible faults.loss durations.silence of_links) with
   | 0 -> 1_000
   | n -> n
 
@@ -64,8 +74,14 @@ let code_dates program : Tla.t =
   | Ok dates -> Tuple (List.map (fun n -> Tla.Integer n) dates)
   | Error _ -> Name undated
 
-let definitions t ~plans program world =
-  [ ("Lasts(v, p)", lasts t plans world); ("Posts(k)", posts t program.Core.inputs);
+let links l : Tla.t = Tuple (List.map (fun (v, ms) -> Tla.Tuple [ String v; milliseconds ms ]) (Links.changes l))
+
+let definitions t ~faults ~plans program world =
+  let known = Durations.links_with faults t.durations in
+  let text = Format.asprintf "%a" Tla.pp in
+  [ ("Links", text (links known));
+    ("SilentAtFirst", text (Tuple (List.map (fun v -> Tla.String v) (Links.late known))));
+    ("Lasts(v, p)", lasts t plans world); ("Posts(k)", posts t program.Core.inputs);
     ("CodeDates", Format.asprintf "%a" Tla.pp (code_dates program)) ]
 
 (* Whole numbers: the simulator's time-out, and that of links. *)

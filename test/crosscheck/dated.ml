@@ -17,8 +17,14 @@ let hashed seed plans : Durations.t =
     Bounds.Within { least = 1000 * least; most = 1000 * (least + (n / 3 mod 3)) }
   in
   let posted key = if key = "y" then Bounds.exactly 2. else Bounds.between 1. 2. in
-  { task; announced = Bounds.exactly 1.; silence = Bounds.exactly 2.; posted; place = (fun _ -> None);
-    links = Links.none }
+  let links =
+    Links.of_silences
+      (match seed mod 6 with
+       | 0 -> [ ("a", [ (1., 4.) ]); ("b", [ (0., 1.); (2., 3.) ]) ]
+       | 1 -> [ ("a", [ (2., infinity) ]); ("c", [ (0., 2.); (4., 5.) ]) ]
+       | _ -> [])
+  in
+  { task; announced = Bounds.exactly 1.; silence = Bounds.exactly 2.; posted; place = (fun _ -> None); links }
 
 let random ~seed n =
   let plans = [ "p"; "q" ] in
@@ -27,9 +33,8 @@ let random ~seed n =
 
 (* {2 With fleets} *)
 
-(* In TLA+ all links are there all the time. *)
 let in_fleet (case, scenario) =
-  { case; durations = { (Durations.of_scenario scenario) with links = Links.none };
+  { case; durations = Durations.of_scenario scenario;
     plans = List.map (fun (p : Scenario.plan) -> p.name) scenario.plans }
 
 let no_fault = ("", Faults.none)
@@ -38,15 +43,22 @@ let a_loss = (", with a loss", { Faults.none with loss = At_most 1 })
 let a_failure = (", with a failure", { Faults.none with fail = At_most 1 })
 let examples directory = List.map in_fleet (Case.with_fleets [ no_fault; a_failure ] directory)
 
-let scenario =
-  let text =
-    "vehicle 'a', { type 'UUV' }\nvehicle 'b', { type 'UUV' }\nvehicle 'c', { type 'UAV' }\n\
-     plan 'p', { duration 2, 4 }\nplan 'q', { duration 3 }\nplan 'r', { duration 1, 2; mayFail 0.5 }\n\
-     answer 'go on?', 'yes'\ninput 'x', 1, after 5\n"
-  in
+let read text =
   match Scenario.read ~file:"small.fleet" text with
   | Ok scenario -> scenario
   | Error ds -> failwith (Format.asprintf "%a" (Fmt.list (Dolphin_syntax.Diagnostic.pp ~source:text)) ds)
+
+let scenario =
+  read
+    "vehicle 'a', { type 'UUV' }\nvehicle 'b', { type 'UUV' }\nvehicle 'c', { type 'UAV' }\n\
+     plan 'p', { duration 2, 4 }\nplan 'q', { duration 3 }\nplan 'r', { duration 1, 2; mayFail 0.5 }\n\
+     answer 'go on?', 'yes'\ninput 'x', 1, after 5\n"
+
+let linked =
+  read
+    "vehicle 'a', { type 'UUV'; drops 2, 3; drops 9, 2 }\nvehicle 'b', { type 'UUV'; joins 4; leaves 12 }\n\
+     vehicle 'c', { type 'UAV'; drops 1, 20 }\n\
+     plan 'p', { duration 2, 4 }\nplan 'q', { duration 3 }\nplan 'r', { duration 1, 2; mayFail 0.5 }\n"
 
 let two = "a = pick { id 'a' }; b = pick { id 'b' }\n"
 
@@ -94,10 +106,28 @@ let texts =
     ( "at any time somebody leaves", (", with interruptions", { Faults.none with interrupt = true }),
       "onInterrupt { v -> task('q')[v] }\n" ^ two ^ "execute task('p')[a]" ) ]
 
+let soon = "setConnectionTimeout 5\n"
+
+let linked_texts =
+  let a = soon ^ "a = pick { id 'a' }\n" in
+  [ ("an order that waits for the link", no_fault, a ^ "pause 3\nexecute task('p')[a]");
+    ("what ends unheard is told late", no_fault, a ^ "execute task('p')[a] >> task('r')[a]");
+    ("a link that is back again and again", no_fault, a ^ "execute watch (repeat 4, task('r')[a]) onError { ignore() }");
+    ("a silent link", no_fault, soon ^ "c = pick { id 'c' }\nexecute watch task('p')[c] onError { task('q') }");
+    ("an order that is given up", no_fault, soon ^ "c = pick { id 'c' }\npause 2\nexecute task('p')[c]");
+    ("who joins", no_fault, soon ^ "v = pick { id 'b'; timeout 6 }\nexecute task('q')[v]");
+    ("who joins on the stroke", no_fault, soon ^ "v = pick { id 'b'; timeout 4 }\nexecute task('q')[v]");
+    ("who leaves", no_fault, soon ^ "v = pick { id 'b'; timeout 6 }\nexecute repeat 3, task('q')[v]");
+    ("whoever is heard of", no_fault, soon ^ "vs = pick { count _; timeout 5 }\nexecute task('q')[vs[0]]");
+    ("who joins is recruited", no_fault, soon ^ "execute recruit { type 'UUV' } then { v -> task('q') } | idle(3)");
+    ("a silent one is recruited", no_fault, soon ^ "pause 3\nexecute recruit { id 'a' } then { v -> task('p') }");
+    ("a silent one fails", a_failure, a ^ "execute watch task('p')[a] onError { ignore() }");
+    ("who joins, and who is lost", a_loss, soon ^ "v = pick { id 'b'; timeout 6 }\nexecute task('p')[v]") ]
+
 let small =
-  let case (name, (kind, faults), source) =
+  let case scenario (name, (kind, faults), source) =
     in_fleet (Case.in_fleet (name ^ kind) source scenario faults, scenario) in
-  List.map case texts
+  List.map (case scenario) texts @ List.map (case linked) linked_texts
 
 (* {1 What dolphin time says} *)
 

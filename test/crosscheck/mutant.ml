@@ -669,6 +669,18 @@ let all =
       file = time;
       pattern = {|[] ComesLate(t) -> << 0, PickTimeout(q) >>|};
       replacement = {|[] ComesLate(t) -> AtOnce|} };
+    { name = "an order does not wait for the link";
+      file = time;
+      pattern = {|[] isBack /\ awaited[item].waits -> Clock(b)|};
+      replacement = {|[] FALSE -> Clock(b)|} };
+    { name = "a link that is silent is not given up in time";
+      file = time;
+      pattern = {|[] item[1] = "silence" -> Precisely(PatienceWith(item[2]))|};
+      replacement = {|[] item[1] = "silence" -> AnyTime|} };
+    { name = "who is silent is heard of";
+      file = environment;
+      pattern = {|IF v \in Range(outside.silent) THEN << LostConnection(v) >> ELSE|};
+      replacement = {|IF FALSE THEN << LostConnection(v) >> ELSE|} };
     { name = "what is awaited anew has its old time";
       file = time;
       pattern = {|CASE latest # << >> -> Clock(Last(latest)[2])|};

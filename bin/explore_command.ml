@@ -92,10 +92,10 @@ let of_values settings sweep fleet ~strict ~json ~period ~files ~cache =
     else Explore_sweep.print ~strict sweep rows;
     Ok (Exit_status.of_verdict (Sweep.verdict rows))
 
-let run path set fleet answers faults strict json period files cache reduction compress spill walks bitstate
+let run path set fleet answers faults strict json period files cache reduction compress spill walks bitstate workers
     invariants formulas max_states max_depth max_memory timeout =
   let settings : Exploration.settings =
-    { answers; faults; reduction; compress; spill; walks; bitstate; max_states; max_depth; max_memory; timeout;
+    { answers; faults; reduction; compress; spill; walks; bitstate; workers; max_states; max_depth; max_memory; timeout;
       invariants; formulas } in
   Report.result
     (let* () = check_search settings in
@@ -297,6 +297,16 @@ let bitstate =
   in
   Arg.(value & opt (some size) None & info [ "bitstate" ] ~docv:"SIZE" ~doc)
 
+let workers =
+  let doc =
+    "Search with $(docv) processes once there are some 100,000 states. What is found is the same whatever $(docv) is; \
+     of several shortest runs it may be another one that is shown. With symmetry of tasks, the number of states may \
+     differ. There is one process with $(b,--invariant), $(b,--ltl), $(b,--compress), $(b,--spill), $(b,--sample) and \
+     $(b,--bitstate)."
+  in
+  let cores = Dolphin_checker.Shared_memory.machine_cores () in
+  Arg.(value & opt positive cores & info [ "workers" ] ~docv:"N" ~absent:"the number of cores" ~doc)
+
 let json = Arg.(value & flag & info [ "json" ] ~doc:"Print the result as one JSON object.")
 
 let man =
@@ -341,5 +351,5 @@ let command =
   Cmd.v info
     Term.(
       const run $ Options.program $ Options.set_range $ Options.fleet $ answers $ faults $ strict $ json $ period
-      $ files $ cache $ reduction $ compress $ spill $ walks $ bitstate $ invariants $ formulas $ max_states $ max_depth
-      $ max_memory $ timeout)
+      $ files $ cache $ reduction $ compress $ spill $ walks $ bitstate $ workers $ invariants $ formulas $ max_states
+      $ max_depth $ max_memory $ timeout)

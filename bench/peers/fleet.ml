@@ -67,7 +67,8 @@ let () =
   let program = Pure_run.compile_exn (program n) in
   let formulas = formulas program in
   let spill = Sys.getenv_opt "SPILL" in
-  let options = { Search.default with environment; reduction; compress; spill; limits; formulas } in
+  let workers = Option.fold ~none:1 ~some:int_of_string (Sys.getenv_opt "WORKERS") in
+  let options = { Search.default with environment; reduction; compress; spill; workers; limits; formulas } in
   let o = Search.run options program (world n) in
   Printf.printf "%d states, %d transitions, depth %d, %.2f s, %.1f bytes a state%s\n" o.states o.transitions o.depth
     (Sys.time ())

@@ -62,6 +62,12 @@ module Vectors = struct
     if next = [] then visitor.rest ();
     List.length next
 
+  let check_fit _ = ()
+
+  type findings = unit
+
+  let findings _ = ()
+  let add_findings _ () = ()
   let numbers s key f = List.iter f (read s key)
   let broken s word = if s.is_broken (first s word) then Some Too_large else None
   let is_end s _ = s.is_end
@@ -74,8 +80,8 @@ end
 
 module Search = Breadth_first.Make (Vectors)
 
-let searched ?compress ?spill ?monitor ?(limits = Limits.none) system =
-  let search = Search.create ?compress ?spill ?monitor limits system in
+let searched ?compress ?spill ?workers ?monitor ?(limits = Limits.none) system =
+  let search = Search.create ?compress ?spill ?workers ~fork_from:0 ?monitor limits system in
   Search.run search;
   search
 
@@ -120,8 +126,8 @@ let on_disk =
 
 let folder = Filename.get_temp_dir_name ()
 
-let test_philosophers ?compress ?spill ?limits n () =
-  let search = searched ?compress ?spill ?limits (philosophers n) in
+let test_philosophers ?compress ?spill ?workers ?limits n () =
+  let search = searched ?compress ?spill ?workers ?limits (philosophers n) in
   check_int "states" (tables n) (Search.count search);
   check_int "all are expanded" (Search.count search) (Search.expanded search);
   match Search.no_deadlock search with
@@ -140,8 +146,8 @@ let counter ?is_broken () =
 let range from upto = List.init (upto - from + 1) (fun i -> [ from + i ])
 
 (* Looking for the cycle expands states again, and may outgrow their encoding. *)
-let test_cycle ?spill ?limits ~outgrown () =
-  let search = searched ?spill ?limits (counter ()) in
+let test_cycle ?spill ?workers ?limits ~outgrown () =
+  let search = searched ?spill ?workers ?limits (counter ()) in
   (Search.system search).outgrown <- outgrown;
   check_int "states" 10 (Search.count search);
   check_int "transitions" 10 (Search.transitions search);
@@ -151,6 +157,97 @@ let test_cycle ?spill ?limits ~outgrown () =
     check_states "stem" (range 0 5) (numbers search stem);
     check_states "around" (range 5 9 @ [ [ 5 ] ]) (numbers search around)
   | Holds | Inconclusive _ -> Alcotest.fail "no cycle was found"
+
+(* {1 Several processes}
+
+   A state leads to a hundred others, and these to one. What they do depends on who expands them. The leader waits
+   until a worker has begun: this one is sure to have some of the hundred, and to be the first at one. *)
+
+let among_two ~worker ~leader =
+  let here = Unix.getpid () and from, out = Unix.pipe () in
+  let begun = ref false in
+  let successors numbers =
+    match numbers with
+    | [ 0 ] -> List.init 100 (fun i -> [ i + 1 ])
+    | [ n ] when n <= 100 ->
+      if Unix.getpid () <> here then begin
+        ignore (Unix.write_substring out "." 0 1 : int);
+        worker n
+      end
+      else if !begun then leader n
+      else begin
+        begun := true;
+        ignore (Unix.read from (Bytes.create 1) 0 1 : int);
+        leader n
+      end
+    | _ -> []
+  in
+  Vectors.make ~is_end:true [ 0 ] successors
+
+let last = [ [ 101 ] ]
+
+let nobody_is_left () =
+  match Unix.waitpid [ WNOHANG ] (-1) with
+  | exception Unix.Unix_error (ECHILD, _, _) -> ()
+  | _ -> Alcotest.fail "a process is left"
+
+let test_workers () =
+  let search = searched ~workers:2 (among_two ~worker:(fun _ -> last) ~leader:(fun _ -> last)) in
+  check_int "states" 102 (Search.count search);
+  check_int "transitions" 200 (Search.transitions search);
+  check_int "all are expanded" 102 (Search.expanded search);
+  check_int "depth" 2 (Search.depth search);
+  let found = ref [] in
+  Search.iter search (fun i -> found := Vectors.read (Search.system search) (Search.load search i) :: !found);
+  check_states "each once" (List.init 102 (fun i -> [ i ])) (List.sort compare !found);
+  let goes_there = ref 0 in
+  let look i = match List.length (Search.path search i) with 1 | 2 | 3 -> incr goes_there | _ -> () in
+  Search.iter search look;
+  check_int "runs to all states" 102 !goes_there;
+  nobody_is_left ();
+  Search.close search
+
+(* Whatever ends the search, all processes end. *)
+let test_stopped why ~worker ?(leader = fun _ -> last) ?(limits = Limits.none) () =
+  let search = searched ~workers:2 ~limits (among_two ~worker ~leader) in
+  let told =
+    match Search.stopped search with Some bound -> Format.asprintf "%a" Limits.pp_bound bound | None -> "nothing"
+  in
+  Alcotest.(check string) "what stopped it" why told;
+  nobody_is_left ();
+  Alcotest.(check bool) "nothing is said to hold" false (Search.no_deadlock search = Holds);
+  Search.close search
+
+let rec for_ever n =
+  Unix.sleep 3_600;
+  for_ever n
+
+let kill_this _ =
+  Unix.kill (Unix.getpid ()) Sys.sigkill;
+  last
+
+let interrupted_once_begun () =
+  let begun = ref false in
+  let leader _ = begun := true; last in
+  test_stopped "it was interrupted" ~worker:for_ever ~leader
+    ~limits:{ Limits.none with interrupted = (fun () -> !begun) }
+    ()
+
+exception Strange
+
+(* It comes up again in the leader. *)
+let test_strange () =
+  match searched ~workers:2 (among_two ~worker:(fun _ -> raise Strange) ~leader:(fun _ -> raise Strange)) with
+  | exception Strange -> nobody_is_left ()
+  | _ -> Alcotest.fail "what a worker raises is lost"
+
+(* What a worker cannot do, the leader can. *)
+let test_left () =
+  let search = searched ~workers:2 (among_two ~worker:(fun _ -> raise Strange) ~leader:(fun _ -> last)) in
+  check_int "states" 102 (Search.count search);
+  check_int "transitions" 200 (Search.transitions search);
+  nobody_is_left ();
+  Search.close search
 
 let test_reached () =
   let search = searched (counter ~is_broken:(fun n -> n > 6) ()) in
@@ -417,10 +514,19 @@ let () =
       ( "philosophers",
         [ case "five" (test_philosophers 5); case "eight" (test_philosophers 8);
           case "eight, compressed" (test_philosophers ~compress:true 8);
-          case "eight, on disk" (test_philosophers ~spill:folder ~limits:on_disk 8) ] );
+          case "eight, on disk" (test_philosophers ~spill:folder ~limits:on_disk 8);
+          case "eight, by two" (test_philosophers ~workers:2 8);
+          case "eight, by three" (test_philosophers ~workers:3 8) ] );
+      ( "several processes",
+        [ case "two" test_workers; case "the cycle of the counter" (fun () -> test_cycle ~workers:2 ~outgrown:false ());
+          case "the same, after outgrowing" (fun () -> test_cycle ~workers:3 ~outgrown:true ());
+          case "a worker is killed"
+            (fun () -> test_stopped "a worker process ended early, killed" ~worker:kill_this ());
+          case "Ctrl-C while a worker is at something" interrupted_once_begun;
+          case "exceptions" test_strange; case "what is left to the leader" test_left ] );
       ( "disk",
-        [ case "its cycle" (test_cycle ~spill:folder ~limits:on_disk ~outgrown:false);
-          case "its cycle, after outgrowing" (test_cycle ~spill:folder ~limits:on_disk ~outgrown:true);
+        [ case "its cycle" (fun () -> test_cycle ~spill:folder ~limits:on_disk ~outgrown:false ());
+          case "its cycle, after outgrowing" (fun () -> test_cycle ~spill:folder ~limits:on_disk ~outgrown:true ());
           case "no folder" test_no_folder; case "without, memory is a bound" test_not_spilled;
           case "still a bound" test_bound_on_disk ] );
       ( "counter",

@@ -348,6 +348,32 @@ let bitstate =
   @ in_file "lib/checker/search/breadth_first.ml" ~noticed_by:"explore/test_bitstate"
     [ ("what waits keeps its encoding", {|Trail.rewrite deep.trail renewed;|}, {|ignore Trail.rewrite;|}) ]
 
+let workers =
+  in_file "lib/checker/search/breadth_first.ml" ~noticed_by:"checker/test_search"
+    [
+      ("what is left to the leader is left out", {|List.iter (expand_left t shared) left;|}, {|ignore expand_left;|});
+      ("the transitions of workers are not counted", {|t.transitions <- t.transitions + transitions;|},
+       {|ignore (transitions : int);|});
+    ]
+  @ in_file "lib/checker/store/shared_states.ml" ~noticed_by:"checker/test_search"
+    [
+      ("a run of parents begins with the one before", {|Array1.unsafe_set t.runs (at + 1) parent|},
+       {|Array1.unsafe_set t.runs (at + 1) (parent - 1)|});
+      ("states that move go to their places from the first on", {|Int.compare first' first|}, {|Int.compare first first'|});
+    ]
+  @ in_file "lib/checker/store/numbering.ml" ~noticed_by:"explore/test_workers"
+    [ ("each process gives numbers as they come", {|if !is_closed then raise_notrace Closed|}, {|ignore !is_closed|}) ]
+  @ in_file "lib/checker/search/team.ml" ~noticed_by:"explore/test_workers"
+    [ ("what others have learnt is not learnt before", {|      catch_up t ~words f;
+      let key|}, {|      t.known <- get t logged;
+      let key|}) ]
+  @ in_file "lib/checker/search/breadth_first.ml" ~noticed_by:"explore/test_workers"
+    [
+      ("the deadlock of a worker is lost", {|t.deadlock <- first_of t t.deadlock resting;|}, {|ignore resting;|});
+      ("what workers find beside states is lost", {|S.add_findings t.system found;|}, {|ignore found;|});
+      ("numbers that were given in vain fit", {|| exception S.Outgrown -> outgrow t);|}, {|| exception S.Outgrown -> ());|});
+    ]
+
 let disk =
   in_file "lib/checker/store/on_disk.ml" ~noticed_by:"checker/test_states"
     [
@@ -1539,7 +1565,7 @@ let all =
   List.concat
     [ maps; missions; footprint; step_footprints; order_of_recruits; stubborn; automorphism; task_isomorphism;
       task_groups; quotient; expansion; portable; files_of_states;
-      vehicle_orbits; canonical_vehicles; bitstate; disk; name_flow; liveness; recruiting; later_picks;
+      vehicle_orbits; canonical_vehicles; bitstate; workers; disk; name_flow; liveness; recruiting; later_picks;
       environment; picks; inputs;
       attendance;
       task_rules; local_step; run_code; answers_in_words; confirm; unknown; on_interrupt;

@@ -12,6 +12,7 @@ type settings = {
   spill : string option;  (** the directory of what goes beyond [max_memory] *)
   walks : Dolphin_explore.Search.walks option;
   bitstate : int option;  (** bytes of bits by which states are told apart, in place of their set *)
+  workers : int;  (** processes that search, if there are many states *)
   max_states : int option;
   max_depth : int option;  (** transitions *)
   max_memory : int option;  (** bytes; [None]: nine tenths of what is left to the process *)

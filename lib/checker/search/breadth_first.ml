@@ -13,6 +13,13 @@ module Make (S : System.S) = struct
     mutable cycle : (int list * int) option;  (* a run whose last state leads to the one at that place *)
   }
 
+  (* Of a search that goes on in several processes. *)
+  type shared = {
+    team : Team.t;
+    mutable expanded : int;  (* by processes that have ended, and by this one *)
+    mutable findings : S.findings option;  (* in a worker that can find no more *)
+  }
+
   type t = {
     system : S.t;
     limits : Limits.t;
@@ -36,6 +43,9 @@ module Make (S : System.S) = struct
     mutable deep : deep option;
     mutable guard : Limits.guard;
     mutable spill : string option;  (* where states will go when there is too little memory *)
+    mutable workers : int;
+    fork_from : int;  (* states *)
+    mutable shared : shared option;
     fresh : int -> int -> unit;
     visitor : S.via System.visitor;
   }
@@ -43,19 +53,24 @@ module Make (S : System.S) = struct
   let system t = t.system
   let stopped t = t.stopped
   let count t = States.count t.states
+  let iter t f = States.iter t.states f
   let visited deep = Bitstate.states deep.bits
-  let transitions t = t.transitions
+  let others t = match t.shared with Some { team; _ } when not (Team.is_worker team) -> Team.told team | _ -> (0, 0)
+  let transitions t = t.transitions + snd (others t)
   let expanded t =
-    match t.sample, t.deep with
-    | Some sample, _ -> Sample.visited sample
-    | None, Some deep -> visited deep
-    | None, None -> t.next
+    match t.sample, t.deep, t.shared with
+    | Some sample, _, _ -> Sample.visited sample
+    | None, Some deep, _ -> visited deep
+    | None, None, Some { expanded; _ } -> expanded + fst (others t)
+    | None, None, None -> t.next
 
   let sample t = Option.map (Sample.summary ~seen:(count t)) t.sample
   let bitstate t = Option.map (fun deep -> Bitstate.summary deep.bits) t.deep
   let depth t = max 0 t.depth
   let bytes_of_bits t = Option.fold ~none:0 ~some:(fun deep -> Bitstate.bytes deep.bits) t.deep
-  let memory t = States.bytes t.states + bytes_of_bits t + (8 * (Gc.quick_stat ()).heap_words)
+  let heap () = 8 * (Gc.quick_stat ()).heap_words
+  let heaps_of_others t = match t.shared with Some { team; _ } -> Team.heaps_of_others team | None -> 0
+  let memory t = States.bytes t.states + bytes_of_bits t + heap () + heaps_of_others t
   let found i = if i < 0 then None else Some i
   let deadlock t = found t.deadlock
   let broken t property = Hashtbl.find_opt t.broken property
@@ -85,7 +100,13 @@ module Make (S : System.S) = struct
      does. Twice as many states are foreseen. *)
   let stride = 4_096
 
-  let rec look_around ?(by = 2 * stride) t phase =
+  let rec look_around ?by t phase =
+    Option.iter (fun { team; _ } -> Team.look team) t.shared;
+    match t.shared with
+    | Some { team; _ } when Team.is_worker team -> ()
+    | Some _ | None -> look_at_limits ?by t phase
+
+  and look_at_limits ?(by = 2 * stride) t phase =
     let growth = States.bytes_to_grow t.states ~by in
     let states =
       match t.deep with Some { bits; trail; _ } -> Bitstate.states bits + Trail.waiting trail | None -> count t
@@ -206,14 +227,17 @@ module Make (S : System.S) = struct
       spill t;
       weigh_rewriting t
 
+  let outgrow t =
+    flush t;
+    (* Once this has begun it must not fail. *)
+    weigh_rewriting t;
+    widen t
+
   let rec expanding t =
     match fetch t t.next; S.expand t.system t.key t.visitor with
     | taken -> taken
     | exception S.Outgrown ->
-      flush t;
-      (* Once this has begun it must not fail. *)
-      weigh_rewriting t;
-      widen t;
+      outgrow t;
       expanding t
 
   let expand t i =
@@ -223,14 +247,18 @@ module Make (S : System.S) = struct
     t.next <- i + 1;
     taken
 
-  let create ?(compress = false) ?spill ?monitor ?(phase = "exploring") ?started limits system =
+  let create
+      ?(compress = false) ?spill ?(workers = 1) ?(fork_from = 100_000) ?monitor ?(phase = "exploring") ?started limits
+      system
+    =
     if compress && spill <> None then invalid_arg "Breadth_first.create: compressed states on disk";
     let states = States.create ~compress ~words:1 in
     let guard = Limits.guard ?started (if spill = None then limits else before_spilling limits) in
     let rec t =
       { system; limits; phase; monitor; reserved = 0; states; key = [| 0 |]; from = Monitor.start; next = 0; depth = -1;
         level_end = 0; transitions = 0; work = 0; allocated = 0.; deadlock = -1; violation = -1;
-        broken = Hashtbl.create 8; stopped = None; sample = None; deep = None; guard; spill;
+        broken = Hashtbl.create 8; stopped = None; sample = None; deep = None; guard; spill; workers; fork_from;
+        shared = None;
         fresh = (fun i word -> arrived t i word);
         visitor = { visit; tick = (fun () -> look_around ~by:256 t t.phase); rest = (fun () -> rest t) } }
     and visit key action _ = arrive t key action in
@@ -243,7 +271,9 @@ module Make (S : System.S) = struct
     begin_with ();
     t
 
-  let close t = States.close t.states
+  let close t =
+    Option.iter (fun { team; _ } -> Team.close team) t.shared;
+    States.close t.states
 
   let more t =
     t.next < count t
@@ -258,15 +288,194 @@ module Make (S : System.S) = struct
     t.level_end <- count t;
     if t.limits.max_depth = Some t.depth then raise (Limits.Stop Depth)
 
-  let expand_all t look enough =
-    look_around t t.phase;
-    while (not (is_violated t || enough ())) && more t do
-      if t.next >= t.level_end then deeper t;
+  (* {1 Several processes} *)
+
+  let shared_states t =
+    match States.shared t.states with
+    | Some states -> states
+    | None -> invalid_arg "Breadth_first.shared_states"
+
+  (* What a worker has found, and the leader has not. *)
+  type report = {
+    found : S.findings;
+    by_worker : int * int;  (* expanded states, transitions *)
+    resting : int;
+    breaking : (S.property * int) list;
+  }
+
+  let path_to t i =
+    let parent = match t.sample with Some sample -> Sample.from sample | None -> States.parent t.states in
+    let rec back i states = if i = 0 then 0 :: states else back (parent i) (i :: states) in
+    back i []
+
+  let earlier t i j =
+    match List.compare_lengths (path_to t i) (path_to t j) with 0 -> Int.compare i j | order -> order
+
+  let first_of t i j = if i < 0 then j else if j < 0 || earlier t i j <= 0 then i else j
+
+  let report t { expanded; findings; _ } =
+    let found = match findings with Some findings -> findings | None -> S.findings t.system in
+    let breaking = Hashtbl.fold (fun property i found -> (property, i) :: found) t.broken [] in
+    Marshal.to_string { found; by_worker = (expanded, t.transitions); resting = t.deadlock; breaking } []
+
+  let add_report t shared text =
+    let { found; by_worker = (expanded, transitions); resting; breaking } : report = Marshal.from_string text 0 in
+    S.add_findings t.system found;
+    shared.expanded <- shared.expanded + expanded;
+    t.transitions <- t.transitions + transitions;
+    t.deadlock <- first_of t t.deadlock resting;
+    let add (property, i) =
+      let known = Option.value (Hashtbl.find_opt t.broken property) ~default:(-1) in
+      Hashtbl.replace t.broken property (first_of t known i)
+    in
+    List.iter add breaking
+
+  let numbering t tick key =
+    ignore (S.expand t.system key { visit = (fun _ _ _ -> ()); tick; rest = ignore } : int);
+    S.check_fit t.system
+
+  let catch_up t { team; _ } = Team.catch_up team ~words:(States.words t.states) (numbering t ignore)
+
+  (* What is found while something is learnt in vain may be told by numbers that no other process knows. *)
+  let learn t ({ team; _ } as shared) key =
+    let findings = S.findings t.system in
+    try Team.learn team ~words:(States.words t.states) (numbering t t.visitor.tick) key
+    with e ->
+      shared.findings <- Some findings;
+      raise e
+
+  let rec expand_shared t shared i =
+    t.next <- i;
+    fetch t i;
+    match S.expand t.system t.key t.visitor with
+    | taken ->
+      t.transitions <- t.transitions + taken;
+      shared.expanded <- shared.expanded + 1
+    | exception Numbering.Closed ->
+      fetch t i;
+      learn t shared t.key;
+      expand_shared t shared i
+
+  let expand_block t ({ team; _ } as shared) (block : Team.block) =
+    let states = shared_states t in
+    let rec next () =
+      if block.first < block.upto then begin
+        worked t;
+        expand_shared t shared (Shared_states.number states block.segment block.first);
+        if (not (Team.is_worker team)) && Limits.exceeds t.limits.max_states (count t) then raise (Limits.Stop States);
+        block.first <- block.first + 1;
+        next ()
+      end
+    in
+    match next () with
+    | () -> true
+    | exception (Limits.Stop _ as stop) when not (Team.is_worker team) -> raise stop
+    | exception _ ->
+      Team.leave team block;
+      false
+
+  let tell t { team; expanded; _ } =
+    if Team.is_worker team then Team.tell team ~expanded ~transitions:t.transitions ~heap:(heap ())
+
+  let deepen t team () =
+    if t.limits.max_depth = Some (Team.depth team + 1) then begin
+      t.depth <- Team.depth team + 1;
+      raise (Limits.Stop Depth)
+    end
+
+  let meet t { team; _ } reason = Team.meet team ~deepen:(deepen t team) reason
+
+  let work t ({ team; _ } as shared) () =
+    if Team.is_worker team then begin
+      t.transitions <- 0;
+      shared.expanded <- 0
+    end;
+    let grow () = if not (meet t shared Full) then raise Team.Over in
+    Shared_states.when_full (shared_states t) grow;
+    let rec go () =
+      t.depth <- Team.depth team;
+      match Team.take team with
+      | Some block -> if expand_block t shared block then go () else rest ()
+      | None -> rest ()
+    and rest () =
+      flush t;
+      tell t shared;
+      if meet t shared Done then begin
+        catch_up t shared;
+        go ()
+      end
+    in
+    go ()
+
+  let check_states t = if Limits.exceeds t.limits.max_states (count t) then raise (Limits.Stop States)
+
+  (* In this process alone, where anything may come up. It may have given numbers in vain, that do not fit. *)
+  let expand_left t shared (block : Team.block) =
+    (match S.check_fit t.system with () -> () | exception S.Outgrown -> outgrow t);
+    for p = block.first to block.upto - 1 do
       worked t;
-      look t.next;
-      ignore (expand t t.next);
-      if Limits.exceeds t.limits.max_states (count t) then raise (Limits.Stop States)
+      ignore (expand t (Shared_states.number (shared_states t) block.segment p) : int);
+      shared.expanded <- shared.expanded + 1;
+      check_states t
     done
+
+  let grow_alone t () = Shared_states.grow_alone (shared_states t)
+
+  let rec expand_together t ({ team; _ } as shared) =
+    let reports, stop = Team.lead team ~work:(work t shared) ~report:(fun () -> report t shared) in
+    Shared_states.when_full (shared_states t) (grow_alone t);
+    catch_up t shared;
+    shared.findings <- None;
+    List.iter (add_report t shared) reports;
+    match stop, Team.left team with
+    | Some (e, trace), _ -> Printexc.raise_with_backtrace e trace
+    | None, [] -> ()
+    | None, left ->
+      List.iter (expand_left t shared) left;
+      flush t;
+      expand_together t shared
+
+  let is_shareable t =
+    t.workers > 1 && t.monitor = None && t.spill = None && States.is_shareable t.states && count t >= t.fork_from
+
+  (* States from [next] on are a level. *)
+  let share t =
+    let look () =
+      look_at_limits t t.phase;
+      check_states t
+    in
+    match
+      let states = States.share t.states ~workers:t.workers in
+      match Team.create (fun () -> shared_states t) ~workers:t.workers ~look with
+      | team -> (states, team)
+      | exception Out_of_memory ->
+        States.close states;
+        raise Out_of_memory
+    with
+    | states, team ->
+      t.states <- states;
+      Team.begin_levels team ~depth:t.depth ~from:t.next;
+      t.shared <- Some { team; expanded = t.next; findings = None };
+      (* Not all that is shared is in this process's memory. *)
+      let memory_taken () = Option.map (max (memory t)) (t.limits.memory_taken ()) in
+      t.guard <- Limits.guard ~started:(Limits.started t.guard) { t.limits with memory_taken }
+    | exception Out_of_memory -> t.workers <- 1
+
+  let rec expand_all t ~is_plain look enough =
+    if (not (is_violated t || enough ())) && more t then begin
+      if t.next >= t.level_end then begin
+        deeper t;
+        if is_plain && is_shareable t then share t
+      end;
+      match t.shared with
+      | Some shared -> expand_together t shared
+      | None ->
+        worked t;
+        look t.next;
+        ignore (expand t t.next : int);
+        check_states t;
+        expand_all t ~is_plain look enough
+    end
 
   (* {1 Random walks} *)
 
@@ -441,7 +650,14 @@ module Make (S : System.S) = struct
     | exception Out_of_memory -> give_up No_memory
     | exception States.Disk_failed why -> give_up (Unsettled why)
 
-  let run ?(look = ignore) ?(enough = fun () -> false) t = run_by (fun () -> expand_all t look enough) t
+  let run ?look ?enough t =
+    let is_plain = Option.is_none look && Option.is_none enough in
+    let look = Option.value look ~default:ignore and enough = Option.value enough ~default:(fun () -> false) in
+    let all () =
+      look_around t t.phase;
+      expand_all t ~is_plain look enough
+    in
+    run_by all t
 
   let run_walks ?(look = ignore) ?(enough = fun () -> false) t ~walks ~seed =
     if t.monitor <> None then invalid_arg "Breadth_first.run_walks: a monitor";
@@ -471,11 +687,6 @@ module Make (S : System.S) = struct
     key.(0)
 
   let set t i = first_word t i land mask t
-
-  let path_to t i =
-    let parent = match t.sample with Some sample -> Sample.from sample | None -> States.parent t.states in
-    let rec back i states = if i = 0 then 0 :: states else back (parent i) (i :: states) in
-    back i []
 
   let path t i = match t.deep with Some deep -> Hashtbl.find deep.runs i | None -> path_to t i
 
@@ -588,8 +799,9 @@ module Make (S : System.S) = struct
       let node q' = if Monitor.component monitor q' < 0 then None else Some ((i * q) + q') in
       if S.is_anchor t.system first then List.filter_map node (Monitor.members monitor (first land mask t)) else []
     in
-    let rec from i found = if i < 0 then found else from (i - 1) (of_state i @ found) in
-    from (count t - 1) []
+    let found = ref [] in
+    iter t (fun i -> found := of_state i :: !found);
+    List.concat (List.rev !found)
 
   let accepting_cycle t monitor =
     let graph = product t monitor and q = Monitor.automaton_states monitor in

@@ -28,13 +28,16 @@ module Make (S : System.S) : sig
   type t
 
   val create :
-    ?compress:bool -> ?spill:string -> ?monitor:Dolphin_ltl.Monitor.t -> ?phase:string -> ?started:float -> Limits.t ->
-    S.t -> t
+    ?compress:bool -> ?spill:string -> ?workers:int -> ?fork_from:int -> ?monitor:Dolphin_ltl.Monitor.t ->
+    ?phase:string -> ?started:float -> Limits.t -> S.t -> t
   (** [create limits s] is the search of [s] with nothing but its initial state. [compress] is as for
       {!States.create}, [false] by default. [spill] is a directory where states go, if they are not compressed, once
       three quarters of [limits.max_memory] are taken; it is for {!run} alone, not for {!run_walks} or
-      {!run_bitstate}. Under a monitor there may be no state at all; nor is there one if the system cannot say what it
-      is: then the search is {!stopped}. [phase] says what is being done, in reports of progress. [started] is as for
+      {!run_bitstate}. [workers], 1 by default, is how many processes {!run} uses from [fork_from] states on, 100,000
+      by default: then the numbers of states depend on which of them comes first, and so does which of several shortest
+      runs is shown. It uses one where states are compressed or may go to disk, under a monitor, and with [look] or
+      [enough]. Under a monitor there may be no state at all; nor is there one if the system cannot say what it is: then
+      the search is {!stopped}. [phase] says what is being done, in reports of progress. [started] is as for
       {!Limits.guard}. *)
 
   val close : t -> unit
@@ -84,6 +87,11 @@ module Make (S : System.S) : sig
   val system : t -> S.t
   val stopped : t -> Limits.bound option
   val count : t -> int
+
+  val iter : t -> (int -> unit) -> unit
+  (** [iter t f] calls [f] with the number of each state: unless several processes have searched, these are those below
+      [count t]. *)
+
   val transitions : t -> int
   val expanded : t -> int
 

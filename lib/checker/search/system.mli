@@ -62,6 +62,25 @@ module type S = sig
       @raise Outgrown when some have been visited: it is called again after {!widen}.
       @raise Limits.Stop with [Unsettled] if the system cannot say what follows [key]. *)
 
+  (** {1:workers Several processes}
+
+      A system may be searched by processes that were forked from one: each has a [t] of its own then. So that vectors
+      mean the same in all of them, whatever numbers something calls {!Numbering.give} first; [expand] may raise
+      {!Numbering.Closed}, and is called again once numberings are open. Which numbers it gives then depends on the
+      state, and on what was numbered before, and on nothing else. *)
+
+  val check_fit : t -> unit
+  (** @raise Outgrown if a number that has been given does not fit *)
+
+  type findings
+  (** What has been found by expanding, beside states: data without functions, which does not change. *)
+
+  val findings : t -> findings
+  (** [findings t] takes no time. *)
+
+  val add_findings : t -> findings -> unit
+  (** [add_findings t f] adds what another process has found to what [t] has. *)
+
   (** {1:properties Properties}
 
       To be quick, the search asks them of a state's first word, reserved bits included. *)

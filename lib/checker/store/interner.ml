@@ -12,6 +12,7 @@ module Make (Key : Hashtbl.HashedType) = struct
     match Table.find_opt t.numbers x with
     | Some i -> i
     | None ->
+      Numbering.give ();
       let i = count t in
       if i = Array.length t.values then begin
         let values = Array.make (max 16 (2 * i)) x in

@@ -50,6 +50,8 @@ let rec skip t bit more =
     in
     skip t (next (bit + 1)) (more - 1)
 
+let count t = t.count
+
 let get t i =
   let k = i lsr sample_bits in
   let first = k lsl sample_bits in

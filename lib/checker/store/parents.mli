@@ -8,6 +8,9 @@ val create : unit -> t
 val add : t -> int -> unit
 (** [add t p] makes [p] the parent of the next state, from state 0 on. [p] is at least the parent before. *)
 
+val count : t -> int
+(** How many states have been given one. *)
+
 val get : t -> int -> int
 (** [get t i] is the parent of state [i]. *)
 

@@ -58,5 +58,19 @@ val spill : t -> directory:string -> tick:(unit -> unit) -> t
     memory that [t] had, or at {!flush}: that reads all states that there are. [tick] is called meanwhile; it may raise
     something: then what has been pushed still waits. *)
 
+(** {1:shared Shared} *)
+
+val share : t -> workers:int -> t
+(** [share t ~workers] is [t], with the same numbers, for so many processes ({!Shared_states}). [t] is not compressed,
+    nothing waits to be added, and [t] is used up.
+    @raise Out_of_memory if the system does not grant so many addresses; [t] is as it was then *)
+
+val is_shareable : t -> bool
+val shared : t -> Shared_states.t option
+
+val iter : t -> (int -> unit) -> unit
+(** [iter t f] calls [f] with the number of each state. Only of shared states some numbers below the largest may be left
+    out. *)
+
 val close : t -> unit
-(** [close t] gives back what is on disk; [t] is of no use then. *)
+(** [close t] gives back what is on disk or shared; [t] is of no use then. *)

@@ -1,5 +1,6 @@
 open Dolphin_semantics
 open Dolphin_environment
+open Dolphin_checker
 open Component
 
 (* A guard is known by its code, and by whether the code's value matters. *)
@@ -68,6 +69,7 @@ let world t = t.world
 let coverage t = t.coverage
 let root t = t.root
 let goes_round t = t.goes_round
+let set_goes_round t = t.goes_round <- true
 let note_rounds t rounds = if rounds <> [] then t.goes_round <- true
 
 (* {1 Trees} *)
@@ -82,6 +84,7 @@ let inner t path contexts body =
   match Residuals.find_opt path.inner key with
   | Some inside -> inside
   | None ->
+    Numbering.give ();
     let inside = new_path t.paths contexts (Some path) body in
     t.paths <- t.paths + 1;
     Residuals.add path.inner key inside;
@@ -111,6 +114,7 @@ let outgrown t = t.outgrown
 let none_outgrown t = t.outgrown <- false
 
 let member t path family residual =
+  Numbering.give ();
   let p =
     { residual; path; family; local = family.size; makes_tasks = Residual.makes_tasks residual;
       steps = [||]; worked_out = None; alone = None;
@@ -128,6 +132,7 @@ let member t path family residual =
   p
 
 let new_family t =
+  Numbering.give ();
   t.families <- t.families + 1;
   { number = t.families - 1; members = [||]; size = 0; width = 0 }
 

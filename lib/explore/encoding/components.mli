@@ -28,6 +28,9 @@ val goes_round : t -> bool
 (** Whether some step that was worked out begins a round of a [repeat] without a number of rounds: only then may there
     be cycles while a task executes. *)
 
+val set_goes_round : t -> unit
+(** Another process has worked out such a step. *)
+
 val note_rounds : t -> Dolphin_semantics.Task_rules.round list -> unit
 (** [note_rounds t rs] notes that a step begins [rs]. *)
 

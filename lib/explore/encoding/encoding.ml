@@ -80,6 +80,7 @@ let frame t machine symmetry =
   match Hashtbl.find_opt t.frames key with
   | Some frame -> frame
   | None ->
+    Numbering.give ();
     let frame : Layout.frame = { number = Hashtbl.length t.frames; machine; symmetry } in
     Hashtbl.add t.frames key frame;
     frame

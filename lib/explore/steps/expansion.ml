@@ -46,6 +46,7 @@ let create options components encoding steps quotient labelling =
   }
 
 let follows t = Script_graph.follows t.places
+let edges t = Script_graph.edges t.places
 let may_cycle t = Script_graph.may_cycle t.places
 
 let widen t ~words =

@@ -13,6 +13,9 @@ val follows : t -> int -> int -> unit
 (** [follows t p p'] notes that place [p'] of the script may come after place [p], by the numbers of
     {!Encoding.write}. *)
 
+val edges : t -> (int * int) list
+(** What {!follows} has noted, by whoever called it. *)
+
 val may_cycle : t -> bool
 (** Whether some place of the script may come after itself. *)
 

@@ -60,6 +60,7 @@ let turn t number =
   match Hashtbl.find_opt t.turns number with
   | Some turn -> turn
   | None ->
+    Dolphin_checker.Numbering.give ();
     let turn = Hashtbl.length t.turns in
     Hashtbl.add t.turns number turn;
     turn

@@ -8,5 +8,8 @@ val create : unit -> t
 val follows : t -> int -> int -> unit
 (** [follows t p p'] notes that [p'] comes after [p], by numbers. *)
 
+val edges : t -> (int * int) list
+(** All that was noted, the latest first. *)
+
 val may_cycle : t -> bool
 (** Whether some place comes after itself. *)

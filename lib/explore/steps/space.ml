@@ -478,6 +478,20 @@ let coverage t =
   Option.iter (fun groups -> Task_groups.equivalent_handlers groups cover) t.task_groups;
   coverage
 
+let check_fit t = Encoding.check_fit t.encoding
+
+type findings = { covered : Coverage.t; edges : (int * int) list; rounds : bool; renamed : bool }
+
+let findings t =
+  { covered = Coverage.copy (Components.coverage t.components); edges = Expansion.edges t.expansion;
+    rounds = Components.goes_round t.components; renamed = used_vehicle_symmetry t }
+
+let add_findings t { covered; edges; rounds; renamed } =
+  Coverage.add (Components.coverage t.components) covered;
+  List.iter (fun (place, place') -> Expansion.follows t.expansion place place') edges;
+  if rounds then Components.set_goes_round t.components;
+  if renamed then Option.iter Canonical_vehicles.set_used t.vehicles
+
 (* {1 Beginning} *)
 
 let create ?(reduction = Reduction.Whole) ?(symmetry = Symmetry.none) ?(asked = []) ?labelling options program world =

@@ -26,6 +26,7 @@ let create options program ~asked world assumed =
   }
 
 let is_used r = r.used
+let set_used r = r.used <- true
 let orbit r v = Vehicle_orbits.of_vehicle r.assumed.vehicles v
 let all_of_orbit r v = Array.to_list (orbit r v)
 let is_movable r v = Array.length (orbit r v) > 0

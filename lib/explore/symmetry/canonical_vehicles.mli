@@ -43,3 +43,6 @@ val follows_recruit : t -> Vehicle_filter.t -> turn:int -> is_known:(Core.vehicl
 
 val is_used : t -> bool
 (** Whether some canonical form differed from the configuration, or some transition was left out. *)
+
+val set_used : t -> unit
+(** It was so in another process. *)

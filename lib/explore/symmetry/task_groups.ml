@@ -109,6 +109,7 @@ let task f r tuples =
   match Residuals.find_opt f.tasks r with
   | Some task -> task
   | None ->
+    Dolphin_checker.Numbering.give ();
     let number = Residuals.length f.tasks in
     (* Where tasks are made, or code asks who is idle, it matters which vehicle holds what. *)
     let claims = Footprint.claims (Step_footprints.of_residual f.footprints r) in
@@ -166,6 +167,7 @@ let group f number e tuples =
   match Executions.find_opt f.executions e with
   | Some group -> group
   | None ->
+    Dolphin_checker.Numbering.give ();
     let group = { group = find_group f number e tuples; fixed = Spaces.create 8 } in
     Executions.add f.executions e group;
     group

@@ -5,6 +5,12 @@ module Sites = Set.Make (Int)
 type t = { mutable reached : Sites.t; mutable lambdas : Sites.t }
 
 let create () = { reached = Sites.empty; lambdas = Sites.empty }
+let copy t = { t with reached = t.reached }
+
+let add t t' =
+  t.reached <- Sites.union t.reached t'.reached;
+  t.lambdas <- Sites.union t.lambdas t'.lambdas
+
 let run t (c : closure) = t.lambdas <- Sites.add c.lambda.id t.lambdas
 let start t (p : platform_task) = t.reached <- Sites.add p.task_site t.reached
 

@@ -6,6 +6,11 @@ type t
 
 val create : unit -> t
 
+val copy : t -> t
+
+val add : t -> t -> unit
+(** [add t t'] adds to [t] what [t'] has. *)
+
 val run : t -> Core.closure -> unit
 (** The closure has been run. *)
 

@@ -285,7 +285,7 @@ let by_design t members =
 let judge program graph ~all:whole =
   let t = { program; graph; numbers = Hashtbl.create 100; steps = Hashtbl.create 100; nodes = Hashtbl.create 1_000 } in
   let tick = State_graph.ticker graph "looking for cycles" in
-  let states = List.filter (executes t) (List.init (State_graph.count graph) Fun.id) in
+  let states = List.filter (executes t) (State_graph.all graph) in
   let of_kind keeps =
     let judged members =
       match fairness t keeps members with

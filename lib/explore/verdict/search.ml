@@ -12,6 +12,8 @@ type options = {
   walks : walks option;
   bitstate : int option;
   search_again : int;
+  workers : int;
+  fork_from : int;
   limits : Limits.t;
   invariants : Condition.t list;
   formulas : Temporal.t list;
@@ -26,6 +28,8 @@ let default =
     walks = None;
     bitstate = None;
     search_again = 100_000;
+    workers = 1;
+    fork_from = 100_000;
     limits = Limits.none;
     invariants = [];
     formulas = [];
@@ -65,10 +69,10 @@ type outcome = {
 type subject = { program : Core.program; world : World.t; symmetry : Symmetry.t; started : float }
 
 let with_graph ?labelling ?phase x (options : options) f =
-  let { environment; reduction; compress; spill; limits; invariants; _ } = options in
+  let { environment; reduction; compress; spill; workers; fork_from; limits; invariants; _ } = options in
   let space = Space.create ~reduction ~symmetry:x.symmetry ~asked:invariants ?labelling environment x.program x.world in
   let monitor = Option.map Labelling.monitor labelling in
-  let graph = State_graph.create ~compress ?spill ?monitor ?phase ~started:x.started limits space in
+  let graph = State_graph.create ~compress ?spill ~workers ~fork_from ?monitor ?phase ~started:x.started limits space in
   Fun.protect ~finally:(fun () -> State_graph.close graph) (fun () -> f graph)
 
 let broken_condition why : Limits.bound = Unsettled ("the condition cannot be told: " ^ why)
@@ -316,11 +320,12 @@ let apart x (options : options) found =
 let without_formulas x (options : options) =
   with_graph x options @@ fun graph ->
   let invariants = List.map (Invariant.create x.program x.world) options.invariants in
-  let look i = List.iter (fun invariant -> Invariant.check invariant graph i) invariants in
+  let check i = List.iter (fun invariant -> Invariant.check invariant graph i) invariants in
+  let look = if invariants = [] then None else Some check in
   (match options.walks, options.bitstate with
-   | Some { number; seed }, _ -> State_graph.run_walks ~look graph ~walks:number ~seed
-   | None, Some bytes -> State_graph.run_bitstate ~look graph ~bytes
-   | None, None -> State_graph.run ~look graph);
+   | Some { number; seed }, _ -> State_graph.run_walks ?look graph ~walks:number ~seed
+   | None, Some bytes -> State_graph.run_bitstate ?look graph ~bytes
+   | None, None -> State_graph.run ?look graph);
   let verdicts = with_shortest_runs x options (verdicts x options graph invariants) in
   let space = State_graph.system graph and bitstate = State_graph.bitstate graph in
   let states =

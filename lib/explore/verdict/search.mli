@@ -23,6 +23,10 @@ type options = {
       explored depth first, and some may be left out; formulas are judged as always *)
   search_again : int;
   (** so many of all states are visited for a shortest run, if a reduced search found a violation *)
+  workers : int;
+  (** processes, 1 by default, that search from [fork_from] states on, 100,000 by default, as for
+      {!Breadth_first.Make.create} *)
+  fork_from : int;
   limits : Limits.t;
   invariants : Condition.t list;
   formulas : Temporal.t list;  (** for each, states are explored anew, after all others are forgotten *)

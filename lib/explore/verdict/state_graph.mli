@@ -9,6 +9,9 @@ include module type of Dolphin_checker.Breadth_first.Make (Space)
 
     These are {!Space}'s, of states by their numbers. *)
 
+val all : t -> int list
+(** The numbers of all states. *)
+
 val state : t -> int -> Configuration.t * Environment.t
 val view : t -> int -> Space.view
 val shared : t -> int -> int option

@@ -1,0 +1,89 @@
+(** Processes that search together: a leader and workers that it forks, with memory that they share. What they search is
+    no concern of this module.
+
+    All go through the levels of a search in step. A level is a part of each worker's segment of states; each worker
+    takes blocks of its own part, and then of others' parts. {!meet} is where all wait for all.
+
+    {b Numberings.} While there are workers, numberings are closed ({!Numbering}). A process that needs a new number
+    calls {!learn}: one at a time they learn, which is to do something that gives the number, and then tell the others
+    what they did it with. Before it learns, and between levels, each process has learnt all that others told before, in
+    the same order. So a number is the same in all of them, if what is learnt gives the same numbers wherever the same
+    was learnt before.
+
+    {b Giving up.} Whatever else comes up in the midst of a level is left to the leader: the workers end, and the leader
+    goes on alone from there. *)
+
+type t
+
+exception Over
+(** In a worker, and in the leader while it waits: the level need not be ended. *)
+
+val create : (unit -> Shared_states.t) -> workers:int -> look:(unit -> unit) -> t
+(** [create s ~workers ~look] is a leader, who is one of [workers], without the others. [s ()] is what they search.
+    [look ()] is called now and then while the leader waits; what it raises is raised.
+    @raise Out_of_memory if the system does not grant so many addresses *)
+
+val close : t -> unit
+
+(** {1 Levels} *)
+
+val begin_levels : t -> depth:int -> from:int -> unit
+(** [begin_levels t ~depth ~from] makes the states from place [from] on of the leader's segment a level, at [depth]. *)
+
+val depth : t -> int
+
+type block = { segment : int; mutable first : int; upto : int }
+(** Places of a worker's segment from [first] on, before [upto]. *)
+
+val take : t -> block option
+(** [take t] is what this process expands next; [None] if nothing is left of the level, or it need not be ended. *)
+
+val leave : t -> block -> unit
+(** [leave t block] leaves [block] to the leader, and all others end as soon as they have expanded what they took. *)
+
+val left : t -> block list
+(** What was left, after {!lead}. *)
+
+(** {1 Meeting} *)
+
+type reason =
+  | Done  (** there is no block to take *)
+  | Full  (** the table has to grow *)
+
+val meet : t -> deepen:(unit -> unit) -> reason -> bool
+(** [meet t ~deepen reason] waits for all others. It is [false] if there is nothing to do any more. The leader calls
+    [deepen ()] before a level begins; what it raises is raised. *)
+
+(** {1 Learning} *)
+
+val learn : t -> words:int -> (int array -> unit) -> int array -> unit
+(** [learn t ~words f key] does [f] with what others have learnt, and then with [key], whose first [words] words it
+    tells the others. Numberings are open meanwhile. What [f] raises for [key] is raised, and nobody learns any more.
+    @raise Over if nobody learns any more *)
+
+val catch_up : t -> words:int -> (int array -> unit) -> unit
+(** [catch_up t ~words f] does [f] with what others have learnt. *)
+
+(** {1 Processes} *)
+
+val lead : t -> work:(unit -> unit) -> report:(unit -> string) -> string list * (exn * Printexc.raw_backtrace) option
+(** [lead t ~work ~report] forks workers, and is what each of them [report]s after its [work], which this process does
+    as well; and what [work] raises here, if it does. In that case the others end what they are at, or are killed
+    within a second and report nothing. When it returns all of them have ended.
+    @raise Limits.Stop if a worker ends otherwise than after its report *)
+
+val is_worker : t -> bool
+val look : t -> unit
+(** In a worker: ends the process if the leader has ended.
+    @raise Over
+    In the leader:
+    @raise Limits.Stop if a worker has ended *)
+
+val tell : t -> expanded:int -> transitions:int -> heap:int -> unit
+(** [tell t ~expanded ~transitions ~heap] says what a worker has done since it was forked, and the bytes of its heap. *)
+
+val told : t -> int * int
+(** The sums of what those have told last who have not ended, of expanded states and of transitions. *)
+
+val heaps_of_others : t -> int
+(** Likewise of bytes. *)

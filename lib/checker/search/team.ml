@@ -58,7 +58,8 @@ let has_filled = 2
 type reason = Done | Full
 type block = { segment : int; mutable first : int; upto : int }
 
-let log_words = 1 lsl 27
+(* When it is full the workers end, and it begins anew. *)
+let log_words = 1 lsl 22
 
 let create states ~workers ~look =
   let control = Shared_memory.map int ((9 + (3 * workers)) * line) in

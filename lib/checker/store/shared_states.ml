@@ -250,6 +250,7 @@ let forget_table t =
 
 let begin_growing t =
   let slots = t.mask + 1 in
+  if 4 * slots > Array1.dim t.tables then raise Out_of_memory;
   Shared_memory.forget t.tables ~from:slots ~length:slots;
   Shared_memory.write t.control slots_now (2 * slots)
 
@@ -334,6 +335,11 @@ let all_runs t =
 
 let bytes t = (count t * ((8 * t.words) + 1)) + (8 * (t.mask + 1)) + (16 * all_runs t) + Parents.bytes t.before
 
+let bytes_to_rewrite t ~words =
+  let chunks = Shared_memory.read t.control next_chunk in
+  if chunks * chunk_states * words > Array1.dim t.states then raise Out_of_memory;
+  8 * count t * max 0 (words - t.words)
+
 let bytes_to_grow t ~by =
   let states = by * ((8 * t.words) + 1) in
   if count t + by > t.most then states + (8 * (t.mask + 1)) else states
@@ -361,13 +367,13 @@ let rewrite t ~words f =
   fill t;
   t
 
-let of_packed packed ~workers =
+(* Addresses for [room] words of states, and all that belongs to them. *)
+let reserved packed ~workers room =
   let words = Packed.words packed and n = Packed.count packed in
-  let room = Shared_memory.machine_memory () / 8 in
   let most_chunks = (room lsr chunk_bits) + workers + 1 in
   let most = most_chunks lsl chunk_bits in
   let rec slots_for slots = if most_of slots - (workers * most_waiting) > 2 * n then slots else slots_for (2 * slots) in
-  let rec largest slots = if slots >= room then slots else largest (2 * slots) in
+  let rec largest slots = if 2 * slots >= room then slots else largest (2 * slots) in
   let slots = slots_for 4096 in
   let with_array kind n f =
     let array = Shared_memory.map kind n in
@@ -378,18 +384,28 @@ let of_packed packed ~workers =
   in
   with_array int (line * (2 + workers)) @@ fun control ->
   with_array int (workers * most_chunks) @@ fun chunks ->
-  with_array int (4 * most) @@ fun states ->
+  with_array int (most + (workers * chunk_states * words)) @@ fun states ->
   with_array int8_unsigned most @@ fun places ->
-  with_array int (workers * (room / 4)) @@ fun runs ->
+  with_array int (workers * (room / 16)) @@ fun runs ->
   with_array int most_chunks @@ fun owners ->
-  with_array int (4 * largest slots) @@ fun tables ->
+  with_array int (2 * largest (2 * slots)) @@ fun tables ->
   let t =
-    { words; workers; me = 0; states; before = Packed.parents packed; places; runs; most_runs = room / 8; tables;
+    { words; workers; me = 0; states; before = Packed.parents packed; places; runs; most_runs = room / 32; tables;
       chunks; most_chunks; owners; control; own = n; own_runs = 0; run = no_run; bare = words = 1;
       table = tables; mask = 0; most = 0; grow = ignore; waiting = nothing_waits words }
   in
   set_table t slots;
   Shared_memory.write t.control slots_now slots;
+  t
+
+(* As much as the machine has; where addresses are few, a part of them, for others need some, too. *)
+let rec reserved_for packed ~workers room =
+  if room < 16 * Packed.words packed * (Packed.count packed + (workers * chunk_states)) then raise Out_of_memory;
+  try reserved packed ~workers room with Out_of_memory -> reserved_for packed ~workers (room / 4)
+
+let of_packed packed ~workers =
+  let t = reserved_for packed ~workers (Shared_memory.machine_memory () / 8) in
+  let words = t.words and n = t.own in
   Array1.fill t.chunks (-1);
   let chunks = (n + chunk_mask) lsr chunk_bits in
   for k = 0 to chunks - 1 do

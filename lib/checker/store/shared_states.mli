@@ -45,6 +45,9 @@ val load : t -> int -> int array -> unit
 val parent : t -> int -> int
 val bytes : t -> int
 val bytes_to_grow : t -> by:int -> int
+val bytes_to_rewrite : t -> words:int -> int
+(** @raise Out_of_memory if there are too few addresses *)
+
 val forget_waiting : t -> unit
 val rewrite : t -> words:int -> (int array -> int array -> unit) -> t
 

@@ -69,7 +69,7 @@ let bytes_to_rewrite t ~words =
   | As_it_is s -> Packed.bytes_to_rewrite s ~words
   | Compressed s -> Tree.bytes_to_rewrite s
   | On_disk _ -> 0
-  | Shared s -> 8 * Shared_states.count s * max 0 (words - Shared_states.words s)
+  | Shared s -> Shared_states.bytes_to_rewrite s ~words
 
 let forget_waiting = function
   | As_it_is s -> Packed.forget_waiting s

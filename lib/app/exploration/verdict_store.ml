@@ -25,6 +25,8 @@ let make (settings : Exploration.settings) (program : Program_file.t) (fleet : F
   match directory (), executable () with
   | None, _ | _, None -> None
   | Some directory, Some executable ->
+    (* However many processes search, they find the same. *)
+    let settings = { settings with workers = 1 } in
     let inputs = (executable, settings, program.path, program.source, program.set, fleet.path, fleet.source) in
     Some { directory; inputs = Marshal.to_string inputs [ No_sharing ] }
 

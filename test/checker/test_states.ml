@@ -13,8 +13,9 @@ let growing words i = Array.init words (fun w -> if w = 0 then i else i / (1 lsl
 
 let no_more _ _ = Alcotest.fail "a vector that is known was new"
 
-(* [On_disk n] go there when there are [n], to a folder that is empty afterwards too. *)
-type kind = As_they_are | Compressed | On_disk of int
+(* [On_disk n] go there when there are [n], to a folder that is empty afterwards too; [Shared n] are shared from then
+   on. *)
+type kind = As_they_are | Compressed | On_disk of int | Shared of int
 
 let folder = Filename.get_temp_dir_name ()
 
@@ -30,6 +31,10 @@ let fill kind words vector =
     if kind = On_disk i then begin
       States.flush !set ~fresh;
       set := States.spill !set ~directory:folder ~tick:ignore
+    end;
+    if kind = Shared i then begin
+      States.flush !set ~fresh;
+      set := States.share !set ~workers:1
     end;
     States.push !set (vector i) ~parent:(i / 2) ~fresh;
     (* Known ones among the new. *)
@@ -147,7 +152,10 @@ let () =
       ("numbers, compressed", numbers Compressed);
       ("numbers, on disk early", numbers (On_disk 10_000));
       ("numbers, on disk late", numbers (On_disk 100_000));
+      ("numbers, shared early", numbers (Shared 10_000));
+      ("numbers, shared late", numbers (Shared 100_000));
       ("rewriting", rewritings As_they_are);
+      ("rewriting, shared", rewritings (Shared 70_000));
       ("rewriting, compressed", rewritings Compressed);
       ("rewriting, on disk", rewritings (On_disk 70_000));
       ( "disk",

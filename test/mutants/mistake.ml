@@ -351,7 +351,7 @@ let bitstate =
 let workers =
   in_file "lib/checker/search/breadth_first.ml" ~noticed_by:"checker/test_search"
     [
-      ("what is left to the leader is left out", {|List.iter (expand_left t shared) left;|}, {|ignore expand_left;|});
+      ("what is left to the leader is left out", {|List.iter (expand_left t shared) left;|}, {|ignore (expand_left, left);|});
       ("the transitions of workers are not counted", {|t.transitions <- t.transitions + transitions;|},
        {|ignore (transitions : int);|});
     ]
@@ -359,6 +359,9 @@ let workers =
     [
       ("a run of parents begins with the one before", {|Array1.unsafe_set t.runs (at + 1) parent|},
        {|Array1.unsafe_set t.runs (at + 1) (parent - 1)|});
+    ]
+  @ in_file "lib/checker/store/shared_states.ml" ~noticed_by:"checker/test_states"
+    [
       ("states that move go to their places from the first on", {|Int.compare first' first|}, {|Int.compare first first'|});
     ]
   @ in_file "lib/checker/store/numbering.ml" ~noticed_by:"explore/test_workers"

@@ -390,7 +390,7 @@ module Make (S : System.S) = struct
       t.transitions <- 0;
       shared.expanded <- 0
     end;
-    let grow () = if not (meet t shared Full) then raise Team.Over in
+    let grow _ = if not (meet t shared Full) then raise Team.Over in
     Shared_states.when_full (shared_states t) grow;
     let rec go () =
       t.depth <- Team.depth team;
@@ -419,11 +419,9 @@ module Make (S : System.S) = struct
       check_states t
     done
 
-  let grow_alone t () = Shared_states.grow_alone (shared_states t)
-
   let rec expand_together t ({ team; _ } as shared) =
     let reports, stop = Team.lead team ~work:(work t shared) ~report:(fun () -> report t shared) in
-    Shared_states.when_full (shared_states t) (grow_alone t);
+    Shared_states.when_full (shared_states t) Shared_states.grow_alone;
     catch_up t shared;
     shared.findings <- None;
     List.iter (add_report t shared) reports;

@@ -21,7 +21,7 @@ type t = {
   mutable table : Shared_memory.words;
   mutable mask : int;
   mutable most : int;
-  mutable grow : unit -> unit;
+  mutable grow : t -> unit;
   waiting : waiting;
 }
 
@@ -288,7 +288,7 @@ let read_states t =
   ignore (Sys.opaque_identity !seen)
 
 let flush t ~fresh =
-  if is_full t then t.grow ();
+  if is_full t then t.grow t;
   let waiting = t.waiting in
   read_tables t;
   if not t.bare then read_states t;
@@ -392,7 +392,7 @@ let reserved packed ~workers room =
   let t =
     { words; workers; me = 0; states; before = Packed.parents packed; places; runs; most_runs = room / 32; tables;
       chunks; most_chunks; owners; control; own = n; own_runs = 0; run = no_run; bare = words = 1;
-      table = tables; mask = 0; most = 0; grow = ignore; waiting = nothing_waits words }
+      table = tables; mask = 0; most = 0; grow = grow_alone; waiting = nothing_waits words }
   in
   set_table t slots;
   Shared_memory.write t.control slots_now slots;

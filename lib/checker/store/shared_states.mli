@@ -23,9 +23,9 @@ val count : t -> int
 val is_full : t -> bool
 (** Whether the table has to grow before more is added. *)
 
-val when_full : t -> (unit -> unit) -> unit
-(** [when_full t f]: [f ()] is called from now on before states are added to a table that {!is_full}, which must not be
-    full then. *)
+val when_full : t -> (t -> unit) -> unit
+(** [when_full t f] makes [f] be called, in place of {!grow_alone}, before states are added to a table that {!is_full},
+    which must not be full then. *)
 
 val push : t -> int array -> parent:int -> fresh:(int -> int -> unit) -> unit
 val flush : t -> fresh:(int -> int -> unit) -> unit

@@ -351,7 +351,6 @@ let bitstate =
 let workers =
   in_file "lib/checker/search/breadth_first.ml" ~noticed_by:"checker/test_search"
     [
-      ("what is left to the leader is left out", {|List.iter (expand_left t shared) left;|}, {|ignore (expand_left, left);|});
       ("the transitions of workers are not counted", {|t.transitions <- t.transitions + transitions;|},
        {|ignore (transitions : int);|});
     ]

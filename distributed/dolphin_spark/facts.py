@@ -5,7 +5,7 @@ import json
 
 class Facts:
     """`stopped` is why the search goes no further, or "". `first` has, by property, the least (depth, digest) of a
-    state that breaks it: one that is reached by so many transitions."""
+    state that breaks it: one that is reached by so many transitions. `parts` are what states name."""
 
     def __init__(self):
         self.transitions = 0
@@ -15,6 +15,7 @@ class Facts:
         self.unreached = None
         self.trouble = ""
         self.stopped = ""
+        self.parts = set()
 
     def broken(self, name, depth, digest):
         known = self.first.get(name)
@@ -22,7 +23,7 @@ class Facts:
             self.first[name] = (depth, digest)
 
     def reaches(self, unreached):
-        lines = set(unreached.splitlines())
+        lines = set(unreached)
         self.unreached = lines if self.unreached is None else self.unreached & lines
 
     def add(self, other):
@@ -35,6 +36,7 @@ class Facts:
             self.unreached = other.unreached if self.unreached is None else self.unreached & other.unreached
         self.trouble = self.trouble or other.trouble
         self.stopped = self.stopped or other.stopped
+        self.parts |= other.parts
 
     def to_json(self):
         return json.dumps({

@@ -1,16 +1,19 @@
-"""The search on Spark: a level at a time. What is new of a level is in the folder of the search, with what it was
-reached from, before the next one begins: so a search goes on where it was when the driver was killed, and runs
-are read from these files. What is seen stays where it is, by hash; it is checkpointed with each level, so that a
-lost worker costs what it was doing."""
+"""The search on Spark: a level at a time. What is new of a level, with what it was reached from, and the parts that its
+states name, are in the folder of the search before the next level begins: so a search goes on where it was when the
+driver was killed, a lost worker costs what it was doing, and runs are read from these files. The digests of what is
+seen stay where they are, by hash."""
 
 import json
+import struct
 
 from pyspark import StorageLevel
 
-from . import worker
+from . import blocks, worker
 from .facts import Facts
-from .levels import number_of, record, records
 from .successors import Inconclusive
+
+# Its own partitions tell where a state is: no shuffle follows.
+KEPT = StorageLevel.MEMORY_AND_DISK
 
 
 class Store:
@@ -27,69 +30,77 @@ class Store:
     def path(self, what):
         return self.fs.Path(self.name(what))
 
-    def exists(self, what):
-        return self.system.exists(self.path(what))
-
-    def delete(self, what):
-        self.system.delete(self.path(what), True)
-
-    def write(self, what, text):
+    def write(self, what, data):
         """Whole, or not at all."""
         part = self.path(what + ".part")
         stream = self.system.create(part, True)
-        stream.write(bytearray(text.encode()))
+        stream.write(bytearray(data))
         stream.close()
-        self.delete(what)
+        self.system.delete(self.path(what), True)
         self.system.rename(part, self.path(what))
 
     def read(self, what):
-        return "\n".join(self.spark.textFile(self.name(what), 1).collect())
+        (_, data), = self.spark.binaryFiles(self.name(what), 1).collect()
+        return data
 
-    def save(self, rdd, what):
-        self.delete(what)
-        rdd.saveAsPickleFile(self.name(what))
+    def write_all(self, what, items):
+        self.write(what, b"".join(struct.pack("<Q", len(item)) + item for item in items))
 
-    def load(self, what):
-        return self.spark.pickleFile(self.name(what))
+    def read_all(self, what):
+        data, at, items = self.read(what), 0, []
+        while at < len(data):
+            size, = struct.unpack_from("<Q", data, at)
+            items.append(data[at + 8:at + 8 + size])
+            at += 8 + size
+        return items
 
 
 class Search:
-    """`job` says what is searched; it goes to the machines."""
+    """`job` says what is searched; it goes to the machines. `successors` is a filter here. A level is pairs of the
+    partition and what it has: ("new", block), or ("told", (number of states, facts))."""
 
-    def __init__(self, spark, job, store, tell):
-        self.spark, self.job, self.store, self.tell = spark, job, store, tell
-        self.facts, self.states, self.depth = Facts(), 0, 0
-        self.frontier, self.seen = 0, None
-        spark.setCheckpointDir(store.name("checkpoints"))
-
-    @staticmethod
-    def level(depth):
-        return "level-%05d" % depth
+    def __init__(self, spark, job, store, tell, successors):
+        self.spark, self.job, self.store, self.tell, self.successors = spark, job, store, tell, successors
+        self.facts, self.states, self.depth, self.frontier = Facts(), 0, 0, 0
+        self.narrow = []  # the blocks of the levels that were searched locally, but for the last
+        self.files = []  # of the levels after these
+        self.level = None  # the last
+        self.seen = []  # (runs, number of states)
+        self.stale = []  # what is needed no more once the next level is there
+        self.parts = set()
+        self.told = []  # the files of parts
+        self.broadcasts = []
+        spark.setCheckpointDir(store.name("levels"))
 
     # Beginning, and going on
 
     def begin(self, local):
         """Takes over what was searched locally."""
-        for depth, block in enumerate(local.levels):
-            if depth < len(local.levels) - 1:
-                self.store.save(self.spark.parallelize([block], 1), self.level(depth))
-        self.depth = len(local.levels) - 1
-        self.facts, self.states, self.frontier = local.facts, local.states, local.frontier
-        parts = self.split(local.levels[-1])
-        self.store.save(self.spark.parallelize(parts, max(1, len(parts))), self.level(self.depth))
+        self.narrow, last = local.levels[:-1], blocks.Columns.of(local.levels[-1])
+        self.depth, self.facts, self.states, self.frontier = local.depth, local.facts, local.states, local.frontier
+        self.store.write_all("narrow", self.narrow)
+        self.add_parts(self.successors.told)
+        narrow = self.spread([x for block in self.narrow for x in self.runs(block)])
+        self.add_seen(self.joined(narrow), self.states - self.frontier)
+        self.add_level(self.spread([(p, ("new", part.block())) for p, part in self.split(last)]))
         self.commit()
-        self.take_up()
 
-    def split(self, block):
-        """Of about as many states as one task should have at least."""
-        each = max(1, min(5000, self.frontier // self.job["partitions"]))
-        parts, part = [], []
-        for item in records(block):
-            part.append(record(*item))
-            if len(part) == each:
-                parts.append(b"".join(part))
-                part = []
-        return parts + ([b"".join(part)] if part else [])
+    def runs(self, block):
+        columns = blocks.Columns.of(block)
+        return worker.runs_of((p, ("new", part.block())) for p, part in self.split(columns))
+
+    def split(self, columns):
+        return blocks.by_partition(columns, self.job["partitions"])
+
+    def spread(self, items):
+        """`items`, pairs of a partition and something, where they belong."""
+        return self.placed(self.spark.parallelize(items, max(1, min(len(items), self.job["partitions"]))))
+
+    def placed(self, rdd):
+        placed = rdd.partitionBy(self.job["partitions"], int)
+        # It reads the same. Where serializers differ, a union sends all of it through Python once more.
+        placed._jrdd_deserializer = self.spark.serializer
+        return placed
 
     def resume(self):
         """Goes on after the last level that was finished."""
@@ -99,36 +110,75 @@ class Search:
         self.depth, self.states, self.frontier = state["depth"], state["states"], state["frontier"]
         self.job["partitions"] = state["partitions"]
         self.facts = Facts.of_json(json.dumps(state["facts"]))
-        self.take_up()
+        self.files, told = state["levels"], state["parts"]
+        self.narrow = self.store.read_all("narrow")
+        for what in told:
+            self.share(self.store.read_all(what))
+        self.told = told
+        earlier = [self.load(path) for path in self.files[:-1]]
+        narrow = self.spark.parallelize([x for block in self.narrow for x in self.runs(block)], 1)
+        digests = [narrow] + [level.mapPartitions(worker.runs_of) for level in earlier]
+        self.add_seen(self.joined(self.placed(self.spark.union(digests))), self.states - self.frontier)
+        self.level = self.placed(self.load(self.files[-1]))
+        self.add_seen(self.level.mapPartitions(worker.runs_of, preservesPartitioning=True), self.frontier)
 
-    def take_up(self):
-        job = self.job
-        blocks = self.spark.union([self.store.load(self.level(depth)) for depth in range(self.depth + 1)])
-        seen = blocks.mapPartitions(lambda blocks: worker.known(job, blocks))
-        self.seen = seen.partitionBy(job["partitions"], int).persist(StorageLevel.MEMORY_AND_DISK)
+    def load(self, path):
+        return self.spark._checkpointFile(self.store.name(path), self.spark.serializer)
+
+    def add_level(self, level):
+        """`level` is in the folder from now on; what it tells is the result."""
+        level.persist(KEPT)
+        level.checkpoint()
+        told = level.flatMap(lambda x: [x[1][1]] if x[1][0] == "told" else []).collect()
+        if self.level is not None:
+            self.level.unpersist()
+        for rdd in self.stale:
+            rdd.unpersist()
+        self.stale = []
+        self.level = level
+        self.files.append("/".join(["levels"] + level.getCheckpointFile().split("/")[-2:]))
+        return told
+
+    def add_seen(self, runs, count):
+        """Runs of like size are joined, so that there are few."""
+        self.seen.append((runs.persist(KEPT), count))
+        while len(self.seen) > 1 and self.seen[-2][1] < 2 * self.seen[-1][1]:
+            (a, n), (b, m) = self.seen[-2:]
+            self.seen[-2:] = [(self.joined(self.spark.union([a, b])).persist(KEPT), n + m)]
+            self.stale += [a, b]
+
+    def joined(self, runs):
+        return runs.mapPartitionsWithIndex(worker.joined, preservesPartitioning=True)
+
+    def add_parts(self, parts):
+        """Parts that states of the last level name are known to all before it is finished."""
+        new = sorted(set(parts) - self.parts)
+        if new:
+            self.told.append("parts-%05d" % self.depth)
+            self.store.write_all(self.told[-1], new)
+            self.share(new)
+            self.successors.ask()  # it finds parts of the same name
+
+    def share(self, parts):
+        self.parts.update(parts)
+        self.broadcasts.append(self.spark.broadcast(parts))
+        self.successors.give(parts)
 
     def commit(self):
         self.store.write("search.json", json.dumps({
             "greeting": self.job["greeting"].decode(), "partitions": self.job["partitions"], "depth": self.depth,
-            "states": self.states, "frontier": self.frontier, "facts": json.loads(self.facts.to_json())}))
+            "states": self.states, "frontier": self.frontier, "levels": self.files, "parts": self.told,
+            "facts": json.loads(self.facts.to_json())}).encode())
 
     # Levels
 
     def step(self):
-        partitions = self.job["partitions"]
-        frontier = self.store.load(self.level(self.depth))
-        led_to = frontier.mapPartitionsWithIndex(worker.expander(self.job, self.depth)).partitionBy(partitions, int)
-        merged = self.seen.union(led_to).mapPartitionsWithIndex(worker.merger(), preservesPartitioning=True)
-        merged.persist(StorageLevel.MEMORY_AND_DISK)
-        self.store.save(merged.filter(lambda x: x[1][0] == "new").map(lambda x: x[1][1]), self.level(self.depth + 1))
-        seen = merged.filter(lambda x: x[1][0] == "seen")
-        seen.partitioner = self.seen.partitioner
-        seen.checkpoint()
-        told = seen.map(lambda x: x[1][1][1:]).collect()
-        self.seen.unpersist()
-        merged.unpersist()
-        self.seen = seen
-        for count, facts in told:
+        go = worker.expander(self.job, self.depth, self.broadcasts)
+        led_to = self.placed(self.level.mapPartitionsWithIndex(go))
+        together = self.spark.union([runs for runs, _ in self.seen] + [led_to])
+        assert together.getNumPartitions() == self.job["partitions"]
+        told = self.add_level(together.mapPartitionsWithIndex(worker.merger(), preservesPartitioning=True))
+        for _, facts in told:
             for part in facts:
                 self.facts.add(part)
         if self.facts.stopped:
@@ -137,8 +187,11 @@ class Search:
         if self.frontier:
             self.depth += 1
             self.states += self.frontier
+            self.add_parts(self.facts.parts)
+            self.add_seen(self.level.mapPartitions(worker.runs_of, preservesPartitioning=True), self.frontier)
         else:
-            self.store.delete(self.level(self.depth + 1))
+            self.files.pop()
+        self.facts.parts = set()
         self.commit()
         self.tell(self)
 
@@ -149,26 +202,33 @@ class Search:
     # Afterwards
 
     def find(self, known, depth):
-        """The record of a state that is `depth` deep."""
-        def look(blocks):
-            return [r for block in blocks for r in records(block) if r[0] == known]
-        return self.store.load(self.level(depth)).mapPartitions(look).first()
+        """The state, `depth` deep, whose digest begins with `known`, and its parent."""
+        def look(items):
+            for _, (kind, block) in items:
+                columns = blocks.Columns.of(block if kind == "new" else blocks.NOTHING)
+                row = columns.find(known)
+                if row is not None:
+                    yield columns.text(row), columns.parents[row].tobytes()
+        if depth < len(self.narrow):
+            return next(look([(0, ("new", self.narrow[depth]))]))
+        return self.load(self.files[depth - len(self.narrow)]).mapPartitions(look).first()
 
     def may_cycle(self):
         """Whether the state graph has a cycle, by taking away what leads nowhere, again and again."""
-        job = self.job
-        blocks = self.spark.union([self.store.load(self.level(depth)) for depth in range(self.depth + 1)])
-        edges = blocks.mapPartitions(worker.edges_of(job))
-        left = edges.partitionBy(job["partitions"], number_of).persist(StorageLevel.MEMORY_AND_DISK)
+        partitions = self.job["partitions"]
+        narrow = self.spark.parallelize([(0, ("new", block)) for block in self.narrow])
+        levels = self.spark.union([narrow] + [self.load(path) for path in self.files])
+        edges = levels.mapPartitions(worker.edges_of(self.job, self.broadcasts))
+        left = edges.partitionBy(partitions, worker.number_of).persist(KEPT)
         count = left.filter(lambda x: x[1]).count()
         while count:
             edges = left
             alive = edges.filter(lambda x: x[1]).map(lambda x: (x[0], None))
             wanted = edges.flatMap(lambda x: [(target, x[0]) for target in x[1]])
-            kept = wanted.partitionBy(job["partitions"], number_of).join(alive)
+            kept = wanted.partitionBy(partitions, worker.number_of).join(alive)
             kept = kept.map(lambda x: (x[1][0], x[0]))
-            left = kept.groupByKey(job["partitions"], number_of).mapValues(tuple)
-            left = left.persist(StorageLevel.MEMORY_AND_DISK)
+            left = kept.groupByKey(partitions, worker.number_of).mapValues(tuple)
+            left = left.persist(KEPT)
             left.checkpoint()
             fewer = left.count()
             edges.unpersist()

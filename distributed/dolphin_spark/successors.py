@@ -4,15 +4,8 @@ import hashlib
 import struct
 import subprocess
 
-PROPERTIES = {
-    1: "no unhandled error",
-    2: "assertions",
-    3: "vehicles for all tasks",
-    4: "no halt",
-    5: "no leftover tuples",
-}
-END = 128
-BATCH = 2000
+NUMBER = struct.Struct("<I")
+LONG = struct.Struct("<Q")
 
 
 class Inconclusive(Exception):
@@ -21,29 +14,39 @@ class Inconclusive(Exception):
 
 def digest(state):
     """The 16 bytes by which a state is known."""
-    return hashlib.blake2b(state, digest_size=16).digest()
+    return hashlib.md5(state).digest()
 
 
-def pack(states):
-    """A batch, as the filter reads it."""
-    parts = [struct.pack("<I", len(states))]
-    for state in states:
-        parts.append(struct.pack("<I", len(state)))
-        parts.append(state)
-    return b"".join(parts)
+def text(data):
+    return NUMBER.pack(len(data)) + data
+
+
+def batch(lengths, kinds, texts, parts=(), partitions=1, targets=False):
+    """A batch, as the filter reads it: the columns of some states, and parts that they name."""
+    head = [struct.pack("<IB", partitions, targets), NUMBER.pack(len(parts))]
+    head += [text(part) for part in parts]
+    return b"".join(head) + NUMBER.pack(len(lengths) // 4) + lengths + kinds + texts
+
+
+def run(states, parts):
+    """A batch of the states of a run, for `--run`."""
+    lengths = b"".join(NUMBER.pack(len(state)) for state in states)
+    return batch(lengths, bytes(len(states)), b"".join(states), parts)
 
 
 class Answer:
-    """What follows the states of one batch."""
+    """What follows the states of one batch. `broken` has (number, digest); `blocks` a block of states for each
+    partition; `targets`, if asked for, how many transitions each state has, and where they lead."""
 
-    __slots__ = ("successors", "expansions", "places", "rounds", "unreached", "trouble")
+    __slots__ = ("transitions", "rounds", "broken", "places", "unreached", "trouble", "blocks", "targets")
 
 
 class Successors:
-    """The process that tells what follows states. `greeting`, where given, is what it must say."""
+    """The process that tells what follows states: `dolphin successors` with a program, and options. `greeting`, where
+    given, is what it must say; `shown` is the path of the program as others see it. `told` has the parts that it has
+    told and was not given since: others may not know them."""
 
-    def __init__(self, command, invariants=0, greeting=None):
-        self.invariants = invariants
+    def __init__(self, command, greeting=None, shown=None):
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=1 << 20)
         self.greeting = self.process.stdout.readline()
         if not self.greeting:
@@ -52,11 +55,19 @@ class Successors:
             self.close()
             raise RuntimeError("another program, fleet or version of Dolphin is here: %r" % self.greeting)
         self.process.stdin.write(self.greeting)
+        self.told, self.waiting, self.given = set(), [], 0
+        self.path, self.shown = command[2], shown or command[2]
 
     def close(self):
         self.process.stdin.close()
         self.process.stdout.close()
         self.process.wait()
+
+    def give(self, parts):
+        """Others know `parts` now, and so does this process from the next batch on."""
+        self.waiting.extend(parts)
+        self.told.difference_update(parts)
+        self.given += 1
 
     def _bytes(self, n):
         found = self.process.stdout.read(n)
@@ -65,35 +76,42 @@ class Successors:
         return found
 
     def _number(self):
-        return int.from_bytes(self._bytes(4), "little")
+        return NUMBER.unpack(self._bytes(4))[0]
+
+    def _long(self):
+        return LONG.unpack(self._bytes(8))[0]
 
     def _text(self):
         return self._bytes(self._number())
 
-    def ask(self, states):
-        """What follows `states`: (kind, state) for each successor, and (deadlock, transitions, broken invariants,
-        places among the successors) for each of `states`."""
-        self.process.stdin.write(pack(states))
+    def _seen(self, place):
+        """A place of the program, the same in all processes."""
+        return self.shown + place[len(self.path):] if place.startswith(self.path + ":") else place
+
+    def ask(self, lengths=b"", kinds=b"", texts=b"", partitions=1, targets=False):
+        """What follows the states of these columns."""
+        count = len(lengths) // 4
+        self.process.stdin.write(batch(lengths, kinds, texts, self.waiting, partitions, targets))
         self.process.stdin.flush()
+        self.waiting = []
         if self._bytes(1) != b"\0":
             raise Inconclusive(self._text().decode())
         answer = Answer()
-        read = self.process.stdout.read
-        answer.successors = []
-        for _ in range(self._number()):
-            head = read(5)
-            length = int.from_bytes(head[1:], "little")
-            answer.successors.append((head[0], read(length)))
-        answer.expansions = []
-        size = 9 + self.invariants
-        for _ in range(self._number()):
-            head = read(size)
-            count = int.from_bytes(head[-4:], "little")
-            targets = struct.unpack("<%dI" % count, read(4 * count))
-            answer.expansions.append((head[0], int.from_bytes(head[1:5], "little"), head[5:-4], targets))
+        answer.transitions = self._long()
+        answer.rounds = self._bytes(1) != b"\0"
+        answer.broken = [(self._number(), self._bytes(16)) for _ in range(self._number())]
         places = self._bytes(32 * self._number())
         answer.places = [(places[i:i + 16], places[i + 16:i + 32]) for i in range(0, len(places), 32)]
-        answer.rounds = self._bytes(1) != b"\0"
-        answer.unreached = self._text().decode()
+        answer.unreached = [self._seen(line) for line in self._text().decode().splitlines()]
         answer.trouble = self._text().decode()
+        self.told.update(self._text() for _ in range(self._number()))
+        answer.blocks = [self._bytes(self._long()) for _ in range(partitions)]
+        answer.targets = None
+        if targets:
+            counts = struct.unpack("<%dI" % count, self._bytes(4 * count))
+            answer.targets = counts, struct.unpack("<%dI" % sum(counts), self._bytes(4 * sum(counts)))
         return answer
+
+    def initial(self):
+        """The block of the initial state."""
+        return self.ask(bytes(4), bytes(1)).blocks[0]

@@ -2,30 +2,41 @@
 
 import atexit
 
-from . import files
-from .levels import by_partition, expand, merge, records
+from . import blocks, files, levels
 from .successors import Successors
 
 _filters = {}
 
 
-def filter_of(job):
+def filter_of(job, parts):
+    """The filter of `job`, which knows all that `parts`, some broadcasts of parts, have. Only the latest lives."""
     known = _filters.get(job["greeting"])
     if known is None or known.process.poll() is not None:
-        known = Successors(files.command_line(job, "successors"), len(job["conditions"]), job["greeting"])
+        while _filters:
+            _filters.popitem()[1].process.kill()
+        known = Successors(files.command_line(job, "successors"), job["greeting"], job["shown"])
         _filters[job["greeting"]] = known
         atexit.register(known.process.kill)
+    for broadcast in parts[known.given:]:
+        known.give(broadcast.value)
     return known
 
 
-def expander(job, depth):
-    """A function for the partitions of a frontier: blocks for the partitions, and facts for that of the same number."""
+def expander(job, depth, parts):
+    """A function for the partitions of a frontier: blocks for the partitions, and facts for that of the same number.
+    The facts have all parts that states in the blocks may name and that are not among `parts`, whichever of them this
+    process has told before: what some task told may be lost with its answer."""
 
-    def go(index, blocks):
-        found, facts = expand(filter_of(job), blocks, depth, job["conditions"])
-        for partition, block in by_partition(found, job["partitions"]):
-            yield partition, ("block", block)
-        yield index % job["partitions"], ("facts", facts)
+    def go(index, items):
+        known = filter_of(job, parts)
+        for _, (kind, block) in items:
+            if kind == "new":
+                led_to, facts = levels.expand(known, block, depth, job["conditions"], job["partitions"])
+                facts.parts = set(known.told)
+                for partition, found in enumerate(led_to):
+                    for block in found:
+                        yield partition, ("block", block)
+                yield index % job["partitions"], ("facts", facts)
 
     return go
 
@@ -34,35 +45,39 @@ def merger():
     """A function for a partition of what is seen, and of what the frontier leads to."""
 
     def go(index, items):
-        seen, blocks, facts = set(), [], []
+        runs, found, facts = [], [], []
         for _, (kind, value) in items:
-            if kind == "seen":
-                text = value[0]
-                seen.update(text[i:i + 16] for i in range(0, len(text), 16))
-            elif kind == "block":
-                blocks.append(value)
-            else:
-                facts.append(value)
-        block, count = merge(seen, blocks)
-        yield index, ("seen", (b"".join(seen), count, facts))
-        if count:
+            {"run": runs, "block": found, "facts": facts}[kind].append(value)
+        block = blocks.merge(runs, found)
+        yield index, ("told", (blocks.count(block), facts))
+        if blocks.count(block):
             yield index, ("new", block)
 
     return go
 
 
-def known(job, blocks):
-    """The digests of the states of `blocks`, by partition."""
-    found = {digest: digest for block in blocks for digest, _, _, _ in records(block)}
-    return [(partition, ("seen", (text, 0, []))) for partition, text in by_partition(found, job["partitions"])]
+def runs_of(items):
+    """The digests of what is new in a partition."""
+    return [(partition, ("run", blocks.digests(block))) for partition, (kind, block) in items if kind == "new"]
 
 
-def edges_of(job):
-    """(digest, digests of what follows it) for the states of a frontier."""
+def joined(index, items):
+    runs = [run for _, (_, run) in items]
+    return [(index, ("run", blocks.joined(runs)))] if runs else []
 
-    def go(blocks):
-        edges = {}
-        expand(filter_of(job), blocks, 0, [], edges)
-        return [(known, tuple(set(targets))) for known, targets in edges.items()]
+
+def edges_of(job, parts):
+    """(digest, digests of what follows it) for the states of a level."""
+
+    def go(items):
+        known = filter_of(job, parts)
+        for _, (kind, block) in items:
+            if kind == "new":
+                yield from levels.edges(known, block)
 
     return go
+
+
+def number_of(digest):
+    """By which states are spread: evenly, as these are digests."""
+    return int.from_bytes(digest[:8], "little")

@@ -4,17 +4,20 @@ command."""
 
 import json
 import os
+import random
 import subprocess
 import sys
 import tempfile
 import unittest
 
+import numpy
+
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 
-from dolphin_spark import levels, worker  # noqa: E402
+from dolphin_spark import blocks, levels, worker  # noqa: E402
 from dolphin_spark.facts import Facts, places_may_cycle, prune  # noqa: E402
 from dolphin_spark.local import Local  # noqa: E402
-from dolphin_spark.successors import Inconclusive, Successors, digest, pack  # noqa: E402
+from dolphin_spark.successors import Inconclusive, Successors, digest, run  # noqa: E402
 
 DOLPHIN = os.environ.get("DOLPHIN", "dolphin")
 EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples")
@@ -27,46 +30,91 @@ def explored(program, options):
     return json.loads(found)
 
 
-class Partitions:
-    """A search as on Spark, but here: `count` partitions, each with a filter of its own."""
+class Broadcast:
+    def __init__(self, value):
+        self.value = value
 
-    def __init__(self, command, conditions, count):
-        self.job = {"conditions": conditions, "partitions": count}
-        self.filters = [Successors(command, len(conditions)) for _ in range(count)]
+
+class Partitions:
+    """A search as on Spark, but here: `count` partitions, each with a filter of its own. With `dying`, a filter dies
+    after each level, and the first of a level dies before its answer is there: another one answers for it."""
+
+    def __init__(self, command, conditions, count, dying=False):
+        self.command, self.count, self.dying = command, count, dying
+        self.job = {"greeting": None, "conditions": conditions, "partitions": count}
+        self.filters = [Successors(command) for _ in range(count)]
+        self.job["greeting"] = self.filters[0].greeting
         local = Local(self.filters[0], conditions)
         self.facts, self.states, self.depth = Facts(), 1, 0
-        self.seen = [b""] * count
-        for partition, (_, (text, _, _)) in worker.known(self.job, local.levels):
-            self.seen[partition] = text
-        self.levels = [[local.levels[0]]]
+        self.parts, self.broadcasts = set(), []
+        first = blocks.by_partition(blocks.Columns.of(local.levels[0]), count)
+        initial = [(p, ("new", part.block())) for p, part in first]
+        self.levels, self.seen = [initial], [[] for _ in range(count)]
         while self.step():
             self.depth += 1
 
+    def expanded(self, index, item):
+        """What the task of one item of the frontier yields, in a process of its own."""
+        if self.dying and index == self.depth % self.count:
+            lost = self.filters[index]
+            list(self.task(index, item))
+            lost.process.kill()
+            lost.process.communicate()
+            self.filters[index] = Successors(self.command)
+        return list(self.task(index, item))
+
+    def task(self, index, item):
+        worker._filters.clear()
+        worker._filters[self.job["greeting"]] = self.filters[index]
+        return worker.expander(self.job, self.depth, self.broadcasts)(index, [item])
+
     def step(self):
-        count = self.job["partitions"]
-        items = [[(p, ("seen", (text, 0, [])))] for p, text in enumerate(self.seen)]
-        for index, block in enumerate(self.levels[-1]):
-            found, facts = levels.expand(self.filters[index % count], [block], self.depth, self.job["conditions"])
-            for partition, text in levels.by_partition(found, count):
-                items[partition].append((partition, ("block", text)))
-            items[index % count].append((index % count, ("facts", facts)))
+        items = [[(p, ("run", run)) for run in runs] for p, runs in enumerate(self.seen)]
+        for p, (kind, block) in self.levels[-1]:
+            items[p].append((p, ("run", blocks.digests(block))))
+            self.seen[p] = [run for _, (_, run) in items[p]]
+        for index, item in enumerate(self.levels[-1]):
+            for partition, what in self.expanded(index % self.count, item):
+                items[partition].append((partition, what))
         new, fresh = [], 0
-        for partition in range(count):
+        for partition in range(self.count):
             for _, (kind, value) in worker.merger()(partition, items[partition]):
                 if kind == "new":
-                    new.append(value)
+                    new.append((partition, (kind, value)))
                 else:
-                    self.seen[partition], more, told = value
+                    more, told = value
                     fresh += more
                     for facts in told:
                         self.facts.add(facts)
+        more = sorted(self.facts.parts - self.parts)
+        self.parts.update(more)
+        self.broadcasts += [Broadcast(more)] if more else []
+        self.facts.parts = set()
         self.states += fresh
         self.levels.append(new)
         return fresh > 0
 
     def close(self):
+        worker._filters.clear()
         for one in self.filters:
             one.close()
+
+
+def block(states):
+    """The block of (digest, parent, kind, text)."""
+    def numbers(texts):
+        return numpy.frombuffer(b"".join(texts), blocks.WORD)
+    known, parents, kinds, texts = zip(*states)
+    return blocks.Columns(
+        numbers(x[:8] for x in known), numbers(x[8:] for x in known), numbers(parents),
+        numpy.array([len(x) for x in texts], blocks.LENGTH), numpy.array(kinds, numpy.uint8),
+        numpy.frombuffer(b"".join(texts), numpy.uint8)).block()
+
+
+def items(whole):
+    columns = blocks.Columns.of(whole)
+    return [(columns.digest(i), columns.parents[i].tobytes(), int(columns.kinds[i]), columns.text(i))
+            for i in range(columns.count)]
 
 
 def told(facts):
@@ -82,22 +130,22 @@ class Agreement(unittest.TestCase):
         one = Successors(command)
         local = Local(one, [])
         local.run(1 << 60)
+        is_cyclic = local.may_cycle()
         one.close()
         apart = Partitions(command, [], 3)
         apart.close()
         counts = (expected["states"], expected["transitions"], expected["depth"])
-        self.assertEqual((local.states, local.facts.transitions, len(local.levels) - 1), counts)
+        self.assertEqual((local.states, local.facts.transitions, local.depth), counts)
         self.assertEqual((apart.states, apart.facts.transitions, apart.depth), counts)
         self.assertEqual(told(local.facts), told(apart.facts))
         self.assertEqual(local.facts.places, apart.facts.places)
         self.assertEqual(local.facts.unreached, apart.facts.unreached)
         for found in expected["verdicts"]:
-            self.verdict(found, local)
+            self.verdict(found, local, is_cyclic)
 
-    def verdict(self, found, local):
+    def verdict(self, found, local, is_cyclic):
         name, is_violated = found["property"], found["verdict"] == "violated"
         if name == "termination":
-            is_cyclic = bool(prune(local.edges))
             self.assertFalse(is_cyclic and not local.facts.rounds and not places_may_cycle(local.facts.places))
             if not local.facts.rounds:
                 self.assertEqual(is_violated, is_cyclic)
@@ -134,13 +182,53 @@ class Agreement(unittest.TestCase):
         depth, known = local.facts.first["no unhandled error"]
         states = []
         while depth:
-            _, parent, _, state = local.find(known, depth)
+            state, known = local.find(known, depth)
             states.insert(0, state)
-            known, depth = parent, depth - 1
-        shown = subprocess.run(command + ["--run"], input=one.greeting + pack(states), stdout=subprocess.PIPE)
+            depth -= 1
+        shown = subprocess.run(command + ["--run"], input=one.greeting + run(states, local.parts),
+                               stdout=subprocess.PIPE)
         self.assertEqual(shown.returncode, 0)
         self.assertEqual(len([x for x in shown.stdout.splitlines() if x.lstrip()[:1].isdigit()]), len(states))
 
+    def test_lost(self):
+        """Filters that die lose no part: what states name is told again by whoever expands them again."""
+        for name, options in (("rendezvous", []), ("parallel", []), ("photos", [])):
+            program = os.path.join(EXAMPLES, name + ".dol")
+            expected = explored(program, options + ["--reduction", "none"])
+            found = Partitions([DOLPHIN, "successors", program] + options, [], 3, dying=True)
+            found.close()
+            self.assertEqual((found.states, found.facts.transitions), (expected["states"], expected["transitions"]))
+
+    def test_batches(self):
+        """However few states the filter is asked at a time, the answer is the same."""
+        program = os.path.join(EXAMPLES, "rendezvous.dol")
+        usual, found = levels.BATCH, []
+        try:
+            for levels.BATCH in (usual, 7):
+                one = Successors([DOLPHIN, "successors", program])
+                local = Local(one, [])
+                local.run(1 << 60)
+                one.close()
+                found.append((local.levels, local.facts.transitions, local.facts.places, local.parts))
+        finally:
+            levels.BATCH = usual
+        self.assertEqual(found[0], found[1])
+
+    def test_places(self):
+        """What no run reaches is called the same on all machines, wherever the program is there."""
+        with tempfile.TemporaryDirectory() as folder:
+            found = []
+            for name in ("here", "elsewhere"):
+                program = os.path.join(folder, name + ".dol")
+                with open(program, "w") as text:
+                    text.write("n = 1\nif (n > 1) { post x: 1 }\n")
+                one = Successors([DOLPHIN, "successors", program], shown=os.path.join(folder, "here.dol"))
+                local = Local(one, [])
+                local.run(1 << 60)
+                one.close()
+                found.append(local.facts.unreached)
+            self.assertEqual(len(found[0]), 1)
+            self.assertEqual(found[0], found[1])
 
     def test_unsettled(self):
         """What nobody can list stops the search, and is told."""
@@ -155,18 +243,58 @@ class Agreement(unittest.TestCase):
 
 
 class Parts(unittest.TestCase):
-    def test_records(self):
-        items = [(digest(b"%d" % i), digest(b"p"), i, b"x" * i) for i in range(5)]
-        self.assertEqual(list(levels.records(b"".join(levels.record(*item) for item in items))), items)
+    def test_columns(self):
+        """Whatever is done with rows, a state keeps its own text."""
+        states = [(digest(b"%d" % i), b"%07d." % i, i % 200, b"x" * (i * 7 % 13) + b"%d" % i) for i in range(500)]
+        whole = block(states)
+        columns = blocks.Columns.of(whole)
+        self.assertEqual(items(whole), states)
+        self.assertEqual(columns.block(), whole)
+        rows = numpy.array([499, 3, 77, 3, 0])
+        self.assertEqual(items(columns.taken(rows).block()), [states[i] for i in rows])
+        parts = blocks.by_partition(columns, 7)
+        self.assertEqual(sorted(x for _, part in parts for x in items(part.block())), sorted(states))
+        for partition, part in parts:
+            self.assertEqual({int.from_bytes(x[0][12:], "little") % 7 for x in items(part.block())}, {partition})
+        self.assertEqual(columns.find(states[42][0]), 42)
+        self.assertEqual(columns.find(states[42][0][:8]), 42)
+        self.assertIsNone(columns.find(b"?" * 16))
+        self.assertEqual(items(blocks.NOTHING), [])
 
     def test_merge(self):
-        """What is new is new once, with the least parent, whatever comes first."""
-        a, b, low, high = digest(b"a"), digest(b"b"), b"\0" * 16, b"\1" * 16
-        blocks = [levels.record(a, high, 0, b"a"), levels.record(a, low, 0, b"a") + levels.record(b, low, 0, b"b")]
-        for order in (blocks, blocks[::-1]):
-            seen = {b}
-            block, count = levels.merge(seen, order)
-            self.assertEqual((count, list(levels.records(block)), seen), (1, [(a, low, 0, b"a")], {a, b}))
+        """What is new is new once, in order, with the least parent, whatever comes first."""
+        a, b, low, high = digest(b"a"), digest(b"b"), b"\0" * 8, b"\1" * 8
+        found = [block([(a, high, 0, b"a")]), block([(a, low, 0, b"a"), (b, low, 0, b"b")])]
+        for order in (found, found[::-1]):
+            merged = blocks.merge([blocks.digests(block([(b, low, 0, b"b")]))], order)
+            self.assertEqual(items(merged), [(a, low, 0, b"a")])
+        self.assertEqual(blocks.merge([], []), blocks.NOTHING)
+
+    def test_merge_many(self):
+        """Merging is what sets do, also of digests that begin alike."""
+        random.seed(20261125)
+        for _ in range(200):
+            firsts = [random.randbytes(8) for _ in range(4)]
+
+            def some(n):
+                names = [random.choice(firsts) + bytes([random.randrange(6)]) * 8 for _ in range(n)]
+                return [(name, random.randbytes(8), 1, name[7:9]) for name in names]
+
+            seen = [blocks.merge([], [block(some(random.randrange(1, 9)))]) for _ in range(random.randrange(4))]
+            runs = [blocks.digests(x) for x in seen]
+            if len(runs) > 1 and random.randrange(2):
+                runs = [blocks.joined(runs)]
+            known = {x[0] for whole in seen for x in items(whole)}
+            found = [some(random.randrange(1, 9)) for _ in range(3)]
+            merged = items(blocks.merge(runs, [block(states) for states in found]))
+            number = int.from_bytes
+            expected = {}
+            for name, parent, kind, text in (x for states in found for x in states if x[0] not in known):
+                other = expected.get(name, (parent,))[0]
+                expected[name] = (min(parent, other, key=lambda p: number(p, "little")), kind, text)
+            self.assertEqual({x[0]: x[1:] for x in merged}, expected)
+            order = [(number(x[0][:8], "little"), number(x[0][8:], "little")) for x in merged]
+            self.assertEqual(order, sorted(order))
 
     def test_prune(self):
         self.assertEqual(prune({1: [2, 3], 2: [3], 3: []}), set())
@@ -180,8 +308,8 @@ class Parts(unittest.TestCase):
         facts.broken("assertions", 3, b"\1" * 16)
         facts.broken("assertions", 4, b"\0" * 16)
         facts.places.add((b"\3" * 16, b"\4" * 16))
-        facts.reaches("a\nb")
-        facts.reaches("b\nc")
+        facts.reaches(["a", "b"])
+        facts.reaches(["b", "c"])
         again = Facts.of_json(facts.to_json())
         self.assertEqual(vars(again), vars(facts))
         self.assertEqual(again.first, {"assertions": (3, b"\1" * 16)})

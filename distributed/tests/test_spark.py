@@ -40,6 +40,8 @@ class Spark(unittest.TestCase):
             name = verdict["property"]
             if name in told and told[name] != "inconclusive":
                 self.assertEqual(verdict["verdict"], told[name], name)
+            if name == "all code reached":
+                self.assertEqual(verdict["verdict"] == "violated", "no run reaches" in output)
 
     def test_examples(self):
         for name, options in CASES:

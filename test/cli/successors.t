@@ -9,55 +9,71 @@ States in, what follows them out.
   > vehicle 'noptilus-1', { type 'UUV' }
   > END
   $ dolphin successors relay.dol --greeting | sed 's/"version":"[^"]*"/"version":"..."/; s/"[0-9a-f]\{32\}"/"<digest>"/g'
-  {"dolphin":"successors","protocol":1,"version":"...","program":"<digest>","fleet":"<digest>","set":{},"options":{"answers":[],"faults":"","reduction":"none","invariants":[]}}
+  {"dolphin":"successors","protocol":2,"version":"...","program":"<digest>","fleet":"<digest>","set":{},"options":{"answers":[],"faults":"","reduction":"none","invariants":[]}}
 
 A search in a few lines finds what the explorer finds, and a run through the states that it met.
 
   $ cat > search.py <<'END'
-  > import struct, subprocess, sys
+  > import hashlib, struct, subprocess, sys
   > p = subprocess.Popen(["dolphin", "successors", *sys.argv[1:]], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
   > greeting = p.stdout.readline()
   > p.stdin.write(greeting)
-  > number = lambda: struct.unpack("<I", p.stdout.read(4))[0]
+  > numbers = lambda kind, n: struct.unpack("<%d%s" % (n, kind), p.stdout.read(struct.calcsize(kind) * n))
+  > number = lambda: numbers("I", 1)[0]
   > text = lambda: p.stdout.read(number())
-  > pack = lambda states: struct.pack("<I", len(states)) + b"".join(struct.pack("<I", len(s)) + s for s in states)
+  > size = lambda n: struct.pack("<I", n)
+  > def batch(states, parts=(), targets=True):
+  >     return (size(1) + bytes([targets]) + size(len(parts)) + b"".join(size(len(x)) + x for x in parts)
+  >             + size(len(states)) + b"".join(size(len(s)) for s in states) + bytes(len(states)) + b"".join(states))
+  > parts = []
   > def ask(states):
-  >     p.stdin.write(pack(states))
+  >     p.stdin.write(batch(states))
   >     p.stdin.flush()
   >     assert p.stdout.read(1) == b"\0"
-  >     found = [(p.stdout.read(1)[0], text()) for _ in range(number())]
-  >     expansions = []
-  >     for _ in range(number()):
-  >         p.stdout.read(1)
-  >         expansions.append((number(), struct.unpack("<%dI" % (n := number()), p.stdout.read(4 * n))))
+  >     transitions, = numbers("Q", 1)
+  >     p.stdout.read(1)
+  >     broken = [(number(), p.stdout.read(16)) for _ in range(number())]
   >     p.stdout.read(32 * number())
-  >     p.stdout.read(1), text(), text()
-  >     return found, expansions
-  > initial = ask([b""])[0][0][1]
-  > before, level, transitions, broken = {initial: None}, [initial], 0, None
+  >     text(), text()
+  >     parts.extend(text() for _ in range(number()))
+  >     bytes, n = numbers("Q", 2)
+  >     digests = list(zip(numbers("Q", n), numbers("Q", n)))
+  >     parents = numbers("Q", n)
+  >     lengths, kinds = numbers("I", n), numbers("B", n)
+  >     found = [p.stdout.read(length) for length in lengths]
+  >     assert bytes == 8 + 29 * n + sum(lengths)
+  >     assert digests == [struct.unpack("<QQ", hashlib.md5(s).digest()) for s in found]
+  >     targets = [[found[i] for i in numbers("I", m)] for m in numbers("I", len(states))]
+  >     assert sum(map(len, targets)) == transitions
+  >     return transitions, broken, kinds, targets
+  > (initial,), = ask([b""])[3]
+  > before, level, transitions, failed = {initial: None}, [initial], 0, None
   > while level:
-  >     found, expansions = ask(level)
+  >     n, broken, kinds, targets = ask(level)
+  >     transitions += n
   >     following = []
-  >     for state, (n, targets) in zip(level, expansions):
-  >         transitions += n
-  >         for kind, successor in (found[i] for i in targets):
+  >     for state, successors in zip(level, targets):
+  >         for successor in successors:
   >             if successor not in before:
   >                 before[successor] = state
   >                 following.append(successor)
-  >                 if kind & 127 == 2 and broken is None:
-  >                     broken = successor
+  >     for number_of_property, digest in broken:
+  >         if number_of_property == 2 and failed is None:
+  >             failed, = [s for s in following if hashlib.md5(s).digest() == digest]
   >     level = following
-  > print(len(before), "states,", transitions, "transitions")
+  > print(len(before), "states,", transitions, "transitions,", len(parts), "parts")
   > run = []
-  > while broken and broken != initial:
-  >     run.insert(0, broken)
-  >     broken = before[broken]
-  > open("run", "wb").write(greeting + pack(run))
+  > while failed and failed != initial:
+  >     run.insert(0, failed)
+  >     failed = before[failed]
+  > open("run", "wb").write(greeting + batch(run, parts))
+  > open("without", "wb").write(greeting + batch(run))
+  > open("leap", "wb").write(greeting + batch(run[1:2], parts))
   > p.stdin.close()
   > print("status", p.wait())
   > END
   $ python3 search.py relay.dol
-  10 states, 11 transitions
+  10 states, 11 transitions, 8 parts
   status 0
   $ dolphin explore relay.dol --reduction none | sed 's/, depth.*//'
   no deadlock: holds
@@ -99,22 +115,29 @@ What is wrong is told.
   $ ask '\001\000'
   dolphin: the input ends within a batch
   status 2
-  $ ask '\001\000\000\000\003\000\000\000xyz'
+  $ head='\001\000\000\000\000\000\000\000\000'  # a partition, no targets, no parts
+  $ ask $head'\001\000\000\000\003\000\000\000\000xyz'
   dolphin: state 1 of the batch is no state of this program: it is of no kind
   status 2
-  $ ask '\001\000\000\000\001\000\000\000e'
+  $ ask $head'\001\000\000\000\001\000\000\000\000e'
   dolphin: state 1 of the batch is no state of this program: it ends too early
   status 2
-  $ ask '\001\000\000\000\006\000\000\000s[]\n[]'
+  $ ask $head'\001\000\000\000\021\000\000\000\000e1234567812345678'
+  dolphin: state 1 of the batch is no state of this program: it names a part that was not given
+  status 2
+  $ ask $head'\001\000\000\000\006\000\000\000\000s[]\n[]'
   dolphin: state 1 of the batch is no state of this program: what the environment remembers is not written as dolphin writes it
   status 2
-  $ ask '\377\377\377\377'
+  $ ask $head'\377\377\377\377'
   dolphin: a batch of 4294967295 states is larger than any
+  status 2
+  $ ask '\000\000\000\000'
+  dolphin: a batch for 0 partitions: there are 1 to 1000000
   status 2
   $ ask '' --run
   dolphin: the input has no batch of states: there is no run in it
   status 2
-  $ ask '\001\000\000\000\002\000\000\000s\n' --run
+  $ ask $head'\001\000\000\000\002\000\000\000\000s\n' --run
   dolphin: state 1 of the run is no state of this program: what the environment remembers is not written as dolphin writes it
   status 2
   $ dolphin successors relay.dol --greeting --run
@@ -128,17 +151,9 @@ What is wrong is told.
 
 A state of another place of the run is no step of it.
 
-  $ python3 - <<'END'
-  > whole = open("run", "rb").read()
-  > line, batch = whole.split(b"\n", 1)
-  > import struct
-  > states, at = [], 4
-  > while at < len(batch):
-  >     n, = struct.unpack("<I", batch[at:at + 4])
-  >     states.append(batch[at + 4:at + 4 + n])
-  >     at += 4 + n
-  > open("leap", "wb").write(line + b"\n" + struct.pack("<II", 1, len(states[1])) + states[1])
-  > END
   $ dolphin successors relay.dol --run < leap
   dolphin: no transition leads to state 1 of the run
+  [2]
+  $ dolphin successors relay.dol --run < without
+  dolphin: state 3 of the run is no state of this program: it names a part that was not given
   [2]

@@ -1,8 +1,8 @@
 (* What [dolphin successors] tells of states, followed from state to state, is what the explorer finds: as many states
    and transitions, the same depth, the same verdicts, with all orders of steps and with those that partial order
-   leaves. Two instances, which stand for two processes, share the states by their hashes: states are the same bytes to
-   both, although each has met other things before. PROGRAMS in the environment is how many random programs are tried,
-   300 by default. *)
+   leaves. Two instances, which stand for two processes, share the states by their digests: states are the same bytes to
+   both, although each has met other things before; each is given the parts that the other told. PROGRAMS in the
+   environment is how many random programs are tried, 300 by default. *)
 
 open Dolphin_environment
 open Dolphin_explore
@@ -39,46 +39,86 @@ type found = {
 exception Too_many
 exception Refused of Error.t
 
-let expanded successors states =
-  match Successors.expand successors states with Ok batch -> batch | Error e -> raise (Refused e)
+let settled = function Ok x -> x | Error e -> raise (Refused e)
 
-let note found depth (s : Successors.successor) =
-  let is_known property = List.mem_assoc property found.broken in
-  match s.broken with
-  | Some property when not (is_known property) -> found.broken <- (property, depth) :: found.broken
-  | Some _ | None -> ()
+(* What one instance tells of states, in as many blocks as there are instances. The others are given its parts. *)
+let expanded instances i states =
+  let partitions = Array.length instances in
+  let batch = settled (Successors.expand instances.(i) ~partitions ~targets:true states) in
+  Array.iteri (fun j other -> if j <> i then settled (Successors.give other batch.parts)) instances;
+  batch
 
-(* Some states at a time, from any of the instances. *)
+let reached (b : Successors.batch) = List.concat_map State_columns.states (Array.to_list b.blocks)
+
+(* What is broken, and by a state that the batch has or leads to. *)
+let note found depth (b : Successors.batch) sources =
+  let states = reached b in
+  let one ((breach : Successors.breach), digest) =
+    match breach with
+    | Breaks No_deadlock ->
+      assert (List.mem digest sources);
+      if found.deadlock = None then found.deadlock <- Some depth
+    | Makes_false _ ->
+      assert (List.mem digest sources);
+      if found.false_in = None then found.false_in <- Some depth
+    | Breaks property ->
+      let breaks (s : State_columns.state) = s.kind land 127 = Successors.kind ~is_end:false (Some property) in
+      let others = List.map (fun (s : State_columns.state) -> s.digest) (List.filter breaks states) in
+      Alcotest.(check string) "the least of them" (List.fold_left min (List.hd others) others) digest;
+      if not (List.mem_assoc property found.broken) then found.broken <- (property, depth + 1) :: found.broken
+  in
+  List.iter one b.broken
+
+(* What states are found with beside their texts. *)
+let check_states partitions sources (b : Successors.batch) =
+  let parents = Hashtbl.create 16 in
+  let leads source place = if not (Hashtbl.mem parents place) then Hashtbl.add parents place (String.sub source 0 8) in
+  List.iter2 (fun source places -> List.iter (leads source) places) sources (Array.to_list b.targets);
+  let one partition place (s : State_columns.state) =
+    Alcotest.(check string) "the digest of the text" (Digest.to_hex (Digest.string s.text)) (Digest.to_hex s.digest);
+    Alcotest.(check int) "where its digest says" (Successors.partition ~partitions s.digest) partition;
+    Alcotest.(check string) "the first that leads there" (Hashtbl.find parents place) s.parent
+  in
+  let block (first, partition) states =
+    List.iteri (fun i -> one partition (first + i)) states;
+    (first + List.length states, partition + 1)
+  in
+  ignore (List.fold_left block (0, 0) (List.map State_columns.states (Array.to_list b.blocks)))
+
+(* Some states at a time, each by the instance of its partition. *)
 let level instances found depth frontier =
   let next = ref [] in
-  let number text =
-    match Strings.find_opt found.numbers text with
+  let number (s : State_columns.state) =
+    match Strings.find_opt found.numbers s.text with
     | Some i -> i
     | None ->
       let i = Strings.length found.numbers in
       if i >= limit then raise Too_many;
-      Strings.add found.numbers text i;
-      next := text :: !next;
+      Strings.add found.numbers s.text i;
+      next := s :: !next;
       i
   in
-  let batch i states =
-    let b = expanded instances.(i) states in
-    List.iter (note found (depth + 1)) b.successors;
-    let targets = Array.of_list (List.map (fun (s : Successors.successor) -> number s.text) b.successors) in
-    let one text (e : Successors.expansion) =
-      found.transitions <- found.transitions + e.transitions;
-      if e.deadlock && found.deadlock = None then found.deadlock <- Some depth;
-      if List.mem true e.invariants && found.false_in = None then found.false_in <- Some depth;
-      Hashtbl.replace found.edges (Strings.find found.numbers text) (List.map (Array.get targets) e.targets)
-    in
-    List.iter2 one states b.expansions;
+  let batch i (states : State_columns.state list) =
+    let sources = List.map (fun (s : State_columns.state) -> s.digest) states in
+    let source (s : State_columns.state) : Successors.source = { text = s.text; is_end = Successors.is_end s.kind } in
+    let b = expanded instances i (List.map source states) in
+    note found depth b sources;
+    let texts = List.map (fun (s : State_columns.state) -> s.text) (reached b) in
+    Alcotest.(check int) "each once" (List.length texts) (List.length (List.sort_uniq String.compare texts));
+    check_states (Array.length instances) sources b;
+    let targets = Array.of_list (List.map number (reached b)) in
+    found.transitions <- found.transitions + b.transitions;
+    let one (s : State_columns.state) places =
+      Hashtbl.replace found.edges (Strings.find found.numbers s.text) (List.map (Array.get targets) places) in
+    List.iter2 one states (Array.to_list b.targets);
     List.iter (fun pair -> Hashtbl.replace found.places pair ()) b.places;
     if b.goes_round then found.goes_round <- true;
     let still x = List.mem x b.unreached in
     found.unreached <- Some (Option.fold found.unreached ~none:b.unreached ~some:(List.filter still))
   in
-  let ours i = List.filter (fun text -> Hashtbl.hash text mod Array.length instances = i) frontier in
-  Array.iteri (fun i _ -> match ours i with [] -> () | states -> batch i states) instances;
+  let partitions = Array.length instances in
+  let is_of i (s : State_columns.state) = Successors.partition ~partitions s.digest = i in
+  Array.iteri (fun i _ -> match List.filter (is_of i) frontier with [] -> () | states -> batch i states) instances;
   List.rev !next
 
 let search instances =
@@ -86,8 +126,8 @@ let search instances =
     { numbers = Strings.create 100; edges = Hashtbl.create 100; places = Hashtbl.create 10; transitions = 0; depth = 0;
       deadlock = None; broken = []; false_in = None; goes_round = false; unreached = None }
   in
-  let first = (List.hd (expanded instances.(0) [ Successors.before ]).successors).text in
-  Strings.add found.numbers first 0;
+  let first = List.hd (reached (expanded instances 0 [ Successors.before ])) in
+  Strings.add found.numbers first.text 0;
   let rec go depth = function
     | [] -> ()
     | frontier ->
@@ -250,6 +290,64 @@ let test_random () =
   Test_support.Property.on_each_seed ~usual:20_261_123 ~programs test;
   Printf.printf "%d told, of at most %d states\n" !told limit
 
+(* {1 Parts} *)
+
+let rendezvous () =
+  let path = Filename.concat Examples.folder "rendezvous.dol" in
+  let program = ok (Program_file.load path) and fleet = ok (Fleet_file.load_for ~program:path None) in
+  let environment = Scenario_world.environment ~answers:[] ~faults:Faults.none program.program fleet.scenario in
+  (program, { Search.default with environment }, Scenario_world.world fleet.scenario)
+
+(* The first states in which a task executes, and the parts told until then. *)
+let rec executing successors parts sources =
+  let batch = settled (Successors.expand successors sources) in
+  let states = reached batch and parts = parts @ batch.parts in
+  if List.exists (fun (s : State_columns.state) -> s.text.[0] = 'e') states then (states, parts)
+  else executing successors parts (List.map (fun (s : State_columns.state) : Successors.source ->
+      { text = s.text; is_end = false }) states)
+
+let test_parts () =
+  let program, options, world = rendezvous () in
+  let instance () = Successors.make ~greeting:"" options program world in
+  let states, parts = executing (instance ()) [] [ Successors.before ] in
+  let state = List.find (fun (s : State_columns.state) -> s.text.[0] = 'e') states in
+  let source : Successors.source = { text = state.text; is_end = false } in
+  let answer given =
+    let other = instance () in
+    settled (Successors.give other given);
+    match Successors.expand other [ source ] with
+    | Ok batch -> Printf.sprintf "%d transitions, %d parts" batch.transitions (List.length batch.parts)
+    | Error e -> Format.asprintf "%a" Error.pp e
+  in
+  let unknown = "state 1 of the batch is no state of this program: it names a part that was not given" in
+  Alcotest.(check string) "without parts" unknown (answer []);
+  List.iteri
+    (fun i _ ->
+       let others = List.filteri (fun j _ -> j <> i) parts in
+       Alcotest.(check string) "without one of them" unknown (answer others))
+    parts;
+  let all = answer parts in
+  Alcotest.(check bool) all true (Scanf.sscanf all "%d transitions, %d parts%!" (fun n _ -> n > 0));
+  (* Told once, whatever comes after. *)
+  let again = instance () in
+  settled (Successors.give again parts);
+  let told () = List.length (settled (Successors.expand again [ source ])).parts in
+  let first = told () in
+  Alcotest.(check (pair bool int)) "told once" (true, 0) (first > 0, told ())
+
+let test_ambiguous () =
+  let program, options, world = rendezvous () in
+  let space = Search.space options program.program world in
+  let part () : _ Portable.part = { write = (fun _ -> ""); read = (fun _ -> raise (Portable.Wrong "")) } in
+  let codec : Portable.codec = { machine = part (); residual = part (); shared = part (); configuration = part () } in
+  let texts = Space.portable ~digest:(fun text -> String.make 8 text.[0]) codec space in
+  List.iter (Space.give texts) [ "a"; "b"; "a" ];
+  Alcotest.check_raises "another text of the same digest" Portable.Ambiguous (fun () -> Space.give texts "bc")
+
 let () =
   Alcotest.run "successors"
-    [ ("examples", examples); ("random programs", [ Alcotest.test_case "as the explorer finds" `Quick test_random ]) ]
+    [ ("examples", examples);
+      ( "parts",
+        [ Alcotest.test_case "are given" `Quick test_parts;
+          Alcotest.test_case "of one name" `Quick test_ambiguous ] );
+      ("random programs", [ Alcotest.test_case "as the explorer finds" `Quick test_random ]) ]

@@ -248,11 +248,31 @@ let portable =
   in_file "lib/explore/encoding/portable.ml" ~noticed_by:"explore/test_successors"
     [
       ( "states do not say what is shared",
-        {|    add_part buffer (shared_text t above);|},
-        {|    add_part buffer (shared_text t 0);|} );
+        {|    put 1 (shared_name t above);|},
+        {|    put 1 (shared_name t 0);|} );
       ( "what a process met first is what stands there",
-        {|memoised t.members_read (path.id, text) read|},
-        {|memoised t.members_read (path.id, "") read|} );
+        {|  memoised members name read|},
+        {|  memoised members 0 read|} );
+      ( "no part is told",
+        {|  if is_new then t.news <- text :: t.news;|},
+        {|  ignore (is_new && t.news = [ text ]);|} );
+      ( "two parts may have one name",
+        {|  | Some _ -> raise Ambiguous|},
+        {|  | Some _ -> (name, false)|} );
+    ]
+  @ in_file "lib/app/exploration/successors.ml" ~noticed_by:"explore/test_successors"
+    [
+      ( "a state has the parent of the one after it",
+        {|while answer.until.(!source) <= i do|},
+        {|while answer.until.(!source) < i do|} );
+      ( "any state is the least",
+        {|Some known when String.compare known digest <= 0 -> ()|},
+        {|Some _ when String.length digest >= 0 -> ()|} );
+      ( "what was reached before fields grew is in the old encoding",
+        {|    t.reached <- States.rewrite t.reached ~words:(Space.words t.space) renewed;|},
+        {|    t.reached <- States.rewrite t.reached ~words:(Space.words t.space) (fun old fresh ->
+        if States.count t.reached < 0 then renewed old fresh
+        else Array.blit old 0 fresh 0 (Array.length old));|} );
     ]
 
 let vehicle_orbits =

@@ -4,6 +4,7 @@ open Dolphin_explore
 module Parts = Dolphin_conformance.Parts
 module Nodes = Dolphin_conformance.Nodes
 module Limits = Dolphin_checker.Limits
+module States = Dolphin_checker.States
 module Field = Dolphin_json.Field
 
 type settings = {
@@ -20,14 +21,19 @@ type t = {
   space : Space.t;
   portable : Space.portable;
   greeting : string;
+  mutable reached : States.t;  (* by the batch that is being answered *)
 }
 
-type successor = { text : string; is_end : bool; broken : Property.t option }
-type expansion = { transitions : int; targets : int list; deadlock : bool; invariants : bool list }
+type source = { text : string; is_end : bool }
+
+type breach = Breaks of Property.t | Makes_false of int
 
 type batch = {
-  successors : successor list;
-  expansions : expansion list;
+  transitions : int;
+  blocks : State_columns.t array;
+  targets : int list array;
+  broken : (breach * string) list;
+  parts : string list;
   places : (string * string) list;
   goes_round : bool;
   unreached : string list;
@@ -86,7 +92,7 @@ let codec program : Portable.codec =
 
 (* {1 Beginning} *)
 
-let protocol = 1
+let protocol = 2
 
 let greeting_of ~version (settings : settings) program fleet =
   let options =
@@ -101,11 +107,14 @@ let greeting_of ~version (settings : settings) program fleet =
         @ Provenance.members ~version program fleet
         @ [ ("options", `Assoc options) ]))
 
+let nothing_reached space = States.create ~compress:false ~words:(Space.words space)
+
 let make ~greeting options (program : Program_file.t) world =
   let options = Search.without_symmetry options program.program in
   let space = Search.space options program.program world in
   let _ : int array -> int array -> unit = Space.widen space ~reserved:0 in
-  { program; world; options; space; portable = Space.portable (codec program.program) space; greeting }
+  { program; world; options; space; portable = Space.portable (codec program.program) space; greeting;
+    reached = nothing_reached space }
 
 let create ~version (settings : settings) (program : Program_file.t) (fleet : Fleet_file.t) =
   let core = program.program in
@@ -117,46 +126,54 @@ let create ~version (settings : settings) (program : Program_file.t) (fleet : Fl
   Ok (make ~greeting options program (Scenario_world.world fleet.scenario))
 
 let greeting t = t.greeting
-let before = ""
+let before = { text = ""; is_end = false }
+
+(* {1 What states are called} *)
+
+let end_bit = 128
+
+let number_of_property : Property.t option -> int = function
+  | None -> 0
+  | Some No_error -> 1
+  | Some Assertions -> 2
+  | Some Vehicles -> 3
+  | Some No_halt -> 4
+  | Some No_leftover -> 5
+  | Some (No_deadlock | Termination | All_reached | Invariant _ | Formula _ | Apart _) -> 0
+
+let kind ~is_end broken = number_of_property broken + if is_end then end_bit else 0
+let is_end kind = kind land end_bit <> 0
+let partition ~partitions digest = (Int32.to_int (String.get_int32_le digest 12) land 0xFFFFFFFF) mod partitions
 
 (* {1 States} *)
 
+let no_one _ _ = ()
+
 (* Fields grow as things are met. *)
-let rec widened ?(forget = ignore) t f =
+let rec widened t f =
   match f () with
   | x -> x
   | exception Space.Outgrown ->
-    let _ : int array -> int array -> unit = Space.widen t.space ~reserved:0 in
-    forget ();
-    widened ~forget t f
+    States.flush t.reached ~fresh:no_one;
+    let renewed = Space.widen t.space ~reserved:0 in
+    t.reached <- States.rewrite t.reached ~words:(Space.words t.space) renewed;
+    widened t f
 
-module Keys = Hashtbl.Make (struct
-    type t = int array
-
-    let equal (a : int array) b = a = b
-    let hash key = Array.fold_left (fun h word -> ((h * 65599) + word) lxor (h lsr 23)) 17 key land max_int
-  end)
-
-(* A batch that is being answered. Most states are reached several times, and written once. *)
+(* A batch that is being answered. *)
 type answer = {
-  keys : int Keys.t;
-  numbers : (string, int) Hashtbl.t;
-  mutable reached : successor list;  (* latest first *)
+  parents : Bytes.t;  (* by place in the batch: the first 8 bytes of the state's digest *)
+  until : int array;  (* how many states were reached once it was expanded *)
+  mutable transitions : int;
+  mutable broken : (breach * string) list;
   follows : (string * string, unit) Hashtbl.t;
   mutable in_order : (string * string) list;
   mutable trouble : string option;
 }
 
-let number t answer key =
-  let text = Space.to_string t.portable key in
-  match Hashtbl.find_opt answer.numbers text with
-  | Some i -> i
-  | None ->
-    let i = Hashtbl.length answer.numbers in
-    Hashtbl.add answer.numbers text i;
-    answer.reached <-
-      { text; is_end = Space.is_end t.space key.(0); broken = Space.broken t.space key.(0) } :: answer.reached;
-    i
+let note answer digest breach =
+  match List.assoc_opt breach answer.broken with
+  | Some known when String.compare known digest <= 0 -> ()
+  | Some _ | None -> answer.broken <- (breach, digest) :: List.remove_assoc breach answer.broken
 
 let follows answer place place' =
   if not (Hashtbl.mem answer.follows (place, place')) then begin
@@ -164,55 +181,85 @@ let follows answer place place' =
     answer.in_order <- (place, place') :: answer.in_order
   end
 
-let visit t answer key =
-  match Keys.find_opt answer.keys key with
-  | Some i -> i
-  | None ->
-    let i = number t answer key in
-    Keys.add answer.keys (Array.copy key) i;
-    i
-
-let judged t answer c =
-  let breaks condition =
+let judge t answer digest c =
+  let judge i condition =
     match Condition.eval t.program.program t.world condition c with
-    | Condition.Holds | Not_yet -> false
-    | Fails -> true
-    | Broken why ->
-      if answer.trouble = None then answer.trouble <- Some why;
-      false
+    | Condition.Holds | Not_yet -> ()
+    | Fails -> note answer digest (Makes_false i)
+    | Broken why -> if answer.trouble = None then answer.trouble <- Some why
   in
-  List.map breaks t.options.invariants
+  List.iteri judge t.options.invariants
 
-let nothing_follows t answer c = { transitions = 0; targets = []; deadlock = false; invariants = judged t answer c }
+(* An expansion calls [visited] with each state that is reached. *)
+let visit t visited key =
+  States.push t.reached key ~parent:0 ~fresh:no_one;
+  visited key
 
-let initial t answer =
-  let targets = ref [] in
-  let visit key _ _ = targets := visit t answer key :: !targets in
+let initial t visited =
+  let visit key _ _ = visit t visited key in
   Space.initial t.space { visit; tick = ignore; rest = ignore };
-  { transitions = 1; targets = !targets; deadlock = false; invariants = List.map (fun _ -> false) t.options.invariants }
+  1
 
-(* The state [key]; what its expansion visits is noted once it is whole. *)
-let state t answer key =
-  let invariants = if t.options.invariants = [] then [] else judged t answer (fst (Space.state t.space key)) in
-  let executes = Space.executes t.space key.(0) and targets = ref [] and deadlock = ref false in
+let state t answer digest key visited =
+  if t.options.invariants <> [] then judge t answer digest (fst (Space.state t.space key));
+  let executes = Space.executes t.space key.(0) in
   let place = lazy (Space.place t.portable (Array.copy key)) in
   if not executes then ignore (Lazy.force place);
   let visit key' _ _ =
     if not (executes && Space.executes t.space key'.(0)) then
       follows answer (Lazy.force place) (Space.place t.portable key');
-    targets := visit t answer key' :: !targets
+    visit t visited key'
   in
-  let rest () = if not (Space.is_end t.space key.(0)) then deadlock := true in
-  let transitions = Space.expand t.space key { visit; tick = ignore; rest } in
-  { transitions; targets = List.rev !targets; deadlock = !deadlock; invariants }
+  let rest () = if not (Space.is_end t.space key.(0)) then note answer digest (Breaks Property.No_deadlock) in
+  Space.expand t.space key { visit; tick = ignore; rest }
 
-let expand_state t answer text =
-  widened t ~forget:(fun () -> Keys.reset answer.keys) (fun () ->
-      if String.equal text before then initial t answer
+(* The numbers of what transitions lead to, if [wanted]. *)
+let expand_state t answer ~wanted { text; is_end } digest =
+  let expanded () =
+    let keys = ref [] in
+    let visited key = if wanted then keys := Array.copy key :: !keys in
+    let taken =
+      if String.equal text before.text then initial t visited
       else
         match Space.of_string t.portable text with
-        | State key -> state t answer key
-        | End (c, _) -> nothing_follows t answer c)
+        | State key -> state t answer digest key visited
+        | End (c, _) -> judge t answer digest c; 0
+    in
+    answer.transitions <- answer.transitions + taken;
+    !keys
+  in
+  let keys = if is_end && t.options.invariants = [] then [] else widened t expanded in
+  States.flush t.reached ~fresh:no_one;
+  List.rev_map (States.find t.reached) keys
+
+let expand_source t answer ~wanted i source =
+  let digest = Digest.string source.text in
+  Bytes.blit_string digest 0 answer.parents (8 * i) 8;
+  let numbers = expand_state t answer ~wanted source digest in
+  answer.until.(i) <- States.count t.reached;
+  numbers
+
+(* The states that were reached, by partition; and by number, the place of each in the blocks, one after the other. *)
+let columns t answer partitions =
+  let blocks = Array.init partitions (fun _ -> State_columns.create ()) in
+  let count = States.count t.reached and key = Array.make (Space.words t.space) 0 in
+  let partition_of = Array.make count 0 and within = Array.make count 0 and source = ref 0 in
+  for i = 0 to count - 1 do
+    while answer.until.(!source) <= i do incr source done;
+    States.load t.reached i key;
+    let text = Space.to_string t.portable key in
+    let digest = Digest.string text and broken = Space.broken t.space key.(0) in
+    Option.iter (fun property -> note answer digest (Breaks property)) broken;
+    let partition = partition ~partitions digest in
+    partition_of.(i) <- partition;
+    within.(i) <- State_columns.count blocks.(partition);
+    let parent = Bytes.sub_string answer.parents (8 * !source) 8 in
+    State_columns.add blocks.(partition)
+      { digest; parent; kind = kind ~is_end:(Space.is_end t.space key.(0)) broken; text }
+  done;
+  let first = Array.make partitions 0 in
+  for p = 1 to partitions - 1 do first.(p) <- first.(p - 1) + State_columns.count blocks.(p - 1) done;
+  (blocks, fun i -> first.(partition_of.(i)) + within.(i))
 
 let at_piece t (piece : Coverage.piece) =
   let place = Option.value (Program_file.at t.program piece.site) ~default:"?" in
@@ -226,23 +273,31 @@ let guarded ~named f =
   | exception (Invalid_argument _ | Not_found | Failure _) ->
     bad (Printf.sprintf "%s is no state of this program: its parts do not belong together" (named ()))
   | exception Parts.Too_large -> Error (Error.Inconclusive "a state is too large to be written down")
+  | exception Portable.Ambiguous -> Error (Error.Inconclusive "two parts of states have the same digest")
   | exception Limits.Stop bound -> Error (Error.Inconclusive (Fmt.str "%a" Limits.pp_bound bound))
 
-let expand t states =
+let give t parts = guarded ~named:(fun () -> "a part") (fun () -> List.iter (Space.give t.portable) parts)
+
+let expand ?(partitions = 1) ?(targets = false) t states =
+  t.reached <- nothing_reached t.space;
   let answer =
-    { keys = Keys.create 256; numbers = Hashtbl.create 256; reached = []; follows = Hashtbl.create 8; in_order = [];
-      trouble = None }
+    let count = List.length states in
+    { parents = Bytes.create (8 * count); until = Array.make count 0; transitions = 0; broken = [];
+      follows = Hashtbl.create 8; in_order = []; trouble = None }
   in
-  let rec each i expansions = function
-    | [] -> Ok (List.rev expansions)
-    | text :: rest ->
+  let rec each i numbers = function
+    | [] -> Ok (List.rev numbers)
+    | source :: rest ->
       let named () = Printf.sprintf "state %d of the batch" (i + 1) in
-      let* expansion = guarded ~named (fun () -> expand_state t answer text) in
-      each (i + 1) (expansion :: expansions) rest
+      let* targets = guarded ~named (fun () -> expand_source t answer ~wanted:targets i source) in
+      each (i + 1) (targets :: numbers) rest
   in
-  let* expansions = each 0 [] states in
+  let* numbers = each 0 [] states in
+  let* blocks, place = guarded ~named:(fun () -> "what follows") (fun () -> columns t answer partitions) in
   Ok
-    { successors = List.rev answer.reached; expansions; places = List.rev answer.in_order;
+    { transitions = answer.transitions; blocks;
+      targets = (if targets then Array.of_list (List.map (List.map place) numbers) else [||]);
+      broken = answer.broken; parts = Space.news t.portable; places = List.rev answer.in_order;
       goes_round = Space.goes_round t.space;
       unreached = List.map (at_piece t) (Coverage.unreached (Space.coverage t.space) t.program.program);
       trouble = answer.trouble }
@@ -278,6 +333,7 @@ let run t states =
 (* {1 On channels} *)
 
 let most_states = 1_000_000
+let most_partitions = 1_000_000
 let longest = 64 * 1024 * 1024
 
 exception Refused of string
@@ -293,10 +349,32 @@ let read_number ?first input =
    | None -> really_input input buffer 0 4);
   Int32.to_int (Bytes.get_int32_le buffer 0) land 0xFFFFFFFF
 
-let read_state input =
+let read_text input =
   let length = read_number input in
-  if length > longest then refuse (Printf.sprintf "a state of %d bytes is longer than any" length);
+  if length > longest then refuse (Printf.sprintf "a text of %d bytes is longer than any" length);
   really_input_string input length
+
+let read_count input what most =
+  let count = read_number input in
+  if count > most then refuse (Printf.sprintf "a batch of %d %s is larger than any" count what);
+  count
+
+let rec times n read found = if n = 0 then List.rev found else times (n - 1) read (read () :: found)
+
+type asked = { partitions : int; targets : bool; parts : string list; states : source list }
+
+let read_states input =
+  let count = read_count input "states" most_states in
+  let lengths = really_input_string input (4 * count) in
+  let kinds = really_input_string input count in
+  let i = ref (-1) in
+  let state () =
+    incr i;
+    let length = Int32.to_int (String.get_int32_le lengths (4 * !i)) land 0xFFFFFFFF in
+    if length > longest then refuse (Printf.sprintf "a state of %d bytes is longer than any" length);
+    { text = really_input_string input length; is_end = is_end (Char.code kinds.[!i]) }
+  in
+  times count state []
 
 (* [None] at the end of the input. *)
 let read_batch input =
@@ -304,12 +382,14 @@ let read_batch input =
   | exception End_of_file -> None
   | first -> (
       match
-        let count = read_number ~first input in
-        if count > most_states then refuse (Printf.sprintf "a batch of %d states is larger than any" count);
-        let rec states n found = if n = 0 then List.rev found else states (n - 1) (read_state input :: found) in
-        states count []
+        let partitions = read_number ~first input in
+        if partitions < 1 || partitions > most_partitions then
+          refuse (Printf.sprintf "a batch for %d partitions: there are 1 to %d" partitions most_partitions);
+        let targets = input_char input <> '\000' in
+        let parts = times (read_count input "parts" most_states) (fun () -> read_text input) [] in
+        { partitions; targets; parts; states = read_states input }
       with
-      | states -> Some states
+      | asked -> Some asked
       | exception End_of_file -> refuse "the input ends within a batch")
 
 let shortened text = if String.length text <= 300 then text else String.sub text 0 300 ^ "..."
@@ -330,58 +410,63 @@ let add_text buffer text =
   add_number buffer (String.length text);
   Buffer.add_string buffer text
 
-let number_of_property : Property.t option -> int = function
-  | None -> 0
-  | Some No_error -> 1
-  | Some Assertions -> 2
-  | Some Vehicles -> 3
-  | Some No_halt -> 4
-  | Some No_leftover -> 5
-  | Some (No_deadlock | Termination | All_reached | Invariant _ | Formula _ | Apart _) -> 0
-
 let add_all buffer add items =
   add_number buffer (List.length items);
   List.iter add items
 
-let write_batch buffer b =
+(* As kinds number them; deadlocks and invariants, which no kind says, come after these. *)
+let number_of_breach = function
+  | Breaks No_deadlock -> 6
+  | Breaks property -> number_of_property (Some property)
+  | Makes_false i -> 7 + i
+
+let add_batch buffer (b : batch) =
   Buffer.add_char buffer '\000';
-  let successor s =
-    Buffer.add_uint8 buffer (number_of_property s.broken + if s.is_end then 128 else 0);
-    add_text buffer s.text
-  in
-  add_all buffer successor b.successors;
-  let expansion e =
-    Buffer.add_uint8 buffer (Bool.to_int e.deadlock);
-    add_number buffer e.transitions;
-    List.iter (fun is_broken -> Buffer.add_uint8 buffer (Bool.to_int is_broken)) e.invariants;
-    add_all buffer (add_number buffer) e.targets
-  in
-  add_all buffer expansion b.expansions;
-  add_all buffer (fun (place, place') -> Buffer.add_string buffer place; Buffer.add_string buffer place') b.places;
+  Buffer.add_int64_le buffer (Int64.of_int b.transitions);
   Buffer.add_uint8 buffer (Bool.to_int b.goes_round);
+  let broken (breach, digest) = add_number buffer (number_of_breach breach); Buffer.add_string buffer digest in
+  add_all buffer broken b.broken;
+  add_all buffer (fun (place, place') -> Buffer.add_string buffer place; Buffer.add_string buffer place') b.places;
   add_text buffer (String.concat "\n" b.unreached);
-  add_text buffer (Option.value b.trouble ~default:"")
+  add_text buffer (Option.value b.trouble ~default:"");
+  add_all buffer (add_text buffer) b.parts
+
+let write_targets output targets =
+  let buffer = Buffer.create 65536 in
+  Array.iter (fun places -> add_number buffer (List.length places)) targets;
+  Array.iter (List.iter (add_number buffer)) targets;
+  Buffer.output_buffer output buffer
+
+let write_batch output b =
+  let buffer = Buffer.create 65536 in
+  add_batch buffer b;
+  Buffer.output_buffer output buffer;
+  Array.iter (State_columns.write output) b.blocks;
+  write_targets output b.targets
 
 (* What a batch cannot be answered for, in its place. *)
-let write_inconclusive buffer why =
+let write_inconclusive output why =
+  let buffer = Buffer.create 256 in
   Buffer.add_char buffer '\001';
-  add_text buffer why
+  add_text buffer why;
+  Buffer.output_buffer output buffer
 
 let refused f = match f () with x -> x | exception Refused why -> bad why
 
+let answered t { partitions; targets; parts; states } =
+  let* () = give t parts in
+  expand t ~partitions ~targets states
+
 let serve t input output =
-  let buffer = Buffer.create 65536 in
   let rec batches () =
     match read_batch input with
     | None -> Ok ()
-    | Some states -> (
-        Buffer.clear buffer;
-        match expand t states with
-        | Error (Error.Inconclusive why) -> write_inconclusive buffer why; reply ()
+    | Some asked -> (
+        match answered t asked with
+        | Error (Error.Inconclusive why) -> write_inconclusive output why; next ()
         | Error e -> Error e
-        | Ok batch -> write_batch buffer batch; reply ())
-  and reply () =
-    Buffer.output_buffer output buffer;
+        | Ok batch -> write_batch output batch; next ())
+  and next () =
     flush output;
     batches ()
   in
@@ -394,7 +479,9 @@ let read_run t input =
   if not (read_greeting t input) then bad "the input is empty: there is no run in it"
   else
     match read_batch input with
-    | Some states -> run t states
+    | Some { parts; states; _ } ->
+      let* () = give t parts in
+      run t (List.map (fun s -> s.text) states)
     | None -> bad "the input has no batch of states: there is no run in it"
 
 let print_run t input =

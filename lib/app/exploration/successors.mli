@@ -22,40 +22,65 @@ val make :
 val greeting : t -> string
 (** What states belong to, on one line of JSON: the version, digests of program and fleet, what was asked. *)
 
-(** A state that a transition leads to. *)
-type successor = {
+(** {1:batches Batches} *)
+
+(** A state that is asked about. *)
+type source = {
   text : string;
-  is_end : bool;  (** nothing follows it *)
-  broken : Dolphin_explore.Property.t option;  (** the property that is broken by reaching it *)
+  is_end : bool;  (** as its kind said: nothing follows it *)
 }
 
-(** What follows a state. *)
-type expansion = {
-  transitions : int;
-  targets : int list;  (** places of [successors], in the order of the transitions *)
-  deadlock : bool;
-  invariants : bool list;  (** whether it breaks each of those that were asked *)
-}
+val before : source
+(** Its text is [""]: one transition leads from it, to the initial state. *)
 
-(** Of a batch of states. *)
+(** What a state may do that is wrong. *)
+type breach =
+  | Breaks of Dolphin_explore.Property.t
+  | Makes_false of int  (** the invariant at this place of those that were asked, from 0 *)
+
+(** What follows the states of a batch. *)
 type batch = {
-  successors : successor list;  (** each once, in the order in which they are reached *)
-  expansions : expansion list;  (** in the order of the states *)
+  transitions : int;
+  blocks : State_columns.t array;
+  (** the states that transitions lead to, each once, by {!partition}; in the order in which they are reached, each with
+      the first that leads there *)
+  targets : int list array;
+  (** if they are asked for: by place of the state in the batch, the places in [blocks], one after the other, of the
+      states that its transitions lead to, in their order *)
+  broken : (breach * string) list;
+  (** each with the least digest of the states that do so: of those in the batch, for deadlocks and invariants; of those
+      that they lead to, for all others *)
+  parts : string list;  (** that states in [blocks] name, and that were neither told nor given before *)
   places : (string * string) list;  (** which place of the script comes after which: {!Dolphin_explore.Space.place} *)
   goes_round : bool;  (** whether so far rounds of some task were seen to repeat *)
   unreached : string list;  (** the pieces of the program that none of the states so far reaches *)
   trouble : string option;  (** why an invariant cannot be told *)
 }
 
-val before : string
-(** The text [""]: one transition leads from it, to the initial state. *)
+val kind : is_end:bool -> Dolphin_explore.Property.t option -> int
+(** [kind ~is_end broken] is what columns say of a state that is reached: whether it is an end, and what it breaks. *)
 
-val expand : t -> string list -> (batch, Error.t) result
-(** [expand t states] is what follows [states]. The error is {!Error.Bad_input} where one is no state,
-    {!Error.Inconclusive} where nobody can list what follows it, or a part is too large to be written. *)
+val is_end : int -> bool
+(** [is_end k] is whether kind [k] is that of an end. *)
+
+val partition : partitions:int -> string -> int
+(** [partition ~partitions digest] is which of them the state with this digest belongs to, from 0. *)
+
+val give : t -> string list -> (unit, Error.t) result
+(** [give t parts] makes [t] know [parts], that states name. The error is {!Error.Inconclusive}: two have the same
+    name. *)
+
+val expand : ?partitions:int -> ?targets:bool -> t -> source list -> (batch, Error.t) result
+(** [expand t states] is what follows [states], by default in one partition and without targets. The error is
+    {!Error.Bad_input} where one is no state, or names a part that [t] does not know; {!Error.Inconclusive} where nobody
+    can list what follows it, a part is too large to be written, or two parts have the same name. *)
+
+(** {1:runs Runs} *)
 
 val run : t -> string list -> (Dolphin_semantics.Transition.t list, Error.t) result
 (** [run t states] is the run from the initial state through [states], the initial one left out. *)
+
+(** {1:channels On channels} *)
 
 val serve : t -> in_channel -> out_channel -> (unit, Error.t) result
 (** [serve t input output] answers batches up to the end of [input]. *)

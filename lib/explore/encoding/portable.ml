@@ -2,6 +2,7 @@ open Dolphin_semantics
 open Dolphin_environment
 
 exception Wrong of string
+exception Ambiguous
 
 type 'a part = { write : 'a -> string; read : string -> 'a }
 
@@ -12,41 +13,98 @@ type codec = {
   configuration : (Configuration.t * Environment.t) part;
 }
 
-type t = {
-  codec : codec;
-  encoding : Encoding.t;
-  components : Components.t;
-  (* Written: by numbers of the frame, of what is shared, of family and member, of the path. *)
-  frames : (int, string) Hashtbl.t;
-  shareds : (int, string) Hashtbl.t;
-  members : (int * int, string) Hashtbl.t;
-  contexts : (int, string) Hashtbl.t;
-  places : (int, string) Hashtbl.t;  (* by number of the frame *)
-  (* Read: frames and numbers of what is shared, and by number of the path what stands there. *)
-  frames_read : (string, Layout.frame) Hashtbl.t;
-  shareds_read : (string, int) Hashtbl.t;
-  members_read : (int * string, Component.component) Hashtbl.t;
-  contexts_read : (int * string, Component.path) Hashtbl.t;
+(* By names, which are digests. *)
+module Names = Hashtbl.Make (struct
+    type t = int
+
+    let equal = Int.equal
+    let hash name = name
+  end)
+
+(* Where components stand, read from a shape. *)
+type stand = Component_of of Component.component Names.t * Component.path | Nest_in of Component.path * stand list
+
+type shape = {
+  frame : Layout.frame;
+  stands : stand list;
+  breadth : int;
 }
 
-let create codec encoding components =
-  let table () = Hashtbl.create 256 in
-  { codec; encoding; components; frames = table (); shareds = table (); members = table (); contexts = table ();
-    places = table ();
-    frames_read = table (); shareds_read = table (); members_read = table (); contexts_read = table () }
+(* Names by small numbers that count from 0: -1 where there is none yet. *)
+type numbered = { mutable names : int array }
 
-let memoised table key find =
-  match Hashtbl.find_opt table key with
-  | Some known -> known
+type t = {
+  codec : codec;
+  digest : string -> string;
+  encoding : Encoding.t;
+  components : Components.t;
+  texts : string Names.t;  (* of all parts that are known *)
+  mutable news : string list;  (* latest first *)
+  (* Written: by numbers of the frame, of the path, of the layout, of what is shared, of family and member. *)
+  frames : numbered;
+  contexts : numbered;
+  layouts : numbered;
+  shareds : numbered;
+  mutable members : numbered array;
+  places : (int, string) Hashtbl.t;  (* by number of the frame, or -1 less that of the configuration *)
+  (* Read: by name, and by number of the path what stands there. *)
+  shapes_read : shape Names.t;
+  shareds_read : int Names.t;
+  members_read : (int, Component.component Names.t) Hashtbl.t;
+}
+
+let create ?(digest = Digest.string) codec encoding components =
+  let numbered () = { names = [||] } and names () = Names.create 256 in
+  { codec; digest; encoding; components; texts = Names.create 256; news = []; frames = numbered ();
+    contexts = numbered (); layouts = numbered (); shareds = numbered (); members = [||]; places = Hashtbl.create 16;
+    shapes_read = names (); shareds_read = names (); members_read = Hashtbl.create 16 }
+
+(* {1 Parts} *)
+
+(* The name of [text], and whether it is new. *)
+let know t text =
+  let name = Int64.to_int (String.get_int64_le (t.digest text) 0) land max_int in
+  match Names.find_opt t.texts name with
+  | Some known when String.equal known text -> (name, false)
+  | Some _ -> raise Ambiguous
   | None ->
-    let found = find () in
-    Hashtbl.add table key found;
-    found
+    Names.add t.texts name text;
+    (name, true)
 
-(* {1 Writing} *)
+let give t text = ignore (know t text)
 
-let script = 's'
-let executing = 'e'
+let name t text =
+  let name, is_new = know t text in
+  if is_new then t.news <- text :: t.news;
+  name
+
+let news t =
+  let news = t.news in
+  t.news <- [];
+  List.rev news
+
+(* [numbered n i write] is the name that [i] has in [n]: that of the text that [write ()] gives, the first time. *)
+let grown items i fill =
+  let longer = Array.make (max 16 (2 * (i + 1))) fill in
+  Array.blit items 0 longer 0 (Array.length items);
+  longer
+
+let numbered t n i write =
+  if i >= Array.length n.names then n.names <- grown n.names i (-1);
+  let known = Array.unsafe_get n.names i in
+  if known >= 0 then known
+  else begin
+    let name = name t (write ()) in
+    n.names.(i) <- name;
+    name
+  end
+
+(* {1 Shapes}
+
+   A state in which a task executes is a shape, and names for what stands in it. *)
+
+type tree = Leaf | Nest of int * tree list  (* with the name of its contexts *)
+
 let leaf = 'l'
 let nest = 'n'
 
@@ -58,40 +116,56 @@ let rec add_number buffer n =
     add_number buffer (n lsr 7)
   end
 
-let add_part buffer text =
-  add_number buffer (String.length text);
-  Buffer.add_string buffer text
+let add_name buffer name = Buffer.add_int64_le buffer (Int64.of_int name)
 
-let frame_text t (frame : Layout.frame) =
-  memoised t.frames frame.number (fun () -> t.codec.machine.write frame.machine)
+let rec add_tree buffer = function
+  | Leaf -> Buffer.add_char buffer leaf
+  | Nest (contexts, trees) ->
+    Buffer.add_char buffer nest;
+    add_name buffer contexts;
+    add_trees buffer trees
 
-let shared_text t number =
+and add_trees buffer trees =
+  add_number buffer (List.length trees);
+  List.iter (add_tree buffer) trees
+
+let shape_text machine trees =
+  let buffer = Buffer.create 64 in
+  add_name buffer machine;
+  add_trees buffer trees;
+  Buffer.contents buffer
+
+(* {1 Writing} *)
+
+let script = 's'
+let executing = 'e'
+let frame_text t (frame : Layout.frame) = t.codec.machine.write frame.machine
+let frame_name t (frame : Layout.frame) = numbered t t.frames frame.number (fun () -> frame_text t frame)
+
+let contexts_name t (path : Component.path) =
+  numbered t t.contexts path.id (fun () -> t.codec.residual.write (Residual.plug path.contexts Residual.hole))
+
+let shape_name t (layout : Layout.t) =
+  let rec tree (place : Layout.place) =
+    match place.inside with None -> Leaf | Some path -> Nest (contexts_name t path, List.map tree place.children)
+  in
+  numbered t t.layouts layout.number (fun () -> shape_text (frame_name t layout.frame) (List.map tree layout.top))
+
+let shared_name t number =
   let write () =
     let { Surroundings.shared; outside } = Surroundings.Numbers.value (Encoding.shareds t.encoding) number in
     t.codec.shared.write (shared, outside)
   in
-  memoised t.shareds number write
+  numbered t t.shareds number write
 
-let member_text t (c : Component.component) =
-  memoised t.members (c.family.number, c.local) (fun () -> t.codec.residual.write c.residual)
-
-let contexts_of (path : Component.path) = Residual.plug path.contexts Residual.hole
-let contexts_text t (path : Component.path) =
-  memoised t.contexts path.id (fun () -> t.codec.residual.write (contexts_of path))
-
-let rec add_place t buffer layout key (place : Layout.place) =
-  match place.inside with
-  | None ->
-    Buffer.add_char buffer leaf;
-    add_part buffer (member_text t (Encoding.component layout key place.from))
-  | Some path ->
-    Buffer.add_char buffer nest;
-    add_part buffer (contexts_text t path);
-    add_places t buffer layout key place.children
-
-and add_places t buffer layout key places =
-  add_number buffer (List.length places);
-  List.iter (add_place t buffer layout key) places
+let member_name t (c : Component.component) =
+  let family = c.family.number in
+  if family >= Array.length t.members then begin
+    let before = Array.length t.members in
+    t.members <- grown t.members family { names = [||] };
+    for i = before to Array.length t.members - 1 do t.members.(i) <- { names = [||] } done
+  end;
+  numbered t t.members.(family) c.local (fun () -> t.codec.residual.write c.residual)
 
 let script_text t number = String.make 1 script ^ t.codec.configuration.write (Encoding.script t.encoding number)
 
@@ -100,12 +174,17 @@ let write t key =
   let number = Layouts.number layouts key.(0) and above = Layouts.shared layouts key.(0) in
   if number = 0 then script_text t above
   else begin
-    let layout = Layouts.layout layouts number and buffer = Buffer.create 512 in
-    Buffer.add_char buffer executing;
-    add_part buffer (frame_text t layout.frame);
-    add_part buffer (shared_text t above);
-    add_places t buffer layout key layout.top;
-    Buffer.contents buffer
+    let layout = Layouts.layout layouts number in
+    let breadth = Array.length layout.families in
+    let text = Bytes.create (1 + (8 * (2 + breadth))) in
+    let put i name = Bytes.set_int64_le text (1 + (8 * i)) (Int64.of_int name) in
+    Bytes.set text 0 executing;
+    put 0 (shape_name t layout);
+    put 1 (shared_name t above);
+    for i = 0 to breadth - 1 do
+      put (2 + i) (member_name t (Encoding.component layout key i))
+    done;
+    Bytes.unsafe_to_string text
   end
 
 (* {1 Reading} *)
@@ -128,64 +207,121 @@ let number s =
   in
   from 0 0
 
-let part s =
-  let length = number s in
-  if length > String.length s.text - s.at then wrong "it ends too early";
-  s.at <- s.at + length;
-  String.sub s.text (s.at - length) length
+let unknown () = wrong "it names a part that was not given"
+
+let name_at text at =
+  let word = String.get_int64_le text at in
+  let name = Int64.to_int word in
+  if name >= 0 && Int64.equal (Int64.of_int name) word then name else unknown ()
+
+let read_name s =
+  if String.length s.text - s.at < 8 then wrong "it ends too early";
+  s.at <- s.at + 8;
+  name_at s.text (s.at - 8)
+
+let rec read_tree s =
+  match byte s with
+  | c when c = leaf -> Leaf
+  | c when c = nest ->
+    let contexts = read_name s in
+    Nest (contexts, read_trees s ~least:2)
+  | _ -> wrong "a part of it is of no kind"
+
+and read_trees s ~least =
+  let count = number s in
+  if count < least || count > String.length s.text then wrong "it has no such number of parts";
+  List.init count (fun _ -> read_tree s)
+
+let text_of t name = match Names.find_opt t.texts name with Some text -> text | None -> unknown ()
+
+let written_otherwise () = wrong "a part of it is not written as dolphin writes it"
 
 (* What is written otherwise than here would be a second text of the same state. *)
-let read_part (p : _ part) text =
+let read_part t (p : _ part) name =
+  let text = text_of t name in
   let x = p.read text in
-  if not (String.equal (p.write x) text) then wrong "a part of it is not written as dolphin writes it";
+  if not (String.equal (p.write x) text) then written_otherwise ();
   x
 
-let frame t text =
-  memoised t.frames_read text (fun () -> Encoding.frame t.encoding (read_part t.codec.machine text) None)
+let memoised table name find =
+  match Names.find_opt table name with
+  | Some known -> known
+  | None ->
+    let found = find () in
+    Names.add table name found;
+    found
 
-let shared t text =
+let inside t (path : Component.path) name =
+  match Residual.decompose (read_part t t.codec.residual name) with
+  | (_ :: _ as contexts), hole when Residual.equal hole Residual.hole ->
+    Components.in_contexts t.components path contexts
+  | _, _ -> wrong "what stands around parts of it is none of contexts"
+
+let members_at t (path : Component.path) =
+  match Hashtbl.find_opt t.members_read path.id with
+  | Some members -> members
+  | None ->
+    let members = Names.create 16 in
+    Hashtbl.add t.members_read path.id members;
+    members
+
+let rec breadth_of trees =
+  List.fold_left (fun n -> function Leaf -> n + 1 | Nest (_, trees) -> n + breadth_of trees) 0 trees
+
+let shape t name =
   let read () =
-    let shared, outside = read_part t.codec.shared text in
+    let s = { text = text_of t name; at = 0 } in
+    let machine = read_name s in
+    let trees = read_trees s ~least:1 in
+    if not (String.equal (shape_text machine trees) s.text) then written_otherwise ();
+    let rec stand path = function
+      | Leaf -> Component_of (members_at t path, path)
+      | Nest (contexts, trees) ->
+        let path = inside t path contexts in
+        Nest_in (path, List.map (stand path) trees)
+    in
+    let stands = List.map (stand (Components.root t.components)) trees in
+    let frame = Encoding.frame t.encoding (read_part t t.codec.machine machine) None in
+    { frame; stands; breadth = breadth_of trees }
+  in
+  memoised t.shapes_read name read
+
+let shared t name =
+  let read () =
+    let shared, outside = read_part t t.codec.shared name in
     Surroundings.Numbers.number (Encoding.shareds t.encoding) (Surroundings.make shared outside)
   in
-  memoised t.shareds_read text read
+  memoised t.shareds_read name read
 
-let member t (path : Component.path) text =
+let member t members path name =
   let read () =
-    match Components.children t.components path (read_part t.codec.residual text) with
+    match Components.children t.components path (read_part t t.codec.residual name) with
     | [ Component.Leaf c ] -> c
     | _ -> wrong "a part of it has parts of its own"
   in
-  memoised t.members_read (path.id, text) read
+  memoised members name read
 
-let inside t (path : Component.path) text =
-  let read () =
-    match Residual.decompose (read_part t.codec.residual text) with
-    | (_ :: _ as contexts), hole when Residual.equal hole Residual.hole ->
-      Components.in_contexts t.components path contexts
-    | _, _ -> wrong "what stands around parts of it is none of contexts"
+let read_executing t key text =
+  let length = String.length text in
+  if length < 17 || (length - 1) land 7 <> 0 then wrong "it ends too early";
+  let shape = shape t (name_at text 1) in
+  if length <> 1 + (8 * (2 + shape.breadth)) then wrong "it has not as many parts as its shape";
+  let shared = shared t (name_at text 9) and position = ref 0 in
+  let rec component : stand -> Component.component Component.tree = function
+    | Component_of (members, path) ->
+      let name = name_at text (17 + (8 * !position)) in
+      incr position;
+      Leaf (member t members path name)
+    | Nest_in (path, stands) -> Nest (path, List.map component stands)
   in
-  memoised t.contexts_read (path.id, text) read
-
-let rec place t path s : Component.component Component.tree =
-  match byte s with
-  | c when c = leaf -> Leaf (member t path (part s))
-  | c when c = nest ->
-    let inside = inside t path (part s) in
-    Nest (inside, places t inside ~least:2 s)
-  | _ -> wrong "a part of it is of no kind"
-
-and places t path ~least s =
-  let count = number s in
-  if count < least || count > String.length s.text then wrong "it has no such number of parts";
-  List.init count (fun _ -> place t path s)
+  Encoding.write_components t.encoding key shape.frame (List.map component shape.stands) shared
 
 let read t key text =
-  let s = { text; at = 0 } in
-  match byte s with
+  match if text = "" then wrong "it ends too early" else text.[0] with
   | c when c = script ->
     let text = String.sub text 1 (String.length text - 1) in
-    let c, outside = read_part t.codec.configuration text in
+    let c, outside = t.codec.configuration.read text in
+    if not (String.equal (t.codec.configuration.write (c, outside)) text) then written_otherwise ();
     (match (c : Configuration.t).control with
      | Script _ | Waiting _ ->
        Encoding.write_script t.encoding key (Encoding.script_number t.encoding [] c outside);
@@ -193,11 +329,7 @@ let read t key text =
      | Ended _ -> Some (c, outside)
      | Executing _ -> wrong "a task that executes is not in parts")
   | c when c = executing ->
-    let frame = frame t (part s) in
-    let shared = shared t (part s) in
-    let children = places t (Components.root t.components) ~least:1 s in
-    if s.at < String.length text then wrong "it goes on after its end";
-    Encoding.write_components t.encoding key frame children shared;
+    read_executing t key text;
     None
   | _ -> wrong "it is of no kind"
 
@@ -206,7 +338,15 @@ let read t key text =
 let place t key =
   let layouts = Encoding.layouts t.encoding in
   let number = Layouts.number layouts key.(0) and above = Layouts.shared layouts key.(0) in
-  if number = 0 then Digest.string (script_text t above)
+  let digest i text =
+    match Hashtbl.find_opt t.places i with
+    | Some place -> place
+    | None ->
+      let place = Digest.string (text ()) in
+      Hashtbl.add t.places i place;
+      place
+  in
+  if number = 0 then digest (-1 - above) (fun () -> script_text t above)
   else
     let frame = (Layouts.layout layouts number).frame in
-    memoised t.places frame.number (fun () -> Digest.string (String.make 1 executing ^ frame_text t frame))
+    digest frame.number (fun () -> String.make 1 executing ^ frame_text t frame)

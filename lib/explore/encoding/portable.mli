@@ -1,12 +1,16 @@
 (** States as strings that are the same in every process, and tell all there is of a state: vectors of words have
     numbers, which each process gives out as it meets things. Parts, of which a program has few, are written by a codec,
-    each once in a process. docs/successors.md has the format. *)
+    each once in a process; a state has their names, which are digests of their texts. docs/successors.md has the
+    format. *)
 
 open Dolphin_semantics
 open Dolphin_environment
 
 exception Wrong of string
 (** What is wrong, in a sentence without a full stop. *)
+
+exception Ambiguous
+(** Two parts have the same name. *)
 
 (** How parts are written: equal ones alike. *)
 type 'a part = {
@@ -23,15 +27,30 @@ type codec = {
 
 type t
 
-val create : codec -> Encoding.t -> Components.t -> t
-(** There must be no symmetry. *)
+val create : ?digest:(string -> string) -> codec -> Encoding.t -> Components.t -> t
+(** [create codec e components] knows no part. There must be no symmetry. [digest] is of 8 bytes at least, by default
+    [Digest.string]. *)
+
+(** {1:parts Parts} *)
+
+val give : t -> string -> unit
+(** [give t text] makes [t] know the part [text].
+    @raise Ambiguous *)
+
+val news : t -> string list
+(** [news t] is the parts that {!write} has named since the last call, and that [t] had neither written nor been given
+    before. *)
+
+(** {1:states States} *)
 
 val write : t -> int array -> string
-(** [write t key] is the state [key]. What [codec] raises is raised, by {!read} too. *)
+(** [write t key] is the state [key]. What [codec] raises is raised, by {!read} too.
+    @raise Ambiguous *)
 
 val read : t -> int array -> string -> (Configuration.t * Environment.t) option
-(** [read t key text] puts the words of the state [text] into [key], or is its configuration if that is an end.
-    @raise Wrong if it is not what {!write} gives for some state
+(** [read t key text] puts the words of the state [text] into [key], or is its configuration if that is an end. The
+    parts that it names are known.
+    @raise Wrong if it is not what {!write} gives for some state, or names a part that is not known
     @raise Layouts.Outgrown *)
 
 val place : t -> int array -> string

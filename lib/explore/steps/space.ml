@@ -453,9 +453,10 @@ let is_in_class t g (state : Task_group.state) (c : Configuration.t) outside =
 
 type portable = { space : t; texts : Portable.t }
 
-let portable codec t = { space = t; texts = Portable.create codec t.encoding t.components }
+let portable ?digest codec t = { space = t; texts = Portable.create ?digest codec t.encoding t.components }
+let give p = Portable.give p.texts
+let news p = Portable.news p.texts
 let to_string p key = Portable.write p.texts key
-
 
 type source = State of int array | End of Configuration.t * Environment.t
 

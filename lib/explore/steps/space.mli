@@ -99,11 +99,16 @@ val inputs_at : t -> Environment.t -> string list
 type portable
 (** States as strings that are the same in every process ({!Portable}). *)
 
-val portable : Portable.codec -> t -> portable
+val portable : ?digest:(string -> string) -> Portable.codec -> t -> portable
 (** [portable codec t] is for a [t] without symmetry. *)
 
+val give : portable -> string -> unit
+val news : portable -> string list
+(** As {!Portable.give} and {!Portable.news}: the parts that states name. *)
+
 val to_string : portable -> int array -> string
-(** [to_string p key] is the state [key]. What the codec raises is raised, by {!of_string} too. *)
+(** [to_string p key] is the state [key]. What the codec raises is raised, by {!of_string} too.
+    @raise Portable.Ambiguous *)
 
 (** What a text stands for. *)
 type source =
@@ -113,7 +118,7 @@ type source =
 
 val of_string : portable -> string -> source
 (** [of_string p text] is what [text] stands for.
-    @raise Portable.Wrong if it is not what {!to_string} gives for some state
+    @raise Portable.Wrong if it is not what {!to_string} gives for some state, or names a part that is not known
     @raise Outgrown *)
 
 val place : portable -> int array -> string

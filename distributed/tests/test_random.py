@@ -41,17 +41,17 @@ class Random(unittest.TestCase):
     def mission(self, number):
         subprocess.run([MISSIONS, self.folder.name, str(number), "1"], check=True)
         program = os.path.join(self.folder.name, "%d.dol" % number)
-        with open(os.path.join(self.folder.name, "%d.options" % number)) as options:
-            return program, options.read().splitlines()
+        with open(os.path.join(self.folder.name, "%d.options" % number)) as options, open(program) as text:
+            return program, text.read(), options.read().splitlines()
 
     def test_random(self):
         compared = levels = number = 0
         while compared < PROGRAMS:
             number += 1
-            program, options = self.mission(number)
+            program, text, options = self.mission(number)
             shared = False
             for reduction in ("none", "por"):
-                with self.subTest(program=open(program).read(), options=options, reduction=reduction):
+                with self.subTest(text, options=options, reduction=reduction):
                     on_spark = self.agrees(program, options + ["--reduction", reduction], number)
                     levels += on_spark or 0
                     shared = shared or on_spark is not None
@@ -59,7 +59,7 @@ class Random(unittest.TestCase):
         print("%d programs compared, of %d; %d levels on Spark" % (compared, number, levels))
 
     def agrees(self, program, options, number):
-        """How many levels were found on Spark; None if there are too many of them, or of states, or nobody can list them."""
+        """How many levels were found on Spark; None where these, or states, are too many, or nobody can list them."""
         asked = [DOLPHIN, "explore", program, "--json", "--max-states", str(MOST)] + options
         told = json.loads(subprocess.run(asked, stdout=subprocess.PIPE).stdout)
         if any(verdict["verdict"] == "inconclusive" for verdict in told["verdicts"]) or told["depth"] > 200:

@@ -20,6 +20,7 @@ from dolphin_spark.local import Local  # noqa: E402
 from dolphin_spark.successors import Inconclusive, Successors, digest, run  # noqa: E402
 
 DOLPHIN = os.environ.get("DOLPHIN", "dolphin")
+EXPLORE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "explore.py")
 EXAMPLES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "examples")
 CASES = [("rendezvous", []), ("rendezvous", ["--faults", "fail=1"]), ("supplier", []), ("parallel", []), ("until", []),
          ("watch", ["--faults", "fail"]), ("during", []), ("photos", []), ("rotation", [])]
@@ -229,6 +230,21 @@ class Agreement(unittest.TestCase):
                 found.append(local.facts.unreached)
             self.assertEqual(len(found[0]), 1)
             self.assertEqual(found[0], found[1])
+
+    def test_command(self):
+        """What the command prints without Spark; its answers are those of `dolphin explore`."""
+        with tempfile.TemporaryDirectory() as folder:
+            program = os.path.join(folder, "asking.dol")
+            with open(program, "w") as text:
+                text.write("n = ask 'How many?'\nif (n > 1) { post x: 1 }\nassert { !(poll x: 1) }, 'none'\n")
+            command = [sys.executable, EXPLORE, program, "--dolphin", DOLPHIN, "--answer", "1", "--answer", "2"]
+            found = subprocess.run(command, stdout=subprocess.PIPE, text=True)
+            expected = explored(program, ["--answer", "1", "--answer", "2", "--reduction", "none"])
+            self.assertEqual(found.returncode, 1)
+            self.assertIn("assertions: violated after 4 steps\n", found.stdout)
+            self.assertIn("assertions: a run of 4 steps\n", found.stdout)
+            self.assertIn("%d states, %d transitions, depth %d," % tuple(
+                expected[what] for what in ("states", "transitions", "depth")), found.stdout)
 
     def test_unsettled(self):
         """What nobody can list stops the search, and is told."""

@@ -7,6 +7,7 @@ import json
 import struct
 
 from pyspark import StorageLevel
+from pyspark.accumulators import AccumulatorParam
 
 from . import blocks, worker
 from .facts import Facts
@@ -55,9 +56,21 @@ class Store:
         return items
 
 
+class Told(AccumulatorParam):
+    """What tasks tell, by what they do and their place. A task that is done again, for what it did was lost, tells the
+    same again."""
+
+    def zero(self, value):
+        return {}
+
+    def addInPlace(self, one, other):
+        one.update(other)
+        return one
+
+
 class Search:
-    """`job` says what is searched; it goes to the machines. `successors` is a filter here. A level is pairs of the
-    partition and what it has: ("new", block), or ("told", (number of states, facts))."""
+    """`job` says what is searched; it goes to the machines. `successors` is a filter here. A level is pairs of a
+    partition and ("new", block)."""
 
     def __init__(self, spark, job, store, tell, successors):
         self.spark, self.job, self.store, self.tell, self.successors = spark, job, store, tell, successors
@@ -76,25 +89,20 @@ class Search:
 
     def begin(self, local):
         """Takes over what was searched locally."""
-        self.narrow, last = local.levels[:-1], blocks.Columns.of(local.levels[-1])
+        self.narrow = local.levels[:-1]
         self.depth, self.facts, self.states, self.frontier = local.depth, local.facts, local.states, local.frontier
         self.store.write_all("narrow", self.narrow)
         self.add_parts(self.successors.told)
-        narrow = self.spread([x for block in self.narrow for x in self.runs(block)])
-        self.add_seen(self.joined(narrow), self.states - self.frontier)
-        self.add_level(self.spread([(p, ("new", part.block())) for p, part in self.split(last)]))
+        self.add_seen(self.spread(self.narrow), self.states - self.frontier)
+        self.add_level(self.spread(local.levels[-1:]))
+        self.add_seen(self.level, self.frontier)
         self.commit()
 
-    def runs(self, block):
-        columns = blocks.Columns.of(block)
-        return worker.runs_of((p, ("new", part.block())) for p, part in self.split(columns))
-
-    def split(self, columns):
-        return blocks.by_partition(columns, self.job["partitions"])
-
-    def spread(self, items):
-        """`items`, pairs of a partition and something, where they belong."""
-        return self.placed(self.spark.parallelize(items, max(1, min(len(items), self.job["partitions"]))))
+    def spread(self, some):
+        """The states of these blocks where they belong."""
+        split = [(p, ("new", part.block())) for block in some
+                 for p, part in blocks.by_partition(blocks.Columns.of(block), self.job["partitions"])]
+        return self.placed(self.spark.parallelize(split, max(1, min(len(split), self.job["partitions"]))))
 
     def placed(self, rdd):
         placed = rdd.partitionBy(self.job["partitions"], int)
@@ -115,21 +123,18 @@ class Search:
         for what in told:
             self.share(self.store.read_all(what))
         self.told = told
-        earlier = [self.load(path) for path in self.files[:-1]]
-        narrow = self.spark.parallelize([x for block in self.narrow for x in self.runs(block)], 1)
-        digests = [narrow] + [level.mapPartitions(worker.runs_of) for level in earlier]
-        self.add_seen(self.joined(self.placed(self.spark.union(digests))), self.states - self.frontier)
-        self.level = self.placed(self.load(self.files[-1]))
-        self.add_seen(self.level.mapPartitions(worker.runs_of, preservesPartitioning=True), self.frontier)
+        self.level = self.load(self.files[-1])
+        digests = [self.load(path).map(worker.run_of) for path in self.files]
+        self.add_seen(self.spark.union([self.spread(self.narrow), self.placed(self.spark.union(digests))]), self.states)
 
     def load(self, path):
         return self.spark._checkpointFile(self.store.name(path), self.spark.serializer)
 
     def add_level(self, level):
-        """`level` is in the folder from now on; what it tells is the result."""
+        """`level` is in the folder from now on."""
         level.persist(KEPT)
         level.checkpoint()
-        told = level.flatMap(lambda x: [x[1][1]] if x[1][0] == "told" else []).collect()
+        level._jrdd.count()  # without Python
         if self.level is not None:
             self.level.unpersist()
         for rdd in self.stale:
@@ -137,18 +142,17 @@ class Search:
         self.stale = []
         self.level = level
         self.files.append("/".join(["levels"] + level.getCheckpointFile().split("/")[-2:]))
-        return told
 
-    def add_seen(self, runs, count):
-        """Runs of like size are joined, so that there are few."""
+    def add_seen(self, states, count):
+        """`states`, or digests, are seen. Runs of like size are joined, so that there are few."""
+        together = [states]
+        while self.seen and self.seen[-1][1] < 2 * count:
+            runs, n = self.seen.pop()
+            together.append(runs)
+            self.stale.append(runs)
+            count += n
+        runs = self.spark.union(together).mapPartitionsWithIndex(worker.runs_of, preservesPartitioning=True)
         self.seen.append((runs.persist(KEPT), count))
-        while len(self.seen) > 1 and self.seen[-2][1] < 2 * self.seen[-1][1]:
-            (a, n), (b, m) = self.seen[-2:]
-            self.seen[-2:] = [(self.joined(self.spark.union([a, b])).persist(KEPT), n + m)]
-            self.stale += [a, b]
-
-    def joined(self, runs):
-        return runs.mapPartitionsWithIndex(worker.joined, preservesPartitioning=True)
 
     def add_parts(self, parts):
         """Parts that states of the last level name are known to all before it is finished."""
@@ -173,22 +177,25 @@ class Search:
     # Levels
 
     def step(self):
-        go = worker.expander(self.job, self.depth, self.broadcasts)
+        told = self.spark.accumulator({}, Told())
+        go = worker.expander(self.job, self.depth, self.broadcasts, told)
         led_to = self.placed(self.level.mapPartitionsWithIndex(go))
         together = self.spark.union([runs for runs, _ in self.seen] + [led_to])
         assert together.getNumPartitions() == self.job["partitions"]
-        told = self.add_level(together.mapPartitionsWithIndex(worker.merger(), preservesPartitioning=True))
-        for _, facts in told:
-            for part in facts:
-                self.facts.add(part)
+        self.add_level(together.mapPartitionsWithIndex(worker.merger(told), preservesPartitioning=True))
+        self.frontier = 0
+        for (what, _), value in told.value.items():
+            if what == "facts":
+                self.facts.add(value)
+            else:
+                self.frontier += value
         if self.facts.stopped:
             raise Inconclusive(self.facts.stopped)
-        self.frontier = sum(count for count, _ in told)
         if self.frontier:
             self.depth += 1
             self.states += self.frontier
             self.add_parts(self.facts.parts)
-            self.add_seen(self.level.mapPartitions(worker.runs_of, preservesPartitioning=True), self.frontier)
+            self.add_seen(self.level, self.frontier)
         else:
             self.files.pop()
         self.facts.parts = set()
@@ -204,8 +211,8 @@ class Search:
     def find(self, known, depth):
         """The state, `depth` deep, whose digest begins with `known`, and its parent."""
         def look(items):
-            for _, (kind, block) in items:
-                columns = blocks.Columns.of(block if kind == "new" else blocks.NOTHING)
+            for _, (_, block) in items:
+                columns = blocks.Columns.of(block)
                 row = columns.find(known)
                 if row is not None:
                     yield columns.text(row), columns.parents[row].tobytes()

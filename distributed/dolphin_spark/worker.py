@@ -3,6 +3,7 @@
 import atexit
 
 from . import blocks, files, levels
+from .facts import Facts
 from .successors import Successors
 
 _filters = {}
@@ -22,47 +23,50 @@ def filter_of(job, parts):
     return known
 
 
-def expander(job, depth, parts):
-    """A function for the partitions of a frontier: blocks for the partitions, and facts for that of the same number.
-    The facts have all parts that states in the blocks may name and that are not among `parts`, whichever of them this
-    process has told before: what some task told may be lost with its answer."""
+def expander(job, depth, parts, told):
+    """A function for the partitions of a frontier: blocks for the partitions, and facts into `told`, by place. The facts
+    have all parts that states in the blocks may name and that are not among `parts`, whichever of them this process has
+    told before: what some task told may be lost with its answer."""
 
     def go(index, items):
-        known = filter_of(job, parts)
-        for _, (kind, block) in items:
-            if kind == "new":
-                led_to, facts = levels.expand(known, block, depth, job["conditions"], job["partitions"])
-                facts.parts = set(known.told)
-                for partition, found in enumerate(led_to):
-                    for block in found:
-                        yield partition, ("block", block)
-                yield index % job["partitions"], ("facts", facts)
+        known, together = filter_of(job, parts), Facts()
+        for _, (_, block) in items:
+            led_to, facts = levels.expand(known, block, depth, job["conditions"], job["partitions"])
+            together.add(facts)
+            for partition, found in enumerate(led_to):
+                for block in found:
+                    yield partition, ("block", block)
+        together.parts = set(known.told)
+        told.add({("facts", index): together})
 
     return go
 
 
-def merger():
-    """A function for a partition of what is seen, and of what the frontier leads to."""
+def merger(told):
+    """A function for a partition of what is seen, and of what the frontier leads to: what is new, and how many these
+    are into `told`, by partition."""
 
     def go(index, items):
-        runs, found, facts = [], [], []
+        runs, found = [], []
         for _, (kind, value) in items:
-            {"run": runs, "block": found, "facts": facts}[kind].append(value)
+            (runs if kind == "run" else found).append(value)
         block = blocks.merge(runs, found)
-        yield index, ("told", (blocks.count(block), facts))
+        told.add({("count", index): blocks.count(block)})
         if blocks.count(block):
             yield index, ("new", block)
 
     return go
 
 
-def runs_of(items):
-    """The digests of what is new in a partition."""
-    return [(partition, ("run", blocks.digests(block))) for partition, (kind, block) in items if kind == "new"]
+def run_of(item):
+    """The digests of the states of a block."""
+    partition, (_, block) = item
+    return partition, ("run", blocks.digests(block))
 
 
-def joined(index, items):
-    runs = [run for _, (_, run) in items]
+def runs_of(index, items):
+    """The digests of what is in a partition, states or digests, as one run."""
+    runs = [value if kind == "run" else blocks.digests(value) for _, (kind, value) in items]
     return [(index, ("run", blocks.joined(runs)))] if runs else []
 
 
@@ -71,9 +75,8 @@ def edges_of(job, parts):
 
     def go(items):
         known = filter_of(job, parts)
-        for _, (kind, block) in items:
-            if kind == "new":
-                yield from levels.edges(known, block)
+        for _, (_, block) in items:
+            yield from levels.edges(known, block)
 
     return go
 

@@ -36,6 +36,13 @@ class Broadcast:
         self.value = value
 
 
+class Told(dict):
+    """Of one level, as the accumulator is on Spark."""
+
+    def add(self, other):
+        self.update(other)
+
+
 class Partitions:
     """A search as on Spark, but here: `count` partitions, each with a filter of its own. With `dying`, a filter dies
     after each level, and the first of a level dies before its answer is there: another one answers for it."""
@@ -54,39 +61,35 @@ class Partitions:
         while self.step():
             self.depth += 1
 
-    def expanded(self, index, item):
+    def expanded(self, index, item, told):
         """What the task of one item of the frontier yields, in a process of its own."""
         if self.dying and index == self.depth % self.count:
             lost = self.filters[index]
-            list(self.task(index, item))
+            list(self.task(index, item, told))
             lost.process.kill()
             lost.process.communicate()
             self.filters[index] = Successors(self.command)
-        return list(self.task(index, item))
+        return list(self.task(index, item, told))
 
-    def task(self, index, item):
+    def task(self, index, item, told):
         worker._filters.clear()
         worker._filters[self.job["greeting"]] = self.filters[index]
-        return worker.expander(self.job, self.depth, self.broadcasts)(index, [item])
+        return worker.expander(self.job, self.depth, self.broadcasts, told)(index, [item])
 
     def step(self):
-        items = [[(p, ("run", run)) for run in runs] for p, runs in enumerate(self.seen)]
-        for p, (kind, block) in self.levels[-1]:
-            items[p].append((p, ("run", blocks.digests(block))))
-            self.seen[p] = [run for _, (_, run) in items[p]]
-        for index, item in enumerate(self.levels[-1]):
-            for partition, what in self.expanded(index % self.count, item):
-                items[partition].append((partition, what))
-        new, fresh = [], 0
-        for partition in range(self.count):
-            for _, (kind, value) in worker.merger()(partition, items[partition]):
-                if kind == "new":
-                    new.append((partition, (kind, value)))
-                else:
-                    more, told = value
-                    fresh += more
-                    for facts in told:
-                        self.facts.add(facts)
+        told, led_to = Told(), [[] for _ in range(self.count)]
+        for p, item in self.levels[-1]:
+            self.seen[p] = worker.runs_of(p, self.seen[p] + [(p, item)])
+        for p, item in self.levels[-1]:
+            for partition, what in self.expanded(p, (p, item), told):
+                led_to[partition].append((partition, what))
+        new = []
+        for p in range(self.count):
+            new += worker.merger(told)(p, self.seen[p] + led_to[p])
+        for (what, _), value in told.items():
+            if what == "facts":
+                self.facts.add(value)
+        fresh = sum(value for (what, _), value in told.items() if what == "count")
         more = sorted(self.facts.parts - self.parts)
         self.parts.update(more)
         self.broadcasts += [Broadcast(more)] if more else []

@@ -23,9 +23,9 @@ def context(name, master, files, scratch):
     conf.setIfMissing("spark.ui.enabled", "false")
     conf.setIfMissing("spark.ui.showConsoleProgress", "false")
     conf.setIfMissing("spark.driver.bindAddress", "127.0.0.1" if master.startswith("local") else "0.0.0.0")
-    if master.startswith("local"):
-        # Java moves bytes: compiling it well costs more than it gains.
-        conf.setIfMissing("spark.driver.extraJavaOptions", "-XX:TieredStopAtLevel=1 -XX:+UseSerialGC")
+    # Java moves blocks of bytes: compiling it well costs more than it gains, and its usual collector spreads them badly.
+    for where in ("driver", "executor"):
+        conf.setIfMissing("spark.%s.defaultJavaOptions" % where, "-XX:TieredStopAtLevel=1 -XX:+UseParallelGC")
     spark = SparkContext(conf=conf)
     spark.setLogLevel("ERROR")
     spark.addPyFile(package(scratch))

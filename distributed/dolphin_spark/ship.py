@@ -23,7 +23,7 @@ def context(name, master, files, scratch):
     conf.setIfMissing("spark.ui.enabled", "false")
     conf.setIfMissing("spark.ui.showConsoleProgress", "false")
     conf.setIfMissing("spark.driver.bindAddress", "127.0.0.1" if master.startswith("local") else "0.0.0.0")
-    # Java moves blocks of bytes: compiling it well costs more than it gains, and its usual collector spreads them badly.
+    # Java moves blocks of bytes: compiling it well costs more than it gains, and its usual collector scatters them.
     for where in ("driver", "executor"):
         conf.setIfMissing("spark.%s.defaultJavaOptions" % where, "-XX:TieredStopAtLevel=1 -XX:+UseParallelGC")
     spark = SparkContext(conf=conf)

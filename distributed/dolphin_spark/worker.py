@@ -24,9 +24,9 @@ def filter_of(job, parts):
 
 
 def expander(job, depth, parts, told):
-    """A function for the partitions of a frontier: blocks for the partitions, and facts into `told`, by place. The facts
-    have all parts that states in the blocks may name and that are not among `parts`, whichever of them this process has
-    told before: what some task told may be lost with its answer."""
+    """A function for the partitions of a frontier: blocks for the partitions, and facts into `told`, by place. The
+    facts have all parts that states in the blocks may name and that are not among `parts`, whichever of them this
+    process has told before: what some task told may be lost with its answer."""
 
     def go(index, items):
         known, together = filter_of(job, parts), Facts()

@@ -881,3 +881,14 @@ Bitstate hashing: as many states where the bits are many, and nothing is said to
   [2]
   $ dolphin explore ../../examples/rendezvous.dol --bitstate 1G --max-memory 100M | head -1
   no deadlock: inconclusive, the bound on memory was met
+
+A list in a program may be as long as the program: the machine stops in the midst of it, here 24 times.
+
+  $ (printf 'x = [' && seq -s ', ' 240000 && echo ']' && echo 'message x.size()') > long.dol
+  $ dolphin explore long.dol 2>&1 | sed 's/, [0-9.]* s, .*//'
+  no deadlock: holds
+  termination: holds
+  no unhandled error: holds
+  assertions: holds
+  vehicles for all tasks: holds
+  27 states, 26 transitions, depth 26

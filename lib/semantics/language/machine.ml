@@ -362,12 +362,15 @@ and settle_outcome context fuel (outcome : outcome) at locals stack calls : (sto
 
 (* {1 Readings} *)
 
+(* As [List.mapi], of lists of any length. *)
+let mapi f xs = Array.to_list (Array.mapi f (Array.of_list xs))
+
 (* A kept reading is known by its place: readings that were made in different steps are seldom the same. *)
 let keep_readings m =
   let keep where i x = match x with Reading r -> Reading { r with text = Printf.sprintf "%s %d" where i } | x -> x in
   let frame depth = function
     | Arguments a ->
-      Arguments { a with evaluated = List.mapi (keep (Printf.sprintf "argument at %d:" depth)) a.evaluated }
+      Arguments { a with evaluated = mapi (keep (Printf.sprintf "argument at %d:" depth)) a.evaluated }
     | Leave callers -> Leave (Array.mapi (keep (Printf.sprintf "local at %d:" depth)) callers)
     | ( Assign_local _ | Assign_global _ | Choose _ | Rest _ | Loop_test _ | Loop_body _ | Next_item _
       | Iterate _ ) as frame -> frame
@@ -377,7 +380,7 @@ let keep_readings m =
   { m with
     focus;
     locals = Array.mapi (keep "local") m.locals;
-    stack = List.mapi (fun i f -> frame (depth - i) f) m.stack }
+    stack = mapi (fun i f -> frame (depth - i) f) m.stack }
 
 let run ~fuel context m =
   match m.focus with

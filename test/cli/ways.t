@@ -93,3 +93,5 @@ A plan of many points is drawn as it is planned: of 3,000, journals leave out th
   41.1863506,-8.7042002
   41.1863777,-8.7042002
   41.1863777,-8.706
+
+  $ check-journals

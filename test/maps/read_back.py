@@ -104,7 +104,7 @@ ways, stops = check_same(found)
 assert list(ways) == [PLAN], ways.keys()
 assert [n for n, _ in stops] == ["1.Goto", "2.Goto", "3.Loiter"], stops
 assert same(ways[PLAN], [(float(r["longitude"]), float(r["latitude"]), float(r["height"])) for r in rows])
-assert ways[PLAN][0] == (-8.706, 41.185, -3), ways
+assert ways[PLAN][0] == (-8.706, 41.185, -2), ways
 told = dolphin("plan", here / "survey.dol", "--to", "gpx")
 assert told[0] == files["gpx"].read_text(), "plan --to is plan export"
 assert "left out, since vehicles know their way and the program does not: by, name" in told[1], told[1]

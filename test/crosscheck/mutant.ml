@@ -683,8 +683,8 @@ let all =
       replacement = {|IF FALSE THEN << LostConnection(v) >> ELSE|} };
     { name = "what is awaited anew has its old time";
       file = time;
-      pattern = {|CASE latest # << >> -> Clock(Last(latest)[2])|};
-      replacement = {|CASE latest # << >> /\ item \notin DOMAIN awaited -> Clock(Last(latest)[2])|} };
+      pattern = {|CASE latest # << >> -> ClockOf(Last(latest)[2], waits)|};
+      replacement = {|CASE latest # << >> /\ item \notin DOMAIN awaited -> ClockOf(Last(latest)[2], waits)|} };
     { name = types;
       file = rules;
       pattern = {|active /\ r.v \in DOMAIN A /\ A[r.v] = r.p|};

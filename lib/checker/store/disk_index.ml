@@ -28,7 +28,7 @@ let create ~directory ~states ~memory each =
   let mask = part - 1 in
   for p = 0 to parts - 1 do
     Array1.fill memory 0;
-    each (fun i h -> if part_of t h = p then memory.{free memory mask (h land mask)} <- Packed.entry_of h i);
+    each (fun i h -> if part_of t h = p then memory.{free memory mask (h land mask)} <- Slot.entry h i);
     for slot = 0 to part - 1 do
       Disk_file.append t.file memory.{slot}
     done
@@ -44,8 +44,8 @@ let find t h is_it =
     let rec within k =
       if k = n then `Further
       else if entry k = 0 then `Found (-1)
-      else if Packed.is_tagged h (entry k) && is_it (Packed.number_of_entry (entry k)) then
-        `Found (Packed.number_of_entry (entry k))
+      else if Slot.is_tagged h (entry k) && is_it (Slot.number (entry k)) then
+        `Found (Slot.number (entry k))
       else within (k + 1)
     in
     match within 0 with `Found i -> i | `Further -> from ((slot + n) land (t.part - 1))

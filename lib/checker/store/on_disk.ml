@@ -61,7 +61,7 @@ let known t =
   let note i = Bytes.unsafe_set known i '\001' in
   let rec of_window first =
     if first < t.window_states then begin
-      let n = min Packed.most_waiting (t.window_states - first) in
+      let n = min Waiting.most (t.window_states - first) in
       Packed.members t.pushed t.window ~first ~n note;
       of_window (first + n)
     end
@@ -121,7 +121,7 @@ let index t =
     Option.iter (fun (_, index) -> Disk_index.close index) before;
     t.index <- None;
     let memory = Packed.table t.pushed in
-    let each f = each t (fun i key -> f i (Packed.hash t.pushed key)) in
+    let each f = each t (fun i key -> f i (Slot.hash ~words:(words t) key)) in
     let index = Disk_index.create ~directory:t.directory ~states:t.count ~memory each in
     Packed.clear t.pushed;
     t.index <- Some (t.count, index);
@@ -134,7 +134,7 @@ let find t key =
     let rec same w = w = t.words || (Int64.to_int (Bytes.get_int64_le t.one (8 * w)) = key.(w) && same (w + 1)) in
     same 0
   in
-  Disk_index.find index (Packed.hash t.pushed key) is_it
+  Disk_index.find index (Slot.hash ~words:(words t) key) is_it
 
 let close t =
   Disk_file.close t.file;

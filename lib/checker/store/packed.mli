@@ -24,22 +24,12 @@ val rewrite : t -> words:int -> (int array -> int array -> unit) -> t
 
 (** {1:disk States elsewhere} *)
 
-val most_waiting : int
-val hash : t -> int array -> int
-
-val entry_of : int -> int -> int
-(** [entry_of h i] is what a table has for state [i], whose hash is [h]; a free slot has 0. *)
-
-val is_tagged : int -> int -> bool
-(** [is_tagged h x] is whether the entry [x] may be of a state whose hash is [h]. *)
-
-val number_of_entry : int -> int
 val parents : t -> Parents.t
 
 val room : t -> int
 (** How many states there may be, whatever waits besides, before it takes more memory; 1 at least. *)
 
-val table : t -> (int, Bigarray.int_elt, Bigarray.c_layout) Bigarray.Array1.t
+val table : t -> Slot.table
 
 val clear : t -> unit
 (** [clear t] takes all states away, and keeps the memory. The parents of those that come have nothing to do with
@@ -47,4 +37,4 @@ val clear : t -> unit
 
 val members : t -> Bytes.t -> first:int -> n:int -> (int -> unit) -> unit
 (** [members t b ~first ~n f] calls [f] with the number of each of [n] vectors that is a member: those in [b] from the
-    one at place [first] on, with 8 bytes a word. [n] is at most {!most_waiting}. Nothing may wait to be added. *)
+    one at place [first] on, with 8 bytes a word. [n] is at most {!Waiting.most}. Nothing may wait to be added. *)

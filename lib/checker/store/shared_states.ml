@@ -18,25 +18,16 @@ type t = {
   mutable own_runs : int;
   mutable run : int;  (* the first parent of the latest *)
   mutable bare : bool;  (* as in {!Packed} *)
-  mutable table : Shared_memory.words;
+  mutable table : Slot.table;
   mutable mask : int;
   mutable most : int;
   mutable grow : t -> unit;
-  waiting : waiting;
+  waiting : Waiting.t;
 }
-
-and waiting = { keys : int array; hashes : int array; from : int array; mutable length : int }
 
 let chunk_bits = 16
 let chunk_states = 1 lsl chunk_bits
 let chunk_mask = chunk_states - 1
-let number_mask = 0xFFFF_FFFF
-let most_of slots = slots / 10 * 7
-let most_waiting = Packed.most_waiting
-
-let nothing_waits words =
-  let array n = Array.make n 0 in
-  { keys = array (most_waiting * words); hashes = array most_waiting; from = array most_waiting; length = 0 }
 
 (* {1 What processes tell each other}
 
@@ -126,36 +117,19 @@ let parent t i =
     in
     run 0 (Shared_memory.read t.control (runs_by w)) + t.places.{i}
 
-let mix h k =
-  let h = (h lxor k) * 0x1E37_79B9_7F4A_7C15 in
-  h lxor (h lsr 32)
-
-let hash t (keys : int array) at =
-  let h = ref (mix 0 (Array.unsafe_get keys at)) in
-  for w = 1 to t.words - 1 do
-    h := mix !h (Array.unsafe_get keys (at + w))
-  done;
-  !h
-
-let tag_of h = (h lsr 1) land lnot number_mask
-
 let rec same (states : Shared_memory.words) base (keys : int array) at w =
   w < 0
   || Array1.unsafe_get states (base + w) = Array.unsafe_get keys (at + w)
      && same states base keys at (w - 1)
 
-let rec probe t (table : Shared_memory.words) keys at tag slot =
+let rec probe t (table : Slot.table) keys at tag slot =
   let entry = Array1.unsafe_get table slot in
   if entry = 0 then slot
   else if
-    entry land lnot number_mask = tag
-    && same t.states (((entry land number_mask) - 1) * t.words) keys at (t.words - 1)
+    entry land lnot Slot.number_mask = tag
+    && same t.states (((entry land Slot.number_mask) - 1) * t.words) keys at (t.words - 1)
   then slot
   else probe t table keys at tag ((slot + 1) land t.mask)
-
-let rec probe_bare (table : Shared_memory.words) mask entry slot =
-  let there = Array1.unsafe_get table slot in
-  if there = entry || there = 0 then slot else probe_bare table mask entry ((slot + 1) land mask)
 
 let write t i keys at =
   let base = i * t.words in
@@ -170,17 +144,17 @@ let added t i word ~parent ~fresh =
 
 (* A state is written before its slot says so. If another process takes the slot, what it has put there is looked at. *)
 let rec add_at t keys at h ~parent ~fresh slot =
-  let slot = probe t t.table keys at (tag_of h) slot in
+  let slot = probe t t.table keys at (Slot.tag h) slot in
   if Array1.unsafe_get t.table slot = 0 then begin
     let i = next_number t in
     write t i keys at;
-    if Shared_memory.swap t.table slot 0 (tag_of h lor (i + 1)) then added t i (Array.unsafe_get keys at) ~parent ~fresh
+    if Shared_memory.swap t.table slot 0 (Slot.entry h i) then added t i (Array.unsafe_get keys at) ~parent ~fresh
     else add_at t keys at h ~parent ~fresh slot
   end
 
 let rec add_bare t keys at ~parent ~fresh slot =
   let word = Array.unsafe_get keys at in
-  let slot = probe_bare t.table t.mask (word + 1) slot in
+  let slot = Slot.find_bare t.table t.mask (word + 1) slot in
   if Array1.unsafe_get t.table slot = 0 then
     if Shared_memory.swap t.table slot 0 (word + 1) then begin
       let i = next_number t in
@@ -194,34 +168,34 @@ let rec add_bare t keys at ~parent ~fresh slot =
 let set_table t slots =
   t.table <- Array1.sub t.tables slots slots;
   t.mask <- slots - 1;
-  t.most <- most_of slots - (t.workers * most_waiting)
+  t.most <- Slot.most slots - (t.workers * Waiting.most)
 
-let rec put (table : Shared_memory.words) mask entry slot =
+let rec put (table : Slot.table) mask entry slot =
   if not (Array1.unsafe_get table slot = 0 && Shared_memory.swap table slot 0 entry) then
     put table mask entry ((slot + 1) land mask)
 
 (* Slots are read for many states, and only then written to, as in {!flush}. *)
 let put_states t first n =
-  let key = Array.make t.words 0 and hashes = Array.make most_waiting 0 in
+  let key = Array.make t.words 0 and hashes = Array.make Waiting.most 0 in
   let put_some from n =
     let seen = ref 0 in
     for k = 0 to n - 1 do
       load t (from + k) key;
-      let h = hash t key 0 in
+      let h = Slot.hash ~words:t.words key in
       Array.unsafe_set hashes k h;
       seen := !seen lxor Array1.unsafe_get t.table (h land t.mask)
     done;
     ignore (Sys.opaque_identity !seen);
     for k = 0 to n - 1 do
       let h = Array.unsafe_get hashes k and i = from + k in
-      let entry = if t.bare then Array1.unsafe_get t.states i + 1 else tag_of h lor (i + 1) in
+      let entry = if t.bare then Array1.unsafe_get t.states i + 1 else Slot.entry h i in
       put t.table t.mask entry (h land t.mask)
     done
   in
   let rec from k =
     if k < n then begin
-      put_some (first + k) (min most_waiting (n - k));
-      from (k + most_waiting)
+      put_some (first + k) (min Waiting.most (n - k));
+      from (k + Waiting.most)
     end
   in
   from 0
@@ -266,23 +240,13 @@ let grow_alone t =
 let is_full t = count t > t.most
 let when_full t grow = t.grow <- grow
 
-(* {1 Many at a time}
-
-   As in {!Packed}. *)
-
-let read_tables t =
-  let waiting = t.waiting and table : Shared_memory.words = t.table and mask = t.mask in
-  let seen = ref 0 in
-  for k = 0 to waiting.length - 1 do
-    seen := !seen lxor Array1.unsafe_get table (Array.unsafe_get waiting.hashes k land mask)
-  done;
-  ignore (Sys.opaque_identity !seen)
+(* {1 Many at a time} *)
 
 let read_states t =
-  let waiting = t.waiting and table : Shared_memory.words = t.table and mask = t.mask in
+  let waiting = t.waiting and table : Slot.table = t.table and mask = t.mask in
   let seen = ref 0 in
   for k = 0 to waiting.length - 1 do
-    let i = (Array1.unsafe_get table (Array.unsafe_get waiting.hashes k land mask) land number_mask) - 1 in
+    let i = (Array1.unsafe_get table (Array.unsafe_get waiting.hashes k land mask) land Slot.number_mask) - 1 in
     if i >= 0 then seen := !seen lxor Array1.unsafe_get t.states (i * t.words)
   done;
   ignore (Sys.opaque_identity !seen)
@@ -290,30 +254,19 @@ let read_states t =
 let flush t ~fresh =
   if is_full t then t.grow t;
   let waiting = t.waiting in
-  read_tables t;
+  Waiting.read_slots waiting t.table t.mask;
   if not t.bare then read_states t;
   for k = 0 to waiting.length - 1 do
     let at = k * t.words in
-    let parent = Array.unsafe_get waiting.from k and h = Array.unsafe_get waiting.hashes k in
+    let parent = Array.unsafe_get waiting.parents k and h = Array.unsafe_get waiting.hashes k in
     if t.bare then add_bare t waiting.keys at ~parent ~fresh (h land t.mask)
     else add_at t waiting.keys at h ~parent ~fresh (h land t.mask)
   done;
-  waiting.length <- 0;
+  Waiting.clear waiting;
   publish t
 
-let push t (key : int array) ~parent ~fresh =
-  let waiting = t.waiting in
-  let k = waiting.length in
-  let at = k * t.words in
-  for w = 0 to t.words - 1 do
-    Array.unsafe_set waiting.keys (at + w) (Array.unsafe_get key w)
-  done;
-  Array.unsafe_set waiting.hashes k (hash t key 0);
-  Array.unsafe_set waiting.from k parent;
-  waiting.length <- k + 1;
-  if k + 1 = most_waiting then flush t ~fresh
-
-let forget_waiting t = t.waiting.length <- 0
+let push t key ~parent ~fresh = if Waiting.add t.waiting key ~parent then flush t ~fresh
+let forget_waiting t = Waiting.clear t.waiting
 
 (* From now on the table has numbers. *)
 let number_all t =
@@ -325,9 +278,8 @@ let number_all t =
 
 let find t key =
   number_all t;
-  let h = hash t key 0 in
-  let slot = probe t t.table key 0 (tag_of h) (h land t.mask) in
-  (t.table.{slot} land number_mask) - 1
+  let h = Slot.hash ~words:t.words key in
+  Slot.number t.table.{probe t t.table key 0 (Slot.tag h) (h land t.mask)}
 
 let all_runs t =
   let rec from w n = if w = t.workers then n else from (w + 1) (n + Shared_memory.read t.control (runs_by w)) in
@@ -362,7 +314,7 @@ let rewrite t ~words f =
     done
   in
   List.iter of_chunk (List.sort (fun (first, _) (first', _) -> Int.compare first' first) !chunks);
-  let t = { t with words; waiting = nothing_waits words; bare = t.bare && words = 1 } in
+  let t = { t with words; waiting = Waiting.create ~words; bare = t.bare && words = 1 } in
   forget_table t;
   fill t;
   t
@@ -372,7 +324,7 @@ let reserved packed ~workers room =
   let words = Packed.words packed and n = Packed.count packed in
   let most_chunks = (room lsr chunk_bits) + workers + 1 in
   let most = most_chunks lsl chunk_bits in
-  let rec slots_for slots = if most_of slots - (workers * most_waiting) > 2 * n then slots else slots_for (2 * slots) in
+  let rec slots_for slots = if Slot.most slots - (workers * Waiting.most) > 2 * n then slots else slots_for (2 * slots) in
   let rec largest slots = if 2 * slots >= room then slots else largest (2 * slots) in
   let slots = slots_for 4096 in
   let with_array kind n f =
@@ -392,7 +344,7 @@ let reserved packed ~workers room =
   let t =
     { words; workers; me = 0; states; before = Packed.parents packed; places; runs; most_runs = room / 32; tables;
       chunks; most_chunks; owners; control; own = n; own_runs = 0; run = no_run; bare = words = 1;
-      table = tables; mask = 0; most = 0; grow = grow_alone; waiting = nothing_waits words }
+      table = tables; mask = 0; most = 0; grow = grow_alone; waiting = Waiting.create ~words }
   in
   set_table t slots;
   Shared_memory.write t.control slots_now slots;

@@ -1,5 +1,6 @@
 open Dolphin_semantics
 module System = Dolphin_checker.System
+module Numbering = Dolphin_checker.Numbering
 
 type goal = Latest | Earliest
 type via = unit
@@ -34,6 +35,7 @@ type edge = { source : int; target : int; by : move; working : Working.t; passag
 type node = { place : Timed_place.t; zone : Zone.t; parent : int; move : move option }
 
 type t = {
+  numbering : Numbering.t;
   goal : goal;
   options : Timed.options;
   course : Course.t option;
@@ -211,7 +213,7 @@ let create ?(reduction = Inert_ends_and_likeness) ?(working = false) ?course goa
     List.iter add (Happening.deadlines s)
   in
   let places = Timed_place.places ?course reduction options ~filled ~note in
-  { goal; options; course; places; reduced = false; nodes = [||]; count = 0;
+  { numbering = Numbering.create (); goal; options; course; places; reduced = false; nodes = [||]; count = 0;
     reserved = 0; moments = Hashtbl.create 100; tasks = []; endings = []; cycle = None; returns = [];
     edges = (if working || course <> None then Some [] else None); edge_count = 0;
     stuck = None; unknown = []; deadlines; missed = Hashtbl.create 8 }
@@ -345,6 +347,7 @@ let expand t key (v : via System.visitor) =
   end
 
 (* One process searches. *)
+let numbering t = t.numbering
 let check_fit _ = ()
 
 type findings = unit

@@ -15,6 +15,7 @@ module Vectors = struct
     mutable bits : int;  (* of a number *)
     mutable reserved : int;
     mutable outgrown : bool;  (* whether the next expansion outgrows the encoding, whatever it visits *)
+    numbering : Numbering.t;
     is_known : bool;  (* whether the system can say what its initial state is *)
   }
 
@@ -24,7 +25,8 @@ module Vectors = struct
   exception Outgrown
 
   let make ?(is_end = false) ?(is_broken = fun _ -> false) ?(is_known = true) start successors =
-    { start; successors; is_end; is_broken; bits = 0; reserved = 0; outgrown = false; is_known }
+    { start; successors; is_end; is_broken; bits = 0; reserved = 0; outgrown = false;
+      numbering = Numbering.create (); is_known }
 
   let words s = List.length s.start
   let first s word = word lsr s.reserved
@@ -62,6 +64,7 @@ module Vectors = struct
     if next = [] then visitor.rest ();
     List.length next
 
+  let numbering s = s.numbering
   let check_fit _ = ()
 
   type findings = unit

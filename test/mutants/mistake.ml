@@ -384,7 +384,7 @@ let workers =
       ("states that move go to their places from the first on", {|Int.compare first' first|}, {|Int.compare first first'|});
     ]
   @ in_file "lib/checker/store/numbering.ml" ~noticed_by:"explore/test_workers"
-    [ ("each process gives numbers as they come", {|if !is_closed then raise_notrace Closed|}, {|ignore !is_closed|}) ]
+    [ ("each process gives numbers as they come", {|if t.is_closed then raise_notrace Closed|}, {|ignore t.is_closed|}) ]
   @ in_file "lib/checker/search/team.ml" ~noticed_by:"explore/test_workers"
     [ ("what others have learnt is not learnt before", {|      catch_up t ~words f;
       let key|}, {|      t.known <- get t logged;

@@ -444,7 +444,7 @@ module Make (S : System.S) = struct
     in
     match
       let states = States.share t.states ~workers:t.workers in
-      match Team.create (fun () -> shared_states t) ~workers:t.workers ~look with
+      match Team.create (fun () -> shared_states t) (S.numbering t.system) ~workers:t.workers ~look with
       | team -> (states, team)
       | exception Out_of_memory ->
         States.close states;

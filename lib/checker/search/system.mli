@@ -69,6 +69,8 @@ module type S = sig
       {!Numbering.Closed}, and is called again once numberings are open. Which numbers it gives then depends on the
       state, and on what was numbered before, and on nothing else. *)
 
+  val numbering : t -> Numbering.t
+
   val check_fit : t -> unit
   (** @raise Outgrown if a number that has been given does not fit *)
 

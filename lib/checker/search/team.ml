@@ -6,6 +6,7 @@ type other = { pid : int; from : in_channel; mutable ended : bool }
 
 type t = {
   states : unit -> Shared_states.t;
+  numbering : Numbering.t;
   size : int;
   control : Shared_memory.words;
   log : Shared_memory.words;
@@ -61,10 +62,10 @@ type block = { segment : int; mutable first : int; upto : int }
 (* When it is full the workers end, and it begins anew. *)
 let log_words = 1 lsl 22
 
-let create states ~workers ~look =
+let create states numbering ~workers ~look =
   let control = Shared_memory.map int ((9 + (3 * workers)) * line) in
-  { states; size = workers; control; log = Shared_memory.map int log_words; wait_look = look; leader = Unix.getpid ();
-    me = 0; met = 0; known = 0; others = [] }
+  { states; numbering; size = workers; control; log = Shared_memory.map int log_words; wait_look = look;
+    leader = Unix.getpid (); me = 0; met = 0; known = 0; others = [] }
 
 let close t =
   Shared_memory.unmap t.control;
@@ -231,7 +232,7 @@ let meet t ~deepen reason = meeting t ~deepen (match reason with Done -> is_done
 let catch_up t ~words f =
   let known = get t logged in
   if t.known < known then
-    Numbering.opened (fun () ->
+    Numbering.opened t.numbering (fun () ->
         for n = t.known to known - 1 do
           f (Array.init words (fun w -> Array1.get t.log ((n * words) + w)))
         done);
@@ -254,7 +255,7 @@ let learn t ~words f key =
       if get t ending <> not_ending then raise Over;
       catch_up t ~words f;
       let key = Array.sub key 0 words in
-      match Numbering.opened (fun () -> f (Array.copy key)); tell_key t ~words key with
+      match Numbering.opened t.numbering (fun () -> f (Array.copy key)); tell_key t ~words key with
       | () -> ()
       | exception e ->
         give_up t;
@@ -287,7 +288,7 @@ let become t w =
   Sys.set_signal Sys.sigterm Signal_default
 
 (* Nothing of what the leader has not written yet is written, and nothing is done that it does at its end. *)
-let live t ~work ~report out =
+let live ~work ~report out =
   let status =
     match
       (try work () with Over -> ());
@@ -298,7 +299,6 @@ let live t ~work ~report out =
     | () -> 0
     | exception _ -> 3
   in
-  ignore (t : t);
   Unix._exit status
 
 let fork t ~work ~report w =
@@ -307,7 +307,7 @@ let fork t ~work ~report w =
   | 0 ->
     Unix.close from;
     become t w;
-    live t ~work ~report out
+    live ~work ~report out
   | pid ->
     Unix.close out;
     t.others <- { pid; from = Unix.in_channel_of_descr from; ended = false } :: t.others
@@ -369,7 +369,7 @@ let lead t ~work ~report =
     set t (left_upto w) 0
   done;
   flush_all ();
-  let work () = Numbering.closed work in
+  let work () = Numbering.closed t.numbering work in
   let all () =
     for w = 1 to t.size - 1 do fork t ~work ~report w done;
     work ()

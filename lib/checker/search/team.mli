@@ -18,8 +18,8 @@ type t
 exception Over
 (** In a worker, and in the leader while it waits: the level need not be ended. *)
 
-val create : (unit -> Shared_states.t) -> workers:int -> look:(unit -> unit) -> t
-(** [create s ~workers ~look] is a leader, who is one of [workers], without the others. [s ()] is what they search.
+val create : (unit -> Shared_states.t) -> Numbering.t -> workers:int -> look:(unit -> unit) -> t
+(** [create s n ~workers ~look] is a leader, who is one of [workers], without the others. [s ()] is what they search.
     [look ()] is called now and then while the leader waits; what it raises is raised.
     @raise Out_of_memory if the system does not grant so many addresses *)
 

@@ -1,9 +1,9 @@
 module Make (Key : Hashtbl.HashedType) = struct
   module Table = Hashtbl.Make (Key)
 
-  type t = { numbers : int Table.t; mutable values : Key.t array }
+  type t = { numbering : Numbering.t; numbers : int Table.t; mutable values : Key.t array }
 
-  let create () = { numbers = Table.create 64; values = [||] }
+  let create numbering = { numbering; numbers = Table.create 64; values = [||] }
   let count t = Table.length t.numbers
   let value t i = t.values.(i)
   let find t x = Table.find_opt t.numbers x
@@ -12,7 +12,7 @@ module Make (Key : Hashtbl.HashedType) = struct
     match Table.find_opt t.numbers x with
     | Some i -> i
     | None ->
-      Numbering.give ();
+      Numbering.give t.numbering;
       let i = count t in
       if i = Array.length t.values then begin
         let values = Array.make (max 16 (2 * i)) x in

@@ -3,10 +3,12 @@
 module Make (Key : Hashtbl.HashedType) : sig
   type t
 
-  val create : unit -> t
+  val create : Numbering.t -> t
+  (** [create n] is one of the numberings [n]. *)
 
   val number : t -> Key.t -> int
-  (** [number t x] is the number of [x], a new one if [x] is new. *)
+  (** [number t x] is the number of [x], a new one if [x] is new.
+      @raise Numbering.Closed then, if numberings are closed *)
 
   val find : t -> Key.t -> int option
   (** [find t x] is the number of [x], if it has one. *)

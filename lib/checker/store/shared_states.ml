@@ -324,7 +324,8 @@ let reserved packed ~workers room =
   let words = Packed.words packed and n = Packed.count packed in
   let most_chunks = (room lsr chunk_bits) + workers + 1 in
   let most = most_chunks lsl chunk_bits in
-  let rec slots_for slots = if Slot.most slots - (workers * Waiting.most) > 2 * n then slots else slots_for (2 * slots) in
+  let rec slots_for slots =
+    if Slot.most slots - (workers * Waiting.most) > 2 * n then slots else slots_for (2 * slots) in
   let rec largest slots = if 2 * slots >= room then slots else largest (2 * slots) in
   let slots = slots_for 4096 in
   let with_array kind n f =

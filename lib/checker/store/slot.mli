@@ -1,5 +1,5 @@
-(** Slots of the hash tables that sets of states have. A slot is 0 if it is free. If the table is {e bare} it is a
-    state of one word, plus 1; otherwise an {e entry}: the number of a state, plus 1, below the high bits of its hash. *)
+(** Slots of the hash tables that sets of states have. A slot is 0 if it is free. If the table is {e bare} it is a state
+    of one word, plus 1; otherwise an {e entry}: the number of a state, plus 1, below the high bits of its hash. *)
 
 type table = (int, Bigarray.int_elt, Bigarray.c_layout) Bigarray.Array1.t
 

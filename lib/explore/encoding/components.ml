@@ -17,6 +17,7 @@ type t = {
   world : World.t;
   root : path;
   guards : guard Guards.t;
+  numbering : Numbering.t;
   coverage : Coverage.t;
   context : Step_footprints.context;
   holding : Step_footprints.context;
@@ -42,7 +43,7 @@ let new_path id contexts outer body =
     makes = Residual.makes_tasks (Residual.plug contexts hole); renews = List.exists may_renew contexts;
     cut_footprints = None }
 
-let create ?(foreseen = 2_048) options program world =
+let create ?(foreseen = 2_048) numbering options program world =
   let context = Step_footprints.context options program in
   {
     options;
@@ -50,6 +51,7 @@ let create ?(foreseen = 2_048) options program world =
     world;
     root = new_path 0 [] None hole;
     guards = Guards.create 64;
+    numbering;
     coverage = Coverage.create ();
     context;
     holding = Step_footprints.with_holding context;
@@ -84,7 +86,7 @@ let inner t path contexts body =
   match Residuals.find_opt path.inner key with
   | Some inside -> inside
   | None ->
-    Numbering.give ();
+    Numbering.give t.numbering;
     let inside = new_path t.paths contexts (Some path) body in
     t.paths <- t.paths + 1;
     Residuals.add path.inner key inside;
@@ -110,11 +112,12 @@ let bits_for size =
   from 1
 
 let lay_out family = family.width <- bits_for family.size
+let numbering t = t.numbering
 let outgrown t = t.outgrown
 let none_outgrown t = t.outgrown <- false
 
 let member t path family residual =
-  Numbering.give ();
+  Numbering.give t.numbering;
   let p =
     { residual; path; family; local = family.size; makes_tasks = Residual.makes_tasks residual;
       steps = [||]; worked_out = None; alone = None;
@@ -132,7 +135,7 @@ let member t path family residual =
   p
 
 let new_family t =
-  Numbering.give ();
+  Numbering.give t.numbering;
   t.families <- t.families + 1;
   { number = t.families - 1; members = [||]; size = 0; width = 0 }
 

@@ -6,7 +6,7 @@ open Dolphin_environment
 
 type t
 
-val create : ?foreseen:int -> Environment.options -> Core.program -> World.t -> t
+val create : ?foreseen:int -> Dolphin_checker.Numbering.t -> Environment.options -> Core.program -> World.t -> t
 (** [foreseen] members of a new family are compiled in advance, so that layouts are seldom outgrown: 2,048 by
     default. *)
 
@@ -74,6 +74,8 @@ val landed : t -> Component.step -> int -> Residual.t -> Component.target
 
 val lay_out : Component.family -> unit
 (** [lay_out f] makes [f] as wide as its members need. *)
+
+val numbering : t -> Dolphin_checker.Numbering.t
 
 val outgrown : t -> bool
 (** Whether a family has outgrown its width since it was laid out. *)

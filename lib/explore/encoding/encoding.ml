@@ -35,9 +35,9 @@ let create ?(find_symmetry = fun _ _ -> None) ?(canonical = fun c outside -> (c,
     canonical;
     shareds;
     layouts = Layouts.create components;
-    machines = Machines.create ();
+    machines = Machines.create (Components.numbering components);
     frames = Hashtbl.create 16;
-    scripts = Scripts.create ();
+    scripts = Scripts.create (Components.numbering components);
     broken = [||];
   }
 
@@ -80,7 +80,7 @@ let frame t machine symmetry =
   match Hashtbl.find_opt t.frames key with
   | Some frame -> frame
   | None ->
-    Numbering.give ();
+    Numbering.give (Components.numbering t.components);
     let frame : Layout.frame = { number = Hashtbl.length t.frames; machine; symmetry } in
     Hashtbl.add t.frames key frame;
     frame

@@ -50,7 +50,7 @@ let lay_out_families (l : Layout.t) =
   Array.iter (fun (f : Component.family) -> if f.width = 0 then Components.lay_out f) l.families
 
 let add t key frame trees =
-  Dolphin_checker.Numbering.give ();
+  Dolphin_checker.Numbering.give (Components.numbering t.components);
   let l = Layout.create ~number:t.count frame trees in
   if t.count >= Array.length t.layouts then begin
     let layouts = Array.make (2 * (t.count + 1)) l in

@@ -17,7 +17,7 @@ module Numbers : sig
   type surroundings := t
   type t
 
-  val create : unit -> t
+  val create : Dolphin_checker.Numbering.t -> t
   val number : t -> surroundings -> int
   val value : t -> int -> surroundings
   val count : t -> int

@@ -7,12 +7,13 @@ type t = {
   outside_of_task : (int * int, Vehicles.t) Hashtbl.t;  (* by frame and shared state *)
   in_component : (int * int, Vehicles.t) Hashtbl.t;  (* by family, and number in the family *)
   in_contexts : (int, Vehicles.t) Hashtbl.t;  (* of a nest, by its path *)
+  numbering : Dolphin_checker.Numbering.t;
   turns : (Residual.timer, int) Hashtbl.t;
   mutable last : (Expansion.source * Vehicles.t) option;  (* whom the state that is being expanded knows *)
 }
 
-let create vehicles encoding =
-  { vehicles; encoding; outside_of_task = Hashtbl.create 64; in_component = Hashtbl.create 64;
+let create vehicles encoding numbering =
+  { vehicles; encoding; numbering; outside_of_task = Hashtbl.create 64; in_component = Hashtbl.create 64;
     in_contexts = Hashtbl.create 16; turns = Hashtbl.create 16; last = None }
 
 let memoised table key find =
@@ -60,7 +61,7 @@ let turn t number =
   match Hashtbl.find_opt t.turns number with
   | Some turn -> turn
   | None ->
-    Dolphin_checker.Numbering.give ();
+    Dolphin_checker.Numbering.give t.numbering;
     let turn = Hashtbl.length t.turns in
     Hashtbl.add t.turns number turn;
     turn

@@ -479,6 +479,7 @@ let coverage t =
   Option.iter (fun groups -> Task_groups.equivalent_handlers groups cover) t.task_groups;
   coverage
 
+let numbering t = Components.numbering t.components
 let check_fit t = Encoding.check_fit t.encoding
 
 type findings = { covered : Coverage.t; edges : (int * int) list; rounds : bool; renamed : bool }
@@ -498,11 +499,13 @@ let add_findings t { covered; edges; rounds; renamed } =
 let create ?(reduction = Reduction.Whole) ?(symmetry = Symmetry.none) ?(asked = []) ?labelling options program world =
   let reduction = if Environment.may_leave options program then Reduction.Whole else reduction in
   let foreseen = if Reduction.by_order reduction then Some 0 else None in
-  let components = Components.create ?foreseen options program world in
-  let shareds = Surroundings.Numbers.create () in
+  let numbering = Numbering.create () in
+  let components = Components.create ?foreseen numbering options program world in
+  let shareds = Surroundings.Numbers.create numbering in
   let number = Surroundings.Numbers.number shareds and value = Surroundings.Numbers.value shareds in
   let tick = ref ignore in
-  let task_groups = Task_groups.create ~tick:(fun () -> !tick ()) options program symmetry { number; value } in
+  let shared_numbers : Task_group.shareds = { numbering; number; value } in
+  let task_groups = Task_groups.create ~tick:(fun () -> !tick ()) options program symmetry shared_numbers in
   let vehicles =
     if Vehicle_orbits.is_none symmetry.vehicles then None
     else Some (Canonical_vehicles.create options program ~asked world symmetry)
@@ -513,6 +516,7 @@ let create ?(reduction = Reduction.Whole) ?(symmetry = Symmetry.none) ?(asked = 
   let observe = Option.map (fun labelling -> Valuation.action_of_local (Labelling.valuations labelling)) labelling in
   let steps = Memoised_steps.create ?observe components encoding and quotient = Quotient.create components encoding in
   let expansion = Expansion.create options components encoding steps quotient labelling in
-  let recruiting = if program.recruits then Option.map (fun v -> Recruiting.create v encoding) vehicles else None in
+  let recruiting =
+    if program.recruits then Option.map (fun v -> Recruiting.create v encoding numbering) vehicles else None in
   { options; reduction; program; world; components; encoding; layouts = Encoding.layouts encoding; steps; expansion;
     quotient; labelling; task_groups; vehicles; recruiting; tick }

@@ -27,11 +27,11 @@ type t = { number : int; pairs : int array; fixed : Pairs.t; unclear : bool }
 
 type context = { code : Footprint.code; texts : Names.t; numbers : Pair_numbers.t; known : t Closures.t }
 
-let context program =
+let context numbering program =
   {
     code = Footprint.code program;
-    texts = Names.create ();
-    numbers = Pair_numbers.create ();
+    texts = Names.create numbering;
+    numbers = Pair_numbers.create numbering;
     known = Closures.create 64;
   }
 

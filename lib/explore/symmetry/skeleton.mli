@@ -5,7 +5,7 @@ open Dolphin_semantics
 
 type context
 
-val context : Core.program -> context
+val context : Dolphin_checker.Numbering.t -> Core.program -> context
 
 (** {1:pairs Pairs of N} *)
 

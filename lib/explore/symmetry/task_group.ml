@@ -1,6 +1,10 @@
 open Dolphin_semantics
 
-type shareds = { number : Surroundings.t -> int; value : int -> Surroundings.t }
+type shareds = {
+  numbering : Dolphin_checker.Numbering.t;
+  number : Surroundings.t -> int;
+  value : int -> Surroundings.t;
+}
 
 module Keys = Dolphin_checker.Interner.Make (struct
     type t = string
@@ -289,10 +293,10 @@ let create isomorphism shareds ~number ~equivalent r (found : Automorphism.t) =
       label_orbits;
       equivalent = by_label;
       closures = Hashtbl.create 64;
-      keys = Keys.create ();
+      keys = Keys.create shareds.numbering;
       classes = [||];
       class_of_residual = Residuals.create 64;
-      roles = Keys.create ();
+      roles = Keys.create shareds.numbering;
       shared_signatures = Hashtbl.create 64;
       class_images = Images.create 64;
       shared_images = Images.create 64;

@@ -11,7 +11,11 @@ open Dolphin_semantics
 type t
 
 (** The numbers of what is shared. *)
-type shareds = { number : Surroundings.t -> int; value : int -> Surroundings.t }
+type shareds = {
+  numbering : Dolphin_checker.Numbering.t;
+  number : Surroundings.t -> int;
+  value : int -> Surroundings.t;
+}
 
 val create :
   Task_isomorphism.context ->

@@ -44,13 +44,13 @@ type t = {
   handlers : (Label.label, Label.label list) Hashtbl.t;  (* the orbit of each, in all tasks *)
 }
 
-let create ~tick options program (assumed : Symmetry.t) shareds =
+let create ~tick options program (assumed : Symmetry.t) (shareds : Task_group.shareds) =
   let with_breaks breaks =
     {
       tick;
       assumed;
       breaks;
-      context = Task_isomorphism.context options program;
+      context = Task_isomorphism.context shareds.numbering options program;
       footprints = Step_footprints.context options program;
       shareds;
       groups = Hashtbl.create 8;
@@ -109,7 +109,7 @@ let task f r tuples =
   match Residuals.find_opt f.tasks r with
   | Some task -> task
   | None ->
-    Dolphin_checker.Numbering.give ();
+    Dolphin_checker.Numbering.give f.shareds.numbering;
     let number = Residuals.length f.tasks in
     (* Where tasks are made, or code asks who is idle, it matters which vehicle holds what. *)
     let claims = Footprint.claims (Step_footprints.of_residual f.footprints r) in
@@ -167,7 +167,7 @@ let group f number e tuples =
   match Executions.find_opt f.executions e with
   | Some group -> group
   | None ->
-    Dolphin_checker.Numbering.give ();
+    Dolphin_checker.Numbering.give f.shareds.numbering;
     let group = { group = find_group f number e tuples; fixed = Spaces.create 8 } in
     Executions.add f.executions e group;
     group

@@ -4,7 +4,7 @@ open Core
 
 type context = { options : Environment.options; skeletons : Skeleton.context }
 
-let context options program = { options; skeletons = Skeleton.context program }
+let context numbering options program = { options; skeletons = Skeleton.context numbering program }
 let skeletons c = c.skeletons
 
 type label = Task of site | Code of int

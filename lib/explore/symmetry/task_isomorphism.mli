@@ -7,7 +7,7 @@ open Dolphin_environment
 
 type context
 
-val context : Environment.options -> Core.program -> context
+val context : Dolphin_checker.Numbering.t -> Environment.options -> Core.program -> context
 val skeletons : context -> Skeleton.context
 
 (** {1:labels Labels} *)

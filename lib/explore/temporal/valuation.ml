@@ -24,14 +24,16 @@ type t = {
 let nothing = 0
 
 let create program world propositions =
+  (* Under a monitor one process searches. *)
+  let numbering = Dolphin_checker.Numbering.create () in
   let valuations () =
-    let valuations = Valuations.create () in
+    let valuations = Valuations.create numbering in
     ignore (Valuations.number valuations (Array.map (fun _ -> false) propositions));
     valuations
   in
   let asks_states = Array.exists (fun p -> not (Proposition.needs_action p)) propositions in
   { program; world; propositions; asks_states; actions = valuations (); states = valuations ();
-    combined = Valuations.create (); pairs = [||] }
+    combined = Valuations.create numbering; pairs = [||] }
 
 let asks_states t = t.asks_states
 

@@ -1,13 +1,12 @@
 open Dolphin_semantics
 module Phrase = Dolphin_trace.Phrase
-module Vehicles = Set.Make (String)
 
 type t = {
   before : Core.platform_task Vehicle_map.t;  (* A before the transition: what a vehicle that is stopped was doing *)
   unheard : Core.vehicle list;  (* bound vehicles without a link *)
   unready : (Core.vehicle * string) list;  (* bound vehicles that cannot be given a plan, and why *)
   bound : Core.vehicle list;
-  members : Vehicles.t;  (* of [bound] *)
+  members : Vehicle_set.t;  (* of [bound] *)
   column : int;  (* width of the column of actors *)
 }
 
@@ -20,7 +19,8 @@ let narrowest = 10
 let widest = 24
 let program = "program"
 let start =
-  { before = Vehicle_map.empty; unheard = []; unready = []; bound = []; members = Vehicles.empty; column = narrowest }
+  { before = Vehicle_map.empty; unheard = []; unready = []; bound = []; members = Vehicle_set.empty;
+    column = narrowest }
 
 (* Further lines of a text stand below its first one. *)
 let text_of l ~time actor text =
@@ -151,7 +151,7 @@ let transition ?(stuck = false) l ~time (s : Transition.t) =
   let further = List.filteri (fun i _ -> i >= told_by_label s.label) s.effects in
   let happenings = of_label ~stuck s @ List.concat_map (of_effect ~stuck l) further in
   let lines = List.map (line l ~time) happenings in
-  let members = if bound == l.bound then l.members else Vehicles.of_list bound in
+  let members = if bound == l.bound then l.members else Vehicle_set.of_list bound in
   ({ l with before = s.next.shared.allocation; bound; members }, lines)
 
 let link l ~time (state : World.vehicle_state) =
@@ -176,7 +176,7 @@ let readiness l ~time (state : World.vehicle_state) =
     | None -> ({ l with unready = others }, [ line l ~time (of_vehicle state.id "is ready again") ])
 
 let news l ~time (state : World.vehicle_state) =
-  if not (Vehicles.mem state.id l.members) then (l, [])
+  if not (Vehicle_set.mem state.id l.members) then (l, [])
   else
     let l, of_link = link l ~time state in
     let l, of_readiness = readiness l ~time state in

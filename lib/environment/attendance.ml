@@ -1,7 +1,5 @@
 open Dolphin_semantics
 
-module Vehicle_set = Set.Make (String)
-
 (* Who comes after all others, in this order, and who does not come. *)
 type t = { coming : Core.vehicle list; missing : Core.vehicle list }
 

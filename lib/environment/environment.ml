@@ -1,5 +1,4 @@
 open Dolphin_semantics
-module Vehicle_set = Set.Make (String)
 
 type ending = Succeeds | May_fail | Fails
 

@@ -40,7 +40,7 @@ let inline (v : Scenario.vehicle) from plan =
 let links_with (faults : Dolphin_environment.Faults.t) d =
   let is_possible = Dolphin_environment.Faults.is_possible in
   if is_possible faults.join then Links.none
-  else if is_possible faults.loss then Links.only_first d.links
+  else if is_possible faults.loss && Links.count d.links > 0 then Links.only_first d.links
   else d.links
 
 (* The simulator's, and the usual one of links: see docs/language.md. *)

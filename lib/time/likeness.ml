@@ -44,7 +44,8 @@ type t = {
 
 let create ?apart (options : Timed.options) =
   let skeletons = Skeleton.context (Dolphin_checker.Numbering.create ()) options.program in
-  { options; apart; skeletons; constants = Constants.create 64; executions = States.create 8; possible = Inert.names_are_free options }
+  { options; apart; skeletons; constants = Constants.create 64; executions = States.create 8;
+    possible = Inert.names_are_free options }
 
 let number e = e.number
 

@@ -83,12 +83,12 @@ let news t =
   t.news <- [];
   List.rev news
 
-(* [numbered n i write] is the name that [i] has in [n]: that of the text that [write ()] gives, the first time. *)
 let grown items i fill =
   let longer = Array.make (max 16 (2 * (i + 1))) fill in
   Array.blit items 0 longer 0 (Array.length items);
   longer
 
+(* [numbered t n i write] is the name that [i] has in [n]: that of the text that [write ()] gives, the first time. *)
 let numbered t n i write =
   if i >= Array.length n.names then n.names <- grown n.names i (-1);
   let known = Array.unsafe_get n.names i in

@@ -25,24 +25,22 @@ module Pairs = struct
   let meet a b = (not (is_empty a)) && (not (is_empty b)) && meet a b
 end
 
-module Vehicles = Set.Make (String)
-
 (* Of B. *)
-type vehicles = All | These of Vehicles.t
+type vehicles = All | These of Vehicle_set.t
 
-let no_vehicles = These Vehicles.empty
-let is_none = function All -> false | These vs -> Vehicles.is_empty vs
+let no_vehicles = These Vehicle_set.empty
+let is_none = function All -> false | These vs -> Vehicle_set.is_empty vs
 
 let both a b =
-  match a, b with All, _ | _, All -> All | These vs, These ws -> These (Vehicles.union vs ws)
+  match a, b with All, _ | _, All -> All | These vs, These ws -> These (Vehicle_set.union vs ws)
 
 let common a b =
   match a, b with
   | All, other | other, All -> not (is_none other)
-  | These vs, These ws -> not (Vehicles.disjoint vs ws)
+  | These vs, These ws -> not (Vehicle_set.disjoint vs ws)
 
 let all_vehicles = All
-let these vs = These (Vehicles.of_list vs)
+let these vs = These (Vehicle_set.of_list vs)
 
 type t = {
   posts : Pairs.t;

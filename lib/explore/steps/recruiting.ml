@@ -1,15 +1,14 @@
 open Dolphin_semantics
-module Vehicles = Set.Make (String)
 
 type t = {
   vehicles : Canonical_vehicles.t;
   encoding : Encoding.t;
-  outside_of_task : (int * int, Vehicles.t) Hashtbl.t;  (* by frame and shared state *)
-  in_component : (int * int, Vehicles.t) Hashtbl.t;  (* by family, and number in the family *)
-  in_contexts : (int, Vehicles.t) Hashtbl.t;  (* of a nest, by its path *)
+  outside_of_task : (int * int, Vehicle_set.t) Hashtbl.t;  (* by frame and shared state *)
+  in_component : (int * int, Vehicle_set.t) Hashtbl.t;  (* by family, and number in the family *)
+  in_contexts : (int, Vehicle_set.t) Hashtbl.t;  (* of a nest, by its path *)
   numbering : Dolphin_checker.Numbering.t;
   turns : (Residual.timer, int) Hashtbl.t;
-  mutable last : (Expansion.source * Vehicles.t) option;  (* whom the state that is being expanded knows *)
+  mutable last : (Expansion.source * Vehicle_set.t) option;  (* whom the state that is being expanded knows *)
 }
 
 let create vehicles encoding numbering =
@@ -20,7 +19,7 @@ let memoised table key find =
   match Hashtbl.find_opt table key with
   | Some found -> found
   | None ->
-    let found = Vehicles.of_list (find ()) in
+    let found = Vehicle_set.of_list (find ()) in
     Hashtbl.add table key found;
     found
 
@@ -39,7 +38,7 @@ let in_component t (p : Component.component) =
 
 let in_nest t (nest : Layout.place) =
   match nest.inside with
-  | None -> Vehicles.empty
+  | None -> Vehicle_set.empty
   | Some { id; contexts; _ } ->
     memoised t.in_contexts id (fun () ->
         Canonical_vehicles.known_in_task t.vehicles (Residual.plug contexts Residual.hole))
@@ -50,7 +49,7 @@ let known t (x : Expansion.source) =
   | Some _ | None ->
     let of_component i _ = in_component t (Encoding.component x.layout x.key i) in
     let components = Array.mapi of_component x.layout.families and nests = Array.map (in_nest t) x.layout.nests in
-    let union = Array.fold_left Vehicles.union in
+    let union = Array.fold_left Vehicle_set.union in
     let known = union (union (outside_of_task t x) components) nests in
     t.last <- Some (x, known);
     known
@@ -69,6 +68,6 @@ let turn t number =
 let follows t x (step : Component.step) =
   match step.source, step.event with
   | Step { offer = Recruit_for (number, asked); _ }, Some (Recruited (_, v)) ->
-    let is_known u = Vehicles.mem u (known t x) in
+    let is_known u = Vehicle_set.mem u (known t x) in
     Canonical_vehicles.follows_recruit t.vehicles asked ~turn:(turn t number) ~is_known v
   | _, _ -> true

@@ -1,6 +1,5 @@
 open Dolphin_semantics
 open Dolphin_environment
-module Vehicles = Set.Make (String)
 
 type t = {
   options : Environment.options;
@@ -84,10 +83,10 @@ let renamed r f ~unordered (c : Configuration.t) outside =
 let sayings r name (c : Configuration.t) =
   let said = Hashtbl.create 8 in
   let add k x =
-    let found = ref Vehicles.empty in
-    let look v = if name v = None then found := Vehicles.add v !found; v in
+    let found = ref Vehicle_set.empty in
+    let look v = if name v = None then found := Vehicle_set.add v !found; v in
     ignore (Renaming.value look x);
-    match Vehicles.elements !found with
+    match Vehicle_set.elements !found with
     | [] -> ()
     | [ v ] ->
       let x = Value.normal (Renaming.value (fun u -> Option.value (name u) ~default:"") x) in
@@ -131,8 +130,8 @@ let canonical r c outside =
 (* {1 Transitions} *)
 
 let vehicles_of r c outside =
-  let found = ref Vehicles.empty in
-  let look v = found := Vehicles.add v !found; v in
+  let found = ref Vehicle_set.empty in
+  let look v = found := Vehicle_set.add v !found; v in
   ignore (renamed r look ~unordered:ignore (forget r c) outside);
   !found
 
@@ -169,11 +168,11 @@ let picking r outside (c : Configuration.t) (pick : Settings.pick) =
   let accepted = List.map id (List.filter is_accepted (World.vehicles r.world)) in
   let is_known =
     match vehicles_of r c outside with
-    | known -> fun v -> Vehicles.mem v known
+    | known -> fun v -> Vehicle_set.mem v known
     | exception Renaming.Too_large -> fix_all r
   in
-  let bound = Vehicles.of_list c.shared.bound in
-  let free = List.filter (fun v -> not (Vehicles.mem v bound)) accepted in
+  let bound = Vehicle_set.of_list c.shared.bound in
+  let free = List.filter (fun v -> not (Vehicle_set.mem v bound)) accepted in
   if pick.count <> Exactly 1 then begin
     check_order r accepted;
     let check = function
@@ -197,14 +196,14 @@ let picking r outside (c : Configuration.t) (pick : Settings.pick) =
 
 let known r c outside =
   match vehicles_of r c outside with
-  | found -> List.filter (is_movable r) (Vehicles.elements found)
+  | found -> List.filter (is_movable r) (Vehicle_set.elements found)
   | exception Renaming.Too_large -> fix_all r
 
 let known_in_task r t =
-  let found = ref Vehicles.empty in
-  let look v = if is_movable r v then found := Vehicles.add v !found; v in
+  let found = ref Vehicle_set.empty in
+  let look v = if is_movable r v then found := Vehicle_set.add v !found; v in
   match Renaming.residual look t with
-  | (_ : Residual.t) -> Vehicles.elements !found
+  | (_ : Residual.t) -> Vehicle_set.elements !found
   | exception Renaming.Too_large -> fix_all r
 
 (* Those of an orbit that nobody knows fit if one of them does: who is named by the task, or bound, is known. *)

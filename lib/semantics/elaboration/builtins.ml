@@ -134,10 +134,10 @@ let table_of_constants : (string * Core.value) list =
 
 let owners = [ "Location"; "Math"; "Speed"; "Z" ]
 
-(* A call [position(v)] is told from a variable [position] by its parentheses, [message x] is not. *)
 let takes_nothing name =
   match find name with Some { arguments = These { required = []; _ }; _ } -> true | Some _ | None -> false
 
+(* A call [position(v)] is told from a variable [position] by its parentheses, [message x] is not. *)
 let is_reserved name =
   List.mem name owners || match find name with Some { result = Other; _ } -> true | Some _ | None -> false
 

@@ -57,14 +57,13 @@ let report_unknown ?fallback program =
   let near name = hint_for_unknown name (List.filter (fun other -> other <> name) names) in
   let first hints = List.find_map (fun hint -> hint ()) hints in
   let hint name at =
-    let there = Option.map (fun hint -> hint name) (Scope.hint_at program at) in
-    match fallback with
-    | Some fallback -> first [ (fun () -> near name); (fun () -> fallback name) ]
-    | None when Scope.is_hint_certain program at -> there
-    | None ->
+    match Scope.hint_at program at, fallback with
+    | Some (true, there), _ -> Some (there name)
+    | _, Some fallback -> first [ (fun () -> near name); (fun () -> fallback name) ]
+    | there, None ->
       first
-        [ (fun () -> hint_for_prelude name); (fun () -> near name); (fun () -> there);
-          (fun () -> hint_for_setting name) ]
+        [ (fun () -> hint_for_prelude name); (fun () -> near name);
+          (fun () -> Option.map (fun (_, there) -> there name) there); (fun () -> hint_for_setting name) ]
   in
   List.iter
     (fun (name, at) ->

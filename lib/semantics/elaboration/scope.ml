@@ -26,7 +26,7 @@ type program = {
   mutable on_interrupt : Core.lambda option;
   mutable looked_at : string list option;  (* the keys that code consumes or polls; [None]: any *)
   mutable all_ordered : bool;
-  mutable hints : (Location.t * (bool * (string -> string))) list;    (* for names that are unknown *)
+  mutable hints : (Location.t * (bool * (string -> string))) list;  (* for names that are unknown *)
   mutable recruits : bool;
   mutable goes_round : bool;
   mutable reads_sensors : bool;
@@ -141,8 +141,7 @@ let ordered_keys program : Tuple_space.order =
   | false, [] -> No_key
   | false, keys -> Keys (List.sort String.compare keys)
 let note_hint program ~certain at hint = program.hints <- (at, (certain, hint)) :: program.hints
-let hint_at program at = Option.map snd (List.assq_opt at program.hints)
-let is_hint_certain program at = match List.assq_opt at program.hints with Some (certain, _) -> certain | None -> false
+let hint_at program at = List.assq_opt at program.hints
 let note_recruit program = program.recruits <- true
 let note_rounds program = program.goes_round <- true
 let note_sensor program = program.reads_sensors <- true

@@ -115,11 +115,8 @@ val note_hint : program -> certain:bool -> Location.t -> (string -> string) -> u
 (** [note_hint program ~certain at hint]: if the name there is unknown, [hint name] is what would be right; if it is
     not [certain], then only if no known name is like it. *)
 
-val hint_at : program -> Location.t -> (string -> string) option
-(** What {!note_hint} said of this place. *)
-
-val is_hint_certain : program -> Location.t -> bool
-(** Whether {!note_hint} said so of this place. *)
+val hint_at : program -> Location.t -> (bool * (string -> string)) option
+(** What {!note_hint} said of this place: whether it is certain, and the hint. *)
 
 val is_assigned : program -> string -> bool
 (** Whether something gives a value to a variable of this name. *)

@@ -230,8 +230,6 @@ let settle context verdict =
   | Handler _ -> Judged verdict
   | Script | Task_code -> Wrong "ignore(), propagate() and retry() belong in onError { ... }"
 
-module Vehicle_set = Set.Make (String)
-
 let release context vs =
   let bound = Vehicle_set.of_list context.bound in
   match List.filter (fun v -> Vehicle_set.mem v bound) vs with

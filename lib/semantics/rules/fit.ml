@@ -3,8 +3,6 @@ open Core
 
 let ( let* ) = Result.bind
 
-module Vehicle_set = Set.Make (String)
-
 let inside world (asked : Vehicle_filter.t) v =
   match asked.region with
   | None -> Ok true

@@ -346,7 +346,6 @@ let rec fold_all f acc r =
   | Until (_, _, a) | Watch (a, _) | Hold (_, a) | Recruited (_, a) | During { body = a; _ } -> fold_all f acc a
   | Repeat { round; again } -> all acc (again.each :: Option.to_list round)
 
-module Vehicle_set = Set.Make (String)
 module Timer_set = Set.Make (Int)
 
 let add_named found = function

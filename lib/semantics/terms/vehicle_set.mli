@@ -1,0 +1,3 @@
+(** Finite sets of vehicles. *)
+
+include Set.S with type elt = Core.vehicle

@@ -20,7 +20,7 @@ type t = {
 
 (* {1 Random programs} *)
 
-let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]); replies = Calls.replies }
+let answering = Calls.answering
 
 let with_losses losses = { answering with faults = { Faults.none with loss = losses } }
 let with_latecomers latecomers = { answering with faults = { Faults.none with join = latecomers } }

@@ -6,7 +6,7 @@ module Generate = Test_support.Generate
 module Posts = Test_support.Posts
 module Calls = Test_support.Calls
 
-let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]); replies = Calls.replies }
+let answering = Calls.answering
 
 let twice = Result.get_ok (Faults.of_string "all=2")
 

@@ -238,7 +238,7 @@ let examples =
 
 (* {1 Random programs} *)
 
-let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]); replies = Calls.replies }
+let answering = Calls.answering
 
 let environments =
   [ ("as planned", answering);

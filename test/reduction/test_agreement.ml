@@ -3,7 +3,6 @@
    default; SEED is where they start. *)
 
 open Dolphin_environment
-open Dolphin_explore
 module Generate = Test_support.Generate
 module Posts = Test_support.Posts
 module Calls = Test_support.Calls
@@ -52,7 +51,7 @@ let nested ~sensing =
   let nested = if sensing then Generate.sensing_nested else Generate.nested in
   map (Generate.executing ~before) (nested ~vehicles:Generate.vehicles ~depth)
 
-let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]); replies = Calls.replies }
+let answering = Calls.answering
 
 let failing_vehicle v : Environment.options =
   { answering with endings = (fun v' _ -> if v = v' then Environment.Fails else Succeeds) }
@@ -92,39 +91,23 @@ let case =
 let print ((program, world), (name, _)) =
   let sensors = if Dolphin_semantics.World.is_open world then "open" else "closed" in
   Printf.sprintf "%s, %s world:\n%s" name sensors (Generate.print program)
-let skipped = ref 0
-let whole = ref 0
-let reduced = ref 0
-let broken = Hashtbl.create 7
+let tally = Tally.create ()
 
 let agrees ((ast, world), (_, environment)) =
   let program = Posts.declared environment (Generate.compile ast) in
-  match Agreement.check ~limit ~reductions:[ Partial_order; All ] environment program world with
-  | Error what -> QCheck2.Test.fail_report what
-  | Ok None ->
-    incr skipped;
-    true
-  | Ok (Some found) ->
-    whole := !whole + found.whole;
-    reduced := !reduced + found.reduced;
-    let note p = Hashtbl.replace broken p (1 + Option.value (Hashtbl.find_opt broken p) ~default:0) in
-    List.iter note found.broken;
-    true
+  Tally.agrees tally (Agreement.check ~limit ~reductions:[ Partial_order; All ] environment program world)
 
 let test_agreement () =
   let test = QCheck2.Test.make ~count:programs ~print ~name:"reduced and plain search agree" case agrees in
   Test_support.Property.on_each_seed ~usual ~programs test;
-  Printf.printf "%d skipped, of more than %d states; %d states, %d after reduction\n" !skipped limit !whole !reduced;
-  Hashtbl.iter (fun p n -> Printf.printf "%s: broken by %d\n" (Property.name p) n) broken
+  Printf.printf "%d skipped, of more than %d states; %d states, %d after reduction\n" tally.skipped limit tally.whole
+    tally.reduced;
+  Tally.print_broken tally
 
 (* Where nothing is broken, or nothing reduced, agreement says little. *)
 let test_variety () =
-  let enough property =
-    if property <> Property.All_reached && not (Hashtbl.mem broken property) then
-      Alcotest.failf "no program breaks: %s" (Property.name property)
-  in
-  List.iter enough Property.all;
-  if not (5 * !reduced < 4 * !whole) then Alcotest.fail "little is reduced"
+  Tally.check_broken tally;
+  if not (5 * tally.reduced < 4 * tally.whole) then Alcotest.fail "little is reduced"
 
 let () =
   Alcotest.run "reduction"

@@ -50,12 +50,8 @@ let environments =
 let case = QCheck2.Gen.(pair Picking.gen (oneofl environments))
 let print (program, (name, _)) = Printf.sprintf "%s, %s" name (Picking.print program)
 let invalid = ref 0
-let skipped = ref 0
-let whole = ref 0
-let reduced = ref 0
-let smaller = ref 0
 let exchanged = ref 0
-let broken = Hashtbl.create 7
+let tally = Tally.create ()
 
 let agrees ((p : Picking.t), (_, environment)) =
   match Pure_run.compile p.text with
@@ -66,19 +62,9 @@ let agrees ((p : Picking.t), (_, environment)) =
       let program = Test_support.Posts.declared environment program in
       let world = snd p.world in
       let invariants = Option.to_list (Result.to_option (Condition.of_string program p.invariant)) in
-      match Agreement.check_peers ~limit ~invariants environment program world with
-      | Error what -> QCheck2.Test.fail_report what
-      | Ok None ->
-        incr skipped;
-        true
-      | Ok (Some (found, used)) ->
-        whole := !whole + found.whole;
-        reduced := !reduced + found.reduced;
-        if found.reduced < found.whole then incr smaller;
-        if used then incr exchanged;
-        let note p = Hashtbl.replace broken p (1 + Option.value (Hashtbl.find_opt broken p) ~default:0) in
-        List.iter note found.broken;
-        true)
+      let found = Agreement.check_peers ~limit ~invariants environment program world in
+      (match found with Ok (Some (_, true)) -> incr exchanged | Ok _ | Error _ -> ());
+      Tally.agrees tally (Result.map (Option.map fst) found))
 
 let test_agreement () =
   let test = QCheck2.Test.make ~count:programs ~print ~name:"search with peers and plain search agree" case agrees in
@@ -86,18 +72,14 @@ let test_agreement () =
   Printf.printf
     "%d no programs, %d skipped, of more than %d states; %d of %d states by exchanging peers alone, fewer for %d \
      programs; peers exchanged in %d\n"
-    !invalid !skipped limit !reduced !whole !smaller !exchanged;
-  Hashtbl.iter (fun p n -> Printf.printf "%s: broken by %d\n" (Property.name p) n) broken
+    !invalid tally.skipped limit tally.reduced tally.whole tally.smaller !exchanged;
+  Tally.print_broken tally
 
 (* Where nothing is broken, or nothing reduced, agreement says little. *)
 let test_variety () =
-  let enough property =
-    if not (property = Property.All_reached || Hashtbl.mem broken property) then
-      Alcotest.failf "no program breaks: %s" (Property.name property)
-  in
-  List.iter enough Property.all;
-  let tried = (programs * List.length (Test_support.Property.seeds ~usual)) - !skipped - !invalid in
-  if 4 * !smaller < tried then Alcotest.fail "few programs have less states"
+  Tally.check_broken tally;
+  let tried = (programs * List.length (Test_support.Property.seeds ~usual)) - tally.skipped - !invalid in
+  if 4 * tally.smaller < tried then Alcotest.fail "few programs have less states"
 
 (* Of an end it does not matter which vehicles N names: x has two that are alike, in an order that names decide. *)
 let test_end () =

@@ -110,39 +110,29 @@ let print ((text, (world, _)), (name, _)) = f "%s, in the world '%s':\n%s" name 
 (* {1 Agreement} *)
 
 let refused = ref 0
-let skipped = ref 0
-let whole = ref 0
-let reduced = ref 0
+let tally = Tally.create ()
 
 let agrees ((text, (_, world)), (_, environment)) =
   match Pure_run.compile text with
   | Error _ ->
     incr refused;
     true
-  | Ok program -> (
-      let program = Test_support.Posts.declared environment program in
-      match Agreement.check ~limit ~reductions:[ Partial_order; All ] environment program world with
-      | Error what -> QCheck2.Test.fail_report what
-      | Ok None ->
-        incr skipped;
-        true
-      | Ok (Some found) ->
-        whole := !whole + found.whole;
-        reduced := !reduced + found.reduced;
-        true)
+  | Ok program ->
+    let program = Test_support.Posts.declared environment program in
+    Tally.agrees tally (Agreement.check ~limit ~reductions:[ Partial_order; All ] environment program world)
 
 let test_agreement () =
   let case = pair (pair text (oneofl worlds)) (oneofl environments) in
   let test = QCheck2.Test.make ~count:programs ~print ~name:"reduced and plain search agree" case agrees in
   Test_support.Property.on_each_seed ~usual ~programs test;
-  Printf.printf "%d refused, %d skipped, of more than %d states; %d states, %d after reduction\n" !refused !skipped limit
-    !whole !reduced
+  Printf.printf "%d refused, %d skipped, of more than %d states; %d states, %d after reduction\n" !refused tally.skipped
+    limit tally.whole tally.reduced
 
 (* Where nothing is reduced, agreement says little. *)
 let test_variety () =
   let tried = programs * List.length (Test_support.Property.seeds ~usual) in
-  if 2 * (!refused + !skipped) > tried then Alcotest.fail "few programs are tried";
-  if not (4 * !reduced < 3 * !whole) then Alcotest.fail "little is reduced"
+  if 2 * (!refused + tally.skipped) > tried then Alcotest.fail "few programs are tried";
+  if not (4 * tally.reduced < 3 * tally.whole) then Alcotest.fail "little is reduced"
 
 let () =
   Alcotest.run "recruits"

@@ -4,7 +4,6 @@
    how many programs are tried, 2,000 by default; SEED is where they start. *)
 
 open Dolphin_environment
-open Dolphin_explore
 module Generate = Test_support.Generate
 module Calls = Test_support.Calls
 
@@ -12,7 +11,7 @@ let number name default = match Sys.getenv_opt name with Some n -> int_of_string
 let programs = number "PROGRAMS" 2_000
 let usual = 20_261_122
 let limit = number "LIMIT" 400
-let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]); replies = Calls.replies }
+let answering = Calls.answering
 let failing fails : Environment.options =
   { answering with endings = (fun v p -> if fails v p then May_fail else Succeeds) }
 
@@ -36,43 +35,24 @@ let case =
   pair (frequency [ (4, Generate.replicated); (1, Calls.within Generate.replicated) ]) (oneofl environments)
 
 let print (program, (name, _)) = Printf.sprintf "%s:\n%s" name (Generate.print program)
-let skipped = ref 0
-let whole = ref 0
-let reduced = ref 0
-let smaller = ref 0
-let broken = Hashtbl.create 7
+let tally = Tally.create ()
 
 let agrees (ast, (_, environment)) =
   let program = Test_support.Posts.declared environment (Generate.compile ast) in
-  match Agreement.check ~limit ~reductions:[ All; Symmetry ] environment program Generate.world with
-  | Error what -> QCheck2.Test.fail_report what
-  | Ok None ->
-    incr skipped;
-    true
-  | Ok (Some found) ->
-    whole := !whole + found.whole;
-    reduced := !reduced + found.reduced;
-    if found.reduced < found.whole then incr smaller;
-    let note p = Hashtbl.replace broken p (1 + Option.value (Hashtbl.find_opt broken p) ~default:0) in
-    List.iter note found.broken;
-    true
+  Tally.agrees tally (Agreement.check ~limit ~reductions:[ All; Symmetry ] environment program Generate.world)
 
 let test_agreement () =
   let test = QCheck2.Test.make ~count:programs ~print ~name:"symmetric and plain search agree" case agrees in
   Test_support.Property.on_each_seed ~usual ~programs test;
-  Printf.printf "%d skipped, of more than %d states; %d of %d states by symmetry alone, fewer for %d programs\n" !skipped limit
-    !reduced !whole !smaller;
-  Hashtbl.iter (fun p n -> Printf.printf "%s: broken by %d\n" (Property.name p) n) broken
+  Printf.printf "%d skipped, of more than %d states; %d of %d states by symmetry alone, fewer for %d programs\n"
+    tally.skipped limit tally.reduced tally.whole tally.smaller;
+  Tally.print_broken tally
 
 (* Where nothing is broken, or nothing reduced, agreement says little. *)
 let test_variety () =
-  let enough property =
-    if not (List.mem property [ Property.All_reached; Termination; Vehicles ] || Hashtbl.mem broken property) then
-      Alcotest.failf "no program breaks: %s" (Property.name property)
-  in
-  List.iter enough Property.all;
-  let tried = (programs * List.length (Test_support.Property.seeds ~usual)) - !skipped in
-  if 5 * !smaller < 2 * tried then Alcotest.fail "few programs have less states"
+  Tally.check_broken ~but:[ Termination; Vehicles ] tally;
+  let tried = (programs * List.length (Test_support.Property.seeds ~usual)) - tally.skipped in
+  if 5 * tally.smaller < 2 * tried then Alcotest.fail "few programs have less states"
 
 let () =
   Alcotest.run "symmetry"

@@ -12,3 +12,6 @@ val names : string list
 val replies : string -> (Core.value, string) result list list
 (** By name of the call, what may be replied at each time, the last for all later ones: as fleets and explorers have
     it. Not every call has a reply. *)
+
+val answering : Dolphin_environment.Environment.options
+(** The default, in which questions are answered by 1 or 2 at first and by 0 later, and calls by {!replies}. *)

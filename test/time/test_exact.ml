@@ -10,7 +10,7 @@ module Calls = Test_support.Calls
 module Posts = Test_support.Posts
 
 let programs = match Sys.getenv_opt "PROGRAMS" with Some n -> int_of_string n | None -> 600
-let answering = { Environment.default with answers = (fun _ -> [ [ "1"; "2" ]; [ "0" ] ]); replies = Calls.replies }
+let answering = Calls.answering
 
 (* What need not come may come at any time, and no enumeration ends. *)
 let certain = List.map (fun (i : Environment.input) -> { i with certain = true }) Posts.inputs

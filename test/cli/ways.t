@@ -35,6 +35,8 @@ what flies three, and boats stay on the surface.
      3:40  diver       ends dive
      3:40  program     releases diver, plane, boat
      3:40  program     ends
+  $ dolphin trace check levels.dol levels.run
+  levels.run: a run, of 14 transitions in 3:40; completed
   $ heights() { dolphin trace export levels.run --to csv | awk -F, -v v="$1" '$3 == v { print $1, $7 }'; }
   $ heights diver | awk '$1 % 20 == 0'
   0 0
@@ -84,6 +86,8 @@ A plan of many points is drawn as it is planned: of 3,000, journals leave out th
      7:34  diver       ends long
      7:34  program     releases diver
      7:34  program     ends
+  $ dolphin trace check long.dol long.run
+  long.run: a run, of 8 transitions in 7:34; completed
   $ grep -o '"ways":{[^}]*}' long.run | tr -s '[]' '\n\n' | grep '^[0-9]'
   41.185,-8.706
   41.1858995,-8.706
@@ -93,5 +97,3 @@ A plan of many points is drawn as it is planned: of 3,000, journals leave out th
   41.1863506,-8.7042002
   41.1863777,-8.7042002
   41.1863777,-8.706
-
-  $ check-journals

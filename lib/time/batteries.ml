@@ -4,32 +4,40 @@ module Battery = Dolphin_scenario.Battery
 
 let seconds ms = float ms /. 1000.
 
-let changes (v : Scenario.vehicle) (t : Transition.t) =
-  let is_over = match t.label with Done (w, _) | Fail (w, _, _) -> w = v.id | _ -> false in
-  let is_stopped = List.exists (function Effect.Stop w -> w = v.id | _ -> false) t.effects in
-  let starts = List.exists (function Effect.Start (w, _) -> w = v.id | _ -> false) t.effects in
-  (is_over || is_stopped, starts)
+type turn = { vehicle : Core.vehicle; under_way : bool; at : int }
 
-(* Between two changes it goes one way: it is least at one of them. *)
-let left (v : Scenario.vehicle) steps dates =
-  let change (b, least) (t : Transition.t) date =
-    let at = seconds date in
-    let is_over, starts = changes v t in
-    let b' = if is_over then Battery.rest b ~at else b in
-    ((if starts then Battery.set_out b' ~at else b'), Float.min least (Battery.level b ~at))
+let turns start steps dates =
+  let vehicle (p : Timed.pending) = match p.item with Task v -> Some v | _ -> None in
+  let add (before, found) (step : Timed.step) at =
+    let vehicles = List.sort_uniq String.compare (List.filter_map vehicle (before.Timed.pending @ step.next.pending)) in
+    let turn vehicle =
+      let under_way = Timed.is_under_way step.next vehicle in
+      if under_way = Timed.is_under_way before vehicle then None else Some { vehicle; under_way; at }
+    in
+    (step.next, List.rev_append (List.filter_map turn vehicles) found)
   in
-  let b = Battery.start v in
-  snd (List.fold_left2 change (b, Battery.level b ~at:0.) steps dates)
+  List.rev (snd (List.fold_left2 add (start, []) steps dates))
 
-let spans v steps =
+(* Between two turns it goes one way: it is least at one of them. *)
+let left (v : Scenario.vehicle) turns ~until =
+  let add (b, least) turn =
+    let at = seconds turn.at in
+    ((if turn.under_way then Battery.set_out b ~at else Battery.rest b ~at), Float.min least (Battery.level b ~at)) in
+  let b = Battery.start v in
+  let turns = List.filter (fun turn -> String.equal turn.vehicle v.id) turns in
+  let b, least = List.fold_left add (b, Battery.level b ~at:0.) turns in
+  Float.min least (Battery.level b ~at:(seconds until))
+
+let spans (v : Scenario.vehicle) start steps =
   let span under_way i j : Dates.span =
     if Battery.rate v ~under_way > 0. then Short (i, j) else Long (i, j) in
-  let turn (k, since, under_way, found) t =
-    let is_over, starts = changes v t in
-    if is_over || starts then (k + 1, k, starts, span under_way since k :: found) else (k + 1, since, under_way, found)
+  let add (k, since, before, found) (step : Timed.step) =
+    let is_under_way s = Timed.is_under_way s v.id in
+    if is_under_way before = is_under_way step.next then (k + 1, since, step.next, found)
+    else (k + 1, k, step.next, span (is_under_way before) since k :: found)
   in
-  let k, since, under_way, found = List.fold_left turn (1, 0, false, []) steps in
-  span under_way since (k - 1) :: found
+  let k, since, last, found = List.fold_left add (1, 0, start, []) steps in
+  span (Timed.is_under_way last v.id) since (k - 1) :: found
 
 type way = Timed_system.edge list
 

@@ -3,13 +3,19 @@
 open Dolphin_semantics
 module Scenario = Dolphin_scenario.Scenario
 
-val left : Scenario.vehicle -> Transition.t list -> int list -> float
-(** [left v steps dates] is the least that is left in the battery of [v] during a run with these dates: under way from
-    the start of each task until its end, at rest else. *)
+(** That a vehicle sets out to carry a task out, or ceases to. *)
+type turn = { vehicle : Core.vehicle; under_way : bool; at : int  (** milliseconds since the start *) }
 
-val spans : Scenario.vehicle -> Transition.t list -> Dates.span list
-(** [spans v steps] is what makes the battery of [v] low at the end of [steps], the last first: that it is long under
-    way and short at rest where it is charged. *)
+val turns : Timed.state -> Timed.step list -> int list -> turn list
+(** [turns s steps dates] is those of a run from [s] with these dates. *)
+
+val left : Scenario.vehicle -> turn list -> until:int -> float
+(** [left v turns ~until] is the least that is left in the battery of [v] during a run with these turns that ends at
+    [until]: under way it is drained, at rest else. *)
+
+val spans : Scenario.vehicle -> Timed.state -> Timed.step list -> Dates.span list
+(** [spans v s steps] is what makes the battery of [v] low at the end of [steps] from [s], the last first: that it is
+    long under way and short at rest where it is charged. *)
 
 type way = Timed_system.edge list
 

@@ -5,9 +5,12 @@ type t = { options : Timed.options; vehicle : Core.vehicle }
 
 let create options vehicle = { options; vehicle }
 let vehicle c = c.vehicle
-let awaits c (s : Timed.state) = List.exists (fun (p : Timed.pending) -> p.item = Task c.vehicle) s.pending
-let is_under_way = awaits
-let is_heard c = not (Faults.is_possible c.options.environment.faults.loss)
+let is_under_way c s = Timed.is_under_way s c.vehicle
+
+let is_heard c =
+  let faults = c.options.environment.faults in
+  (not (Faults.is_possible faults.loss))
+  && not (Links.may_go (Durations.links_with faults c.options.durations) c.vehicle)
 
 let is_newly_bound c (step : Timed.step) =
   let is_mine : Effect.t -> bool = function Bind vs | Release vs -> List.mem c.vehicle vs | _ -> false in
@@ -51,7 +54,7 @@ let is_claim c : World.assumption -> bool = function
 
 let turns c before (step : Timed.step) =
   List.mem (Timed.Task c.vehicle) step.fresh
-  || awaits c before <> awaits c step.next
+  || is_under_way c before <> is_under_way c step.next
   || List.exists (is_claim c) step.transition.assumed
 
 (* {1 What other looks would lead to} *)

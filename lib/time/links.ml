@@ -60,6 +60,10 @@ let changes l = Array.to_list l.changes
 let silent l k = l.silent.(k)
 let is_silent l k v = is_in v l.silent.(k)
 
+let may_go l v =
+  let goes k (w, _) = String.equal v w && is_silent l (k + 1) v in
+  Array.exists Fun.id (Array.mapi goes l.changes)
+
 let words l k =
   let v, _ = l.changes.(k) in
   let is_first = not (Array.exists (fun (w, _) -> String.equal v w) (Array.sub l.changes 0 k)) in

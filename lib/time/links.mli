@@ -29,6 +29,9 @@ val change : t -> int -> Core.vehicle * int
 val changes : t -> (Core.vehicle * int) list
 (** All of them. *)
 
+val may_go : t -> Core.vehicle -> bool
+(** [may_go l v] is whether the link of [v] goes after there was one. *)
+
 val words : t -> int -> string
 (** What change [k] is: ["b joins"], ["b's link goes"], ["b's link is back"]. *)
 

@@ -118,6 +118,7 @@ let may_change_during_tasks o =
   may_join_during_tasks o || Links.count (links o) > Links.count (Links.only_first (links o))
 
 let is_silent o s v = Links.is_silent (links o) s.changes v
+let is_under_way s v = List.exists (fun p -> p.item = Task v && p.progress = Under_way) s.pending
 
 (* Who is there matters as long as the program may look for vehicles, and whose link is silent as long as it has the
    vehicle. *)

@@ -58,6 +58,9 @@ type state = private {
 
 val initial : options -> state
 
+val is_under_way : state -> Core.vehicle -> bool
+(** [is_under_way s v] is whether [v] carries a task out: none whose order waits for the link, and none that is over. *)
+
 val compare : state -> state -> int
 val equal : state -> state -> bool
 val hash : state -> int

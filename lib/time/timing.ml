@@ -9,6 +9,7 @@ type window = { earliest : int; latest : date }
 type run = {
   steps : Transition.t list;
   dates : int list;
+  turns : Batteries.turn list;
   cycle : Transition.t list;
   chain : Schedule.link list;
 }
@@ -46,18 +47,19 @@ type outcome = {
 (* {1 Runs} *)
 
 (* Of steps from [start] with their dates, if these are known. *)
-let with_dates options start steps dates =
+let with_dates options start steps ~chain dates =
   let found = Timed.transitions options start steps in
   let date i = match dates with Some dates -> [ dates.(i) ] | None -> [] in
   let known = List.mapi (fun i t -> Option.map (fun t -> (t, date i)) t) found in
   let known = List.filter_map Fun.id known in
-  (List.map fst known, List.concat_map snd known)
+  { steps = List.map fst known; dates = List.concat_map snd known; cycle = []; chain;
+    turns = Option.fold dates ~none:[] ~some:(fun dates -> Batteries.turns start steps (Array.to_list dates)) }
 
 let run_of goal options system steps =
   let start = Timed_system.start system in
   let schedule = Schedule.make goal options start steps in
-  let steps, dates = with_dates options start steps (Option.map (fun (s : Schedule.t) -> s.dates) schedule) in
-  { steps; dates; cycle = []; chain = Option.fold schedule ~none:[] ~some:(fun (s : Schedule.t) -> s.chain) }
+  with_dates options start steps (Option.map (fun (s : Schedule.t) -> s.dates) schedule)
+    ~chain:(Option.fold schedule ~none:[] ~some:(fun (s : Schedule.t) -> s.chain))
 
 let run_along goal options system moves =
   match Unfold.run system goal options moves with
@@ -72,10 +74,10 @@ let run_around options system (c : Timed_system.cycle) =
   let steps n = Option.get (Unfold.run system Latest options (Timed_system.path system n)) in
   let stem = steps c.from and whole = steps c.last in
   let around = without (List.length stem) whole @ [ c.back ] in
-  let transitions from steps = fst (with_dates options from steps None) in
+  let undated from steps = with_dates options from steps ~chain:[] None in
   let start = Timed_system.start system in
   let from = List.fold_left (fun _ (s : Timed.step) -> s.next) start stem in
-  { steps = transitions start stem; dates = []; cycle = transitions from around; chain = [] }
+  { (undated start stem) with cycle = (undated from around).steps }
 
 let endless options system =
   match Timed_system.cycle system, Timed_system.stuck system with
@@ -134,6 +136,9 @@ let slightly = 1e-9
 
 let is_empty share = share < slightly
 
+(* In a run whose dates are known. *)
+let left v run = Batteries.left v run.turns ~until:(List.fold_left max 0 run.dates)
+
 (* What was found of a battery: a bound, and the ways of a search that it may be of. *)
 type bounded = { bound : float; of_ways : (Timed_system.t * Timed_system.edge list) list }
 
@@ -159,11 +164,8 @@ let lowest options (v : Scenario.vehicle) known { bound; of_ways } =
     | None -> None
     | Some steps -> (
         let start = Timed_system.start system in
-        let ts = List.map (fun (s : Timed.step) -> s.transition) steps in
-        match Schedule.stretched options start steps (Batteries.spans v ts) with
-        | Some dates ->
-          let steps, dates = with_dates options start steps (Some dates) in
-          Some { steps; dates; cycle = []; chain = [] }
+        match Schedule.stretched options start steps (Batteries.spans v start steps) with
+        | Some dates -> Some (with_dates options start steps ~chain:[] (Some dates))
         | None | (exception Dates.Contradiction) -> None)
     | exception (Timed_system.Broken | Dates.Contradiction) -> None
   in
@@ -175,8 +177,8 @@ let lowest options (v : Scenario.vehicle) known { bound; of_ways } =
     | run :: runs -> (
         match run (), found with
         | (None | Some { dates = []; _ }), _ -> lowest found runs
-        | Some run, Some (known, _) when known <= Batteries.left v run.steps run.dates -> lowest found runs
-        | Some run, (Some _ | None) -> lowest (Some (Batteries.left v run.steps run.dates, run)) runs)
+        | Some run, Some (known, _) when known <= left v run -> lowest found runs
+        | Some run, (Some _ | None) -> lowest (Some (left v run, run)) runs)
   in
   lowest known (List.concat_map of_way of_ways)
 
@@ -184,7 +186,7 @@ let lowest options (v : Scenario.vehicle) known { bound; of_ways } =
 let battery options ~observed ~last ~is_known (v : Scenario.vehicle) first =
   let is_shown = is_known && not options.Timed.program.reads_sensors in
   let improved known found = if is_shown then lowest options v known found else None in
-  let of_last (run : run) = if run.dates = [] then None else Some (Batteries.left v run.steps run.dates, run) in
+  let of_last (run : run) = if run.dates = [] then None else Some (left v run, run) in
   let known = if is_shown then Option.bind last of_last else None in
   let known = Option.fold first ~none:known ~some:(improved known) in
   let is_exact { bound; _ } = Option.fold known ~none:false ~some:(fun (left, _) -> left <= bound +. slightly) in

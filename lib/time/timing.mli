@@ -11,6 +11,7 @@ type window = { earliest : int; latest : date }
 type run = {
   steps : Transition.t list;
   dates : int list;  (** of each step, in milliseconds; [[]] if they have no latest dates *)
+  turns : Batteries.turn list;  (** then, too, when vehicles set out and cease to be under way *)
   cycle : Transition.t list;  (** what comes after it, for ever *)
   chain : Schedule.link list;  (** the durations that add up to its last date *)
 }

@@ -52,7 +52,11 @@ let ended (before : Timed_place.t) zone (step : Timed.step) (p : Timed.pending) 
     when ((not (is_awaited p.item)) || List.mem p.item step.fresh)
       && not (is_inert p.item || is_mapped before.execution (label v task)) ->
     let since = Option.bind (List.assoc_opt p.item before.clocks) (fun clock -> Zone.most clock zone) in
-    Some (v, Option.value since ~default:unknown)
+    let since = Option.value since ~default:unknown in
+    (match p.progress, p.bounds with
+     | Ordered, _ -> None
+     | Over, Within { most; _ } -> Some (v, min since most)
+     | Over, (Some_time | Never) | Under_way, _ -> Some (v, since))
   | ( Task _ | Timer _ | Question _ | Recruit _ | Answer | Reply | Posting _ | Links | Silence _ | Course _ | Date _ ),
     _ -> None
 

@@ -489,6 +489,46 @@ Who joins, leaves, or loses a link by the fleet does so then: the order to c wai
   8:30   end
   its end depends on: b joins (1:30), then joins.dol:2:9: survey on b (7:00)
 
+While its order waits for a link, and once its task is over unheard, a vehicle rests: 32.2 % are left of 50 after 31 min
+of rest, which take 0.25 % each, and 10 of work, which take 1 %. The simulator says the same.
+
+  $ cat > waits.fleet <<'END'
+  > vehicle 'a', { type 'UUV'; battery 50.percent; drain 60.percent; drops 1.min, 30.min }
+  > plan 'p', { duration 10.min }
+  > END
+  $ cat > waits.dol <<'END'
+  > va = pick { id 'a' }
+  > setConnectionTimeout va, 1.hour
+  > pause 61.seconds
+  > execute task('p')[va]
+  > message battery(va)
+  > END
+  $ dolphin time waits.dol 2>&1 | grep '^a .*%'
+  a        32.2 % or more
+  $ dolphin exec waits.dol
+     0:00  program     picks a
+     0:00  program     sets the connection timeout of a to 1 h
+     0:00  program     pauses for 1 min 1 s
+     1:00  a           loses its link
+     1:01  a           starts p
+    31:00  a           has its link back
+    41:00  a           ends p
+    41:00  program     says: 0.3225
+    41:00  program     releases a
+    41:00  program     ends
+
+What follows is not known if it changes meanwhile how long nothing may be heard of a vehicle.
+
+  $ cat > changes.dol <<'END'
+  > v = pick { id 'a' }
+  > execute task('p')[v] | (idle(70.seconds) >> action { setConnectionTimeout v, 5.min })
+  > END
+  $ dolphin time changes.dol --fleet waits.fleet 2>&1 | sed 's/, [0-9.]* s, [0-9]* MiB//'
+  inconclusive: while nothing is heard of a, its connection timeout changes: what follows is not known here; times are of the runs until then
+  task  vehicle  starts  where
+  p     a        0:00    changes.dol:2
+  12 states, depth 5
+
 In a narrow terminal rows of tables go on in further lines, and a run is a list.
 
   $ COLUMNS=44 dolphin time joins.dol --fleet late.fleet 2> /dev/null | sed 's/, [0-9.]* s, [0-9]* MiB//'

@@ -1301,8 +1301,26 @@ let place =
   @ in_file "lib/time/batteries.ml" ~noticed_by:"time/test_exact"
     [
       ( "a vehicle that is stopped goes on",
-        {|(is_over || is_stopped, starts)|},
-        {|ignore is_stopped; (is_over, starts)|} );
+        {|if under_way = Timed.is_under_way before vehicle then None|},
+        {|if not under_way || Timed.is_under_way before vehicle then None|} );
+    ]
+  @ in_file "lib/time/timed.ml" ~noticed_by:"time/test_missions"
+    [
+      ( "an order that waits for a link takes as much as a task",
+        {|p.item = Task v && p.progress = Under_way|},
+        {|p.item = Task v && p.progress <> Over|} );
+      ( "a task that is over unheard takes as much as before",
+        {|p.item = Task v && p.progress = Under_way|},
+        {|p.item = Task v && p.progress <> Ordered|} );
+    ]
+  @ in_file "lib/time/working.ml" ~noticed_by:"time/test_missions"
+    [
+      ( "the bound counts orders that wait as work",
+        {|     | Ordered, _ -> None|},
+        {|     | Ordered, _ -> Some (v, since)|} );
+      ( "the bound counts what is over unheard as work",
+        {|     | Over, Within { most; _ } -> Some (v, min since most)|},
+        {|     | Over, Within { most; _ } -> Some (v, max since most)|} );
     ]
   @ in_file "lib/time/working.ml" ~noticed_by:"time/test_exact"
     [
@@ -1330,6 +1348,9 @@ let place =
       ( "a comparison is taken for its opposite",
         {|if is_less = holds then|},
         {|if is_less <> holds then|} );
+      ( "what is known of a battery before its link went is taken for now",
+        {|  && not (Links.may_go (Durations.links_with faults c.options.durations) c.vehicle)|},
+        {|  && not (Links.may_go (Links.only_first (Durations.links_with faults c.options.durations)) c.vehicle)|} );
     ]
   @ in_file "lib/time/longest.ml" ~noticed_by:"time/test_exact"
     [

@@ -211,7 +211,8 @@ let tick ~batteries s =
   let later (what, clock) = (what, { clock with since = clock.since + 1 }) in
   let less (v, (missing, most)) =
     let b = List.assoc v batteries in
-    let by = if Vehicle_map.mem v s.c.shared.allocation then b.work else -b.rest in
+    let is_under_way = Vehicle_map.mem v s.c.shared.allocation && not (List.mem_assoc v s.errands) in
+    let by = if is_under_way then b.work else -b.rest in
     let missing = max 0 (missing + by) in
     (v, (missing, max most missing))
   in

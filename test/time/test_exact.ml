@@ -202,16 +202,18 @@ let print_linked (text, seed, silences) =
   Format.asprintf "silent %a, durations %d:@.%s" (Format.pp_print_list ~pp_sep:Format.pp_print_space one) silences seed
     text
 
+let linked_case = QCheck2.Gen.(pair linked (oneofl [ answering; Environment.failing answering ]))
+let print_linked_case (case, _) = print_linked case
+
+let linked_options ((text, seed, silences), environment) : Timed.options =
+  let program = Test_support.Pure_run.compile_exn text in
+  { environment; program; world = Generate.world;
+    durations = { (durations seed) with links = Links.of_silences silences }; dates = Ok [] }
+
 let test_links () =
-  let is_found ((text, seed, silences), environment) =
-    let program = Test_support.Pure_run.compile_exn text in
-    is_found { environment; program; world = Generate.world;
-               durations = { (durations seed) with links = Links.of_silences silences }; dates = Ok [] }
-  in
-  let cases =
-    QCheck2.Gen.(pair linked (oneofl [ answering; Environment.failing answering ])) in
-  let print (case, _) = print_linked case in
-  let test = QCheck2.Test.make ~count:programs ~print ~name:"whose link is silent when" cases is_found in
+  let is_found case = is_found (linked_options case) in
+  let print = print_linked_case in
+  let test = QCheck2.Test.make ~count:programs ~print ~name:"whose link is silent when" linked_case is_found in
   let before = !skipped in
   Test_support.Property.on_each_seed ~usual:20_261_123 ~programs test;
   Printf.printf "%d skipped\n" (!skipped - before);
@@ -343,10 +345,7 @@ let fleet ~at_first ~charge =
 type tally = { mutable exact : int; mutable bounds : int; mutable worked : int }
 
 (* No run has less left than is said; the run that is shown has no less than the least of all. *)
-let batteries_agree tally (vehicles, batteries) (ast, seed, (_, environment)) =
-  let program = Posts.declared environment (Generate.compile ast) in
-  let options : Timed.options =
-    { environment; program; world = Generate.world; durations = durations seed; dates = Dated_code.named program } in
+let batteries_agree tally (vehicles, batteries) options =
   match Enumeration.all ~batteries options with
   | None | Some { never_over = true; _ } -> true
   | Some expected ->
@@ -370,13 +369,21 @@ let batteries_agree tally (vehicles, batteries) (ast, seed, (_, environment)) =
     let is_bounded = List.for_all (fun (_, (w : Timing.window)) -> w.latest <> Unbounded) o.endings in
     List.for_all check o.batteries && ((not is_bounded) || List.for_all is_told expected.most)
 
-let test_batteries ~at_first ~charge ~programs () =
+let test_batteries_of cases ~print options ~at_first ~charge ~programs () =
   let tally = { exact = 0; bounds = 0; worked = 0 } in
-  let property = batteries_agree tally (fleet ~at_first ~charge) in
-  let test = QCheck2.Test.make ~count:programs ~print ~name:"batteries and enumeration agree" case property in
+  let property case = batteries_agree tally (fleet ~at_first ~charge) (options case) in
+  let test = QCheck2.Test.make ~count:programs ~print ~name:"batteries and enumeration agree" cases property in
   Test_support.Property.on_each_seed ~usual:20_261_123 ~programs test;
   Printf.printf "%d exact, %d bounds, of %d vehicles that work\n" tally.exact tally.bounds tally.worked;
   Alcotest.(check bool) "most are exact" true (tally.worked > 0 && tally.exact > 3 * tally.bounds)
+
+let test_batteries =
+  let options (ast, seed, (_, environment)) : Timed.options =
+    let program = Posts.declared environment (Generate.compile ast) in
+    { environment; program; world = Generate.world; durations = durations seed; dates = Dated_code.named program } in
+  test_batteries_of case ~print options
+
+let test_linked_batteries = test_batteries_of linked_case ~print:print_linked_case linked_options
 
 (* {2 What a program sees of its batteries} *)
 
@@ -506,6 +513,10 @@ let () =
                               (test_batteries ~at_first:7 ~charge:3 ~programs:(programs / 2));
                             Alcotest.test_case "batteries that are charged fast" `Quick
                               (test_batteries ~at_first:20 ~charge:40 ~programs:(programs / 2));
+                            Alcotest.test_case "batteries, and links that come and go" `Quick
+                              (test_linked_batteries ~at_first:0 ~charge:0 ~programs);
+                            Alcotest.test_case "batteries that are charged, and links that come and go" `Quick
+                              (test_linked_batteries ~at_first:20 ~charge:40 ~programs:(programs / 2));
                             Alcotest.test_case "batteries that the program sees" `Quick test_looks ]);
       ("programs", [ Alcotest.test_case "one loss" `Quick test_one_loss;
                      Alcotest.test_case "a look at once" `Quick test_look_at_once;

@@ -288,6 +288,31 @@ let test_batteries () =
   let o = found "execute repeat task('p')[va]\n" in
   Alcotest.(check int) "nothing is said of runs without end" 0 (List.length o.batteries)
 
+(* The link of a goes after 1 min for 30. While an order waits for it a rests, and so it does once it is over. Under way
+   it takes 1 % a minute, at rest a quarter of that: 1 min of rest and 30 min of waiting before 10 of p are 7.75 + 10 %,
+   and p from the start takes 10, with 21 at rest after it, until its end is heard. What the program sees meanwhile is
+   the battery of before: p goes on though it is to be cut off at 45 %. *)
+let test_batteries_without_link () =
+  let scenario =
+    fleet
+      "vehicle 'a', { type 'UUV'; battery 50.percent; drain 60.percent; drops 1.min, 30.min }\n\
+       plan 'p', { duration 10.min }" in
+  let check what expected program =
+    let program =
+      Test_support.Pure_run.compile_exn ("va = pick { id 'a' }\nsetConnectionTimeout va, 1.hour\n" ^ program) in
+    let o =
+      Timing.run ~vehicles:scenario.vehicles Dolphin_checker.Limits.none
+        { environment = Scenario_world.environment ~answers:[] ~faults:Faults.none program scenario; program;
+          world = Scenario_world.world scenario; durations = Durations.of_scenario scenario;
+          dates = Dolphin_semantics.Dated_code.named program } in
+    let hundredths share = Float.to_int (Float.round (10_000. *. share)) in
+    let found (b : Timing.battery) = (hundredths b.least, Option.map (fun (left, _) -> hundredths left) b.lowest) in
+    Alcotest.(check (list (pair int (option int)))) what [ expected ] (List.map found o.batteries)
+  in
+  check "an order that waits" (3225, Some 3225) "pause 1.min\npause 1\nexecute task('p')[va]\n";
+  check "a task that is over" (3475, Some 3475) "execute task('p')[va]\n";
+  check "what is not seen" (3475, None) "execute until { battery(va) < 0.45 } run task('p')[va]\n"
+
 (* [count _] takes its whole time-out; a vehicle that comes late may come until then. *)
 let test_picks () =
   let scenario = fleet two in
@@ -342,5 +367,6 @@ let () =
       ("by hand",
        [ case "the paper's mission" test_rendezvous; case "within" test_within; case "until" test_until;
          case "faults" test_faults; case "runs without end" test_endless; case "unknown durations" test_unknown;
-         case "deadlines" test_deadline; case "slack" test_slack; case "batteries" test_batteries; case "picks" test_picks; case "joins" test_joins;
+         case "deadlines" test_deadline; case "slack" test_slack; case "batteries" test_batteries;
+         case "batteries without a link" test_batteries_without_link; case "picks" test_picks; case "joins" test_joins;
          case "places" test_places ]) ]

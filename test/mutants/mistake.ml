@@ -358,18 +358,18 @@ let bitstate =
     ]
   @ in_file "lib/checker/search/trail.ml" ~noticed_by:"checker/test_search"
     [ ("the path keeps what was left", {|entry.depth >= depth ->|}, {|entry.depth > depth ->|}) ]
-  @ in_file "lib/checker/search/breadth_first.ml" ~noticed_by:"checker/test_search"
+  @ in_file "lib/checker/search/depth_first.ml" ~noticed_by:"checker/test_search"
     [
       ("a search by hashes is said to be of all states", {|raise (Limits.Stop Hashed)|}, {|ignore Limits.Hashed|});
       ("hashed steps to known states close no cycle", {|then look_for_cycle t deep key hash|}, {|then ignore look_for_cycle|});
     ]
   @ in_file "lib/explore/steps/space.ml" ~noticed_by:"explore/test_bitstate"
     [ ("components are not hashed", {|f (Layout.local layout key i)|}, {|ignore (Layout.local layout key i)|}) ]
-  @ in_file "lib/checker/search/breadth_first.ml" ~noticed_by:"explore/test_bitstate"
+  @ in_file "lib/checker/search/depth_first.ml" ~noticed_by:"explore/test_bitstate"
     [ ("what waits keeps its encoding", {|Trail.rewrite deep.trail renewed;|}, {|ignore Trail.rewrite;|}) ]
 
 let workers =
-  in_file "lib/checker/search/breadth_first.ml" ~noticed_by:"checker/test_search"
+  in_file "lib/checker/search/together.ml" ~noticed_by:"checker/test_search"
     [
       ("the transitions of workers are not counted", {|t.transitions <- t.transitions + transitions;|},
        {|ignore (transitions : int);|});
@@ -389,7 +389,7 @@ let workers =
     [ ("what others have learnt is not learnt before", {|      catch_up t ~words f;
       let key|}, {|      t.known <- get t logged;
       let key|}) ]
-  @ in_file "lib/checker/search/breadth_first.ml" ~noticed_by:"explore/test_workers"
+  @ in_file "lib/checker/search/together.ml" ~noticed_by:"explore/test_workers"
     [
       ("the deadlock of a worker is lost", {|t.deadlock <- first_of t t.deadlock resting;|}, {|ignore resting;|});
       ("what workers find beside states is lost", {|S.add_findings t.system found;|}, {|ignore found;|});
@@ -407,7 +407,7 @@ let disk =
     ]
   @ in_file "lib/checker/store/disk_index.ml" ~noticed_by:"checker/test_states"
     [ ("the index ends at the end of a window", {|if k = n then `Further|}, {|if k = n then `Found (-1)|}) ]
-  @ in_file "lib/checker/search/breadth_first.ml" ~noticed_by:"checker/test_search"
+  @ in_file "lib/checker/search/search_state.ml" ~noticed_by:"checker/test_search"
     [ ("with a disk, memory is a bound nevertheless", {|Limits.Stop Memory when t.spill <> None ->
       spill t;
       look_around|}, {|Limits.Stop Memory when t.spill = Some "" ->

@@ -64,70 +64,134 @@ type 'p t = {
   is_open : bool array;
 }
 
-(* A way in which formulas can hold at a position: the literals that hold there, what must hold from the next position
-   on, and which acceptance sets it is in. All in order, so that equal ways are equal values. *)
-type 'p way = { now : (bool * 'p) list; later : 'p normal list; inside : bool list }
+(* {1 Sets of formulas}
 
-let add f fs = if List.mem f fs then fs else f :: fs
-let sort fs = List.sort_uniq Stdlib.compare fs
-let subset fs gs = List.for_all (fun f -> List.mem f gs) fs
+   Formulas are numbered, subformulas before what they are in; a set has a bit for each. *)
+
+module Bits = struct
+  type t = int array
+
+  let per_word = 62
+  let none n = Array.make ((n / per_word) + 1) 0
+  let mem i (s : t) = s.(i / per_word) land (1 lsl (i mod per_word)) <> 0
+
+  let add i (s : t) =
+    let s = Array.copy s in
+    s.(i / per_word) <- s.(i / per_word) lor (1 lsl (i mod per_word));
+    s
+
+  let subset (s : t) (s' : t) =
+    let rec from w = w = Array.length s || (s.(w) land lnot s'.(w) = 0 && from (w + 1)) in
+    from 0
+
+  let is_empty (s : t) = Array.for_all (( = ) 0) s
+  let elements n s = List.filter (fun i -> mem i s) (List.init n Fun.id)
+end
+
+type 'p node =
+  | Yes
+  | No
+  | Atom of { positive : bool; p : 'p; opposite : int option }
+  | Both of int * int
+  | Either of int * int
+  | After of int
+  | Reach of int * int
+  | Keep of int * int
+
+(* Nodes by number; the last one is the whole formula. *)
+let numbered f =
+  let numbers = Hashtbl.create 64 and nodes = ref [] in
+  let rec number f =
+    match Hashtbl.find_opt numbers f with
+    | Some i -> i
+    | None ->
+      let node =
+        match f with
+        | True -> Yes
+        | False -> No
+        | Literal (positive, p) -> Atom { positive; p; opposite = Hashtbl.find_opt numbers (Literal (not positive, p)) }
+        | And (f, g) -> pair f g (fun f g -> Both (f, g))
+        | Or (f, g) -> pair f g (fun f g -> Either (f, g))
+        | Next f -> After (number f)
+        | Until (f, g) -> pair f g (fun f g -> Reach (f, g))
+        | Release (f, g) -> pair f g (fun f g -> Keep (f, g))
+      in
+      let i = Hashtbl.length numbers in
+      Hashtbl.add numbers f i;
+      nodes := node :: !nodes;
+      i
+  and pair f g make =
+    let f = number f in
+    make f (number g)
+  in
+  let whole = number f in
+  let nodes = Array.of_list (List.rev !nodes) in
+  let with_opposite i = function
+    | Atom { opposite = Some j; _ } -> (
+        match nodes.(j) with
+        | Atom atom -> nodes.(j) <- Atom { atom with opposite = Some i }
+        | Yes | No | Both _ | Either _ | After _ | Reach _ | Keep _ -> ())
+    | Atom { opposite = None; _ } | Yes | No | Both _ | Either _ | After _ | Reach _ | Keep _ -> ()
+  in
+  Array.iteri with_opposite nodes;
+  (nodes, whole)
+
+(* {1 The tableau} *)
+
+(* A way in which formulas can hold at a position: the literals that hold there, what must hold from the next position
+   on, and which acceptance sets it is not in. *)
+type way = { now : Bits.t; later : Bits.t; outside : Bits.t }
+
+(* Of two ways of which one asks for no more than the other and is in all of its sets, that one will do. *)
+let covers a b = Bits.subset a.now b.now && Bits.subset a.later b.later && Bits.subset a.outside b.outside
 
 (* [untils] are the formulas of the acceptance sets, each with what it is to reach. *)
-let ways untils formulas =
+let ways nodes untils formulas =
+  let none = Bits.none (Array.length nodes) in
   let found = ref [] in
-  let finished old later =
-    let now = sort (List.filter_map (function Literal (positive, p) -> Some (positive, p) | _ -> None) old) in
-    let inside = List.map (fun (until, goal) -> (not (List.mem until old)) || List.mem goal old) untils in
-    found := { now; later = sort later; inside } :: !found
+  let finished old now later =
+    let add (outside, k) (until, goal) =
+      ((if Bits.mem until old && not (Bits.mem goal old) then Bits.add k outside else outside), k + 1) in
+    let way = { now; later; outside = fst (List.fold_left add (none, 0) untils) } in
+    if not (List.exists (fun other -> covers other way) !found) then
+      found := way :: List.filter (fun other -> not (covers way other)) !found
   in
   (* [fresh] is still to be expanded, [old] holds. *)
-  let rec expand fresh old later =
+  let rec expand fresh old now later =
     match fresh with
-    | [] -> finished old later
-    | f :: fresh when List.mem f old -> expand fresh old later
+    | [] -> finished old now later
+    | f :: fresh when Bits.mem f old -> expand fresh old now later
     | f :: fresh -> (
-        let holding = f :: old in
-        match f with
-        | False -> ()
-        | Literal (positive, p) -> if not (List.mem (Literal (not positive, p)) old) then expand fresh holding later
-        | True -> expand fresh holding later
-        | And (g, h) -> expand (g :: h :: fresh) holding later
-        | Next g -> expand fresh holding (add g later)
-        | Or (g, h) ->
-          if List.mem g old || List.mem h old then expand fresh holding later
+        let holding = Bits.add f old in
+        match nodes.(f) with
+        | No -> ()
+        | Atom { opposite = Some g; _ } when Bits.mem g old -> ()
+        | Atom _ -> expand fresh holding (Bits.add f now) later
+        | Yes -> expand fresh holding now later
+        | Both (g, h) -> expand (g :: h :: fresh) holding now later
+        | After g -> expand fresh holding now (Bits.add g later)
+        | Either (g, h) ->
+          if Bits.mem g old || Bits.mem h old then expand fresh holding now later
           else begin
-            expand (g :: fresh) holding later;
-            expand (h :: fresh) holding later
+            expand (g :: fresh) holding now later;
+            expand (h :: fresh) holding now later
           end
-        | Until (g, h) ->
-          expand (h :: fresh) holding later;
-          if not (List.mem h old) then expand (g :: fresh) holding (add f later)
-        | Release (g, h) ->
-          expand (g :: h :: fresh) holding later;
-          if not (List.mem g old && List.mem h old) then expand (h :: fresh) holding (add f later))
+        | Reach (g, h) ->
+          expand (h :: fresh) holding now later;
+          if not (Bits.mem h old) then expand (g :: fresh) holding now (Bits.add f later)
+        | Keep (g, h) ->
+          expand (g :: h :: fresh) holding now later;
+          if not (Bits.mem g old && Bits.mem h old) then expand (h :: fresh) holding now (Bits.add f later))
   in
-  expand formulas [] [];
-  (* Of two ways of which one asks for no more than the other and is in all of its sets, that one will do. *)
-  let covers a b =
-    subset a.now b.now && subset a.later b.later && List.for_all2 (fun a b -> a || not b) a.inside b.inside
-  in
-  let keep kept way =
-    if List.exists (fun other -> covers other way) kept then kept
-    else way :: List.filter (fun other -> not (covers way other)) kept
-  in
-  List.fold_left keep [] !found
-
-let rec untils f =
-  match f with
-  | True | False | Literal _ -> []
-  | Next f -> untils f
-  | And (f, g) | Or (f, g) | Release (f, g) -> untils f @ untils g
-  | Until (g, h) -> (f, h) :: (untils g @ untils h)
+  expand formulas none none none;
+  !found
 
 (* States are ways; what follows one is a function of what it leaves for later. *)
 let of_formula f =
-  let f = normal true f in
-  let untils = sort (untils f) in
+  let nodes, whole = numbered (normal true f) in
+  let size = Array.length nodes in
+  let until i = match nodes.(i) with Reach (_, goal) -> Some (i, goal) | _ -> None in
+  let untils = List.filter_map until (List.init size Fun.id) in
   let numbers = Hashtbl.create 64 and known = ref [] and after = Hashtbl.create 64 in
   let todo = Queue.create () in
   let number way =
@@ -144,11 +208,11 @@ let of_formula f =
     match Hashtbl.find_opt after later with
     | Some states -> states
     | None ->
-      let states = List.map number (ways untils later) in
+      let states = List.map number (ways nodes untils (Bits.elements size later)) in
       Hashtbl.add after later states;
       states
   in
-  let initial = following [ f ] in
+  let initial = following (Bits.add whole (Bits.none size)) in
   let rec go successors =
     match Queue.take_opt todo with
     | None -> Array.of_list (List.rev successors)
@@ -158,12 +222,13 @@ let of_formula f =
   in
   let successors = go [] in
   let states = Array.of_list (List.rev !known) in
+  let literal i = match nodes.(i) with Atom { positive; p; _ } -> Some (positive, p) | _ -> None in
   {
-    literals = Array.map (fun way -> way.now) states;
+    literals = Array.map (fun way -> List.filter_map literal (Bits.elements size way.now)) states;
     initial;
     successors;
-    sets = Array.map (fun way -> Array.of_list way.inside) states;
-    is_open = Array.map (fun way -> way.later = []) states;
+    sets = Array.map (fun way -> Array.of_list (List.mapi (fun k _ -> not (Bits.mem k way.outside)) untils)) states;
+    is_open = Array.map (fun way -> Bits.is_empty way.later) states;
   }
 
 let states a = Array.length a.literals

@@ -113,6 +113,19 @@ let test_followed_fleet n () =
   let o = search ~vehicles:n (fleet ~around:followed n) in
   Alcotest.(check int) "states" (fleet_states n + 1) o.states
 
+(* Fields are wider than they need be only where no state takes more words for that. *)
+let test_words () =
+  let words ?spare_bits n =
+    let tasks = String.concat " | " (List.init n (fun i -> Printf.sprintf "(idle(%d) >> idle(%d))" (i + 1) (i + 100))) in
+    let program = Pure_run.compile_exn ("execute " ^ tasks) in
+    let limits = { Dolphin_checker.Limits.none with max_states = Some 300 } in
+    let graph = State_graph.create limits (Space.create ?spare_bits Environment.default program (world 1)) in
+    State_graph.run graph;
+    Space.words (State_graph.system graph)
+  in
+  let check n = Alcotest.(check int) (Printf.sprintf "words of %d components" n) (words ~spare_bits:0 n) (words n) in
+  List.iter check (List.init 40 succ)
+
 let () =
   let case name f = Alcotest.test_case name `Quick f in
   let fleets most test = List.init most (fun i -> case (Printf.sprintf "of %d" (i + 1)) (test (i + 1))) in
@@ -130,6 +143,7 @@ let () =
           case "a pick has choices" test_pick;
           case "a task that may be interrupted" test_interrupted;
           case "replies of a supplier" test_replies;
+          case "words of states" test_words;
         ] );
       ("fleets", fleets 5 test_fleet);
       ("fleets under watch", fleets 5 test_watched_fleet);

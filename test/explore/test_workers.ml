@@ -29,8 +29,8 @@ let text (o : Search.outcome) =
 let agrees (((_, world), _, (_, environment)) as case) =
   let program = compile case in
   let search reduction workers =
-    Search.run { Search.default with environment; reduction; workers; fork_from = 0; limits; search_again = 0 } program
-      world
+    let options = { Search.default with environment; reduction; limits; search_again = 0 } in
+    Search.run { options with workers; fork_from = 0; spare_bits = Some 0 } program world
   in
   let shows (property, (verdict : Search.verdict)) =
     match verdict with

@@ -42,6 +42,7 @@ let explore ~interrupted ~progress s (program : Program_file.t) (fleet : Fleet_f
     { environment = Scenario_world.environment ~answers:s.answers ~faults:s.faults core fleet.scenario;
       reduction = s.reduction; compress = s.compress; spill = s.spill; walks = s.walks; bitstate = s.bitstate;
       search_again = Search.default.search_again; workers = s.workers; fork_from = Search.default.fork_from;
+      spare_bits = Search.default.spare_bits;
       limits =
         { max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory;
           memory_taken = Memory.taken; memory_left = Memory.left;

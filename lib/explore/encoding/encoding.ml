@@ -28,13 +28,15 @@ type t = {
   mutable broken : Property.t option array;  (* by number of the configuration *)
 }
 
-let create ?(find_symmetry = fun _ _ -> None) ?(canonical = fun c outside -> (c, outside)) components shareds =
+let create
+    ?spare_bits ?(find_symmetry = fun _ _ -> None) ?(canonical = fun c outside -> (c, outside)) components shareds
+  =
   {
     components;
     find_symmetry;
     canonical;
     shareds;
-    layouts = Layouts.create components;
+    layouts = Layouts.create ?spare_bits components;
     machines = Machines.create (Components.numbering components);
     frames = Hashtbl.create 16;
     scripts = Scripts.create (Components.numbering components);

@@ -9,6 +9,7 @@ module Keys = Hashtbl.Make (struct
 
 type t = {
   components : Components.t;
+  spare_bits : int;
   by_key : Layout.t Keys.t;
   mutable layouts : Layout.t array;  (* by number; the first is none *)
   mutable count : int;  (* and one *)
@@ -25,11 +26,13 @@ let set_widths t (widths : Layout.widths) =
   t.shared_shift <- widths.layout + widths.reserved;
   t.shared_mask <- (1 lsl widths.shared) - 1
 
-let create components =
-  let widths : Layout.widths = { reserved = 0; layout = 4; shared = 4 } in
+let least_width = 4
+
+let create ?(spare_bits = 8) components =
+  let widths : Layout.widths = { reserved = 0; layout = least_width; shared = least_width } in
   let by_key = Keys.create 64 in
   let t =
-    { components; by_key; layouts = [||]; count = 1; widths; layout_mask = 0; shared_shift = 0;
+    { components; spare_bits; by_key; layouts = [||]; count = 1; widths; layout_mask = 0; shared_shift = 0;
       shared_mask = 0; words = 1 }
   in
   set_widths t widths;
@@ -101,17 +104,26 @@ let bits_for n =
 
 let shared_of = shared
 
+let lay_out_all t (widths : Layout.widths) =
+  let lay_out words l = max words (Layout.lay_out widths l) in
+  Array.fold_left lay_out t.words (if t.count = 1 then [||] else Array.sub t.layouts 1 (t.count - 1))
+
+(* Wider fields than there must be, if no state takes more words for them: to widen them is to write all states anew. *)
+let rec with_spare_bits t (needed : Layout.widths) words spare =
+  let widths = { needed with layout = needed.layout + spare; shared = needed.shared + spare } in
+  if lay_out_all t widths <= words || spare = 0 then widths else with_spare_bits t needed words (spare / 2)
+
 (* A state is read in the old layout and written in the new one. *)
 let widen t ~reserved ~shared =
   let before = { t with layouts = Array.map (fun (l : Layout.t) -> { l with number = l.number }) t.layouts } in
-  let layouts = if t.count = 1 then [||] else Array.sub t.layouts 1 (t.count - 1) in
-  Array.iter (fun (l : Layout.t) -> Array.iter Components.lay_out l.families) layouts;
+  for n = 1 to t.count - 1 do
+    Array.iter Components.lay_out t.layouts.(n).families
+  done;
   Components.none_outgrown t.components;
-  let at_least width n = max width (bits_for n) in
-  set_widths t
-    { reserved; layout = at_least t.widths.layout t.count; shared = at_least t.widths.shared shared };
-  let lay_out words l = max words (Layout.lay_out t.widths l) in
-  t.words <- Array.fold_left lay_out t.words layouts;
+  let width n = max least_width (bits_for n) in
+  let needed : Layout.widths = { reserved; layout = width t.count; shared = width shared } in
+  t.words <- lay_out_all t needed;
+  set_widths t (with_spare_bits t needed t.words t.spare_bits);
   fun old fresh ->
     let number = number before old.(0) in
     fresh.(0) <- first t number (shared_of before old.(0));

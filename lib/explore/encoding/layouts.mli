@@ -5,7 +5,9 @@ exception Outgrown
 
 type t
 
-val create : Components.t -> t
+val create : ?spare_bits:int -> Components.t -> t
+(** [create ?spare_bits c] is none. Fields that all have are so many bits wider than they need be, 8 by default, or
+    fewer: as long as no state takes more words for that. *)
 
 val words : t -> int
 (** Words of a state. *)
@@ -46,6 +48,6 @@ val fits : t -> shared:int -> bool
 (** [fits t ~shared] is whether all numbers fit their fields, those of shared states being below [shared]. *)
 
 val widen : t -> reserved:int -> shared:int -> int array -> int array -> unit
-(** [widen t ~reserved ~shared] makes all fields as wide as they need be, for shared states with numbers below
-    [shared], and reserves that many bits. [widen t ~reserved ~shared old fresh] then puts the state that was [old]
-    into [fresh], which is all 0; the reserved bits are left out. *)
+(** [widen t ~reserved ~shared] makes all fields at least as wide as they need be, for shared states with numbers
+    below [shared], and reserves that many bits. [widen t ~reserved ~shared old fresh] then puts the state that was
+    [old] into [fresh], which is all 0; the reserved bits are left out. *)

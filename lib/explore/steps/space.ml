@@ -496,7 +496,10 @@ let add_findings t { covered; edges; rounds; renamed } =
 
 (* {1 Beginning} *)
 
-let create ?(reduction = Reduction.Whole) ?(symmetry = Symmetry.none) ?(asked = []) ?labelling options program world =
+let create
+    ?(reduction = Reduction.Whole) ?(symmetry = Symmetry.none) ?(asked = []) ?labelling ?spare_bits options program
+    world
+  =
   let reduction = if Environment.may_leave options program then Reduction.Whole else reduction in
   let foreseen = if Reduction.by_order reduction then Some 0 else None in
   let numbering = Numbering.create () in
@@ -512,7 +515,7 @@ let create ?(reduction = Reduction.Whole) ?(symmetry = Symmetry.none) ?(asked = 
   in
   let find_symmetry = Option.map Task_groups.find task_groups in
   let canonical = Option.map Canonical_vehicles.canonical vehicles in
-  let encoding = Encoding.create ?find_symmetry ?canonical components shareds in
+  let encoding = Encoding.create ?spare_bits ?find_symmetry ?canonical components shareds in
   let observe = Option.map (fun labelling -> Valuation.action_of_local (Labelling.valuations labelling)) labelling in
   let steps = Memoised_steps.create ?observe components encoding and quotient = Quotient.create components encoding in
   let expansion = Expansion.create options components encoding steps quotient labelling in

@@ -14,6 +14,7 @@ type options = {
   search_again : int;
   workers : int;
   fork_from : int;
+  spare_bits : int option;
   limits : Limits.t;
   invariants : Condition.t list;
   formulas : Temporal.t list;
@@ -30,6 +31,7 @@ let default =
     search_again = 100_000;
     workers = 1;
     fork_from = 100_000;
+    spare_bits = None;
     limits = Limits.none;
     invariants = [];
     formulas = [];
@@ -69,10 +71,11 @@ type outcome = {
 type subject = { program : Core.program; world : World.t; symmetry : Symmetry.t; started : float }
 
 let with_graph ?labelling ?phase x (options : options) f =
-  let { environment; reduction; compress; spill; workers; fork_from; limits; invariants; _ } = options in
-  let space = Space.create ~reduction ~symmetry:x.symmetry ~asked:invariants ?labelling environment x.program x.world in
+  let { environment; reduction; compress; spill; workers; fork_from; spare_bits; limits; invariants; _ } = options in
+  let { program; world; symmetry; started } = x in
+  let space = Space.create ~reduction ~symmetry ~asked:invariants ?labelling ?spare_bits environment program world in
   let monitor = Option.map Labelling.monitor labelling in
-  let graph = State_graph.create ~compress ?spill ~workers ~fork_from ?monitor ?phase ~started:x.started limits space in
+  let graph = State_graph.create ~compress ?spill ~workers ~fork_from ?monitor ?phase ~started limits space in
   Fun.protect ~finally:(fun () -> State_graph.close graph) (fun () -> f graph)
 
 let broken_condition why : Limits.bound = Unsettled ("the condition cannot be told: " ^ why)

@@ -27,6 +27,7 @@ type options = {
   (** processes, 1 by default, that search from [fork_from] states on, 100,000 by default, as for
       {!Breadth_first.Make.create} *)
   fork_from : int;
+  spare_bits : int option;  (** as for {!Layouts.create} *)
   limits : Limits.t;
   invariants : Condition.t list;
   formulas : Temporal.t list;  (** for each, states are explored anew, after all others are forgotten *)

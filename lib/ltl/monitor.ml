@@ -79,10 +79,11 @@ let is_in m = m.is_in
 let component m q = m.components.(q)
 let after m q letter = List.filter (fun q' -> m.admits q' letter) (m.successors q)
 
-let number m set =
+let number m ~give set =
   match Sets.find_opt set m.numbers with
   | Some s -> s
   | None ->
+    give ();
     let s = m.count in
     if s = Array.length m.members then begin
       m.members <- Array.append m.members (Array.make s []);
@@ -93,20 +94,20 @@ let number m set =
     m.count <- s + 1;
     s
 
-let find m s letter =
+let find m ~give s letter =
   let set =
     if s = start then List.filter (fun q -> m.admits q letter) m.initial
     else List.concat_map (fun q -> after m q letter) m.members.(s)
   in
   match List.sort_uniq Int.compare set with
   | [] -> -1
-  | set -> number m (match List.find_opt m.is_open set with Some q -> [ q ] | None -> set)
+  | set -> number m ~give (match List.find_opt m.is_open set with Some q -> [ q ] | None -> set)
 
-let next m s letter =
+let next m ~give s letter =
   let row = m.next.(s) in
   if letter < Array.length row && row.(letter) <> unknown then row.(letter)
   else begin
-    let found = find m s letter in
+    let found = find m ~give s letter in
     let row =
       if letter < Array.length row then row
       else Array.append row (Array.make (max (letter + 1) (Array.length row) - Array.length row + 8) unknown)

@@ -9,9 +9,9 @@ val create : holds:(int -> 'p -> bool) -> 'p Automaton.t -> t
 val start : int
 (** Before the first letter. *)
 
-val next : t -> int -> int -> int
-(** [next m s l] is the set after [s] and letter [l], or [-1] if it is empty: however the word goes on, it is not
-    accepted. *)
+val next : t -> give:(unit -> unit) -> int -> int -> int
+(** [next m ~give s l] is the set after [s] and letter [l], or [-1] if it is empty: however the word goes on, it is not
+    accepted. [give ()] is called before a set gets a number; what it raises is raised, and the set has none. *)
 
 val count : t -> int
 (** Sets so far. *)

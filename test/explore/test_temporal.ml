@@ -151,8 +151,16 @@ let agrees ((ast, world), looped, (_, environment), formulas) =
   | Some reference ->
     let plain = graph_of program reference and at = at program world in
     let read f = match Temporal.of_string program (shown f) with Ok f -> f | Error why -> failwith why in
-    let compress = Hashtbl.hash (Generate.print ast) land 1 = 0 in
-    let o = Search.run { Search.default with environment; compress; formulas = List.map read formulas } program world in
+    let options = { Search.default with environment; formulas = List.map read formulas } in
+    let options = { options with fork_from = 0; spare_bits = Some 0 } in
+    let options =
+      match Hashtbl.hash (Generate.print ast) mod 4 with
+      | 0 -> { options with compress = true }
+      | 1 -> { options with workers = 2 }
+      | 2 -> { options with workers = 3 }
+      | _ -> options
+    in
+    let o = Search.run options program world in
     let judge f =
       agrees_on program world environment at plain (f, List.assoc (Property.Formula (shown f)) o.verdicts)
       || QCheck2.Test.fail_reportf "%s" (shown f)

@@ -91,7 +91,7 @@ let monitor_agrees (letters, f) =
   let number letter = List.fold_left (fun n p -> n lor (1 lsl p)) 0 letter in
   let holds letter p = letter land (1 lsl p) <> 0 in
   let monitor = Monitor.create ~holds (Automaton.of_formula f) in
-  let read set letter = if set < 0 then set else Monitor.next monitor set (number letter) in
+  let read set letter = if set < 0 then set else Monitor.next monitor ~give:ignore set (number letter) in
   let sets = List.fold_left (fun sets l -> read (List.hd sets) l :: sets) [ Monitor.start ] letters in
   let last = List.hd sets in
   let expected = holds_of { letters = Array.of_list letters; back = List.length letters - 1 } f in

@@ -395,6 +395,17 @@ let workers =
       ("what workers find beside states is lost", {|S.add_findings t.system found;|}, {|ignore found;|});
       ("numbers that were given in vain fit", {|| exception S.Outgrown -> outgrow t);|}, {|| exception S.Outgrown -> ());|});
     ]
+  @ in_file "lib/checker/search/together.ml" ~noticed_by:"explore/test_temporal"
+    [
+      ("the violation of a worker is lost", {|t.violation <- first_of t t.violation violating;|}, {|ignore violating;|});
+      ("what a worker learns is learnt with no set of the monitor", {|      t.key.(0) <- t.key.(0) lxor t.from;
+|}, {||});
+    ]
+  @ in_file "lib/ltl/monitor.ml" ~noticed_by:"explore/test_temporal"
+    [ ("each process numbers sets as they come", {|    give ();|}, {|    ignore give;|}) ]
+  @ in_file "lib/explore/encoding/layouts.ml" ~noticed_by:"explore/test_counts"
+    [ ("spare bits are worth a word", {|lay_out_all t widths <= words || spare = 0|},
+       {|lay_out_all t widths <= words + 1 || spare = 0|}) ]
 
 let disk =
   in_file "lib/checker/store/on_disk.ml" ~noticed_by:"checker/test_states"

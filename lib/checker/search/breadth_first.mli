@@ -35,10 +35,9 @@ module Make (S : System.S) : sig
       three quarters of [limits.max_memory] are taken; it is for {!run} alone, not for {!run_walks} or
       {!run_bitstate}. [workers], 1 by default, is how many processes {!run} uses from [fork_from] states on, 100,000
       by default: then the numbers of states depend on which of them comes first, and so does which of several shortest
-      runs is shown. It uses one where states are compressed or may go to disk, under a monitor, and with [look] or
-      [enough]. Under a monitor there may be no state at all; nor is there one if the system cannot say what it is: then
-      the search is {!stopped}. [phase] says what is being done, in reports of progress. [started] is as for
-      {!Limits.guard}. *)
+      runs is shown. It uses one where states are compressed or may go to disk, and with [look] or [enough]. Under
+      a monitor there may be no state at all; nor is there one if the system cannot say what it is: then the search is
+      {!stopped}. [phase] says what is being done, in reports of progress. [started] is as for {!Limits.guard}. *)
 
   val close : t -> unit
   (** [close t] gives back what [t] has on disk. Only what needs no state may be asked of it then: {!count}, {!memory},

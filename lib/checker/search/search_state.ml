@@ -43,6 +43,7 @@ module Make (S : System.S) = struct
     fork_from : int;  (* states *)
     mutable shared : shared option;
     fresh : int -> int -> unit;
+    give : unit -> unit;  (* before the monitor gives a number *)
     visitor : S.via System.visitor;
   }
 
@@ -165,7 +166,7 @@ module Make (S : System.S) = struct
   (* [put valuation] is for [key] with the monitor's set, if a violation is still possible. *)
   let under t monitor key action put =
     let valuation = S.valuation t.system action key in
-    let set = Monitor.next monitor t.from valuation in
+    let set = Monitor.next monitor ~give:t.give t.from valuation in
     if set >= 0 then begin
       if set > mask t then raise S.Outgrown;
       key.(0) <- key.(0) lor set;
@@ -256,6 +257,7 @@ module Make (S : System.S) = struct
         broken = Hashtbl.create 8; stopped = None; sample = None; deep = None; guard; spill; workers; fork_from;
         shared = None;
         fresh = (fun i word -> arrived t i word);
+        give = (fun () -> Numbering.give (S.numbering system));
         visitor = { visit; tick = (fun () -> look_around ~by:256 t t.phase); rest = (fun () -> rest t) } }
     and visit key action _ = arrive t key action in
     let rec begin_with () =

@@ -44,6 +44,7 @@ module Make (S : System.S) : sig
     fork_from : int;  (** states *)
     mutable shared : shared option;
     fresh : int -> int -> unit;
+    give : unit -> unit;  (** before the monitor gives a number *)
     visitor : S.via System.visitor;
   }
 

@@ -41,6 +41,9 @@ val take : t -> block option
 val leave : t -> block -> unit
 (** [leave t block] leaves [block] to the leader, and all others end as soon as they have expanded what they took. *)
 
+val give_up : t -> unit
+(** [give_up t] is that the level need not be ended: all end as soon as they have expanded what they took. *)
+
 val left : t -> block list
 (** What was left, after {!lead}. *)
 

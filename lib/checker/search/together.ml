@@ -11,6 +11,7 @@ module Make (S : System.S) = struct
     found : S.findings;
     by_worker : int * int;  (* expanded states, transitions *)
     resting : int;
+    violating : int;
     breaking : (S.property * int) list;
   }
 
@@ -22,22 +23,30 @@ module Make (S : System.S) = struct
   let report t { expanded; findings; _ } =
     let found = match findings with Some findings -> findings | None -> S.findings t.system in
     let breaking = Hashtbl.fold (fun property i found -> (property, i) :: found) t.broken [] in
-    Marshal.to_string { found; by_worker = (expanded, t.transitions); resting = t.deadlock; breaking } []
+    let by_worker = (expanded, t.transitions) in
+    Marshal.to_string { found; by_worker; resting = t.deadlock; violating = t.violation; breaking } []
 
   let add_report t shared text =
-    let { found; by_worker = (expanded, transitions); resting; breaking } : report = Marshal.from_string text 0 in
+    let report : report = Marshal.from_string text 0 in
+    let { found; by_worker = (expanded, transitions); resting; violating; breaking } = report in
     S.add_findings t.system found;
     shared.expanded <- shared.expanded + expanded;
     t.transitions <- t.transitions + transitions;
     t.deadlock <- first_of t t.deadlock resting;
+    t.violation <- first_of t t.violation violating;
     let add (property, i) =
       let known = Option.value (Hashtbl.find_opt t.broken property) ~default:(-1) in
       Hashtbl.replace t.broken property (first_of t known i)
     in
     List.iter add breaking
 
+  (* [key] is with the monitor's set. *)
   let numbering t tick key =
-    ignore (S.expand t.system key { visit = (fun _ _ _ -> ()); tick; rest = ignore } : int);
+    let set = key.(0) land mask t in
+    t.from <- set;
+    key.(0) <- key.(0) lxor set;
+    let visit key action _ = Option.iter (fun monitor -> under t monitor key action ignore) t.monitor in
+    ignore (S.expand t.system key { visit; tick; rest = ignore } : int);
     S.check_fit t.system
 
   let catch_up t { team; _ } = Team.catch_up team ~words:(States.words t.states) (numbering t ignore)
@@ -59,6 +68,7 @@ module Make (S : System.S) = struct
       shared.expanded <- shared.expanded + 1
     | exception Numbering.Closed ->
       fetch t i;
+      t.key.(0) <- t.key.(0) lxor t.from;
       learn t shared t.key;
       expand_shared t shared i
 
@@ -100,6 +110,7 @@ module Make (S : System.S) = struct
     Shared_states.when_full (shared_states t) grow;
     let rec go () =
       t.depth <- Team.depth team;
+      if is_violated t then Team.give_up team;
       match Team.take team with
       | Some block -> if expand_block t shared block then go () else rest ()
       | None -> rest ()
@@ -131,14 +142,15 @@ module Make (S : System.S) = struct
     List.iter (add_report t shared) reports;
     match stop, Team.left team with
     | Some (e, trace), _ -> Printexc.raise_with_backtrace e trace
-    | None, [] -> ()
     | None, left ->
-      List.iter (expand_left t shared) left;
-      flush t;
-      expand_all t shared
+      if left <> [] && not (is_violated t) then begin
+        List.iter (expand_left t shared) left;
+        flush t;
+        expand_all t shared
+      end
 
   let is_possible t =
-    t.workers > 1 && t.monitor = None && t.spill = None && States.is_shareable t.states && count t >= t.fork_from
+    t.workers > 1 && t.spill = None && States.is_shareable t.states && count t >= t.fork_from
 
   (* States from [next] on are a level. *)
   let start t =

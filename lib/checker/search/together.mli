@@ -6,7 +6,7 @@ module Make (S : System.S) : sig
 
   val is_possible : state -> bool
   (** Whether several processes may go on from here: there are as many states as that is worth, in memory that can be
-      shared, and no monitor. *)
+      shared. *)
 
   val start : state -> unit
   (** [start t] lays the states out in memory that processes share. The states from [t.next] on are a level. Without

@@ -24,7 +24,7 @@ type t = {
 let nothing = 0
 
 let create program world propositions =
-  (* Under a monitor one process searches. *)
+  (* What these numbers stand for need not be the same in several processes: no state has them. *)
   let numbering = Dolphin_checker.Numbering.create () in
   let valuations () =
     let valuations = Valuations.create numbering in

@@ -35,7 +35,7 @@ let step x i j is_right =
 let rec through x = function
   | i :: (j :: _ as rest) ->
     let monitor = Labelling.monitor x.labelling and set = State_graph.set x.graph in
-    let t = step x i j (fun valuation -> Monitor.next monitor (set i) valuation = set j) in
+    let t = step x i j (fun valuation -> Monitor.next monitor ~give:ignore (set i) valuation = set j) in
     t :: through x rest
   | [ _ ] | [] -> []
 

@@ -43,7 +43,9 @@ let fill kind words vector =
   States.flush !set ~fresh;
   !set
 
+(* Then what it has taken is given back: sets that are shared take addresses for all that the machine may hold. *)
 let check set words key =
+  Fun.protect ~finally:(fun () -> States.close set) @@ fun () ->
   Alcotest.(check int) "count" states (States.count set);
   let loaded = Array.make words 0 in
   for i = 0 to states - 1 do

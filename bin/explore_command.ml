@@ -301,7 +301,7 @@ let workers =
   let doc =
     "Search with $(docv) processes once there are some 100,000 states. What is found is the same whatever $(docv) is; \
      of several shortest runs it may be another one that is shown. With symmetry of tasks, the number of states may \
-     differ. There is one process with $(b,--invariant), $(b,--compress), $(b,--spill), $(b,--sample) and $(b,--bitstate)."
+     differ. There is one process with $(b,--compress), $(b,--spill), $(b,--sample) and $(b,--bitstate)."
   in
   let cores = Dolphin_checker.Shared_memory.machine_cores () in
   Arg.(value & opt positive cores & info [ "workers" ] ~docv:"N" ~absent:"the number of cores" ~doc)

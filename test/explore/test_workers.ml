@@ -26,10 +26,15 @@ let text (o : Search.outcome) =
     (String.concat ", " (Search.reductions o))
     (String.concat "\n" (List.map verdict o.verdicts))
 
+let conditions = [ "!poll(x: 1)"; "count(x: _) < 2"; "!running('p')"; "!(running('p') && running('q'))" ]
+
 let agrees (((_, world), _, (_, environment)) as case) =
   let program = compile case in
+  let condition text =
+    match Condition.of_string program text with Ok c -> c | Error why -> failwith (text ^ ": " ^ why) in
+  let invariants = List.map condition conditions in
   let search reduction workers =
-    let options = { Search.default with environment; reduction; limits; search_again = 0 } in
+    let options = { Search.default with environment; reduction; limits; search_again = 0; invariants } in
     Search.run { options with workers; fork_from = 0; spare_bits = Some 0 } program world
   in
   let shows (property, (verdict : Search.verdict)) =

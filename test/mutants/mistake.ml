@@ -401,6 +401,8 @@ let workers =
       ("what a worker learns is learnt with no set of the monitor", {|      t.key.(0) <- t.key.(0) lxor t.from;
 |}, {||});
     ]
+  @ in_file "lib/explore/verdict/invariant.ml" ~noticed_by:"explore/test_workers"
+    [ ("what workers see of invariants is lost", {|-1 -> () | i -> t.broken <- Some i|}, {|i -> ignore i|}) ]
   @ in_file "lib/ltl/monitor.ml" ~noticed_by:"explore/test_temporal"
     [ ("each process numbers sets as they come", {|    give ();|}, {|    ignore give;|}) ]
   @ in_file "lib/explore/encoding/layouts.ml" ~noticed_by:"explore/test_counts"

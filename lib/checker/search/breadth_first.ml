@@ -2,6 +2,12 @@ open Dolphin_ltl
 
 type 'run verdict = Holds | Violated of 'run | Inconclusive of Limits.bound
 type lasso = { stem : int list; around : int list }
+type watcher = Search_state.watcher = {
+  see : int -> unit;
+  told : unit -> string;
+  hear : first:(int -> int -> int) -> string -> unit;
+}
+
 type violation = Whatever_follows of int list | Around of { stem : int list; cycle : (int * int) list }
 
 module Make (S : System.S) = struct
@@ -20,6 +26,7 @@ module Make (S : System.S) = struct
       | Some shared -> Together.expand_all t shared
       | None ->
         worked t;
+        see t t.next;
         look t.next;
         ignore (expand t t.next : int);
         check_states t;
@@ -45,7 +52,8 @@ module Make (S : System.S) = struct
     | exception Out_of_memory -> give_up No_memory
     | exception States.Disk_failed why -> give_up (Unsettled why)
 
-  let run ?look ?enough t =
+  let run ?watcher ?look ?enough t =
+    t.watcher <- watcher;
     let is_plain = Option.is_none look && Option.is_none enough in
     let look = Option.value look ~default:ignore and enough = Option.value enough ~default:(fun () -> false) in
     let all () =

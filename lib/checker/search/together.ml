@@ -13,6 +13,7 @@ module Make (S : System.S) = struct
     resting : int;
     violating : int;
     breaking : (S.property * int) list;
+    watched : string;
   }
 
   let earlier t i j =
@@ -24,11 +25,12 @@ module Make (S : System.S) = struct
     let found = match findings with Some findings -> findings | None -> S.findings t.system in
     let breaking = Hashtbl.fold (fun property i found -> (property, i) :: found) t.broken [] in
     let by_worker = (expanded, t.transitions) in
-    Marshal.to_string { found; by_worker; resting = t.deadlock; violating = t.violation; breaking } []
+    let watched = Option.fold t.watcher ~none:"" ~some:(fun (watcher : Search_state.watcher) -> watcher.told ()) in
+    Marshal.to_string { found; by_worker; resting = t.deadlock; violating = t.violation; breaking; watched } []
 
   let add_report t shared text =
     let report : report = Marshal.from_string text 0 in
-    let { found; by_worker = (expanded, transitions); resting; violating; breaking } = report in
+    let { found; by_worker = (expanded, transitions); resting; violating; breaking; watched } = report in
     S.add_findings t.system found;
     shared.expanded <- shared.expanded + expanded;
     t.transitions <- t.transitions + transitions;
@@ -38,7 +40,8 @@ module Make (S : System.S) = struct
       let known = Option.value (Hashtbl.find_opt t.broken property) ~default:(-1) in
       Hashtbl.replace t.broken property (first_of t known i)
     in
-    List.iter add breaking
+    List.iter add breaking;
+    Option.iter (fun (watcher : Search_state.watcher) -> watcher.hear ~first:(first_of t) watched) t.watcher
 
   (* [key] is with the monitor's set. *)
   let numbering t tick key =
@@ -77,7 +80,9 @@ module Make (S : System.S) = struct
     let rec next () =
       if block.first < block.upto then begin
         worked t;
-        expand_shared t shared (Shared_states.number states block.segment block.first);
+        let i = Shared_states.number states block.segment block.first in
+        see t i;
+        expand_shared t shared i;
         if (not (Team.is_worker team)) && Limits.exceeds t.limits.max_states (count t) then raise (Limits.Stop States);
         block.first <- block.first + 1;
         next ()
@@ -129,7 +134,9 @@ module Make (S : System.S) = struct
     (match S.check_fit t.system with () -> () | exception S.Outgrown -> outgrow t);
     for p = block.first to block.upto - 1 do
       worked t;
-      ignore (expand t (Shared_states.number (shared_states t) block.segment p) : int);
+      let i = Shared_states.number (shared_states t) block.segment p in
+      see t i;
+      ignore (expand t i : int);
       shared.expanded <- shared.expanded + 1;
       check_states t
     done

@@ -24,6 +24,14 @@ let look t graph i =
   | Fails -> t.broken <- Some (State_graph.keep graph i)
   | Broken why -> if t.trouble = None then t.trouble <- Some why
 
+let told t = Marshal.to_string (t.broken, t.trouble) []
+
+let hear t ~first text =
+  let (broken, trouble) : int option * string option = Marshal.from_string text 0 in
+  let number = Option.value ~default:(-1) in
+  (match first (number t.broken) (number broken) with -1 -> () | i -> t.broken <- Some i);
+  if t.trouble = None then t.trouble <- trouble
+
 let check t graph i =
   if t.broken = None then
     match if t.only_shared then State_graph.shared graph i else None with

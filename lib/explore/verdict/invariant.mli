@@ -9,10 +9,14 @@ val create : Core.program -> World.t -> Condition.t -> t
 val condition : t -> Condition.t
 
 val check : t -> State_graph.t -> int -> unit
-(** [check t g i] looks at state [i]; states come in the order of their numbers. *)
+(** [check t g i] looks at state [i]; states come level by level. *)
 
 val broken : t -> int option
 (** The first state in which it failed. *)
+
+val told : t -> string
+val hear : t -> first:(int -> int -> int) -> string -> unit
+(** As of a {!Dolphin_checker.Breadth_first.watcher}. *)
 
 val trouble : t -> string option
 (** What was wrong in the first state in which it could not be evaluated. *)

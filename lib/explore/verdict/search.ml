@@ -325,10 +325,14 @@ let without_formulas x (options : options) =
   let invariants = List.map (Invariant.create x.program x.world) options.invariants in
   let check i = List.iter (fun invariant -> Invariant.check invariant graph i) invariants in
   let look = if invariants = [] then None else Some check in
+  let told () = Marshal.to_string (List.map Invariant.told invariants) [] in
+  let hear ~first text =
+    List.iter2 (fun invariant -> Invariant.hear invariant ~first) invariants (Marshal.from_string text 0) in
+  let watcher = Option.map (fun see -> { Breadth_first.see; told; hear }) look in
   (match options.walks, options.bitstate with
    | Some { number; seed }, _ -> State_graph.run_walks ?look graph ~walks:number ~seed
    | None, Some bytes -> State_graph.run_bitstate ?look graph ~bytes
-   | None, None -> State_graph.run ?look graph);
+   | None, None -> State_graph.run ?watcher graph);
   let verdicts = with_shortest_runs x options (verdicts x options graph invariants) in
   let space = State_graph.system graph and bitstate = State_graph.bitstate graph in
   let states =

@@ -84,7 +84,7 @@ A run of the explorer can be followed; it can be walked, too.
     15  program     is interrupted
   [130]
 
-At a signal the run goes on with it, and has been interrupted.
+At a signal the run goes on with it, and has been interrupted. SIGHUP may be ignored where tests run, as by `nohup`.
 
   $ cat > long.fleet <<'EOF'
   > vehicle 'a', { type 'UUV' }
@@ -99,7 +99,7 @@ At a signal the run goes on with it, and has been interrupted.
   $ signal() {  # SIGNAL PATTERN FILE: signals $run once FILE has PATTERN, and waits for its end
   >   until grep -qs -e "$2" "$3" || ! kill -0 $run; do sleep 0.05; done; kill -$1 $run; wait $run
   > }
-  $ dolphin exec long.dol --fleet long.fleet --speed 5 --journal one.run > log.txt & run=$!
+  $ env --default-signal=HUP dolphin exec long.dol --fleet long.fleet --speed 5 --journal one.run > log.txt & run=$!
   $ signal HUP 'starts survey' log.txt
   [130]
   $ cut -c 10- log.txt
@@ -138,8 +138,8 @@ A third one ends the process at once. Here a supplier that ignores the end of it
 it is there still when the third one has come.
 
   $ (echo 'supplier = getSupplier()'; cat long.dol) > supplied.dol
-  $ rm log.txt; dolphin exec supplied.dol --fleet long.fleet --supplier 'exec python3 suppliers.py stays' --speed 1 \
-  >   --journal three.run > log.txt & run=$!
+  $ rm log.txt; env --default-signal=HUP dolphin exec supplied.dol --fleet long.fleet --speed 1 \
+  >   --supplier 'exec python3 suppliers.py stays' --journal three.run > log.txt & run=$!
   $ await 'starts survey'; kill -HUP $run; await 'starts home'; kill -TERM $run; signal INT 'is interrupted$' log.txt
   [130]
   $ kill -KILL $(cat supplier.pid) && rm supplier.pid

@@ -484,7 +484,7 @@ let recruiting =
     [
       ( "what waits for the task knows nobody",
         {|union (union (outside_of_task t x) components) nests|},
-        {|(ignore outside_of_task; union (union Vehicles.empty components) nests)|} );
+        {|(ignore outside_of_task; union (union Vehicle_set.empty components) nests)|} );
       ( "what stands beside knows nobody",
         {|union (union (outside_of_task t x) components) nests|},
         {|(ignore components; union (outside_of_task t x) nests)|} );

@@ -78,7 +78,10 @@ let line r text =
   r.messages <- messages;
   List.iter (take r) complete
 
-let explore installation ~coverage directory =
+(* A wrong specification may have states without end. *)
+let most_states prepared = 1_000 + List.fold_left (fun n p -> n + (2 * states p)) 0 prepared
+
+let explore installation ~coverage ~most directory =
   let r =
     { messages = Message.start; outcome = Outcome.start; problem = None; warnings = [];
       printed = Printed_graph.create (); counted = [] }
@@ -87,7 +90,8 @@ let explore installation ~coverage directory =
     Invocation.command ~short:true ~coverage installation (Local (Workers 1)) ~directory ~main:"MC"
       ~configuration:(if coverage then Family.by_rule else Family.configuration)
   in
-  ignore (Process.run ~directory ~interrupted:(fun () -> false) (line r) command : Process.ending);
+  let interrupted () = Printed_graph.states r.printed > most in
+  ignore (Process.run ~directory ~interrupted (line r) command : Process.ending);
   List.iter (take r) (Message.finish r.messages);
   r
 
@@ -103,10 +107,11 @@ let judge graphs i p =
   { name = p.case.name; source = p.case.source; states = Graph.states p.graph; transitions = p.transitions; verdict }
 
 (* With an action for each rule, several actions take one transition. *)
-let conclude prepared ~coverage r =
+let conclude prepared ~coverage ~most r =
   let o = Outcome.finish r.outcome in
   let states = Printed_graph.states r.printed and transitions = Printed_graph.transitions r.printed in
   match r.problem, o.verdict, Printed_graph.graphs r.printed with
+  | _ when states > most -> Error (Printf.sprintf "TLC was stopped after %d states" most)
   | Some problem, _, _ -> Error problem
   | None, Failed lines, _ -> Error (String.concat "\n" lines)
   | None, Gave_up why, _ -> Error why
@@ -127,4 +132,6 @@ let conclude prepared ~coverage r =
 
 let run ?(coverage = false) installation ~specification prepared =
   Result.bind (Family.files ~specification (List.map (fun p -> p.constants) prepared)) (fun files ->
-      in_directory files (fun directory -> conclude prepared ~coverage (explore installation ~coverage directory)))
+      let most = most_states prepared in
+      in_directory files (fun directory ->
+          conclude prepared ~coverage ~most (explore installation ~coverage ~most directory)))

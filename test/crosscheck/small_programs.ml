@@ -106,6 +106,9 @@ let tasks =
       ("rounds until a condition holds, which takes what it asks for",
        "execute repeat (action { post k: 1 } >> idle(1.seconds)) until { consume k: 1, k: 1 }\n\
         if (poll(k: 1)) { message 'left' }");
+      ("rounds at most so many, and a condition that nobody asks after the last",
+       "execute repeat 2, (idle(1.seconds) >> action { post k: 1 }) until { consume k: 1, k: 1 }\n\
+        if (poll(k: 1)) { message 'left' }");
       ("rounds at most so many, and a condition that breaks",
        "execute watch (repeat 3, (idle(1.seconds) >> action { post k: 1 }) until { consume(k: 1, k: 1) ? 1 / 0 : false })\n\
         onError { ignore() }");

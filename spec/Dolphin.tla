@@ -951,9 +951,7 @@ SCRIPT(m, S) == Transition("SCRIPT", "script", Program, Script(Machine(m)), S, <
 POST(m, S) == DeedStep("POST", m, S)
 CONSUME(m, S) == DeedStep("CONSUME", m, S)
 MESSAGE(m, S) == DeedStep("MESSAGE", m, S)
-RELEASE(m, S) ==
-  LET V == Range(DeedOf(m).vehicles)
-  IN DeedStep("RELEASE", m, WithoutA([ S EXCEPT !.B = SelectSeq(@, LAMBDA v : v \notin V) ], V))
+RELEASE(m, S) == DeedStep("RELEASE", m, WithoutA(S, Range(DeedOf(m).vehicles)))
 SET_TIMEOUT(m, S) == DeedStep("SET-TIMEOUT", m, S)
 
 Deed(m, S) ==

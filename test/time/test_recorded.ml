@@ -165,6 +165,12 @@ let test_links () =
   Printf.printf "%d of %d runs compared\n" (!compared - before) (3 * programs);
   Alcotest.(check bool) "most" true (!compared - before > 2 * programs)
 
+(* The task is over after 10 s, and nobody hears of it until 45 s; what happens meanwhile says nothing of it. *)
+let test_silence () =
+  check "a link that is back" ~seeds:1
+    ~fleet:"vehicle 'a', { type 'UUV'; drops 5.seconds, 40.seconds }\nplan 'p', { duration 10 }\n"
+    "v = pick { id 'a' }\nsetConnectionTimeout v, 60\nexecute task('p')[v] | (idle(30) >> action { message 'x' })\n"
+
 (* A plan that takes longer than the fleet says, or shorter, is found. *)
 let test_findings () =
   let fleet duration =
@@ -190,7 +196,9 @@ let () =
   let case name = Alcotest.test_case name `Quick (check_example name) in
   Alcotest.run "recorded"
     [ ("examples", List.map case (Test_support.Examples.with_fleets ()));
-      ("links", [ Alcotest.test_case "that come and go" `Quick test_links ]);
+      ("links",
+       [ Alcotest.test_case "that come and go" `Quick test_links;
+         Alcotest.test_case "that are back after the end" `Quick test_silence ]);
       ("findings", [ Alcotest.test_case "too early and too late" `Quick test_findings;
                      Alcotest.test_case "many were compared" `Quick (fun () ->
                          Alcotest.(check bool) "most" true (!compared > 20 * seeds)) ]) ]

@@ -386,7 +386,11 @@ let ends =
       ("rounds without end", "execute repeat idle(5.seconds)") ]
 
 let verdicts =
-  let stuck = List.filter (fun (c : Case.t) -> c.name = "interrupted where it is stuck") interruptions in
+  let is_stuck (c : Case.t) = c.name = "interrupted where it is stuck" in
+  let once = { answering with inputs = Test_support.Posts.once } in
+  let source = "input 'x'\nexecute condition { consume x: 1 }" in
+  let nobody_posts = of_text "nobody need post, nor can anybody twice" source Generate.world once in
+  let stuck = nobody_posts :: List.filter is_stuck interruptions in
   List.hd loops :: stuck @ ends @ List.tl loops
 
 (* Questions that are answered by yes or no. *)

@@ -2,12 +2,6 @@ open Dolphin_ltl
 
 type 'run verdict = Holds | Violated of 'run | Inconclusive of Limits.bound
 type lasso = { stem : int list; around : int list }
-type watcher = Search_state.watcher = {
-  see : int -> unit;
-  told : unit -> string;
-  hear : first:(int -> int -> int) -> string -> unit;
-}
-
 type violation = Whatever_follows of int list | Around of { stem : int list; cycle : (int * int) list }
 
 module Make (S : System.S) = struct

@@ -24,15 +24,6 @@ type violation =
   | Around of { stem : int list; cycle : (int * int) list }
   (** [cycle] is arrivals in states, with valuations, that go on for ever after [stem] and come back to its last *)
 
-(** What looks at states that a search expands. Several processes each have a copy of it, from a fork on. *)
-type watcher = {
-  see : int -> unit;  (** is called with a state's number before it is expanded *)
-  told : unit -> string;  (** what it has seen in a worker *)
-  hear : first:(int -> int -> int) -> string -> unit;
-  (** adds what another has {!told}; [first i j] is that of the states [i] and [j] to which fewer transitions lead, or
-      the other one if one of them is -1 *)
-}
-
 module Make (S : System.S) : sig
   type t
 
@@ -52,7 +43,7 @@ module Make (S : System.S) : sig
   (** [close t] gives back what [t] has on disk. Only what needs no state may be asked of it then: {!count}, {!memory},
       {!stopped} and the like. *)
 
-  val run : ?watcher:watcher -> ?look:(int -> unit) -> ?enough:(unit -> bool) -> t -> unit
+  val run : ?watcher:Watcher.t -> ?look:(int -> unit) -> ?enough:(unit -> bool) -> t -> unit
   (** [run t] expands all states, until a bound is met, [enough ()] says so, or it {!is_violated}. [watcher] sees each
       of them; [look i] is called before state [i] is expanded, in order, in one process. What [S.expand], [look] and
       [enough] raise is raised, {!Limits.Stop} apart. *)

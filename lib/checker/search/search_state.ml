@@ -1,11 +1,5 @@
 open Dolphin_ltl
 
-type watcher = {
-  see : int -> unit;
-  told : unit -> string;
-  hear : first:(int -> int -> int) -> string -> unit;
-}
-
 module Make (S : System.S) = struct
   (* A depth-first search by bitstate hashing. *)
   type deep = {
@@ -49,7 +43,7 @@ module Make (S : System.S) = struct
     fork_from : int;  (* states *)
     mutable shared : shared option;
     fresh : int -> int -> unit;
-    mutable watcher : watcher option;  (* in a search of all states *)
+    mutable watcher : Watcher.t option;  (* in a search of all states *)
     give : unit -> unit;  (* before the monitor gives a number *)
     visitor : S.via System.visitor;
   }
@@ -298,6 +292,6 @@ module Make (S : System.S) = struct
     let parent = match t.sample with Some sample -> Sample.from sample | None -> States.parent t.states in
     let rec back i states = if i = 0 then 0 :: states else back (parent i) (i :: states) in
     back i []
-  let see t i = Option.iter (fun watcher -> watcher.see i) t.watcher
+  let see t i = Option.iter (fun (watcher : Watcher.t) -> watcher.see i) t.watcher
   let check_states t = if Limits.exceeds t.limits.max_states (count t) then raise (Limits.Stop States)
 end

@@ -1,15 +1,6 @@
 (** A search under way: the states that were found, how it arrives in more, and how one is expanded. All ways to search
     share it: {!Breadth_first}, {!Together}, {!Random_walks} and {!Depth_first}. *)
 
-(** What looks at states that a search expands. Several processes each have a copy of it, from a fork on. *)
-type watcher = {
-  see : int -> unit;  (** is called with a state's number before it is expanded *)
-  told : unit -> string;  (** what it has seen in a worker *)
-  hear : first:(int -> int -> int) -> string -> unit;
-  (** adds what another has {!told}; [first i j] is that of the states [i] and [j] to which fewer transitions lead, or
-      the other one if one of them is -1 *)
-}
-
 module Make (S : System.S) : sig
   (** Of a depth-first search by bitstate hashing. *)
   type deep = {
@@ -53,7 +44,7 @@ module Make (S : System.S) : sig
     fork_from : int;  (** states *)
     mutable shared : shared option;
     fresh : int -> int -> unit;
-    mutable watcher : watcher option;  (** in a search of all states *)
+    mutable watcher : Watcher.t option;  (** in a search of all states *)
     give : unit -> unit;  (** before the monitor gives a number *)
     visitor : S.via System.visitor;
   }

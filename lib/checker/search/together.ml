@@ -25,7 +25,7 @@ module Make (S : System.S) = struct
     let found = match findings with Some findings -> findings | None -> S.findings t.system in
     let breaking = Hashtbl.fold (fun property i found -> (property, i) :: found) t.broken [] in
     let by_worker = (expanded, t.transitions) in
-    let watched = Option.fold t.watcher ~none:"" ~some:(fun (watcher : Search_state.watcher) -> watcher.told ()) in
+    let watched = Option.fold t.watcher ~none:"" ~some:(fun (watcher : Watcher.t) -> watcher.told ()) in
     Marshal.to_string { found; by_worker; resting = t.deadlock; violating = t.violation; breaking; watched } []
 
   let add_report t shared text =
@@ -41,7 +41,7 @@ module Make (S : System.S) = struct
       Hashtbl.replace t.broken property (first_of t known i)
     in
     List.iter add breaking;
-    Option.iter (fun (watcher : Search_state.watcher) -> watcher.hear ~first:(first_of t) watched) t.watcher
+    Option.iter (fun (watcher : Watcher.t) -> watcher.hear ~first:(first_of t) watched) t.watcher
 
   (* [key] is with the monitor's set. *)
   let numbering t tick key =

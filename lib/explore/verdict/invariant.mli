@@ -16,7 +16,7 @@ val broken : t -> int option
 
 val told : t -> string
 val hear : t -> first:(int -> int -> int) -> string -> unit
-(** As of a {!Dolphin_checker.Breadth_first.watcher}. *)
+(** As of a {!Dolphin_checker.Watcher.t}. *)
 
 val trouble : t -> string option
 (** What was wrong in the first state in which it could not be evaluated. *)

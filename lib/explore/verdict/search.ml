@@ -328,7 +328,7 @@ let without_formulas x (options : options) =
   let told () = Marshal.to_string (List.map Invariant.told invariants) [] in
   let hear ~first text =
     List.iter2 (fun invariant -> Invariant.hear invariant ~first) invariants (Marshal.from_string text 0) in
-  let watcher = Option.map (fun see -> { Breadth_first.see; told; hear }) look in
+  let watcher = Option.map (fun see -> { Watcher.see; told; hear }) look in
   (match options.walks, options.bitstate with
    | Some { number; seed }, _ -> State_graph.run_walks ?look graph ~walks:number ~seed
    | None, Some bytes -> State_graph.run_bitstate ?look graph ~bytes

@@ -703,7 +703,7 @@ let occurrences part text =
 let is_of_checking m = m.file = checking || m.name = "each input is certain"  (* what is owed, verdicts alone ask *)
 let is_of_abstract m = m.file = abstract
 let is_of_refinement m = m.file = refinement || m.name = types
-let is_of_time m = m.file = time
+let is_of_time m = m.file = time || m.name = "who is silent is heard of"  (* links change with time *)
 let about part = if part = "" then all else List.filter (fun m -> occurrences part m.name <> []) all
 
 let apply m files =

@@ -303,8 +303,7 @@ let workers =
      of several shortest runs it may be another one that is shown. With symmetry of tasks, the number of states may \
      differ. There is one process with $(b,--compress), $(b,--spill), $(b,--sample) and $(b,--bitstate)."
   in
-  let cores = Dolphin_checker.Shared_memory.machine_cores () in
-  Arg.(value & opt positive cores & info [ "workers" ] ~docv:"N" ~absent:"the number of cores" ~doc)
+  Options.workers ~doc
 
 let json = Arg.(value & flag & info [ "json" ] ~doc:"Print the result as one JSON object.")
 

@@ -20,12 +20,19 @@ let compare_graphs left right =
     Format.printf "not bisimilar@.%a@." Compare.pp_difference difference;
     Exit_status.Violated
 
-let run path other set fleet answers faults limit format quotient output =
-  let world : State_graph.world = { set; fleet; answers; faults; limit } in
+(* Writing and comparing are ended by Ctrl-C at once. *)
+let load world path =
+  let found =
+    Watched.search ~json:false (fun ~interrupted ~progress -> State_graph.load world ~interrupted ~progress path) in
+  Sys.set_signal Sys.sigint Signal_default;
+  found
+
+let run path other set fleet answers faults workers max_states max_memory timeout format quotient output =
+  let world : State_graph.world = { set; fleet; answers; faults; workers; max_states; max_memory; timeout } in
   Report.result
-    (let* graph = State_graph.load world path in
+    (let* graph = load world path in
      match other, quotient with
-     | Some other, _ -> Result.map (compare_graphs graph) (State_graph.load world other)
+     | Some other, _ -> Result.map (compare_graphs graph) (load world other)
      | None, Some Strong -> write format output (Partition.minimal (Graph.without_doubles graph))
      | None, None -> write format output graph)
 
@@ -59,7 +66,12 @@ let output =
   let doc = "Write to $(docv) instead of standard output." in
   Arg.(value & opt (some string) None & info [ "o"; "output" ] ~docv:"FILE" ~doc)
 
-let limit =
+let workers =
+  let doc =
+    "Search with $(docv) processes once there are some 100,000 states. The graph is the same whatever $(docv) is." in
+  Options.workers ~doc
+
+let max_states =
   let doc = "Give up after $(docv) states." in
   Arg.(value & opt int 1_000_000 & info [ "max-states" ] ~docv:"N" ~doc)
 
@@ -85,4 +97,4 @@ let command =
   Cmd.v info
     Term.(
       const run $ graph $ compare_with $ Options.set $ Options.fleet $ Explore_command.answers $ Explore_command.faults
-      $ limit $ format $ quotient $ output)
+      $ workers $ max_states $ Explore_command.max_memory $ Explore_command.timeout $ format $ quotient $ output)

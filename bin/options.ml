@@ -70,6 +70,11 @@ let number ~docv what accepts =
 
 let positive ~docv = number ~docv "a number greater than 0" (fun x -> x > 0. && x < infinity)
 
+let workers ~doc =
+  let cores = Dolphin_checker.Shared_memory.machine_cores () in
+  let processes = whole ~docv:"N" "no number from 1 on" in
+  Arg.(value & opt processes cores & info [ "workers" ] ~docv:"N" ~absent:"the number of cores" ~doc)
+
 let s_write = "WRITE A PROGRAM"
 let s_prove = "KNOW WHAT IT MAY DO"
 let s_run = "RUN IT"

@@ -32,6 +32,9 @@ val number : docv:string -> string -> (float -> bool) -> float Arg.conv
 val positive : docv:string -> float Arg.conv
 (** Finite numbers greater than 0. *)
 
+val workers : doc:string -> int Term.t
+(** [--workers N]: processes, by default the number of cores. *)
+
 (** {1 Sections of the manual in which commands stand, by need} *)
 
 val s_write : string

@@ -27,29 +27,29 @@ The state graph of a program, in the Aldebaran format.
   (6,"start(noptilus-3, b)",11)
   (7,"start(noptilus-3, b)",13)
   (7,"start(noptilus-2, a)",12)
-  (8,"start(noptilus-2, b)",14)
-  (8,"done(noptilus-1, a)",15)
-  (9,"start(noptilus-1, a)",14)
+  (8,"start(noptilus-2, b)",15)
+  (8,"done(noptilus-1, a)",14)
+  (9,"start(noptilus-1, a)",15)
   (9,"done(noptilus-2, b)",16)
-  (10,"start(noptilus-3, b)",17)
-  (10,"done(noptilus-1, a)",18)
-  (11,"start(noptilus-1, a)",17)
+  (10,"start(noptilus-3, b)",18)
+  (10,"done(noptilus-1, a)",17)
+  (11,"start(noptilus-1, a)",18)
   (11,"done(noptilus-3, b)",19)
-  (12,"start(noptilus-3, b)",20)
-  (12,"done(noptilus-2, a)",21)
-  (13,"start(noptilus-2, a)",20)
+  (12,"start(noptilus-3, b)",21)
+  (12,"done(noptilus-2, a)",20)
+  (13,"start(noptilus-2, a)",21)
   (13,"done(noptilus-3, b)",22)
-  (14,"done(noptilus-1, a)",23)
-  (14,"done(noptilus-2, b)",24)
-  (15,"start(noptilus-2, b)",23)
+  (14,"start(noptilus-2, b)",23)
+  (15,"done(noptilus-1, a)",23)
+  (15,"done(noptilus-2, b)",24)
   (16,"start(noptilus-1, a)",24)
-  (17,"done(noptilus-1, a)",25)
-  (17,"done(noptilus-3, b)",26)
-  (18,"start(noptilus-3, b)",25)
+  (17,"start(noptilus-3, b)",25)
+  (18,"done(noptilus-1, a)",25)
+  (18,"done(noptilus-3, b)",26)
   (19,"start(noptilus-1, a)",26)
-  (20,"done(noptilus-3, b)",28)
-  (20,"done(noptilus-2, a)",27)
-  (21,"start(noptilus-3, b)",27)
+  (20,"start(noptilus-3, b)",27)
+  (21,"done(noptilus-3, b)",28)
+  (21,"done(noptilus-2, a)",27)
   (22,"start(noptilus-2, a)",28)
   (23,"done(noptilus-2, b)",29)
   (24,"done(noptilus-1, a)",29)
@@ -115,3 +115,31 @@ Files that are none.
   $ dolphin lts missing.aut
   dolphin: missing.aut: No such file or directory
   [2]
+
+Bounds, and how many search.
+
+  $ dolphin lts two.dol --max-states 5
+  dolphin: two.dol has more than 5 states: see --max-states
+  [3]
+  $ dolphin lts two.dol --timeout 0
+  dolphin: two.dol: the time was up
+  [3]
+  $ dolphin lts two.dol --workers 0
+  dolphin: option '--workers': '0' is no number from 1 on
+  Usage: dolphin lts [OPTION]… PROG
+  Try 'dolphin lts --help' or 'dolphin --help' for more information.
+  [2]
+  $ dolphin lts two.dol -o default.aut
+  $ dolphin lts two.dol --workers 2 -o of_two.aut
+  $ cmp default.aut of_two.aut
+
+Programs of which nobody knows what they do first.
+
+  $ cat > open.dol <<'END'
+  > message 5 / now()
+  > END
+  $ dolphin lts open.dol
+  open.dol:1:9: error: what now() is, is open, and more than a comparison depends on it: a fleet may list what batteries, positions and measurements show
+    1 | message 5 / now()
+      |         ^^^^^^^^^
+  [3]

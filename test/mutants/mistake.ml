@@ -1503,6 +1503,28 @@ let share =
       ("looks cost nothing", {|Float.of_int (j * (j + 1))|}, {|Float.of_int (j * j)|});
     ]
 
+let transition_systems =
+  in_file "lib/explore/verdict/transition_system.ml" ~noticed_by:"explore/test_transition_system"
+    [
+      ( "states have the numbers that processes gave them",
+        {|      numbers.(id) <- !known;
+      ids.(!known) <- id;
+      incr known|},
+        {|      numbers.(id) <- id;
+      ids.(id) <- id;
+      incr known|} );
+      ("labels lose their place when more are known", {|Array.append t.texts (Array.make n "")|},
+       {|Array.append (Array.make n "") t.texts|});
+    ]
+  @ in_file "lib/explore/temporal/observer.ml" ~noticed_by:"explore/test_transition_system"
+    [
+      ("what is checked is not seen", {|t.action { label = named; effects|},
+       {|t.action { label = (match named with Check _ -> Silent | label -> label); effects|});
+      ( "whoever has no end in sight sees nothing",
+        {|let of_event observer ?ending label = seen observer|},
+        {|let of_event observer ?ending label = seen (if ending = None then None else observer)|} );
+    ]
+
 let files_of_states =
   in_file "lib/explore/verdict/search.ml" ~noticed_by:"explore/test_agreement"
     [ ("files of states stay open", {|Fun.protect ~finally:(fun () -> State_graph.close graph) (fun () -> f graph)|},
@@ -1620,7 +1642,7 @@ let prelude =
 let all =
   List.concat
     [ maps; missions; footprint; step_footprints; order_of_recruits; stubborn; automorphism; task_isomorphism;
-      task_groups; quotient; expansion; portable; files_of_states;
+      task_groups; quotient; expansion; portable; transition_systems; files_of_states;
       vehicle_orbits; canonical_vehicles; bitstate; workers; disk; name_flow; liveness; recruiting; later_picks;
       environment; picks; inputs;
       attendance;

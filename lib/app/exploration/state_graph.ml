@@ -1,6 +1,8 @@
 open Dolphin_semantics
 open Dolphin_lts
 module Reference = Dolphin_explore.Reference
+module Transition_system = Dolphin_explore.Transition_system
+module Limits = Dolphin_checker.Limits
 module Scenario_world = Dolphin_environment.Scenario_world
 
 type world = {
@@ -8,41 +10,52 @@ type world = {
   fleet : string option;
   answers : string list;
   faults : Dolphin_environment.Faults.t;
-  limit : int;
+  workers : int;
+  max_states : int;
+  max_memory : int option;
+  timeout : float option;
 }
 
 let ( let* ) = Result.bind
 
-let graph (program : Core.program) (space : Reference.t) =
-  let builder = Graph.Builder.create () in
-  let add from ((t : Transition.t), target) =
-    Graph.Builder.add builder from (Format.asprintf "%a" Label.pp t.label) target in
-  Array.iteri (fun from edges -> List.iter (add from) edges) space.edges;
-  let text s = Format.asprintf "%a" (Configuration.pp program) space.states.(s).configuration in
-  Graph.Builder.finish ~doubles:true ~states:(Array.length space.states) ~text builder
+let too_many (program : Program_file.t) limit =
+  Error.Inconclusive (Printf.sprintf "%s has more than %d states: see --max-states" program.path limit)
 
 let explored ~limit environment (program : Program_file.t) world =
   match Reference.explore ~limit environment program.program world with
   | Some space -> Ok space
-  | None ->
-    Error (Error.Inconclusive (Printf.sprintf "%s has more than %d states: see --max-states" program.path limit))
+  | None -> Error (too_many program limit)
   | exception Dolphin_environment.Environment.Unclear fault -> Error (Program_file.unsettled program fault)
 
-let of_program w path =
+(* States are described from where they were found, when they are written. *)
+let graph (program : Core.program) system =
+  let builder = Graph.Builder.create () in
+  Transition_system.iter system (Graph.Builder.add builder);
+  let text s = Format.asprintf "%a" (Configuration.pp program) (fst (Transition_system.state system s)) in
+  Graph.Builder.finish ~doubles:true ~states:(Transition_system.states system) ~text builder
+
+let of_program w ~interrupted ~progress path =
   let* program, fleet = Program_file.load_with_fleet ~set:w.set ~fleet:w.fleet path in
   let environment = Scenario_world.environment ~answers:w.answers ~faults:w.faults program.program fleet.scenario in
-  let* space = explored ~limit:w.limit environment program (Scenario_world.world fleet.scenario) in
-  Ok (graph program.program space)
+  let limits : Limits.t =
+    { max_states = Some w.max_states; max_depth = None; max_memory = w.max_memory; memory_taken = Memory.taken;
+      memory_left = Memory.left; timeout = w.timeout; clock = Unix.gettimeofday; interrupted; progress } in
+  let world = Scenario_world.world fleet.scenario in
+  match Transition_system.explore ~workers:w.workers limits environment program.program world with
+  | Ok system -> Ok (graph program.program system)
+  | Error (Stopped States) -> Error (too_many program w.max_states)
+  | Error (Unclear fault) -> Error (Program_file.unsettled program fault)
+  | Error (Stopped bound) -> Error (Error.Inconclusive (Format.asprintf "%s: %a" program.path Limits.pp_bound bound))
 
 let of_text path read pp_error =
   let* text = Text_file.read path in
   Result.map_error (fun e -> Error.Bad_input (Format.asprintf "%s: %a" path pp_error e)) (read text)
 
-let load w path =
+let load w ~interrupted ~progress path =
   match Filename.extension path with
   | ".aut" -> of_text path Aldebaran.of_string Aldebaran.pp_error
   | ".json" -> of_text path Json.of_string Json.pp_error
-  | _ -> of_program w path
+  | _ -> of_program w ~interrupted ~progress path
 
 type format = Aut | Dot | Json
 

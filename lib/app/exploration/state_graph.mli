@@ -5,13 +5,19 @@ type world = {
   fleet : string option;  (** the file; [None]: the one beside the program, or the built-in one *)
   answers : string list;  (** what may be answered; [[]]: what the fleet answers *)
   faults : Dolphin_environment.Faults.t;
-  limit : int;  (** states *)
+  workers : int;  (** processes that search *)
+  max_states : int;
+  max_memory : int option;  (** bytes *)
+  timeout : float option;  (** seconds *)
 }
 
-val load : world -> string -> (Dolphin_lts.Graph.t, Error.t) result
-(** [load w path] is the graph in the file [path], if its name ends in [.aut] or [.json], and else the labelled
-    transition system of the program in it: its states are configurations, its labels those of [docs/semantics.md]. The
-    error is {!Error.Inconclusive} if it has more than [w.limit] states. *)
+val load :
+  world -> interrupted:(unit -> bool) -> progress:(Dolphin_checker.Limits.progress -> unit) -> string ->
+  (Dolphin_lts.Graph.t, Error.t) result
+(** [load w ~interrupted ~progress path] is the graph in the file [path], if its name ends in [.aut] or [.json], and
+    else the labelled transition system of the program in it: its states are configurations, its labels those of
+    [docs/semantics.md]. The error is {!Error.Inconclusive} if a bound is met. [interrupted] and [progress] are as in
+    {!Dolphin_checker.Limits}. *)
 
 type format = Aut | Dot | Json
 

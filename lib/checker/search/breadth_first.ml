@@ -90,14 +90,17 @@ module Make (S : System.S) = struct
 
   let path t i = match t.deep with Some deep -> Hashtbl.find deep.runs i | None -> path_to t i
 
-  type arrival = { into : int; valuation : int; via : S.via }
+  type arrival = { into : int; action : int; valuation : int; via : S.via }
 
   (* What a system numbers may grow by looking at a state again, too. *)
   let rec arrivals_with tick t i =
     let found = ref [] in
-    let put key via valuation = found := { into = States.find t.states key; valuation; via } :: !found in
+    let put key action via valuation =
+      found := { into = States.find t.states key; action; valuation; via } :: !found in
     let visit key action via =
-      match t.monitor with None -> put key via 0 | Some monitor -> under t monitor key action (put key via)
+      match t.monitor with
+      | None -> put key action via 0
+      | Some monitor -> under t monitor key action (put key action via)
     in
     fetch t i;
     match S.expand t.system t.key { visit; tick; rest = ignore } with

@@ -140,7 +140,7 @@ module Make (S : System.S) : sig
   (** [path t i] is states from the initial one to [i], as few as can be; after {!run_bitstate}, of some run, and [i] is
       the last of one that is kept. *)
 
-  type arrival = { into : int; valuation : int; via : S.via }
+  type arrival = { into : int; action : int; valuation : int; via : S.via }
 
   val visiting : t -> int -> (int array -> (int -> unit) ref -> S.via System.visitor -> 'a) -> 'a
   (** [visiting t i f] is [f key arrived v]: [key] is the vector of state [i], to be expanded with [v], which calls

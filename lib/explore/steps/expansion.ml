@@ -17,7 +17,7 @@ type t = {
   layouts : Layouts.t;
   steps : Memoised_steps.t;
   quotient : Quotient.t;
-  labelling : Labelling.t option;
+  observer : Observer.t option;
   places : Script_graph.t;
   over : int By_number.t;  (* by frame and shared state: the configuration after the task *)
   posted : (int * int) list By_number.t;  (* by shared state: those after each input, with their actions *)
@@ -27,7 +27,7 @@ type t = {
   mutable representative : int array;  (* scratch: of a successor *)
 }
 
-let create options components encoding steps quotient labelling =
+let create options components encoding steps quotient observer =
   {
     options;
     components;
@@ -35,7 +35,7 @@ let create options components encoding steps quotient labelling =
     layouts = Encoding.layouts encoding;
     steps;
     quotient;
-    labelling;
+    observer;
     places = Script_graph.create ();
     over = By_number.create 64;
     posted = By_number.create 16;
@@ -250,11 +250,9 @@ let upcoming t shared =
 let posted t shared =
   let { Surroundings.shared; outside } = Surroundings.Numbers.value (Encoding.shareds t.encoding) shared in
   let post (k, x, outside) =
-    let observed : Proposition.observed = { label = Input (k, x); effects = []; ending = None } in
-    let action labelling = Valuation.action_observed (Labelling.valuations labelling) observed in
     let number = Surroundings.Numbers.number (Encoding.shareds t.encoding) in
     let after = number (Surroundings.make (Shared.post k x shared) outside) in
-    (after, Option.fold ~none:Valuation.nothing ~some:action t.labelling)
+    (after, Observer.of_event t.observer (Input (k, x)))
   in
   List.map post (Environment.inputs t.options (program t) outside)
 
@@ -288,9 +286,7 @@ let interruption x =
     | Some next -> (Encoding.script_number t.encoding [ On_interrupt ] next outside, None)
     | None -> (concluded x x.shared (Ends Interrupted), Some Configuration.Interrupted)
   in
-  let observed : Proposition.observed = { label = Interrupt; effects = []; ending } in
-  let action labelling = Valuation.action_observed (Labelling.valuations labelling) observed in
-  (number, Option.fold ~none:Valuation.nothing ~some:action t.labelling)
+  (number, Observer.of_event t.observer ?ending Interrupt)
 
 let interrupt x =
   let t = x.expansion in

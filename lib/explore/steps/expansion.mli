@@ -7,7 +7,7 @@ open Dolphin_checker
 type t
 
 val create :
-  Environment.options -> Components.t -> Encoding.t -> Memoised_steps.t -> Quotient.t -> Labelling.t option -> t
+  Environment.options -> Components.t -> Encoding.t -> Memoised_steps.t -> Quotient.t -> Observer.t option -> t
 
 val follows : t -> int -> int -> unit
 (** [follows t p p'] notes that place [p'] of the script may come after place [p], by the numbers of

@@ -19,7 +19,7 @@ type t = {
   steps : Memoised_steps.t;
   expansion : Expansion.t;
   quotient : Quotient.t;
-  labelling : Labelling.t option;
+  observer : Observer.t option;
   task_groups : Task_groups.t option;
   vehicles : Canonical_vehicles.t option;
   recruiting : Recruiting.t option;  (* where tasks recruit vehicles of which some are alike *)
@@ -50,8 +50,7 @@ let expand_script t number (visitor : via System.visitor) =
     incr taken;
     if not (Environment.is_voluntary next) then goes_on := true;
     Coverage.transition (Components.coverage t.components) c next;
-    let action labelling = Valuation.action (Labelling.valuations labelling) next in
-    let action = Option.fold ~none:Valuation.nothing ~some:action t.labelling in
+    let action = Observer.of_transition t.observer next in
     let place = Expansion.write_and_visit t.expansion visitor next.rules next.next outside ~action in
     Expansion.follows t.expansion number place
   in
@@ -74,10 +73,10 @@ let action t step shared =
   match step.dependence with
   | Guarded guard -> guard.actions.(shared)
   | Free -> if step.free_action >= 0 then step.free_action else Memoised_steps.action t.steps step shared
-  | Dependent -> Valuation.nothing
+  | Dependent -> Observer.nothing
 
 let take_all t (x : Expansion.source) place steps =
-  let taken = ref 0 and is_observed = Option.is_some t.labelling and shared = x.shared in
+  let taken = ref 0 and is_observed = Option.is_some t.observer and shared = x.shared in
   for k = 0 to Array.length steps - 1 do
     let step = Array.unsafe_get steps k in
     let shared' =
@@ -95,7 +94,7 @@ let take_all t (x : Expansion.source) place steps =
     in
     if shared' >= 0 then begin
       incr taken;
-      let action = if is_observed then action t step shared else Valuation.nothing in
+      let action = if is_observed then action t step shared else Observer.nothing in
       Expansion.go_to x place step.successor ~action shared'
     end
     else if shared' = special && is_followed t x step then taken := !taken + Expansion.take_dependent x place step
@@ -159,7 +158,7 @@ let local_status t (x : Expansion.source) place step : Stubborn.status =
 (* Nothing is observed where steps are left out. *)
 let take_step t (x : Expansion.source) place step =
   let go shared' =
-    Expansion.go_to x place step.successor ~action:Valuation.nothing shared';
+    Expansion.go_to x place step.successor ~action:Observer.nothing shared';
     1
   in
   match step.dependence with
@@ -355,7 +354,7 @@ let numbers t key f =
 
 let initial t visitor =
   let initial = Configuration.initial t.program in
-  let action = Valuation.nothing in
+  let action = Observer.nothing in
   ignore (Expansion.write_and_visit t.expansion visitor [] initial Environment.initial ~action)
 
 let unsettled program (fault : Fault.t) : Limits.bound =
@@ -411,7 +410,7 @@ let may_cycle_in_script t = Expansion.may_cycle t.expansion
 let may_cycle t = goes_round t || Expansion.may_cycle t.expansion
 
 let valuation t action key =
-  Option.fold ~none:0 ~some:(fun labelling -> Labelling.valuation labelling t.encoding action key) t.labelling
+  Option.fold ~none:0 ~some:(fun (o : Observer.t) -> o.valuation t.encoding action key) t.observer
 
 (* {1 States} *)
 
@@ -497,7 +496,7 @@ let add_findings t { covered; edges; rounds; renamed } =
 (* {1 Beginning} *)
 
 let create
-    ?(reduction = Reduction.Whole) ?(symmetry = Symmetry.none) ?(asked = []) ?labelling ?spare_bits options program
+    ?(reduction = Reduction.Whole) ?(symmetry = Symmetry.none) ?(asked = []) ?observer ?spare_bits options program
     world
   =
   let reduction = if Environment.may_leave options program then Reduction.Whole else reduction in
@@ -516,10 +515,10 @@ let create
   let find_symmetry = Option.map Task_groups.find task_groups in
   let canonical = Option.map Canonical_vehicles.canonical vehicles in
   let encoding = Encoding.create ?spare_bits ?find_symmetry ?canonical components shareds in
-  let observe = Option.map (fun labelling -> Valuation.action_of_local (Labelling.valuations labelling)) labelling in
+  let observe = Option.map Observer.of_local_step observer in
   let steps = Memoised_steps.create ?observe components encoding and quotient = Quotient.create components encoding in
-  let expansion = Expansion.create options components encoding steps quotient labelling in
+  let expansion = Expansion.create options components encoding steps quotient observer in
   let recruiting =
     if program.recruits then Option.map (fun v -> Recruiting.create v encoding numbering) vehicles else None in
   { options; reduction; program; world; components; encoding; layouts = Encoding.layouts encoding; steps; expansion;
-    quotient; labelling; task_groups; vehicles; recruiting; tick }
+    quotient; observer; task_groups; vehicles; recruiting; tick }

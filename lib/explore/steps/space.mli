@@ -13,11 +13,11 @@ include
     which no task executes. *)
 
 val create :
-  ?reduction:Reduction.t -> ?symmetry:Symmetry.t -> ?asked:Condition.t list -> ?labelling:Labelling.t ->
+  ?reduction:Reduction.t -> ?symmetry:Symmetry.t -> ?asked:Condition.t list -> ?observer:Observer.t ->
   ?spare_bits:int -> Environment.options -> Core.program -> World.t -> t
 (** States are those up to [symmetry], by default {!Symmetry.none}; {!expand} raises {!Symmetry.Broken} where a state
     shows that it is broken. Conditions that are [asked] have the same answer in all states that one represents; none
-    by default. [labelling] is for the formula that is checked; then [reduction] and [symmetry] must be none.
+    by default. [observer] gives actions their numbers; then [reduction] and [symmetry] must be none.
     [spare_bits] is as for {!Layouts.create}. *)
 
 (** {1:states States} *)

@@ -104,5 +104,8 @@ let state t encoding key =
     !values.(above)
   end
 
-let valuation t encoding action key =
-  Valuation.valuation t.valuations action (if Valuation.asks_states t.valuations then state t encoding key else 0)
+let observer t : Observer.t =
+  let valuation encoding action key =
+    Valuation.valuation t.valuations action (if Valuation.asks_states t.valuations then state t encoding key else 0)
+  in
+  { action = Valuation.action_observed t.valuations; valuation }

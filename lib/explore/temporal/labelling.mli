@@ -13,6 +13,5 @@ val monitor : t -> Dolphin_ltl.Monitor.t
 
 val valuations : t -> Valuation.t
 
-val valuation : t -> Encoding.t -> int -> int array -> int
-(** [valuation t e action key] is the number of the valuation where [action] leads to the state [key].
-    @raise Valuation.Broken *)
+val observer : t -> Observer.t
+(** Its actions are those of the {!valuations}; its [valuation] raises {!Valuation.Broken}. *)

@@ -21,8 +21,6 @@ type t = {
   mutable pairs : int array array;  (* by action, then state: the valuation, or -1 *)
 }
 
-let nothing = 0
-
 let create program world propositions =
   (* What these numbers stand for need not be the same in several processes: no state has them. *)
   let numbering = Dolphin_checker.Numbering.create () in
@@ -42,11 +40,6 @@ let action_observed t observed =
   Valuations.number t.actions (Array.map holds t.propositions)
 
 let action t transition = action_observed t (Proposition.observed transition)
-
-(* What is done when a run ends is the same whatever waits for the task. *)
-let action_of_local t ({ outcome; named; asked; _ } : Local_step.t) =
-  let ending = match outcome with Ends ending -> Some ending | Goes_on _ | Over -> None in
-  action_observed t { label = named; effects = asked; ending }
 
 let state t c =
   if not t.asks_states then 0

@@ -10,17 +10,11 @@ exception Broken of string
 
 val create : Core.program -> World.t -> Proposition.t array -> t
 
-val nothing : int
-(** The action where there is no transition, or no proposition holds of it: 0. *)
-
 val action : t -> Transition.t -> int
-(** [action t x] is the number of what holds of [x]. *)
+(** [action t x] is the number of what holds of [x]: {!Observer.nothing} if nothing does. *)
 
 val action_observed : t -> Proposition.observed -> int
 (** [action_observed t x] is that of what was observed. *)
-
-val action_of_local : t -> Local_step.t -> int
-(** That of the transitions that the local step makes ({!Local_step.conclude}). *)
 
 val state : t -> Configuration.t -> int
 (** [state t c] is the number of what holds in [c].

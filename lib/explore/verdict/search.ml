@@ -73,7 +73,8 @@ type subject = { program : Core.program; world : World.t; symmetry : Symmetry.t;
 let with_graph ?labelling ?phase x (options : options) f =
   let { environment; reduction; compress; spill; workers; fork_from; spare_bits; limits; invariants; _ } = options in
   let { program; world; symmetry; started } = x in
-  let space = Space.create ~reduction ~symmetry ~asked:invariants ?labelling ?spare_bits environment program world in
+  let observer = Option.map Labelling.observer labelling in
+  let space = Space.create ~reduction ~symmetry ~asked:invariants ?observer ?spare_bits environment program world in
   let monitor = Option.map Labelling.monitor labelling in
   let graph = State_graph.create ~compress ?spill ~workers ~fork_from ?monitor ?phase ~started limits space in
   Fun.protect ~finally:(fun () -> State_graph.close graph) (fun () -> f graph)

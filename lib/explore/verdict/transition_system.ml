@@ -1,0 +1,102 @@
+open Dolphin_semantics
+open Dolphin_environment
+open Dolphin_checker
+
+(* Labels by number: the actions of transitions. *)
+module Labels = struct
+  type t = { numbers : (string, int) Hashtbl.t; mutable texts : string array }
+
+  let create () = { numbers = Hashtbl.create 64; texts = [| "" |] }
+
+  let number t text =
+    match Hashtbl.find_opt t.numbers text with
+    | Some n -> n
+    | None ->
+      let n = Hashtbl.length t.numbers + 1 in
+      if n = Array.length t.texts then t.texts <- Array.append t.texts (Array.make n "");
+      t.texts.(n) <- text;
+      Hashtbl.add t.numbers text n;
+      n
+
+  let observer t : Observer.t =
+    { action = (fun observed -> number t (Format.asprintf "%a" Label.pp observed.label));
+      valuation = (fun _ _ _ -> 0) }
+end
+
+type t = {
+  graph : State_graph.t;
+  texts : string array;  (* of labels *)
+  ids : int array;  (* by state: its number in [graph] *)
+  first : int array;  (* by state: the first of its transitions; then how many there are *)
+  labels : int array;  (* by transition *)
+  targets : int array;
+}
+
+let states t = Array.length t.ids
+let state t i = State_graph.state t.graph t.ids.(i)
+
+let iter t f =
+  for i = 0 to states t - 1 do
+    for k = t.first.(i) to t.first.(i + 1) - 1 do
+      f i t.texts.(t.labels.(k)) t.targets.(k)
+    done
+  done
+
+(* States in the order in which transitions come to them: several processes have numbered them as it happened. *)
+let in_order graph (labels : Labels.t) =
+  let count = State_graph.count graph and transitions = State_graph.transitions graph in
+  let highest = ref 0 in
+  State_graph.iter graph (fun id -> highest := max !highest id);
+  let numbers = Array.make (!highest + 1) (-1) and ids = Array.make count 0 in
+  let known = ref 0 in
+  let number id =
+    if numbers.(id) < 0 then begin
+      numbers.(id) <- !known;
+      ids.(!known) <- id;
+      incr known
+    end;
+    numbers.(id)
+  in
+  let first = Array.make (count + 1) 0 and taken = ref 0 in
+  let label_of = Array.make transitions 0 and targets = Array.make transitions 0 in
+  let take (arrival : State_graph.arrival) =
+    label_of.(!taken) <- arrival.action;
+    targets.(!taken) <- number arrival.into;
+    incr taken
+  in
+  let tick = State_graph.ticker graph "listing transitions" in
+  ignore (number 0 : int);
+  for i = 0 to count - 1 do
+    tick ();
+    List.iter take (State_graph.arrivals graph ids.(i));
+    first.(i + 1) <- !taken
+  done;
+  { graph; texts = labels.texts; ids; first; labels = label_of; targets }
+
+type problem = Stopped of Limits.bound | Unclear of Fault.t
+
+(* The search tells it as a text. *)
+let fault graph options program world =
+  let of_state id =
+    let c, outside = State_graph.state graph id in
+    match Seq.iter ignore (Environment.choices options program world outside c) with
+    | () -> None
+    | exception Environment.Unclear fault -> Some fault
+  in
+  List.find_map of_state (State_graph.all graph)
+
+let explore ?workers ?fork_from limits options program world =
+  let labels = Labels.create () in
+  let space = Space.create ~observer:(Labels.observer labels) options program world in
+  let graph = State_graph.create ?workers ?fork_from limits space in
+  State_graph.run graph;
+  match State_graph.stopped graph with
+  | Some (Unsettled _ as bound) ->
+    let fault = fault graph options program world in
+    Error (Option.fold fault ~none:(Stopped bound) ~some:(fun fault -> Unclear fault))
+  | Some bound -> Error (Stopped bound)
+  | None -> (
+      match in_order graph labels with
+      | system -> Ok system
+      | exception Limits.Stop bound -> Error (Stopped bound)
+      | exception Out_of_memory -> Error (Stopped No_memory))

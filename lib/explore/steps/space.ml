@@ -23,6 +23,7 @@ type t = {
   task_groups : Task_groups.t option;
   vehicles : Canonical_vehicles.t option;
   recruiting : Recruiting.t option;  (* where tasks recruit vehicles of which some are alike *)
+  mutable unclear : Fault.t option;  (* why it cannot be listed what follows a state *)
   tick : (unit -> unit) ref;  (* while a state of the script is expanded, from which tasks begin: the visitor's *)
 }
 
@@ -389,7 +390,11 @@ let transitions t key (visitor : via System.visitor) =
 let expand t key visitor =
   match transitions t key visitor with
   | taken -> taken
-  | exception Environment.Unclear fault -> raise (Limits.Stop (unsettled t.program fault))
+  | exception Environment.Unclear fault ->
+    t.unclear <- Some fault;
+    raise (Limits.Stop (unsettled t.program fault))
+
+let unclear t = t.unclear
 
 let goes_round t = Components.goes_round t.components
 let executes t word = Layouts.number t.layouts word > 0
@@ -521,4 +526,4 @@ let create
   let recruiting =
     if program.recruits then Option.map (fun v -> Recruiting.create v encoding numbering) vehicles else None in
   { options; reduction; program; world; components; encoding; layouts = Encoding.layouts encoding; steps; expansion;
-    quotient; observer; task_groups; vehicles; recruiting; tick }
+    quotient; observer; task_groups; vehicles; recruiting; unclear = None; tick }

@@ -45,6 +45,10 @@ val unsettled : Core.program -> Fault.t -> Dolphin_checker.Limits.bound
 (** [unsettled p fault] is that nobody can list what follows some state of [p], because of [fault]: more than a
     comparison depends on what a sensor shows. *)
 
+val unclear : t -> Fault.t option
+(** Why it cannot be listed what follows some state that was to be expanded: then [expand] raised that it is
+    {!unsettled}. *)
+
 (** {1:representatives Representatives} *)
 
 val choices : t -> Environment.t -> Configuration.t -> (Transition.t * Environment.t) Seq.t

@@ -1,5 +1,4 @@
 open Dolphin_semantics
-open Dolphin_environment
 open Dolphin_checker
 
 (* Labels by number: the actions of transitions. *)
@@ -75,27 +74,15 @@ let in_order graph (labels : Labels.t) =
 
 type problem = Stopped of Limits.bound | Unclear of Fault.t
 
-(* The search tells it as a text. *)
-let fault graph options program world =
-  let of_state id =
-    let c, outside = State_graph.state graph id in
-    match Seq.iter ignore (Environment.choices options program world outside c) with
-    | () -> None
-    | exception Environment.Unclear fault -> Some fault
-  in
-  List.find_map of_state (State_graph.all graph)
-
 let explore ?workers ?fork_from limits options program world =
   let labels = Labels.create () in
   let space = Space.create ~observer:(Labels.observer labels) options program world in
   let graph = State_graph.create ?workers ?fork_from limits space in
   State_graph.run graph;
-  match State_graph.stopped graph with
-  | Some (Unsettled _ as bound) ->
-    let fault = fault graph options program world in
-    Error (Option.fold fault ~none:(Stopped bound) ~some:(fun fault -> Unclear fault))
-  | Some bound -> Error (Stopped bound)
-  | None -> (
+  match Space.unclear space, State_graph.stopped graph with
+  | Some fault, _ -> Error (Unclear fault)
+  | None, Some bound -> Error (Stopped bound)
+  | None, None -> (
       match in_order graph labels with
       | system -> Ok system
       | exception Limits.Stop bound -> Error (Stopped bound)

@@ -19,13 +19,8 @@ module States = Hashtbl.Make (struct
     let hash (c, e) = Configuration.hash c + Environment.hash e
   end)
 
-let listed system =
-  let found = ref [] in
-  Transition_system.iter system (fun i label j -> found := (i, label, j) :: !found);
-  List.rev !found
-
 (* By the numbers of the graph by the book. *)
-let is_graph (graph : Reference.t) system =
+let is_graph (graph : Reference.t) (system, listed) =
   let numbers = States.create 100 in
   Array.iteri (fun i (s : Reference.state) -> States.add numbers (s.configuration, s.outside) i) graph.states;
   let number i = States.find numbers (Transition_system.state system i) in
@@ -33,13 +28,17 @@ let is_graph (graph : Reference.t) system =
     let edge i ((t : Transition.t), j) = (i, Format.asprintf "%a" Label.pp t.label, j) in
     List.concat (Array.to_list (Array.mapi (fun i edges -> List.map (edge i) edges) graph.edges))
   in
-  let found = List.map (fun (i, label, j) -> (number i, label, number j)) (listed system) in
+  let found = List.map (fun (i, label, j) -> (number i, label, number j)) listed in
   Transition_system.states system = Array.length graph.states
   && number 0 = 0
   && List.sort compare found = List.sort compare expected
 
 let explore ~workers environment program world =
-  Transition_system.explore ~workers ~fork_from:0 limits environment program world
+  let found = ref [] in
+  let each i label j = found := (i, label, j) :: !found in
+  Result.map
+    (fun system -> (system, List.rev !found))
+    (Transition_system.explore ~workers ~fork_from:0 limits environment program world each)
 
 let agrees (((_, world), _, (_, environment)) as case) =
   let program = compile case in
@@ -50,13 +49,13 @@ let agrees (((_, world), _, (_, environment)) as case) =
   | None, _ | Some _, Error _ -> false
   | Some graph, Ok alone ->
     incr compared;
-    let same system =
-      let state i = Transition_system.state system i and state' i = Transition_system.state alone i in
+    let same (system, listed) =
+      let state i = Transition_system.state system i and state' i = Transition_system.state (fst alone) i in
       let is_same i =
         let c, e = state i and c', e' = state' i in
         Environment.compare e e' = 0 && Configuration.equal c c'
       in
-      listed system = listed alone && List.for_all is_same (List.init (Transition_system.states alone) Fun.id)
+      listed = snd alone && List.for_all is_same (List.init (Transition_system.states system) Fun.id)
     in
     (is_graph graph alone || QCheck2.Test.fail_report "it is not the graph by the book")
     &&

@@ -28,9 +28,7 @@ let explored ~limit environment (program : Program_file.t) world =
   | exception Dolphin_environment.Environment.Unclear fault -> Error (Program_file.unsettled program fault)
 
 (* States are described from where they were found, when they are written. *)
-let graph (program : Core.program) system =
-  let builder = Graph.Builder.create () in
-  Transition_system.iter system (Graph.Builder.add builder);
+let graph (program : Core.program) system builder =
   let text s = Format.asprintf "%a" (Configuration.pp program) (fst (Transition_system.state system s)) in
   Graph.Builder.finish ~doubles:true ~states:(Transition_system.states system) ~text builder
 
@@ -41,8 +39,10 @@ let of_program w ~interrupted ~progress path =
     { max_states = Some w.max_states; max_depth = None; max_memory = w.max_memory; memory_taken = Memory.taken;
       memory_left = Memory.left; timeout = w.timeout; clock = Unix.gettimeofday; interrupted; progress } in
   let world = Scenario_world.world fleet.scenario in
-  match Transition_system.explore ~workers:w.workers limits environment program.program world with
-  | Ok system -> Ok (graph program.program system)
+  let builder = Graph.Builder.create () in
+  let add = Graph.Builder.add builder in
+  match Transition_system.explore ~workers:w.workers limits environment program.program world add with
+  | Ok system -> Ok (graph program.program system builder)
   | Error (Stopped States) -> Error (too_many program w.max_states)
   | Error (Unclear fault) -> Error (Program_file.unsettled program fault)
   | Error (Stopped bound) -> Error (Error.Inconclusive (Format.asprintf "%s: %a" program.path Limits.pp_bound bound))

@@ -22,31 +22,16 @@ module Labels = struct
       valuation = (fun _ _ _ -> 0) }
 end
 
-type t = {
-  graph : State_graph.t;
-  texts : string array;  (* of labels *)
-  ids : int array;  (* by state: its number in [graph] *)
-  first : int array;  (* by state: the first of its transitions; then how many there are *)
-  labels : int array;  (* by transition *)
-  targets : int array;
-}
+type t = { graph : State_graph.t; ids : int array (* by state: its number in [graph] *) }
 
 let states t = Array.length t.ids
 let state t i = State_graph.state t.graph t.ids.(i)
 
-let iter t f =
-  for i = 0 to states t - 1 do
-    for k = t.first.(i) to t.first.(i + 1) - 1 do
-      f i t.texts.(t.labels.(k)) t.targets.(k)
-    done
-  done
-
 (* States in the order in which transitions come to them: several processes have numbered them as it happened. *)
-let in_order graph (labels : Labels.t) =
-  let count = State_graph.count graph and transitions = State_graph.transitions graph in
+let list_in_order graph (labels : Labels.t) each =
   let highest = ref 0 in
   State_graph.iter graph (fun id -> highest := max !highest id);
-  let numbers = Array.make (!highest + 1) (-1) and ids = Array.make count 0 in
+  let numbers = Array.make (!highest + 1) (-1) and ids = Array.make (State_graph.count graph) 0 in
   let known = ref 0 in
   let number id =
     if numbers.(id) < 0 then begin
@@ -56,25 +41,19 @@ let in_order graph (labels : Labels.t) =
     end;
     numbers.(id)
   in
-  let first = Array.make (count + 1) 0 and taken = ref 0 in
-  let label_of = Array.make transitions 0 and targets = Array.make transitions 0 in
-  let take (arrival : State_graph.arrival) =
-    label_of.(!taken) <- arrival.action;
-    targets.(!taken) <- number arrival.into;
-    incr taken
-  in
   let tick = State_graph.ticker graph "listing transitions" in
-  ignore (number 0 : int);
-  for i = 0 to count - 1 do
+  let list i id =
+    let take (arrival : State_graph.arrival) = each i labels.texts.(arrival.action) (number arrival.into) in
     tick ();
-    List.iter take (State_graph.arrivals graph ids.(i));
-    first.(i + 1) <- !taken
-  done;
-  { graph; texts = labels.texts; ids; first; labels = label_of; targets }
+    List.iter take (State_graph.arrivals graph id)
+  in
+  ignore (number 0 : int);
+  Array.iteri list ids;
+  { graph; ids }
 
 type problem = Stopped of Limits.bound | Unclear of Fault.t
 
-let explore ?workers ?fork_from limits options program world =
+let explore ?workers ?fork_from limits options program world each =
   let labels = Labels.create () in
   let space = Space.create ~observer:(Labels.observer labels) options program world in
   let graph = State_graph.create ?workers ?fork_from limits space in
@@ -83,7 +62,7 @@ let explore ?workers ?fork_from limits options program world =
   | Some fault, _ -> Error (Unclear fault)
   | None, Some bound -> Error (Stopped bound)
   | None, None -> (
-      match in_order graph labels with
+      match list_in_order graph labels each with
       | system -> Ok system
       | exception Limits.Stop bound -> Error (Stopped bound)
       | exception Out_of_memory -> Error (Stopped No_memory))

@@ -14,17 +14,14 @@ type problem =
 
 val explore :
   ?workers:int -> ?fork_from:int -> Limits.t -> Environment.options -> Core.program -> World.t ->
-  (t, problem) result
-(** [explore limits o p w] is that of [p]. [workers] and [fork_from] are as in
+  (int -> string -> int -> unit) -> (t, problem) result
+(** [explore limits o p w each] is that of [p], after [each i l j] for each transition: from state [i], with label [l],
+    to state [j]. The initial state is 0, and states are numbered in the order in which transitions come to them. Two
+    steps with one label that lead from one state to one state are two transitions. [workers] and [fork_from] are as in
     {!Search.options}; whatever they are, the result is the same. What it takes in memory that processes share is given
     back when the process ends. *)
 
 val states : t -> int
-
-val iter : t -> (int -> string -> int -> unit) -> unit
-(** [iter t f] is [f i l j] for each transition: from state [i], with label [l], to state [j]. The initial state is 0,
-    and states are numbered in the order in which transitions come to them. Two steps with one label that lead from one
-    state to one state are two transitions. *)
 
 val state : t -> int -> Configuration.t * Environment.t
 (** [state t i] is the configuration that state [i] is, with what the environment remembers. *)

@@ -1,5 +1,6 @@
 module Distribution = Dolphin_statistics.Distribution
 module Share = Dolphin_statistics.Share
+module Workers = Dolphin_processes.Workers
 
 type settings = { seed : int; runs : int option; until : float option; jobs : int; answers : string list }
 type stop = All | Known | Interrupted of int list
@@ -166,7 +167,7 @@ let run ~interrupted ~progress ~each (settings : settings) program fleet =
   with
   | stop, level -> Ok (result settings tally ~level ~stop ~seconds:(Unix.gettimeofday () -. began))
   | exception Refused e -> Error e
-  | exception Workers.Died seed ->
+  | exception Workers.Died { number = seed; _ } ->
     Error (Error.Unavailable (Printf.sprintf "the process that simulated the run with the seed %d has died" seed))
 
 let count ~answers read =

@@ -5,11 +5,12 @@ type worker = {
   mutable next : int;  (* the number whose result comes next *)
   mutable read : Bytes.t;  (* what came of it *)
   mutable is_open : bool;
+  mutable is_there : bool;  (* nobody has waited for its end *)
 }
 
 type 'a t = { workers : worker list; jobs : int; last : int option }
 
-exception Died of int
+exception Died of { number : int; how : string }
 
 let is_past last n = match last with Some last -> n > last | None -> false
 
@@ -46,21 +47,50 @@ let compute ~parent ~jobs ~last pipe f n =
 
 (* {1 In the parent} *)
 
+(* Where somebody ignores the ends of processes, there is nothing to wait for. *)
+let rec wait w =
+  match Unix.waitpid [] w.pid with
+  | _, status ->
+    w.is_there <- false;
+    status
+  | exception Unix.Unix_error (EINTR, _, _) -> wait w
+  | exception Unix.Unix_error (ECHILD, _, _) ->
+    w.is_there <- false;
+    Unix.WEXITED 0
+
+let end_all workers =
+  let kill w = try if w.is_there then Unix.kill w.pid Sys.sigkill with Unix.Unix_error _ -> () in
+  let bury w =
+    if w.is_there then ignore (wait w : Unix.process_status);
+    Unix.close w.pipe
+  in
+  List.iter kill workers;
+  List.iter bury workers
+
 let start ~jobs ~first ?last f =
-  let parent = Unix.getpid () in
-  flush_all ();
-  let start workers k =
+  let parent = Unix.getpid () and workers = ref [] in
+  let start k =
     let pipe, output = Unix.pipe ~cloexec:true () in
     match Unix.fork () with
     | 0 ->
-      List.iter (fun w -> Unix.close w.pipe) workers;
+      List.iter (fun w -> Unix.close w.pipe) !workers;
       Unix.close pipe;
       compute ~parent ~jobs ~last output f (first + k)
     | pid ->
       Unix.close output;
-      { pid; pipe; next = first + k; read = Bytes.empty; is_open = true } :: workers
+      let worker = { pid; pipe; next = first + k; read = Bytes.empty; is_open = true; is_there = true } in
+      workers := worker :: !workers
+    | exception error ->
+      Unix.close pipe;
+      Unix.close output;
+      raise error
   in
-  { workers = List.fold_left start [] (List.init jobs Fun.id); jobs; last }
+  flush_all ();
+  match List.iter start (List.init jobs Fun.id) with
+  | () -> { workers = !workers; jobs; last }
+  | exception error ->
+    end_all !workers;
+    raise error
 
 (* The results that [w.read] begins with. *)
 let rec results w jobs =
@@ -73,12 +103,17 @@ let rec results w jobs =
     w.next <- n + jobs;
     (n, result) :: results w jobs
 
+let how = function
+  | Unix.WEXITED n -> Printf.sprintf "with status %d" n
+  | WSIGNALED n when n = Sys.sigkill -> "killed"
+  | WSIGNALED _ | WSTOPPED _ -> "by a signal"
+
 let read buffer last jobs w =
   match Unix.read w.pipe buffer 0 (Bytes.length buffer) with
   | 0 when is_past last w.next ->
     w.is_open <- false;
     []
-  | 0 -> raise (Died w.next)
+  | 0 -> raise (Died { number = w.next; how = how (wait w) })
   | n ->
     w.read <- Bytes.cat w.read (Bytes.sub buffer 0 n);
     results w jobs
@@ -92,6 +127,7 @@ let next t ~timeout =
   let least = List.fold_left (fun n w -> min n w.next) max_int still in
   let near = List.filter (fun w -> w.next - least <= furthest) still in
   match Unix.select (List.map (fun w -> w.pipe) near) [] [] timeout with
+  | [], _, _ -> []
   | ready, _, _ ->
     let buffer = Bytes.create 65_536 in
     List.concat_map (read buffer t.last t.jobs) (List.filter (fun w -> List.mem w.pipe ready) near)
@@ -102,13 +138,4 @@ let is_done t = List.for_all (fun w -> not w.is_open) t.workers
 let under_way t =
   List.sort compare (List.filter_map (fun w -> if is_past t.last w.next then None else Some w.next) t.workers)
 
-let rec reap pid =
-  match Unix.waitpid [] pid with
-  | _ -> ()
-  | exception Unix.Unix_error (EINTR, _, _) -> reap pid
-  | exception Unix.Unix_error (ECHILD, _, _) -> ()
-
-let stop t =
-  let kill w = try Unix.kill w.pid Sys.sigkill with Unix.Unix_error _ -> () in
-  List.iter kill t.workers;
-  List.iter (fun w -> reap w.pid; Unix.close w.pipe) t.workers
+let stop t = end_all t.workers

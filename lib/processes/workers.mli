@@ -4,11 +4,14 @@ type 'a t
 
 val start : jobs:int -> first:int -> ?last:int -> (int -> 'a) -> 'a t
 (** [start ~jobs ~first ~last f] computes [f first], [f (first + 1)] and so on, up to [f last], or without end, in
-    [jobs] processes. What [f] gives has no functions in it. The processes end when they are done, when {!stop} is
-    called, or when this process dies. They do not heed Ctrl-C. *)
+    [jobs] processes. What [f] gives has no functions in it, and is a copy: nothing in it is physically equal to what
+    this process has. The processes end when they are done, when {!stop} is called, or when this process dies. They do
+    not heed Ctrl-C.
+    @raise Unix.Unix_error if not all of them can be made; then there are none *)
 
-exception Died of int
-(** A process died at this number: [f] raised an exception, which it told on standard error, or it was killed. *)
+exception Died of { number : int; how : string }
+(** The process that computed this number ended early: [f] raised an exception, which it told on standard error, or it
+    was killed. [how] is ["killed"], or ["with status 1"]. *)
 
 val next : 'a t -> timeout:float -> (int * 'a) list
 (** [next w ~timeout] is what is new, waiting for something for so many seconds at most.

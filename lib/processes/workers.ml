@@ -16,9 +16,10 @@ let is_past last n = match last with Some last -> n > last | None -> false
 
 (* {1 In the child} *)
 
+(* A call that writes more than once would not tell how far it was when the alarm interrupted it. *)
 let rec write_all fd bytes from =
   if from < Bytes.length bytes then
-    match Unix.write fd bytes from (Bytes.length bytes - from) with
+    match Unix.single_write fd bytes from (Bytes.length bytes - from) with
     | n -> write_all fd bytes (from + n)
     | exception Unix.Unix_error (EINTR, _, _) -> write_all fd bytes from
     | exception Unix.Unix_error (EPIPE, _, _) -> Unix._exit 0  (* whoever asked has gone *)

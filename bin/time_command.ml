@@ -1,6 +1,8 @@
 open Cmdliner
 open Dolphin_app
 
+module Timing = Time_analysis.Timing
+
 let ( let* ) = Result.bind
 
 (* {1 One question, or several} *)
@@ -24,7 +26,10 @@ let of_program (settings : Time_analysis.settings) (program : Program_file.t) fl
   else Time_report.print ?deadline ?slacks program outcome;
   let* () = traced in
   let* () = drawn in
-  Ok (Exit_status.of_verdict (Time_analysis.Timing.verdict ?deadline outcome))
+  let is_cut_short = Option.fold slacks ~none:false ~some:(fun (s : Timing.slacks) -> s.cut_short <> None) in
+  Ok
+    (Exit_status.of_verdict
+       (match Timing.verdict ?deadline outcome with Holds when is_cut_short -> Inconclusive | verdict -> verdict))
 
 let of_values (settings : Time_analysis.settings) sweep fleet ~json =
   let { Time_analysis.deadline; _ } = settings in
@@ -48,9 +53,10 @@ let of_fleets (settings : Time_analysis.settings) program fleet ~json =
 
 let no_slack = Error.Bad_input "--slack is for one program and its whole fleet: give no --fewest, and --set no range"
 
-let run path set fleet answers faults deadline slack fewest json trace drawing max_states max_depth max_memory timeout =
+let run path set fleet answers faults deadline slack fewest json trace drawing workers max_states max_depth max_memory
+    timeout =
   let settings : Time_analysis.settings =
-    { answers; faults; deadline; max_states; max_depth; max_memory; timeout } in
+    { answers; faults; deadline; workers; max_states; max_depth; max_memory; timeout } in
   Report.result
     (let* () = Option.fold trace ~none:(Ok ()) ~some:Text_file.check in
      let* () = Option.fold drawing ~none:(Ok ()) ~some:Drawing.check in
@@ -98,6 +104,13 @@ let deadline =
     match Time_analysis.duration text with Ok ms -> Ok ms | Error why -> Error (`Msg why) in
   let print ppf ms = Dolphin_time.Bounds.pp_time ppf ms in
   Arg.(value & opt (some (conv ~docv:"TIME" (parse, print))) None & info [ "deadline" ] ~docv:"TIME" ~doc)
+
+let workers =
+  let doc =
+    "Look for the earliest and for the latest times in two processes at once, if there are some 300 states, and for \
+     slacks in $(docv). What is found is the same whatever $(docv) is. There is one process with $(b,--max-memory)."
+  in
+  Options.workers ~doc
 
 let trace =
   let doc =
@@ -159,5 +172,5 @@ let command =
   Cmd.v info
     Term.(
       const run $ Options.program $ Options.set_range $ Options.fleet $ Explore_command.answers $ Explore_command.faults
-      $ deadline $ slack $ fewest $ json $ trace $ drawing
+      $ deadline $ slack $ fewest $ json $ trace $ drawing $ workers
       $ Explore_command.max_states $ Explore_command.max_depth $ Explore_command.max_memory $ Explore_command.timeout)

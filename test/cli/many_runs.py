@@ -2,36 +2,8 @@
 import re
 import signal
 import subprocess
-import sys
-import time
 
-PATIENCE = 60
-
-
-def until(what, condition):
-    end = time.monotonic() + PATIENCE
-    while not condition():
-        if time.monotonic() > end:
-            sys.exit("in vain: " + what)
-        time.sleep(0.02)
-
-
-def children(pid):
-    try:
-        with open(f"/proc/{pid}/task/{pid}/children") as file:
-            return [int(child) for child in file.read().split()]
-    except OSError:
-        return []
-
-
-# A zombie is gone, whether or not anybody has asked how it ended.
-def is_gone(pid):
-    try:
-        with open(f"/proc/{pid}/stat") as file:
-            return file.read().rsplit(")", 1)[1].split()[0] == "Z"
-    except OSError:
-        return True
-
+from processes import PATIENCE, children, is_gone, until
 
 def end_by(number, command):
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)

@@ -1552,6 +1552,53 @@ let sampled =
       ("runs may be missing", {|when seed = last + 1 -> Ok ()|}, {|when seed > last -> Ok ()|});
     ]
 
+let processes =
+  in_file "lib/processes/workers.ml" ~noticed_by:"processes/test_workers"
+    [
+      ("what was written in part is written again", {|Unix.single_write|}, {|Unix.write|});
+      ("each process computes all", {|      from (n + jobs)|}, {|      from (n + min jobs 1)|});
+      ( "who ends early has done all",
+        {|  | 0 when is_past last w.next ->|},
+        {|  | 0 when is_past last w.next || w.next > 0 ->|} );
+      ("processes outlive whoever made them", {|if Unix.getppid () <> parent then|}, {|if parent = 0 then|});
+      ("processes heed Ctrl-C", {|Sys.Signal_ignore) [ Sys.sigint; Sys.sighup ]|}, {|Sys.Signal_default) [ Sys.sigint ]|});
+    ]
+  @ in_file "lib/time/choices.ml" ~noticed_by:"time/test_workers"
+    [
+      ( "steps with one label are one",
+        {|  && Timed.equal a.next b.next|},
+        {||} );
+      ( "choices count from the last step",
+        {|List.nth (Timed.all_steps options state) choice|},
+        {|List.nth (List.rev (Timed.all_steps options state)) choice|} );
+    ]
+  @ in_file "lib/time/beside.ml" ~noticed_by:"time/test_workers"
+    [
+      ( "all processes report",
+        {|Limits.progress = ignore|},
+        {|Limits.progress = limits.Limits.progress|} );
+      ( "an interruption is a lack of time",
+        {|      | exception Limits.Stop bound -> t.stopped <- Some bound|},
+        {|      | exception Limits.Stop _ -> t.stopped <- Some Time|} );
+      ( "nobody looks at the others meanwhile",
+        {|  look t ~timeout:0.;|},
+        {||} );
+    ]
+  @ in_file "lib/time/searches.ml" ~noticed_by:"time/test_workers"
+    [
+      ( "the other process is left alone",
+        {|    ~finally:(fun () -> Option.iter Beside.stop (begun ()))|},
+        {|    ~finally:ignore|} );
+      ( "there may be another process if memory has a bound",
+        {|if limits.max_memory = None then workers else 1|},
+        {|if limits.max_memory = None then workers else workers|} );
+      ( "what the other process could not rely on is found",
+        {|        | [ (_, None) ], _ -> raise Broken|},
+        {|        | [ (_, None) ], _ -> Early.nothing States|} );
+    ]
+  @ in_file "lib/time/timing.ml" ~noticed_by:"time/test_missions"
+    [ ("slacks of other tasks", {|(tasks.(i), slack)) slack) found|}, {|(tasks.(count - 1 - i), slack)) slack) found|}) ]
+
 let travel =
   in_file "lib/semantics/language/travel.ml" ~noticed_by:"plan/test_travel"
     [
@@ -1651,4 +1698,4 @@ let all =
       conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps;
       sets_with_events; driver; fair_cycles; limits;
       alike_values; division; arrangement; coverage; search_pattern; travel; heights; narrow_bars; vector;
-      zone; timed; place; timed_system; schedule; recorded; durations; share; sampled; prelude ]
+      zone; timed; place; timed_system; schedule; recorded; durations; share; sampled; processes; prelude ]

@@ -5,6 +5,7 @@ type settings = {
   answers : string list;
   faults : Dolphin_environment.Faults.t;
   deadline : int option;
+  workers : int;
   max_states : int option;
   max_depth : int option;
   max_memory : int option;
@@ -25,10 +26,10 @@ let options s (program : Program_file.t) (fleet : Fleet_file.t) : Dolphin_time.T
 let run ~interrupted ~progress s program fleet =
   let { Fleet_file.scenario; _ } = fleet in
   let limits = limits ~interrupted ~progress s in
-  Timing.run ?deadline:s.deadline ~vehicles:scenario.vehicles limits (options s program fleet)
+  Timing.run ?deadline:s.deadline ~workers:s.workers ~vehicles:scenario.vehicles limits (options s program fleet)
 
 let slacks ~interrupted ~progress s program fleet =
-  Timing.slacks (limits ~interrupted ~progress s) (options s program fleet)
+  Timing.slacks ~workers:s.workers (limits ~interrupted ~progress s) (options s program fleet)
 
 let duration text =
   let wrong = Error (Printf.sprintf "'%s' is no time such as 40.min or 90.seconds" text) in

@@ -6,6 +6,7 @@ type settings = {
   answers : string list;
   faults : Dolphin_environment.Faults.t;
   deadline : int option;  (** milliseconds *)
+  workers : int;  (** processes *)
   max_states : int option;
   max_depth : int option;
   max_memory : int option;
@@ -19,7 +20,7 @@ val run :
 
 val slacks :
   interrupted:(unit -> bool) -> progress:(Dolphin_checker.Limits.progress -> unit) -> settings -> Program_file.t ->
-  Fleet_file.t -> Timing.outcome -> (Timing.task * Dolphin_time.Slack.t) list
+  Fleet_file.t -> Timing.outcome -> Timing.slacks
 (** {!Timing.slacks} of what {!run} found, with the same settings. *)
 
 val duration : string -> (int, string) result

@@ -57,7 +57,8 @@ let print_tasks ?slacks (p : Program_file.t) (o : Timing.outcome) =
   let used = List.filter (fun m -> List.exists (fun (_, ws) -> List.mem_assoc m ws) o.tasks) moments in
   let row ((task : Timing.task), windows) =
     let cell m = Option.fold ~none:"" ~some:window (List.assoc_opt m windows) in
-    let slack = Option.fold slacks ~none:[] ~some:(fun found -> [ slack (List.assoc_opt task found) ]) in
+    let of_task (s : Timing.slacks) = [ slack (List.assoc_opt task s.known) ] in
+    let slack = Option.fold slacks ~none:[] ~some:of_task in
     (task.name :: task.vehicle :: List.map cell used) @ slack @ [ Program_file.line p task.site ]
   in
   let slack = if slacks = None then [] else [ "slack" ] in
@@ -216,6 +217,10 @@ let print_apart (a : Timing.apart) =
   in
   say "%s: %s%s" a.fence (Dolphin_checker.Verdict.name verdict) why
 
+let print_slacks (s : Timing.slacks) =
+  let print bound = say "slack: inconclusive: %s" (Format.asprintf "%a" Dolphin_checker.Limits.pp_bound bound) in
+  Option.iter print s.cut_short
+
 let print ?deadline ?slacks p (o : Timing.outcome) =
   (match o.stopped with
    | Some bound -> 
@@ -229,6 +234,7 @@ let print ?deadline ?slacks p (o : Timing.outcome) =
   Option.iter print_apart o.apart;
   print_unknown p o;
   print_tasks ?slacks p o;
+  Option.iter print_slacks slacks;
   print_batteries o;
   Printf.printf "%d states, depth %d, %.2f s, %d MiB\n" o.states o.depth o.seconds (o.bytes / 1024 / 1024);
   Option.iter (fun (a : Timing.apart) -> Beside_report.print p a.pairs) o.apart;
@@ -269,13 +275,14 @@ let json_of_apart p (a : Timing.apart) : Yojson.Safe.t =
        ("pairs", Beside_report.json p a.pairs) ]
      @ Option.to_list (Option.map bound a.cut_short))
 
-let to_json ?deadline ?(slacks = []) p (o : Timing.outcome) : Yojson.Safe.t =
+let to_json ?deadline ?slacks p (o : Timing.outcome) : Yojson.Safe.t =
+  let { Timing.known; cut_short } = Option.value slacks ~default:{ Timing.known = []; cut_short = None } in
   let task ((t : Timing.task), windows) =
     let window m = Option.map (fun w -> (Timed_system.moment_name m, json_of_window w)) (List.assoc_opt m windows) in
     let site = Option.fold ~none:`Null ~some:(fun s -> `String s) (Program_file.at p t.site) in
     `Assoc
       ([ ("task", `String t.name); ("vehicle", `String t.vehicle); ("at", site) ]
-       @ List.filter_map window moments @ json_of_slack (List.assoc_opt t slacks))
+       @ List.filter_map window moments @ json_of_slack (List.assoc_opt t known))
   in
   let within (site, missed) =
     let place = Option.fold ~none:`Null ~some:(fun s -> `String s) (Program_file.at p site) in
@@ -287,6 +294,7 @@ let to_json ?deadline ?(slacks = []) p (o : Timing.outcome) : Yojson.Safe.t =
     `Assoc (("at", place) :: missed)
   in
   let optional name f x = match x with Some x -> [ (name, f x) ] | None -> [] in
+  let bound b : Yojson.Safe.t = `String (Format.asprintf "%a" Dolphin_checker.Limits.pp_bound b) in
   let verdict = Dolphin_checker.Verdict.name (Timing.verdict ?deadline o) in
   let endless (run, why) : Yojson.Safe.t =
     let why = match why with `Cycle -> "cycle" | `In_no_time -> "cycle in no time" | `Stuck -> "stuck" in
@@ -309,5 +317,5 @@ let to_json ?deadline ?(slacks = []) p (o : Timing.outcome) : Yojson.Safe.t =
      @ optional "first" (json_of_run p) o.first
      @ optional "endless" endless o.endless
      @ optional "shown" json_of_shown (shown o)
-     @ optional "bound" (fun b -> `String (Format.asprintf "%a" Dolphin_checker.Limits.pp_bound b)) o.stopped
+     @ optional "bound" bound o.stopped @ optional "slackBound" bound cut_short
      @ [ ("states", `Int o.states); ("depth", `Int o.depth); ("seconds", `Float o.seconds); ("bytes", `Int o.bytes) ])

@@ -2,9 +2,7 @@
 
 module Timing = Dolphin_time.Timing
 
-type slacks := (Timing.task * Dolphin_time.Slack.t) list
-
-val print : ?deadline:int -> ?slacks:slacks -> Program_file.t -> Timing.outcome -> unit
+val print : ?deadline:int -> ?slacks:Timing.slacks -> Program_file.t -> Timing.outcome -> unit
 (** For people: when runs are over and when tasks start and end, with their slacks if asked for, what is left in
     batteries, the run that ends last, breaks the [deadline] or empties one, in columns with times, what its end depends
     on, and what nobody knows. *)
@@ -31,5 +29,5 @@ val write_shown :
 (** [write_shown ~deadline program fleet path o] writes the run that {!print} shows, if there is one, into the file
     [path], as {!Witness_file} does. *)
 
-val to_json : ?deadline:int -> ?slacks:slacks -> Program_file.t -> Timing.outcome -> Yojson.Safe.t
+val to_json : ?deadline:int -> ?slacks:Timing.slacks -> Program_file.t -> Timing.outcome -> Yojson.Safe.t
 (** The same for programs; times in seconds. *)

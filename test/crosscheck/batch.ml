@@ -12,8 +12,19 @@ type t = {
   counted : Coverage.count list;
 }
 
-type prepared = { case : Case.t; graph : Graph.t; transitions : int; constants : Family.constant list }
+module Rules = Set.Make (struct
+    type t = Dolphin_semantics.Rule.t
+
+    let compare = Stdlib.compare
+  end)
+
+type prepared = { case : Case.t; graph : Graph.t; transitions : int; rules : Rules.t; constants : Family.constant list }
+
 type unfit = Refused of string | Too_large | Unsettled of string
+
+let rules (space : Reference.t) =
+  let of_edge found ((t : Dolphin_semantics.Transition.t), _) = Rules.union found (Rules.of_list t.rules) in
+  Array.fold_left (List.fold_left of_edge) Rules.empty space.edges
 
 let prepare ~limit (case : Case.t) =
   match Translated.constants case with
@@ -24,12 +35,13 @@ let prepare ~limit (case : Case.t) =
       | exception Dolphin_environment.Environment.Unclear fault -> Error (Unsettled fault.message)
       | Some space ->
         let graph = Explored.graph ~effects:true space in
-        Ok { case; graph; transitions = Reference.transitions space; constants })
+        Ok { case; graph; transitions = Reference.transitions space; rules = rules space; constants })
 
 let case p = p.case
 let constants p = p.constants
 let states p = Graph.states p.graph
 let transitions (p : prepared) = p.transitions
+let uses p rule = Rules.mem rule p.rules
 
 (* {1 Running TLC} *)
 

@@ -40,6 +40,9 @@ val states : prepared -> int
 val transitions : prepared -> int
 (** How many of each the explorer found. *)
 
+val uses : prepared -> Dolphin_semantics.Rule.t -> bool
+(** Whether the rule stands in the derivation of some transition that the explorer found. *)
+
 val run :
   ?coverage:bool -> Installation.t -> specification:(string * string) list -> prepared list -> (t, string) Stdlib.result
 (** [run i ~specification ps] is what comes out, or what TLC says went wrong. Counts of TLC that are not those of

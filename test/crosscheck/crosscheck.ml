@@ -1,7 +1,7 @@
 (* TLC and the explorer, each with its own statement of the semantics, on the same programs: as many states, isomorphic
    graphs, equal labels, effects, derivations and ends.
 
-   crosscheck.exe [quick | all | mutate | refinement | dates | coverage | counts]. In the environment: PROGRAMS, how
+   crosscheck.exe [quick | all | mutate | refinement | dates | coverage | counts | rules]. In the environment: PROGRAMS, how
    many random programs; SEED; LIMIT, the most states of one; TICKS, the most ticks of one whose dates are compared;
    BATCH, how many are given to TLC at once; VERDICTS, of how many random programs TLC's own verdict is asked, which
    takes a start of TLC for each; ONLY, a part of the names of the mistakes that are made; JOBS, how many processes run
@@ -103,19 +103,31 @@ let counts installation =
     end;
     wrong = [] && List.exists (fun (c : Covered.counted) -> c.derivations > 0) counts
 
+(* Each rule is used by small graphs, too, and TLC's -coverage takes far longer than its search. *)
+let covering () =
+  let prepare = Comparison.prepare in
+  prepare ~limit:4_000 (examples ()) @ prepare ~limit:500 (faulty_examples ())
+
+let none_missing missing =
+  if missing <> [] then Printf.printf "USED BY NO EXAMPLE: %s\n" (names missing);
+  missing = []
+
+(* The same, by the explorer alone, which takes seconds. *)
+let rules () =
+  let cases = covering () in
+  let is_unused rule = not (List.exists (fun p -> Batch.uses p rule) cases) in
+  none_missing (List.filter is_unused Dolphin_semantics.Rule.all)
+
 let coverage installation =
   let start = Unix.gettimeofday () in
-  let prepare = Comparison.prepare in
-  let cases = prepare ~limit:20_000 (examples ()) @ prepare ~limit:4_000 (faulty_examples ()) in
+  let cases = covering () in
   match Covered.count installation cases with
   | Error why -> prerr_endline why; false
   | Ok (counts, batch) ->
     Printf.printf "%d programs, in one run of TLC with -coverage: %.0f s\n" (List.length cases)
       (Unix.gettimeofday () -. start);
     print_counts counts;
-    let missing = Covered.missing counts in
-    if missing <> [] then Printf.printf "USED BY NO EXAMPLE: %s\n" (names missing);
-    missing = [] && List.for_all (fun (r : Batch.result) -> r.verdict = Agrees) batch.results
+    none_missing (Covered.missing counts) && List.for_all (fun (r : Batch.result) -> r.verdict = Agrees) batch.results
 
 let () =
   let command = if Array.length Sys.argv > 1 then Sys.argv.(1) else "all" in
@@ -127,6 +139,7 @@ let () =
     | Error trouble -> Format.eprintf "%a@." Installation.pp_trouble trouble; exit 2
   in
   match command with
+  | "rules" -> exit (if rules () then 0 else 1)
   | "all" -> run all
   | "quick" -> run quick
   | "mutate" -> run mutate

@@ -6,12 +6,16 @@ module Pairs = Footprint.Pairs
 
 type label = { name : string; vehicle : Core.vehicle; site : Core.site }
 
+(* Pairs of N that may be renamed, each with its place among them. *)
+type pairs = { numbers : int array; places : (int, int) Hashtbl.t }
+
 type execution = {
   number : int;
   orbits : (label, int) Hashtbl.t;
   members : (int, label list) Hashtbl.t;  (* of orbits *)
-  pairs : (int, int) Hashtbl.t;  (* those that may be renamed, each with its orbit *)
-  renamed : (int, unit) Hashtbl.t;  (* those that some automorphism renames *)
+  pairs : pairs;
+  pair_orbits : int array;  (* by place *)
+  renamed : int list;  (* the places of pairs that some automorphism renames *)
 }
 
 module States = Hashtbl.Make (struct
@@ -33,9 +37,48 @@ module Constants = Hashtbl.Make (struct
     let hash ((c, _) : t) = Configuration.hash c
   end)
 
+let mix a b = ((a * 0x2545f491) + b + (a lsr 17)) land max_int
+
+module Lists = Dolphin_checker.Interner.Make (struct
+    type t = int list
+
+    let equal = List.equal Int.equal
+    let hash = List.fold_left mix 1
+  end)
+
+(* What a part of a residual is, without what it consists of: code by the number of its skeleton. *)
+type head =
+  | Task of { runs : bool; ending : Environment.ending; takes : takes; orbit : int }
+  | Action of int
+  | Condition of int
+  | Part of int
+  | Sequence
+  | Parallel
+  | All_of
+  | One_of
+  | Branch
+  | Some_of
+  | Until of Core.on_cut
+  | Seconds of float
+  | Confirm of int * string
+  | During of Core.on_cut * bool
+  | Watch
+  | Repeat of int option
+
+and takes = Milliseconds of int * int | As_its_plan of label
+
+module Heads = Dolphin_checker.Interner.Make (struct
+    type t = head
+
+    let equal a b = Stdlib.compare a b = 0
+    let hash = Hashtbl.hash
+  end)
+
 type t = {
   options : Timed.options;
   skeletons : Skeleton.context;
+  heads : Heads.t;
+  lists : Lists.t;
   constants : int Constants.t;
   executions : execution option States.t;
   apart : Core.vehicle option;  (* it is like no other vehicle *)
@@ -43,8 +86,9 @@ type t = {
 }
 
 let create ?apart (options : Timed.options) =
-  let skeletons = Skeleton.context (Dolphin_checker.Numbering.create ()) options.program in
-  { options; apart; skeletons; constants = Constants.create 64; executions = States.create 8;
+  let numbering = Dolphin_checker.Numbering.create () in
+  { options; apart; skeletons = Skeleton.context numbering options.program; heads = Heads.create numbering;
+    lists = Lists.create numbering; constants = Constants.create 64; executions = States.create 8;
     possible = Inert.names_are_free options }
 
 let number e = e.number
@@ -54,64 +98,78 @@ let orbit e label =
 
 (* {1 Trees} *)
 
-(* A residual as a tree of texts without names. *)
-type tree = Leaf of leaf | Node of { text : string; ordered : bool; children : tree list }
-and leaf = { leaf_text : string; item : Timed.item option; named : int array }
+(* A residual without names: pairs by their place, or below 0 if they may not be renamed; what is awaited by its place
+   among what is awaited in the tree. *)
+type tree =
+  | Leaf of { head : int; item : int option; named : int array }
+  | Node of { head : int; ordered : bool; children : tree list }
 
-let leaf ?item ?(named = [||]) leaf_text = Leaf { leaf_text; item; named }
-let ordered text children = Node { text; ordered = true; children }
-let beside text children = Node { text; ordered = false; children }
+type spelling = {
+  t : t;
+  orbit : label -> int;
+  pairs : pairs;
+  awaited : Timed.item -> bool;
+  mutable items : Timed.item list;  (* latest first *)
+}
 
-type spelling = { t : t; label : label -> string; awaited : Timed.item -> bool }
+let place pairs n = Option.value (Hashtbl.find_opt pairs.places n) ~default:(-1 - n)
+let head s head = Heads.number s.t.heads head
+let leaf s h = Leaf { head = head s h; item = None; named = [||] }
+let ordered s h children = Node { head = head s h; ordered = true; children }
+let beside s h children = Node { head = head s h; ordered = false; children }
 
-let code s ?(handler = false) text c =
+let waiting s item h =
+  if s.awaited item then begin
+    let place = List.length s.items in
+    s.items <- item :: s.items;
+    Leaf { head = head s h; item = Some place; named = [||] }
+  end
+  else leaf s h
+
+let code s ?(handler = false) kind c =
   let skeleton = Skeleton.of_code s.t.skeletons ~handler c in
-  leaf ~named:skeleton.pairs (Printf.sprintf "%s%d" text skeleton.number)
+  Leaf { head = head s (kind skeleton.number); item = None; named = Array.map (place s.pairs) skeleton.pairs }
 
+let part n = Part n
 let label_of v (p : Core.platform_task) = { name = p.name; vehicle = v; site = p.task_site }
 
-let platform_task s text v (p : Core.platform_task) =
+let platform_task s ~runs v (p : Core.platform_task) =
   let label = label_of v p in
-  let how : Environment.ending -> _ = function Succeeds -> "s" | May_fail -> "m" | Fails -> "f" in
-  let ending = how (Environment.ending s.t.options.environment v p.name) in
-  match p.plan, s.t.options.durations.task v None p with
-  | None, Within { least; most } -> Printf.sprintf "%s%s%d-%d %s" text ending least most (s.label label)
-  | _, _ -> Printf.sprintf "%s%S %S %d %s" text label.name label.vehicle label.site (s.label label)
+  let takes =
+    match p.plan, s.t.options.durations.task v None p with
+    | None, Within { least; most } -> Milliseconds (least, most)
+    | _, _ -> As_its_plan label
+  in
+  Task { runs; ending = Environment.ending s.t.options.environment v p.name; takes; orbit = s.orbit label }
 
 let rec spell s (r : Residual.t) =
-  let item i = if s.awaited i then Some i else None in
   match r with
-  | Ready (p, v) -> leaf (platform_task s "t" v p)
-  | Running (p, v) -> leaf ?item:(item (Task v)) (platform_task s "T" v p)
-  | Action c -> code s "a" c
-  | Condition c -> code s "c" c
-  | Sequence (a, rest) -> ordered ">" (List.map (spell s) (a :: rest))
-  | Parallel rs -> beside "|" (List.map (spell s) rs)
-  | All_of (a, bs) -> ordered "all" [ beside "" (List.map (spell s) (Option.to_list a)); branches s bs ]
-  | One_of bs -> ordered "one" [ branches s bs ]
-  | Until (e, c, a) -> ordered (Value.until e ^ on_cut e) [ code s "" c; spell s a ]
-  | Idle { timer; seconds } -> leaf ?item:(item (Timer timer)) (Printf.sprintf "idle%h" seconds)
-  | Confirm { question; prompt; _ } ->
-    leaf ?item:(item (Question question)) (Printf.sprintf "confirm%d %S" question prompt)
-  | During { on_cut = e; timer; duration; started; body } ->
+  | Ready (p, v) -> leaf s (platform_task s ~runs:false v p)
+  | Running (p, v) -> waiting s (Task v) (platform_task s ~runs:true v p)
+  | Action c -> code s (fun n -> Action n) c
+  | Condition c -> code s (fun n -> Condition n) c
+  | Sequence (a, rest) -> ordered s Sequence (List.map (spell s) (a :: rest))
+  | Parallel rs -> beside s Parallel (List.map (spell s) rs)
+  | All_of (a, bs) -> ordered s All_of [ optional s (spell s) a; branches s bs ]
+  | One_of bs -> ordered s One_of [ branches s bs ]
+  | Until (e, c, a) -> ordered s (Until e) [ code s part c; spell s a ]
+  | Idle { timer; seconds } -> waiting s (Timer timer) (Seconds seconds)
+  | Confirm { question; prompt; _ } -> waiting s (Question question) (Confirm (question, prompt))
+  | During { on_cut; timer; duration; started; body } ->
     let time =
-      match duration with
-      | Seconds x -> leaf ?item:(item (Timer timer)) (Printf.sprintf "%h" x)
-      | Given_by c -> code s "" c
-    in
-    ordered (Printf.sprintf "%s%s%b" (Value.during e) (on_cut e) started) [ time; spell s body ]
-  | Watch (a, { code = c; _ }) -> ordered "watch" [ code s ~handler:true "" c; spell s a ]
+      match duration with Seconds x -> waiting s (Timer timer) (Seconds x) | Given_by c -> code s part c in
+    ordered s (During (on_cut, started)) [ time; spell s body ]
+  | Watch (a, { code = c; _ }) -> ordered s Watch [ code s ~handler:true part c; spell s a ]
   | Repeat { round; again = { left; until; each; site = _ } } ->
-    let left = Option.fold left ~none:"" ~some:string_of_int in
-    let optional f x = beside "" (List.map f (Option.to_list x)) in
-    ordered ("repeat" ^ left) [ optional (code s "") until; optional (spell s) round; spell s each ]
+    ordered s (Repeat left) [ optional s (code s part) until; optional s (spell s) round; spell s each ]
   | Made _ | Unallocated _ | Hold _ | Recruit _ | Recruited _ -> invalid_arg "Likeness: a task that is made at its turn"
 
-(* Of each [within] it is said when it is missed, by its place. *)
-and on_cut : Core.on_cut -> _ = function Completes -> "" | Fails site -> string_of_int site
+and optional : 'a. spelling -> ('a -> tree) -> 'a option -> tree =
+  fun s spelled x -> beside s Some_of (List.map spelled (Option.to_list x))
 
 and branches s bs =
-  beside "" (List.map (fun (b : Residual.branch) -> ordered "?" [ code s "" b.guard; spell s b.body ]) bs)
+  let branch (b : Residual.branch) = ordered s Branch [ code s part b.guard; spell s b.body ] in
+  beside s Some_of (List.map branch bs)
 
 (* Without what is inert, but for tasks that move their vehicle. *)
 let root s inert (r : Residual.t) =
@@ -121,77 +179,15 @@ let root s inert (r : Residual.t) =
     | _ -> false
   in
   let components = match r with Parallel rs -> rs | r -> [ r ] in
-  beside "|" (List.map (spell s) (List.filter (fun r -> not (is_gone r)) components))
-
-(* {1 Colours} *)
-
-let mix a b = ((a * 0x2545f491) + b + (a lsr 17)) land max_int
-
-type shape = { hash : int; of_leaf : leaf option; is_ordered : bool; shapes : shape list }
-
-let rec shape ~color ~pair tree =
-  match tree with
-  | Leaf l ->
-    let item = Option.fold l.item ~none:0 ~some:color in
-    let hash = Array.fold_left (fun h n -> mix h (pair n)) (mix (Hashtbl.hash l.leaf_text) item) l.named in
-    { hash; of_leaf = Some l; is_ordered = true; shapes = [] }
-  | Node { text; ordered; children } ->
-    let shapes = List.map (shape ~color ~pair) children in
-    let add h s = if ordered then mix h s.hash else h + mix 7 s.hash in
-    { hash = mix 3 (List.fold_left add (Hashtbl.hash text) shapes); of_leaf = None; is_ordered = ordered; shapes }
-
-(* [note n h] is called for each pair [n] that code names, with what is around it. *)
-let rec around note at s =
-  Option.iter (fun l -> Array.iteri (fun i n -> note n (mix (mix at s.hash) i)) l.named) s.of_leaf;
-  let inside i child = around note (mix (mix at s.hash) (if s.is_ordered then i else child.hash)) child in
-  List.iteri inside s.shapes
+  beside s Parallel (List.map (spell s) (List.filter (fun r -> not (is_gone r)) components))
 
 (* Pairs of N, each with its place among those of its key, if that matters. *)
-let in_space t tuples =
+let in_space t pairs tuples =
   let of_key (k, xs) =
     let ordered = Tuples.is_ordered k tuples in
-    List.mapi (fun i x -> (Skeleton.pair t.skeletons k x, if ordered then i else 0)) xs
+    List.mapi (fun i x -> (place pairs (Skeleton.pair t.skeletons k x), if ordered then i else 0)) xs
   in
   List.concat_map of_key (Tuples.bindings tuples)
-
-(* Colours of pairs, which tell those apart that play different parts: first by [orbit], then by what is around them. *)
-let colours ~color ~orbit pairs space tree =
-  let colours = Hashtbl.create 64 in
-  List.iter (fun n -> Hashtbl.replace colours n (orbit n)) pairs;
-  let pair n = Option.value (Hashtbl.find_opt colours n) ~default:(mix 11 n) in
-  let count () = List.length (List.sort_uniq Int.compare (List.map pair pairs)) in
-  let rec refine before =
-    let found = Hashtbl.create 64 in
-    let note n h = Hashtbl.replace found n (h + Option.value (Hashtbl.find_opt found n) ~default:0) in
-    around note 1 (shape ~color ~pair tree);
-    List.iter (fun (n, place) -> note n (mix 5 place)) space;
-    let sum n = Option.value (Hashtbl.find_opt found n) ~default:0 in
-    let next = List.map (fun n -> (n, mix (pair n) (sum n land max_int))) pairs in
-    List.iter (fun (n, colour) -> Hashtbl.replace colours n colour) next;
-    let now = count () in
-    if now > before then refine now
-  in
-  refine (count ());
-  pair
-
-(* {1 Texts} *)
-
-type written = { text : string; order : int list; items : Timed.item list }
-
-let rec write ~color ~colored ~pair tree =
-  match tree with
-  | Leaf { leaf_text; item; named } ->
-    let pairs = String.concat "," (List.map pair (Array.to_list named)) in
-    let colour = match item with Some i when colored -> Printf.sprintf "^%d" (color i) | Some _ | None -> "" in
-    { text = String.concat "" [ leaf_text; "{"; pairs; "}"; colour ]; order = List.map color (Option.to_list item);
-      items = Option.to_list item }
-  | Node { text; ordered; children } ->
-    let compare a b =
-      match String.compare a.text b.text with 0 -> Stdlib.compare a.order b.order | order -> order in
-    let written = List.map (write ~color ~colored ~pair) children in
-    let written = if ordered then written else List.sort compare written in
-    { text = String.concat "" [ text; "("; String.concat ";" (List.map (fun w -> w.text) written); ")" ];
-      order = List.concat_map (fun w -> w.order) written; items = List.concat_map (fun w -> w.items) written }
 
 let constant t (s : Timed.state) m =
   let shared =
@@ -205,36 +201,98 @@ let constant t (s : Timed.state) m =
     Constants.add t.constants key n;
     n
 
-type form = { text : string; items : Timed.item list }
+type spelled = { tree : tree; awaited : Timed.item array; space : (int * int) list; constant : int }
 
-(* [mark] is a pair that is told apart from all others. *)
-let form_of t ?mark ~label ~orbit ~pairs ~color ~colored inert (s : Timed.state) m r =
+let spelled t ~orbit ~pairs inert (state : Timed.state) m r =
   let inert = List.map (fun (i : Inert.item) -> i.awaited) inert in
-  let is_awaited item = List.exists (fun (p : Timed.pending) -> p.item = item) s.pending in
+  let is_awaited item = List.exists (fun (p : Timed.pending) -> p.item = item) state.pending in
   let awaited item = is_awaited item && not (List.mem item inert) in
-  let tree = root { t; label; awaited } inert r in
-  let space = in_space t s.configuration.shared.tuples in
-  let is_marked n = mark = Some n in
-  let colour = colours ~color ~orbit:(fun n -> mix (orbit n) (Bool.to_int (is_marked n))) pairs space tree in
-  let compare m n = match Int.compare (colour m) (colour n) with 0 -> Int.compare m n | order -> order in
-  let names = Hashtbl.create 64 in
-  let name i n = Hashtbl.replace names n (Printf.sprintf "%d#%d%s" (orbit n) i (if is_marked n then "!" else "")) in
-  List.iteri name (List.sort compare pairs);
-  let pair n = match Hashtbl.find_opt names n with Some name -> name | None -> string_of_int n in
-  let written = write ~color ~colored ~pair tree in
-  let posted (n, place) = Printf.sprintf "%s@%d" (pair n) place in
-  let space = String.concat "," (List.sort String.compare (List.map posted space)) in
-  { text = Printf.sprintf "%d %s %s" (constant t s m) space written.text; items = written.items }
+  let s = { t; orbit; pairs; awaited; items = [] } in
+  let tree = root s inert r in
+  { tree; awaited = Array.of_list (List.rev s.items); space = in_space t pairs state.configuration.shared.tuples;
+    constant = constant t state m }
 
-let form t e ~color ~colored inert (s : Timed.state) =
+(* {1 Colours} *)
+
+type shape = { hash : int; names : int array; in_order : bool; shapes : shape list }
+
+let rec shape ~color ~pair = function
+  | Leaf { head; item; named } ->
+    let h = mix head (Option.fold item ~none:0 ~some:color) in
+    { hash = Array.fold_left (fun h n -> mix h (pair n)) h named; names = named; in_order = true; shapes = [] }
+  | Node { head; ordered; children } ->
+    let shapes = List.map (shape ~color ~pair) children in
+    let add h s = if ordered then mix h s.hash else h + mix 7 s.hash in
+    { hash = mix 3 (List.fold_left add head shapes); names = [||]; in_order = ordered; shapes }
+
+(* [note n h] is called for each pair [n] that code names, with what is around it. *)
+let rec around note at s =
+  Array.iteri (fun i n -> note n (mix (mix at s.hash) i)) s.names;
+  let inside i child = around note (mix (mix at s.hash) (if s.in_order then i else child.hash)) child in
+  List.iteri inside s.shapes
+
+(* Colours of pairs, by place, which tell those apart that play different parts: first by their orbits, then by what is
+   around them. *)
+let colours ~color ~orbits { tree; space; _ } =
+  let count colours = List.length (List.sort_uniq Int.compare (Array.to_list colours)) in
+  let rec refine colours before =
+    if before = Array.length colours then colours
+    else begin
+      let found = Array.map (fun _ -> 0) colours in
+      let note n h = if n >= 0 then found.(n) <- found.(n) + h in
+      around note 1 (shape ~color ~pair:(fun n -> if n < 0 then mix 11 (-n) else colours.(n)) tree);
+      List.iter (fun (n, place) -> note n (mix 5 place)) space;
+      let next = Array.map2 (fun colour sum -> mix colour (sum land max_int)) colours found in
+      let now = count next in
+      if now > before then refine next now else next
+    end
+  in
+  refine orbits (count orbits)
+
+(* {1 Forms} *)
+
+type form = { number : int; items : Timed.item list }
+
+(* A tree as a number, with what is awaited in it and its colours. *)
+type written = { is : int; order : (int * int) list }
+
+let rec write t ~color ~colored ~pair = function
+  | Leaf { head; item; named } ->
+    let order = List.map (fun i -> (color i, i)) (Option.to_list item) in
+    let colours = if colored then List.map fst order else [] in
+    { is = Lists.number t.lists (head :: List.map pair (Array.to_list named) @ colours); order }
+  | Node { head; ordered; children } ->
+    let by_colour (a, _) (b, _) = Int.compare a b in
+    let compare a b = match Int.compare a.is b.is with 0 -> List.compare by_colour a.order b.order | order -> order in
+    let written = List.map (write t ~color ~colored ~pair) children in
+    let written = if ordered then written else List.sort compare written in
+    { is = Lists.number t.lists (head :: List.map (fun w -> w.is) written);
+      order = List.concat_map (fun w -> w.order) written }
+
+let form_of t ~orbits ~color ~colored spelled =
+  let colors = Array.map color spelled.awaited in
+  let color i = colors.(i) in
+  let colours = colours ~color ~orbits spelled in
+  let compare m n = match Int.compare colours.(m) colours.(n) with 0 -> Int.compare m n | order -> order in
+  let names = Array.map (fun _ -> 0) orbits in
+  let name i n = names.(n) <- Lists.number t.lists [ -1; orbits.(n); i ] in
+  List.iteri name (List.sort compare (List.init (Array.length orbits) Fun.id));
+  let pair n = if n < 0 then Lists.number t.lists [ -2; n ] else names.(n) in
+  let { is; order } = write t ~color ~colored ~pair spelled.tree in
+  let posted = List.sort Int.compare (List.map (fun (n, i) -> Lists.number t.lists [ -3; pair n; i ]) spelled.space) in
+  { number = Lists.number t.lists (-4 :: spelled.constant :: is :: posted);
+    items = List.map (fun (_, i) -> spelled.awaited.(i)) order }
+
+let spell t e inert (s : Timed.state) =
   match s.configuration.control with
   | Executing (m, r) ->
-    let label l = match Hashtbl.find_opt e.orbits l with Some n -> string_of_int n | None -> "?" in
-    let orbit n = Hashtbl.find e.pairs n in
-    let pairs = List.of_seq (Hashtbl.to_seq_keys e.pairs) in
-    let form = form_of t ~label ~orbit ~pairs ~color ~colored inert s m r in
-    { form with text = Printf.sprintf "%d %s" e.number form.text }
-  | Script _ | Waiting _ | Ended _ -> invalid_arg "Likeness.form: nothing is executed"
+    let orbit l = Option.value (Hashtbl.find_opt e.orbits l) ~default:(-1) in
+    spelled t ~orbit ~pairs:e.pairs inert s m r
+  | Script _ | Waiting _ | Ended _ -> invalid_arg "Likeness.spell: nothing is executed"
+
+let form t e ~color ~colored spelled =
+  let form = form_of t ~orbits:e.pair_orbits ~color ~colored spelled in
+  { form with number = Lists.number t.lists [ -5; e.number; form.number ] }
 
 (* {1 Automorphisms} *)
 
@@ -283,20 +341,24 @@ let find_execution t (s : Timed.state) m r =
       not (Pairs.meet (Pairs.singleton pair) fixed)
     in
     let named = List.concat_map (fun (k : Skeleton.t) -> Array.to_list k.pairs) skeletons in
-    let pairs = List.filter is_movable (List.sort_uniq Int.compare named) in
-    let by_key, _ = classes (Skeleton.key_of t.skeletons) pairs in
-    let form ?mark label =
-      form_of t ?mark ~label ~orbit:(Hashtbl.find by_key) ~pairs ~color:(fun _ -> 0) ~colored:false [] s m r in
-    let is_apart l = if t.apart = Some l.vehicle then "*" else "" in
-    let of_label l = (form (fun l' -> (if l = l' then "!" else "") ^ is_apart l')).text in
+    let numbers = List.filter is_movable (List.sort_uniq Int.compare named) in
+    let pairs = { numbers = Array.of_list numbers; places = Hashtbl.create 16 } in
+    Array.iteri (fun place n -> Hashtbl.replace pairs.places n place) pairs.numbers;
+    let by_key, _ = classes (Skeleton.key_of t.skeletons) numbers in
+    let by_key = Array.map (Hashtbl.find by_key) pairs.numbers in
+    let form orbits orbit =
+      (form_of t ~orbits ~color:(fun _ -> 0) ~colored:false (spelled t ~orbit ~pairs [] s m r)).number in
+    let is_apart l = Bool.to_int (t.apart = Some l.vehicle) in
+    let of_label l = form by_key (fun l' -> (2 * Bool.to_int (l = l')) + is_apart l') in
     let orbits, members = classes of_label (labels r) in
-    let pair_orbits, same = classes (fun n -> (form ~mark:n is_apart).text) pairs in
-    if has_several members || has_several same then begin
-      let renamed = Hashtbl.create 16 in
-      let note _ ns = if List.length ns > 1 then List.iter (fun n -> Hashtbl.replace renamed n ()) ns in
-      Hashtbl.iter note same;
-      Some { number = States.length t.executions; orbits; members; pairs = pair_orbits; renamed }
-    end
+    let places = List.mapi (fun place _ -> place) numbers in
+    (* A pair that is told apart from all others has an orbit of its own. *)
+    let of_place place = form (Array.mapi (fun p orbit -> if p = place then -1 - orbit else orbit) by_key) is_apart in
+    let pair_orbits, same = classes of_place places in
+    if has_several members || has_several same then
+      let renamed = Hashtbl.fold (fun _ places all -> if List.length places > 1 then places @ all else all) same [] in
+      let pair_orbits = Array.of_list (List.map (Hashtbl.find pair_orbits) places) in
+      Some { number = States.length t.executions; orbits; members; pairs; pair_orbits; renamed }
     else None
 
 let execution t (s : Timed.state) =
@@ -312,12 +374,13 @@ let execution t (s : Timed.state) =
 
 let leaves_alike t e (s : Timed.state) =
   let tuples = s.configuration.shared.tuples in
-  let left = List.map fst (in_space t tuples) in
+  let times = Array.map (fun _ -> 0) e.pair_orbits in
+  List.iter (fun (n, _) -> if n >= 0 then times.(n) <- times.(n) + 1) (in_space t e.pairs tuples);
   let of_orbit = Hashtbl.create 16 in
-  let is_as_its_orbit n () all =
-    let orbit = Hashtbl.find e.pairs n and times = List.length (List.filter (Int.equal n) left) in
-    if not (Hashtbl.mem of_orbit orbit) then Hashtbl.add of_orbit orbit times;
-    all && times = Hashtbl.find of_orbit orbit
-    && (times = 0 || not (Tuples.is_ordered (Skeleton.key_of t.skeletons n) tuples))
+  let is_as_its_orbit n =
+    let orbit = e.pair_orbits.(n) in
+    if not (Hashtbl.mem of_orbit orbit) then Hashtbl.add of_orbit orbit times.(n);
+    times.(n) = Hashtbl.find of_orbit orbit
+    && (times.(n) = 0 || not (Tuples.is_ordered (Skeleton.key_of t.skeletons e.pairs.numbers.(n)) tuples))
   in
-  Hashtbl.fold is_as_its_orbit e.renamed true
+  List.for_all is_as_its_orbit e.renamed

@@ -32,11 +32,17 @@ val leaves_alike : t -> execution -> Timed.state -> bool
 
 (** {1:forms Forms} *)
 
+type spelled
+(** A state of an execution without names, but for the order of what differs in names alone. *)
+
+val spell : t -> execution -> Inert.item list -> Timed.state -> spelled
+(** [spell t e inert s] is for a state [s] of [e]. *)
+
 type form = {
-  text : string;  (** states with the same one are alike *)
+  number : int;  (** states with the same one are alike *)
   items : Timed.item list;  (** what is awaited, inert ends apart, in an order that alikeness keeps *)
 }
 
-val form : t -> execution -> color:(Timed.item -> int) -> colored:bool -> Inert.item list -> Timed.state -> form
-(** [form t e ~color ~colored inert s] is for a state [s] of [e]. Of what differs in names alone, the order is by
-    [color], which is part of the text if it is [colored]. *)
+val form : t -> execution -> color:(Timed.item -> int) -> colored:bool -> spelled -> form
+(** [form t e ~color ~colored s] is that of a state of [e]. Of what differs in names alone, the order is by [color],
+    which is part of the number if it is [colored]. *)

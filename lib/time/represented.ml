@@ -33,10 +33,11 @@ let correspondence system here execution (known : Timed.step) items (step : Time
     | Some likeness, Some e ->
       let form items (step : Timed.step) =
         let inert = Timed_place.inert (Timed_system.places system) step.next in
-        Likeness.form likeness e ~color:(color items step) ~colored:true inert step.next
+        let spelled = Likeness.spell likeness e inert step.next in
+        Likeness.form likeness e ~color:(color items step) ~colored:true spelled
       in
       let of_known = form here.known_items known and own = form here.items step in
-      if String.equal of_known.text own.text then
+      if of_known.number = own.number then
         let pairs = List.combine of_known.items own.items in
         Some (List.filter_map (fun item -> List.assoc_opt item pairs) items)
       else None

@@ -20,7 +20,7 @@ type t = {
   mutable here : int list;
 }
 
-type key = Exactly of Timed.state | Alike of string
+type key = Exactly of Timed.state | Alike of int
 
 module Table = Hashtbl.Make (struct
     type t = key * (rest * int list)
@@ -29,11 +29,11 @@ module Table = Hashtbl.Make (struct
       more = more'
       && match key, key' with
       | Exactly s, Exactly s' -> Timed.equal s s'
-      | Alike text, Alike text' -> String.equal text text'
+      | Alike form, Alike form' -> Int.equal form form'
       | (Exactly _ | Alike _), _ -> false
 
     let hash (key, more) =
-      Hashtbl.hash more + match key with Exactly s -> Timed.hash s | Alike text -> Hashtbl.hash text
+      Hashtbl.hash more + match key with Exactly s -> Timed.hash s | Alike form -> form
   end)
 
 type places = {
@@ -101,12 +101,13 @@ let different e likeness before clocks arrows =
     | Executing _ ->
       let clock item = Option.value (List.assoc_opt item clocks) ~default:0 in
       let color item = if List.mem item step.fresh then -1 else clock item in
-      let form = Likeness.form likeness e ~color ~colored:true inert step.next in
+      let spelled = Likeness.spell likeness e inert step.next in
+      let form = Likeness.form likeness e ~color ~colored:true spelled in
       let ends (i : Inert.item) = (i.least, i.most, Option.map (Likeness.orbit e) (Happening.ending step.next i)) in
       let due = Option.map (fun (item, bounds) -> (clock item, bounds)) step.due in
       let happens = List.map (fun (moment, task) -> (moment, Likeness.orbit e task)) (Happening.tasks before step) in
       let what = (step.transition.rules, List.sort Stdlib.compare happens, Happening.missed before step) in
-      let key = (due, step.urgent, what, List.sort Stdlib.compare (List.map ends begun), form.text) in
+      let key = (due, step.urgent, what, List.sort Stdlib.compare (List.map ends begun), form.number) in
       let is_new = not (Hashtbl.mem seen key) in
       Hashtbl.replace seen key ();
       is_new
@@ -213,8 +214,9 @@ let reached t ~clocks ~rest_clock ~fresh ~has_rest execution state inert zone =
     match t.likeness, execution with
     | Some likeness, Some e ->
       let color item = match List.assoc_opt item clocks with Some clock -> Zone.role clock zone | None -> 0 in
-      let { Likeness.text; items } = Likeness.form likeness e ~color ~colored:false inert state in
-      (Alike text, items)
+      let spelled = Likeness.spell likeness e inert state in
+      let { Likeness.number; items } = Likeness.form likeness e ~color ~colored:false spelled in
+      (Alike number, items)
     | (Some _ | None), _ -> (Exactly state, awaited)
   in
   let with_clock item = Option.map (fun clock -> (item, clock)) (List.assoc_opt item clocks) in

@@ -18,13 +18,6 @@ type execution = {
   renamed : int list;  (* the places of pairs that some automorphism renames *)
 }
 
-module States = Hashtbl.Make (struct
-    type t = Timed.state
-
-    let equal = Timed.equal
-    let hash = Timed.hash
-  end)
-
 (* What no step of a task changes, by number. *)
 module Constants = Hashtbl.Make (struct
     type t = Configuration.t * Timed.state
@@ -80,7 +73,7 @@ type t = {
   heads : Heads.t;
   lists : Lists.t;
   constants : int Constants.t;
-  executions : execution option States.t;
+  executions : execution option Timed.Table.t;
   apart : Core.vehicle option;  (* it is like no other vehicle *)
   possible : bool;
 }
@@ -88,7 +81,7 @@ type t = {
 let create ?apart (options : Timed.options) =
   let numbering = Dolphin_checker.Numbering.create () in
   { options; apart; skeletons = Skeleton.context numbering options.program; heads = Heads.create numbering;
-    lists = Lists.create numbering; constants = Constants.create 64; executions = States.create 8;
+    lists = Lists.create numbering; constants = Constants.create 64; executions = Timed.Table.create 8;
     possible = Inert.names_are_free options }
 
 let number e = e.number
@@ -201,9 +194,10 @@ let constant t (s : Timed.state) m =
     Constants.add t.constants key n;
     n
 
-type spelled = { tree : tree; awaited : Timed.item array; space : (int * int) list; constant : int }
+type parts = { tree : tree; awaited : Timed.item array; space : (int * int) list; constant : int }
+type spelled = { likeness : t; execution : execution; parts : parts }
 
-let spelled t ~orbit ~pairs inert (state : Timed.state) m r =
+let parts t ~orbit ~pairs inert (state : Timed.state) m r =
   let inert = List.map (fun (i : Inert.item) -> i.awaited) inert in
   let is_awaited item = List.exists (fun (p : Timed.pending) -> p.item = item) state.pending in
   let awaited item = is_awaited item && not (List.mem item inert) in
@@ -269,30 +263,32 @@ let rec write t ~color ~colored ~pair = function
     { is = Lists.number t.lists (head :: List.map (fun w -> w.is) written);
       order = List.concat_map (fun w -> w.order) written }
 
-let form_of t ~orbits ~color ~colored spelled =
-  let colors = Array.map color spelled.awaited in
+let form_of t ~orbits ~color ~colored parts =
+  let colors = Array.map color parts.awaited in
   let color i = colors.(i) in
-  let colours = colours ~color ~orbits spelled in
+  let colours = colours ~color ~orbits parts in
   let compare m n = match Int.compare colours.(m) colours.(n) with 0 -> Int.compare m n | order -> order in
   let names = Array.map (fun _ -> 0) orbits in
   let name i n = names.(n) <- Lists.number t.lists [ -1; orbits.(n); i ] in
   List.iteri name (List.sort compare (List.init (Array.length orbits) Fun.id));
   let pair n = if n < 0 then Lists.number t.lists [ -2; n ] else names.(n) in
-  let { is; order } = write t ~color ~colored ~pair spelled.tree in
-  let posted = List.sort Int.compare (List.map (fun (n, i) -> Lists.number t.lists [ -3; pair n; i ]) spelled.space) in
-  { number = Lists.number t.lists (-4 :: spelled.constant :: is :: posted);
-    items = List.map (fun (_, i) -> spelled.awaited.(i)) order }
+  let { is; order } = write t ~color ~colored ~pair parts.tree in
+  let posted = List.sort Int.compare (List.map (fun (n, i) -> Lists.number t.lists [ -3; pair n; i ]) parts.space) in
+  { number = Lists.number t.lists (-4 :: parts.constant :: is :: posted);
+    items = List.map (fun (_, i) -> parts.awaited.(i)) order }
 
 let spell t e inert (s : Timed.state) =
   match s.configuration.control with
   | Executing (m, r) ->
     let orbit l = Option.value (Hashtbl.find_opt e.orbits l) ~default:(-1) in
-    spelled t ~orbit ~pairs:e.pairs inert s m r
+    { likeness = t; execution = e; parts = parts t ~orbit ~pairs:e.pairs inert s m r }
   | Script _ | Waiting _ | Ended _ -> invalid_arg "Likeness.spell: nothing is executed"
 
-let form t e ~color ~colored spelled =
-  let form = form_of t ~orbits:e.pair_orbits ~color ~colored spelled in
-  { form with number = Lists.number t.lists [ -5; e.number; form.number ] }
+let execution_of spelled = spelled.execution
+
+let form ~color ~colored { likeness; execution; parts } =
+  let form = form_of likeness ~orbits:execution.pair_orbits ~color ~colored parts in
+  { form with number = Lists.number likeness.lists [ -5; execution.number; form.number ] }
 
 (* {1 Automorphisms} *)
 
@@ -347,7 +343,7 @@ let find_execution t (s : Timed.state) m r =
     let by_key, _ = classes (Skeleton.key_of t.skeletons) numbers in
     let by_key = Array.map (Hashtbl.find by_key) pairs.numbers in
     let form orbits orbit =
-      (form_of t ~orbits ~color:(fun _ -> 0) ~colored:false (spelled t ~orbit ~pairs [] s m r)).number in
+      (form_of t ~orbits ~color:(fun _ -> 0) ~colored:false (parts t ~orbit ~pairs [] s m r)).number in
     let is_apart l = Bool.to_int (t.apart = Some l.vehicle) in
     let of_label l = form by_key (fun l' -> (2 * Bool.to_int (l = l')) + is_apart l') in
     let orbits, members = classes of_label (labels r) in
@@ -358,17 +354,17 @@ let find_execution t (s : Timed.state) m r =
     if has_several members || has_several same then
       let renamed = Hashtbl.fold (fun _ places all -> if List.length places > 1 then places @ all else all) same [] in
       let pair_orbits = Array.of_list (List.map (Hashtbl.find pair_orbits) places) in
-      Some { number = States.length t.executions; orbits; members; pairs; pair_orbits; renamed }
+      Some { number = Timed.Table.length t.executions; orbits; members; pairs; pair_orbits; renamed }
     else None
 
 let execution t (s : Timed.state) =
   match s.configuration.control with
   | Executing (m, r) when t.possible && not (Residual.makes_tasks r || Residual.may_go_round r) -> (
-      match States.find_opt t.executions s with
+      match Timed.Table.find_opt t.executions s with
       | Some found -> found
       | None ->
         let found = find_execution t s m r in
-        States.add t.executions s found;
+        Timed.Table.add t.executions s found;
         found)
   | Executing _ | Script _ | Waiting _ | Ended _ -> None
 

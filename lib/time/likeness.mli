@@ -38,11 +38,13 @@ type spelled
 val spell : t -> execution -> Inert.item list -> Timed.state -> spelled
 (** [spell t e inert s] is for a state [s] of [e]. *)
 
+val execution_of : spelled -> execution
+
 type form = {
   number : int;  (** states with the same one are alike *)
   items : Timed.item list;  (** what is awaited, inert ends apart, in an order that alikeness keeps *)
 }
 
-val form : t -> execution -> color:(Timed.item -> int) -> colored:bool -> spelled -> form
-(** [form t e ~color ~colored s] is that of a state of [e]. Of what differs in names alone, the order is by [color],
-    which is part of the number if it is [colored]. *)
+val form : color:(Timed.item -> int) -> colored:bool -> spelled -> form
+(** [form ~color ~colored s] is that of a state. Of what differs in names alone, the order is by [color], which is part
+    of the number if it is [colored]. *)

@@ -25,35 +25,38 @@ let both_ended (a : Timed.state) (b : Timed.state) =
     true
   | (Script _ | Waiting _ | Executing _ | Ended _), _ -> false
 
+(* The form of what [known] leads to, if that belongs to an execution. *)
+let known_form successors here execution (known : Timed.step) =
+  let form likeness e =
+    let spelled = Likeness.spell likeness e (Successors.inert successors known.next) known.next in
+    (e, Likeness.form ~color:(color here.known_items known) ~colored:true spelled)
+  in
+  Option.bind (Successors.likeness successors) (fun likeness -> Option.map (form likeness) execution)
+
 (* What is awaited after [step], in the order of [items] after [known], if both lead to states that are alike. *)
-let correspondence system here execution (known : Timed.step) items (step : Timed.step) =
+let correspondence here (known : Timed.step) form items { Successors.step; spelled; inert = _ } =
   if not (same_due here known step && known.transition.rules = step.transition.rules) then None
   else
-    match Timed_place.likeness (Timed_system.places system), execution with
-    | Some likeness, Some e ->
-      let form items (step : Timed.step) =
-        let inert = Timed_place.inert (Timed_system.places system) step.next in
-        let spelled = Likeness.spell likeness e inert step.next in
-        Likeness.form likeness e ~color:(color items step) ~colored:true spelled
-      in
-      let of_known = form here.known_items known and own = form here.items step in
+    match Lazy.force form with
+    | Some (e, (of_known : Likeness.form)) ->
+      let own = Likeness.form ~color:(color here.items step) ~colored:true (spelled e) in
       if of_known.number = own.number then
         let pairs = List.combine of_known.items own.items in
         Some (List.filter_map (fun item -> List.assoc_opt item pairs) items)
       else None
-    | (Some _ | None), _ ->
-      if Timed.equal known.next step.next || both_ended known.next step.next then Some items else None
+    | None -> if Timed.equal known.next step.next || both_ended known.next step.next then Some items else None
 
-let take system options here (a : Timed_system.arrival) : (Timed_system.move * here) option =
+let take system here (a : Timed_system.arrival) : (Timed_system.move * here) option =
+  let successors = Timed_system.successors system in
   let into state items = { state; known_items = a.items; items } in
   match a.move with
   | Step { step = known; last; items; begun = known_begun } ->
-    let find step =
-      Option.map (fun items -> (step, items)) (correspondence system here a.execution known items step) in
-    let arrive ((step : Timed.step), items) : Timed_system.move * here =
-      let before = Timed_place.inert (Timed_system.places system) here.state in
-      let is_new i = not (List.mem i before) in
-      let begun = List.filter is_new (Timed_place.inert (Timed_system.places system) step.next) in
+    let form = lazy (known_form successors here a.execution known) in
+    let find successor =
+      Option.map (fun items -> (successor, items)) (correspondence here known form items successor) in
+    let arrive ({ Successors.step; inert; spelled = _ }, items) : Timed_system.move * here =
+      let before = Successors.inert successors here.state in
+      let begun = List.filter (fun i -> not (List.mem i before)) (Lazy.force inert) in
       let is_like (i : Inert.item) =
         let is_it (j : Inert.item) = last = Some j.awaited && i.least = j.least && i.most = j.most in
         List.exists is_it known_begun
@@ -61,7 +64,7 @@ let take system options here (a : Timed_system.arrival) : (Timed_system.move * h
       let last = Option.map (fun (i : Inert.item) -> i.awaited) (List.find_opt is_like begun) in
       (Step { step; begun; last; items }, into step.next items)
     in
-    Option.map arrive (List.find_map find (Timed.all_steps options here.state))
+    Option.map arrive (List.find_map find (Successors.all successors here.state))
   | Rest { later; steps = _ } -> (
       let steps = Timed_place.ends_of_rest (Timed_system.places system) here.state in
       match List.rev steps with
@@ -69,13 +72,13 @@ let take system options here (a : Timed_system.arrival) : (Timed_system.move * h
         Some (Rest { steps; later }, into last.next a.items)
       | _ -> None)
 
-let moves system options arrivals =
+let moves system arrivals =
   let start = Timed_system.start system in
   let items = List.map (fun (p : Timed.pending) -> p.item) start.pending in
   let rec go found here = function
     | [] -> Some (List.rev found)
     | arrival :: rest -> (
-        match take system options here arrival with
+        match take system here arrival with
         | Some (move, here) -> go (move :: found) here rest
         | None -> None)
   in

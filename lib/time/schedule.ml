@@ -31,8 +31,8 @@ let walk w k (step : Timed.step) =
 
 let bounds steps_of w k step = bounds_of steps_of k w.state w.begun step
 
-let all options start steps =
-  let add (k, w, found) step = (k + 1, walk w k step, bounds (Timed.steps options) w k step @ found) in
+let all successors start steps =
+  let add (k, w, found) step = (k + 1, walk w k step, bounds (Successors.steps successors) w k step @ found) in
   let _, _, found = List.fold_left add (1, set_out start, []) steps in
   List.rev found
 
@@ -49,15 +49,15 @@ let chain last n =
 let all_known dates = if Array.for_all Option.is_some dates then Some (Array.map Option.get dates) else None
 let of_steps n dates = Array.sub dates 1 n
 
-let make (goal : Timed_system.goal) options start steps =
+let make (goal : Timed_system.goal) successors start steps =
   let n = List.length steps in
-  let bounds = all options start steps in
+  let bounds = all successors start steps in
   match goal with
   | Latest ->
     let dates, last = Dates.latest n bounds in
     Option.map (fun dates -> { dates = of_steps n dates; chain = chain last n }) (all_known dates)
   | Earliest -> Option.map (fun dates -> { dates = of_steps n dates; chain = [] }) (all_known (Dates.earliest n bounds))
 
-let stretched options start steps spans =
+let stretched successors start steps spans =
   let n = List.length steps in
-  Option.map (of_steps n) (all_known (Dates.stretched n (all options start steps) spans))
+  Option.map (of_steps n) (all_known (Dates.stretched n (all successors start steps) spans))

@@ -13,12 +13,12 @@ type t = {
   chain : link list;  (** what the last date depends on: durations, one after the other, that add up to it *)
 }
 
-val make : Timed_system.goal -> Timed.options -> Timed.state -> Timed.step list -> t option
-(** [make goal o s steps] is the dates of the run [steps] from the initial state [s]. [None] if its end has no latest
+val make : Timed_system.goal -> Successors.t -> Timed.state -> Timed.step list -> t option
+(** [make goal _ s steps] is the dates of the run [steps] from the initial state [s]. [None] if its end has no latest
     date. *)
 
-val stretched : Timed.options -> Timed.state -> Timed.step list -> Dates.span list -> int array option
-(** [stretched o s steps spans] is dates of that run with [spans] between its steps, which are numbered from 1, as
+val stretched : Successors.t -> Timed.state -> Timed.step list -> Dates.span list -> int array option
+(** [stretched _ s steps spans] is dates of that run with [spans] between its steps, which are numbered from 1, as
     {!Dates.stretched} has them. *)
 
 (** {1:bounds Bounds} *)

@@ -2,13 +2,13 @@ module Limits = Dolphin_checker.Limits
 module Search = Dolphin_checker.Breadth_first.Make (Timed_system)
 open Timed_system
 
-let search ?working ?course ?enough ~reduction ~started limits options goal phase =
-  let search = Search.create ~phase ~started limits (create ?working ?course ~reduction goal options) in
+let search ?working ?enough ~started limits successors goal phase =
+  let search = Search.create ~phase ~started limits (create ?working goal successors) in
   Search.run ?enough:(Option.map (fun enough () -> enough search) enough) search;
   search
 
-let steps_along goal options system moves =
-  match Unfold.run system goal options moves with
+let steps_along goal system moves =
+  match Unfold.run system goal moves with
   | Some steps -> steps
   | None -> raise Broken
 
@@ -26,10 +26,10 @@ let is_sooner a b = is_later b a
 let dates system = List.map (fun (ending, (date, _)) -> (ending, date)) (endings system)
 let earliest_dates = "earliest dates"
 
-let early ~reduction ~started limits options : Timed.step list Early.t =
-  let search = search ~reduction ~started limits options Earliest earliest_dates in
+let early ~started limits successors : Timed.step list Early.t =
+  let search = search ~started limits successors Earliest earliest_dates in
   let system = Search.system search in
-  let steps_to (_, n) = steps_along Earliest options system (path system n) in
+  let steps_to (_, n) = steps_along Earliest system (path system n) in
   let missed (site, missed) = Option.map (fun (date, _) -> (site, date)) missed in
   { endings = dates system; tasks = tasks system;
     missed = List.filter_map missed (deadlines system);
@@ -49,11 +49,12 @@ let sharing ~workers ~fork_from (limits : Limits.t) =
 
 (* What the other process finds comes as plain data: configurations would come as copies, whose code and tasks are not
    those of the program here. *)
-let both sharing ~working ~reduction ~started limits options =
+let both sharing ~working ~started limits successors =
+  let options = Successors.options successors in
   let start = Timed.initial options in
   let choices early = Early.with_run (Choices.of_run options start) early in
   let work limits _ =
-    match early ~reduction ~started limits options with
+    match early ~started limits successors with
     | found -> Some (choices found)
     | exception Broken -> None
   in
@@ -71,7 +72,7 @@ let both sharing ~working ~reduction ~started limits options =
   in
   let found late =
     match begun () with
-    | None -> early ~reduction ~started limits options
+    | None -> early ~started limits successors
     | Some beside -> (
         match Beside.await beside ~started limits (measures late) earliest_dates with
         | [ (_, Some found) ], _ ->
@@ -82,6 +83,6 @@ let both sharing ~working ~reduction ~started limits options =
   Fun.protect
     ~finally:(fun () -> Option.iter Beside.stop (begun ()))
     (fun () ->
-       let late = search ~working ~enough:is_in_vain ~reduction ~started limits options Latest "latest dates" in
+       let late = search ~working ~enough:is_in_vain ~started limits successors Latest "latest dates" in
        (late, found late))
 

@@ -4,13 +4,13 @@ module Limits = Dolphin_checker.Limits
 module Search : module type of Dolphin_checker.Breadth_first.Make (Timed_system)
 
 val search :
-  ?working:bool -> ?course:Course.t -> ?enough:(Search.t -> bool) -> reduction:Timed_system.reduction ->
-  started:float -> Limits.t -> Timed.options -> Timed_system.goal -> string -> Search.t
-(** [search ~enough ~started limits o goal phase] searches what {!Timed_system.create} makes, until [enough].
+  ?working:bool -> ?enough:(Search.t -> bool) -> started:float -> Limits.t -> Successors.t -> Timed_system.goal ->
+  string -> Search.t
+(** [search ~enough ~started limits s goal phase] searches what {!Timed_system.create} makes, until [enough].
     @raise Timed_system.Broken *)
 
 val steps_along :
-  Timed_system.goal -> Timed.options -> Timed_system.t -> Timed_system.arrival list -> Timed.step list
+  Timed_system.goal -> Timed_system.t -> Timed_system.arrival list -> Timed.step list
 (** {!Unfold.run}.
     @raise Timed_system.Broken where that is [None] *)
 
@@ -36,8 +36,7 @@ val sharing : workers:int -> fork_from:int -> Limits.t -> sharing
 val worth_a_fork : int
 
 val both :
-  sharing -> working:bool -> reduction:Timed_system.reduction -> started:float -> Limits.t -> Timed.options ->
-  Search.t * Timed.step list Early.t
-(** [both sharing ~started limits o] is the search for the latest dates, and what that for the earliest finds, which
+  sharing -> working:bool -> started:float -> Limits.t -> Successors.t -> Search.t * Timed.step list Early.t
+(** [both sharing ~started limits s] is the search for the latest dates, and what that for the earliest finds, which
     another process does as soon as the first has [sharing.fork_from] states. If that process ends early, so do both.
     @raise Timed_system.Broken *)

@@ -64,6 +64,13 @@ let equal a b =
 
 let hash s = (Configuration.hash s.configuration * 31) + Environment.hash s.outside
 
+module Table = Hashtbl.Make (struct
+    type t = state
+
+    let equal = equal
+    let hash = hash
+  end)
+
 (* {1 What is awaited} *)
 
 (* Faster than comparing any values: searches ask this most. *)
@@ -478,10 +485,11 @@ let all_steps o s =
     let own (choice, step) = if is_event o s choice then None else Some step in
     List.filter_map own choices
 
+let comes_first o step = step.urgent && starts_without_moving step && not o.program.asks_running
+
 let steps o s =
   let steps = all_steps o s in
-  let comes_first step = step.urgent && starts_without_moving step && not o.program.asks_running in
-  match List.find_opt comes_first steps with
+  match List.find_opt (comes_first o) steps with
   | Some start -> [ start ]
   | None -> steps
 

@@ -65,6 +65,8 @@ val compare : state -> state -> int
 val equal : state -> state -> bool
 val hash : state -> int
 
+module Table : Hashtbl.S with type key = state
+
 (** What may happen. That a link comes or goes, that a task is over of which nothing is heard, and that a date passes
     that code names, are no transitions of the semantics, which knows no time: they are steps that leave the
     configuration as it is. *)
@@ -86,6 +88,9 @@ val steps : options -> state -> step list
 
 val all_steps : options -> state -> step list
 (** Likewise, with each [START]. *)
+
+val comes_first : options -> step -> bool
+(** [comes_first o step] is whether {!steps} is [[step]] if it is the first of which this holds. *)
 
 val taken : options -> state -> on:Transition.event option -> Transition.t -> step
 (** [taken o s ~on t] is the transition [t] of [s] as a step, whether or not it is among {!steps}; what the outside

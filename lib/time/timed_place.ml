@@ -5,7 +5,12 @@ module Limits = Dolphin_checker.Limits
 type rest = No_rest | Unsaid | Said
 
 (* A step, with what is inert after it, and what of this has begun with it. *)
-type arrow = { step : Timed.step; inert : Inert.item list; begun : Inert.item list }
+type arrow = {
+  step : Timed.step;
+  inert : Inert.item list;
+  begun : Inert.item list;
+  spelled : Likeness.execution -> Likeness.spelled;
+}
 
 (* A state without its clocks, with what follows from it alone, and the numbers of the states with clocks. *)
 type t = {
@@ -37,29 +42,18 @@ module Table = Hashtbl.Make (struct
   end)
 
 type places = {
-  options : Timed.options;
-  ends : Inert.t option;
-  likeness : Likeness.t option;
-  course : Course.t option;
+  successors : Successors.t;
   filled : Zone.t -> Zone.t;
   note : Timed.state -> unit;
   table : t Table.t;
 }
 
-type reduction = Nothing | Inert_ends | Inert_ends_and_likeness
-
 exception Broken
 
-let places ?course reduction options ~filled ~note =
-  let apart = Option.map Course.vehicle course in
-  { options; course; filled; note; table = Table.create 1_000;
-    ends = (if reduction = Nothing then None else Some (Inert.create options));
-    likeness =
-      (if reduction = Inert_ends_and_likeness && not options.program.reads_now then
-         Some (Likeness.create ?apart options)
-       else None) }
-
-let likeness t = t.likeness
+let places successors ~filled ~note = { successors; filled; note; table = Table.create 1_000 }
+let options t = Successors.options t.successors
+let likeness t = Successors.likeness t.successors
+let successors t = t.successors
 let add place number = place.here <- number :: place.here
 
 let with_clocks (s : Timed.state) inert =
@@ -68,41 +62,32 @@ let with_clocks (s : Timed.state) inert =
     match p.bounds with Within _ -> not (is_inert p) | Some_time | Never -> false in
   List.map (fun (p : Timed.pending) -> p.item) (List.filter has_clock s.pending)
 
-(* The end of the vehicle that is observed is followed. *)
-let inert t state =
-  let is_observed (i : Inert.item) =
-    match t.course with Some c -> i.awaited = Task (Course.vehicle c) | None -> false in
-  match t.ends with
-  | Some i -> List.filter (fun i -> not (is_observed i)) (Inert.of_state i state)
-  | None -> []
-
-let course_item t = Option.map (fun c -> Timed.Course (Course.vehicle c)) t.course
+let course_item t = Option.map (fun c -> Timed.Course (Course.vehicle c)) (Successors.course t.successors)
 
 let fresh t before (step : Timed.step) =
-  match t.course with
+  match Successors.course t.successors with
   | Some c when Course.turns c before step -> Timed.Course (Course.vehicle c) :: step.fresh
   | Some _ | None -> step.fresh
 let is_among items (i : Inert.item) = List.exists (fun (j : Inert.item) -> j.awaited = i.awaited) items
 
 (* What is inert stays so until all is over, and is so from its beginning. *)
-let arrow t inert_before (step : Timed.step) =
-  let inert = inert t step.next in
+let arrow inert_before { Successors.step; inert; spelled } =
+  let inert = Lazy.force inert in
   let begun = List.filter (fun i -> not (is_among inert_before i)) inert in
   let has_begun (i : Inert.item) = List.mem i.awaited step.fresh in
-  if List.for_all (is_among inert) inert_before && List.for_all has_begun begun then { step; inert; begun }
+  if List.for_all (is_among inert) inert_before && List.for_all has_begun begun then { step; inert; begun; spelled }
   else raise Broken
 
 (* Of the arrows that an automorphism of the state with its clocks maps to each other, one is enough. *)
-let different e likeness before clocks arrows =
+let different e before clocks arrows =
   let seen = Hashtbl.create 16 in
-  let is_new { step; inert; begun } =
+  let is_new { step; inert = _; begun; spelled } =
     match step.next.configuration.control with
     | Script _ | Waiting _ | Ended _ -> true
     | Executing _ ->
       let clock item = Option.value (List.assoc_opt item clocks) ~default:0 in
       let color item = if List.mem item step.fresh then -1 else clock item in
-      let spelled = Likeness.spell likeness e inert step.next in
-      let form = Likeness.form likeness e ~color ~colored:true spelled in
+      let form = Likeness.form ~color ~colored:true (spelled e) in
       let ends (i : Inert.item) = (i.least, i.most, Option.map (Likeness.orbit e) (Happening.ending step.next i)) in
       let due = Option.map (fun (item, bounds) -> (clock item, bounds)) step.due in
       let happens = List.map (fun (moment, task) -> (moment, Likeness.orbit e task)) (Happening.tasks before step) in
@@ -115,21 +100,21 @@ let different e likeness before clocks arrows =
   List.filter is_new arrows
 
 let arrows_of t state inert =
-  let is_followed (step : Timed.step) =
-    match step.due with
+  let is_followed (s : Successors.successor) =
+    match s.step.due with
     | Some (item, _) -> not (List.exists (fun (i : Inert.item) -> i.awaited = item) inert)
     | None -> true
   in
-  List.map (arrow t inert) (List.filter is_followed (Timed.steps t.options state))
+  List.map (arrow inert) (List.filter is_followed (Successors.followed t.successors state))
 
 let find_arrows t state execution inert clocks =
   let all = arrows_of t state inert in
   let limits = Timed.holds_up (List.map (fun arrow -> arrow.step) all) in
-  match t.likeness, execution, all with
-  | Some likeness, Some e, _ :: _ :: _ -> (different e likeness state clocks all, limits)
-  | _, _, _ -> (all, limits)
+  match execution, all with
+  | Some e, _ :: _ :: _ -> (different e state clocks all, limits)
+  | _, _ -> (all, limits)
 
-let followed t s = List.map (fun arrow -> arrow.step) (arrows_of t s (inert t s))
+let followed t s = List.map (fun arrow -> arrow.step) (arrows_of t s (Successors.inert t.successors s))
 
 (* [clocks] is in an order that depends on [key]. *)
 let find t key state execution items inert rest clocks =
@@ -147,12 +132,12 @@ let find t key state execution items inert rest clocks =
 
 let unsettled t (fault : Fault.t) =
   let at = Format.pp_print_option (fun ppf -> Format.fprintf ppf "%a: " Dolphin_syntax.Location.pp) in
-  let why = Format.asprintf "%a%s" at (Fault.location t.options.program fault) fault.message in
+  let why = Format.asprintf "%a%s" at (Fault.location (options t).program fault) fault.message in
   raise (Limits.Stop (Unsettled why))
 
 let undated = "now() is not only compared with constants, as in now() < 20.min: what follows from it is not known here"
 
-let check_dates t = Result.iter_error (fun site -> unsettled t (Fault.make site undated)) t.options.dates
+let check_dates t = Result.iter_error (fun site -> unsettled t (Fault.make site undated)) (options t).dates
 
 let follow t place =
   match Lazy.force place.follows with
@@ -202,7 +187,7 @@ let numbered xs =
 (* The place of [state] by what is said of the rest, if there is one, with what [zone] becomes there, where [fresh]
    begins, and the clocks were those of [clocks] and [rest_clock] before; and what is awaited in [state], in the order
    of its form. *)
-let reached t ~clocks ~rest_clock ~fresh ~has_rest execution state inert zone =
+let reached t ~clocks ~rest_clock ~fresh ~has_rest spelled state inert zone =
   let awaited = with_clocks state inert and course = Option.to_list (course_item t) in
   let with_clocks = awaited @ course in
   let origin item = if List.mem item fresh then None else List.assoc_opt item clocks in
@@ -211,13 +196,12 @@ let reached t ~clocks ~rest_clock ~fresh ~has_rest execution state inert zone =
   let rec first clock k = if k = clock || Zone.are_equal k clock zone then k else first clock (k + 1) in
   let clocks = List.combine with_clocks (List.map (fun clock -> first clock 1) numbers) in
   let key, items =
-    match t.likeness, execution with
-    | Some likeness, Some e ->
+    match spelled with
+    | Some spelled ->
       let color item = match List.assoc_opt item clocks with Some clock -> Zone.role clock zone | None -> 0 in
-      let spelled = Likeness.spell likeness e inert state in
-      let { Likeness.number; items } = Likeness.form likeness e ~color ~colored:false spelled in
+      let { Likeness.number; items } = Likeness.form ~color ~colored:false spelled in
       (Alike number, items)
-    | (Some _ | None), _ -> (Exactly state, awaited)
+    | None -> (Exactly state, awaited)
   in
   let with_clock item = Option.map (fun clock -> (item, clock)) (List.assoc_opt item clocks) in
   let in_order = List.filter_map with_clock (items @ course) in
@@ -225,6 +209,7 @@ let reached t ~clocks ~rest_clock ~fresh ~has_rest execution state inert zone =
   let clocks = List.map2 (fun (item, _) n -> (item, n)) in_order numbers in
   let last = if has_rest then [ Some (List.length origins + 1) ] else [] in
   let zone = Zone.rearranged (Array.of_list (List.map Option.some firsts @ last)) zone in
+  let execution = Option.map Likeness.execution_of spelled in
   fun rest ->
     let place = find t key state execution items inert rest clocks in
     match rest_clock, place.rest_clock with
@@ -253,14 +238,14 @@ let lasts place begun =
 
 (* All that is inert ends. *)
 let ends_of_rest t (state : Timed.state) =
-  let inert = inert t state in
+  let inert = Successors.inert t.successors state in
   let rec go steps (state : Timed.state) =
     let is_end (step : Timed.step) =
       match step.due with
       | Some (item, _) -> List.exists (fun (i : Inert.item) -> i.awaited = item) inert
       | None -> false
     in
-    match List.find_opt is_end (Timed.steps t.options state) with
+    match List.find_opt is_end (Successors.steps t.successors state) with
     | Some step when List.length steps < List.length inert -> go (step :: steps) step.next
     | Some _ | None -> List.rev steps
   in
@@ -278,12 +263,12 @@ let ends_later clock zone =
 
 (* What is left in N when a task is over must be the same in all states that are alike. *)
 let check_left t before (next : Timed.state) =
-  match t.likeness, before.execution, next.configuration.control with
+  match likeness t, before.execution, next.configuration.control with
   | Some likeness, Some e, (Script _ | Waiting _) when not (Likeness.leaves_alike likeness e next) -> raise Broken
   | _, _, _ -> ()
 
 let execution_after t before (next : Timed.state) =
-  match t.likeness, before.state.configuration.control, next.configuration.control with
+  match likeness t, before.state.configuration.control, next.configuration.control with
   | Some _, Executing _, Executing _ -> before.execution
   | Some likeness, _, Executing _ -> Likeness.execution likeness next
   | _, _, _ -> check_left t before next; None

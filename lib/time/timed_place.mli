@@ -2,7 +2,12 @@
     the reasons. *)
 
 (** A step, with what is inert after it, and what of this has begun with it. *)
-type arrow = { step : Timed.step; inert : Inert.item list; begun : Inert.item list }
+type arrow = {
+  step : Timed.step;
+  inert : Inert.item list;
+  begun : Inert.item list;
+  spelled : Likeness.execution -> Likeness.spelled;  (** what it leads to, as {!Successors.type-successor} has it *)
+}
 
 (** Of the inert ends to come, the {e rest}: whether it is said which is the last. *)
 type rest = No_rest | Unsaid | Said
@@ -21,25 +26,20 @@ type t = private {
 
 type places
 
-(** What is left out. *)
-type reduction = Nothing | Inert_ends | Inert_ends_and_likeness
-
 exception Broken
 (** Something that was taken for inert is not, or for alike. *)
 
-val places :
-  ?course:Course.t -> reduction -> Timed.options -> filled:(Zone.t -> Zone.t) -> note:(Timed.state -> unit) ->
-  places
-(** [places ~course r o ~filled ~note] has no place yet; [note] is called with the state of each new one, and zones are
-    [filled]. Zones have a clock for [course] besides; its vehicle is like no other, and its ends are not inert. *)
+val places : Successors.t -> filled:(Zone.t -> Zone.t) -> note:(Timed.state -> unit) -> places
+(** [places successors ~filled ~note] has no place yet; [note] is called with the state of each new one, and zones are
+    [filled]. Zones have a clock for the course of [successors] besides. *)
 
 val course_item : places -> Timed.item option
-(** What the clock of [course] is for. *)
+(** What the clock of the course is for. *)
 
 val fresh : places -> Timed.state -> Timed.step -> Timed.item list
 (** [fresh ps s step] is what begins with [step] of [s], the course included if it turns. *)
 
-val likeness : places -> Likeness.t option
+val successors : places -> Successors.t
 val add : t -> int -> unit
 
 val check_dates : places -> unit
@@ -52,8 +52,6 @@ val arrows : places -> t -> arrow list
     @raise Broken *)
 
 val steps : places -> t -> Timed.step list
-
-val inert : places -> Timed.state -> Inert.item list
 
 val followed : places -> Timed.state -> Timed.step list
 (** [followed ps s] is the steps of [s] that are no inert ends. *)
@@ -68,9 +66,9 @@ val enabling : t -> Zone.t -> Timed.step -> Zone.t option
 
 val reached :
   places -> clocks:(Timed.item * int) list -> rest_clock:int option -> fresh:Timed.item list -> has_rest:bool ->
-  Likeness.execution option -> Timed.state -> Inert.item list -> Zone.t -> rest -> t * Timed.item list * Zone.t
-(** [reached ps ~clocks ~rest_clock ~fresh ~has_rest e s inert z rest] is the place of [s], which belongs to [e]; what
-    is awaited in [s], in the order of the place's [items]; and what [z] becomes there, if [fresh] begins, and the
+  Likeness.spelled option -> Timed.state -> Inert.item list -> Zone.t -> rest -> t * Timed.item list * Zone.t
+(** [reached ps ~clocks ~rest_clock ~fresh ~has_rest spelled s inert z rest] is the place of [s]; what is awaited in
+    [s], in the order of the place's [items]; and what [z] becomes there, if [fresh] begins, and the
     clocks were those of [clocks] and [rest_clock]. [has_rest] is whether [rest] is not [No_rest]: without [rest], it is
     the work that is the same for all that may be said of it. *)
 

@@ -21,7 +21,7 @@ type cycle = { from : int; last : int; back : Timed.step; in_no_time : bool }
 
 exception Broken = Timed_place.Broken
 
-type reduction = Timed_place.reduction = Nothing | Inert_ends | Inert_ends_and_likeness
+type reduction = Successors.reduction = Nothing | Inert_ends | Inert_ends_and_likeness
 
 type move =
   | Step of { step : Timed.step; begun : Inert.item list; last : Timed.item option; items : Timed.item list }
@@ -205,14 +205,15 @@ let widen t ~reserved =
 
 let numbers t key f = f (number t key.(0))
 
-let create ?(reduction = Inert_ends_and_likeness) ?(working = false) ?course goal options =
+let create ?(working = false) goal successors =
   let filled = match goal with Latest -> Zone.reaching_down | Earliest -> Zone.reaching_up in
   let deadlines = ref [] in
   let note s =
     let add (_, site) = if not (List.mem site !deadlines) then deadlines := site :: !deadlines in
     List.iter add (Happening.deadlines s)
   in
-  let places = Timed_place.places ?course reduction options ~filled ~note in
+  let places = Timed_place.places successors ~filled ~note in
+  let options = Successors.options successors and course = Successors.course successors in
   { numbering = Numbering.create (); goal; options; course; places; reduced = false; nodes = [||]; count = 0;
     reserved = 0; moments = Hashtbl.create 100; tasks = []; endings = []; cycle = None; returns = [];
     edges = (if working || course <> None then Some [] else None); edge_count = 0;
@@ -269,7 +270,7 @@ let passage t (before : Timed_place.t) zone step =
   Option.map of_course t.course
 
 (* The states that [arrow] leads to from those valuations of state [n] that are in [zone]. *)
-let take t n (before : Timed_place.t) zone ({ step; inert; begun } as arrow : Timed_place.arrow) =
+let take t n (before : Timed_place.t) zone ({ step; inert; begun; spelled } as arrow : Timed_place.arrow) =
   match Timed_place.enabling before zone step with
   | None -> []
   | Some zone ->
@@ -282,8 +283,8 @@ let take t n (before : Timed_place.t) zone ({ step; inert; begun } as arrow : Ti
     let has_rest = List.exists (fun (_, rest) -> rest <> Timed_place.No_rest) lasts in
     let at =
       let { Timed_place.clocks; rest_clock; _ } = before in
-      let fresh = Timed_place.fresh t.places before.state step in
-      Timed_place.reached t.places ~clocks ~rest_clock ~fresh ~has_rest execution step.next inert zone
+      let fresh = Timed_place.fresh t.places before.state step and spelled = Option.map spelled execution in
+      Timed_place.reached t.places ~clocks ~rest_clock ~fresh ~has_rest spelled step.next inert zone
     in
     let working =
       if t.edges = None || t.course <> None then [] else Working.of_step t.options before zone arrow execution in
@@ -465,7 +466,7 @@ let stay t n =
   in
   Option.map of_course t.course
 
-let arrival t n ({ step; begun; inert = _ } : Timed_place.arrow) =
+let arrival t n ({ step; begun; _ } : Timed_place.arrow) =
   let execution = Timed_place.execution_after t.places t.nodes.(n).place step.next in
   { move = Step { step; begun; last = None; items = [] }; into = step.next; items = []; execution }
 
@@ -479,3 +480,4 @@ let deadlines t =
 let start t = t.nodes.(0).place.state
 let is_reduced t = t.reduced
 let places t = t.places
+let successors t = Timed_place.successors t.places

@@ -12,12 +12,11 @@ include Dolphin_checker.System.S with type via = unit and type property = unit
 exception Broken
 (** Something that was taken for inert is not ({!Inert}), or for alike ({!Likeness}): what was found does not count. *)
 
-(** What is left out: docs/time.md. *)
-type reduction = Timed_place.reduction = Nothing | Inert_ends | Inert_ends_and_likeness
+type reduction = Successors.reduction = Nothing | Inert_ends | Inert_ends_and_likeness
 
-val create : ?reduction:reduction -> ?working:bool -> ?course:Course.t -> goal -> Timed.options -> t
-(** [reduction] is all of it by default; [working] is whether there are {!edges}, by default not; with [course], there
-    are too, each with its {!type-passage}. *)
+val create : ?working:bool -> goal -> Successors.t -> t
+(** [working] is whether there are {!edges}, by default not; with a course, there are too, each with its
+    {!type-passage}. *)
 
 (** {1:dates Dates} *)
 
@@ -139,4 +138,5 @@ val start : t -> Timed.state
 val is_reduced : t -> bool
 (** Whether anything was inert, or states might be alike. *)
 
+val successors : t -> Successors.t
 val places : t -> Timed_place.places

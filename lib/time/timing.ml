@@ -59,11 +59,11 @@ let with_dates options start steps ~chain dates =
 
 let run_of goal options system steps =
   let start = Timed_system.start system in
-  let schedule = Schedule.make goal options start steps in
+  let schedule = Schedule.make goal (Timed_system.successors system) start steps in
   with_dates options start steps (Option.map (fun (s : Schedule.t) -> s.dates) schedule)
     ~chain:(Option.fold schedule ~none:[] ~some:(fun (s : Schedule.t) -> s.chain))
 
-let run_along goal options system moves = run_of goal options system (Searches.steps_along goal options system moves)
+let run_along goal options system moves = run_of goal options system (Searches.steps_along goal system moves)
 let run_to goal options system n = run_along goal options system (Timed_system.path system n)
 
 let is_later = Searches.is_later
@@ -71,7 +71,7 @@ let is_later = Searches.is_later
 let rec without n xs = match xs with _ :: rest when n > 0 -> without (n - 1) rest | xs -> xs
 
 let run_around options system (c : Timed_system.cycle) =
-  let steps n = Option.get (Unfold.run system Latest options (Timed_system.path system n)) in
+  let steps n = Option.get (Unfold.run system Latest (Timed_system.path system n)) in
   let stem = steps c.from and whole = steps c.last in
   let around = without (List.length stem) whole @ [ c.back ] in
   let undated from steps = with_dates options from steps ~chain:[] None in
@@ -126,7 +126,7 @@ type bounded = { bound : float; of_ways : (Timed_system.t * Timed_system.edge li
 (* The same, from a search of its own that observes [v]: with charge, and with what is seen of the battery. *)
 let observed ~reduction ~started limits options (v : Scenario.vehicle) =
   let course = Course.create options v.id in
-  let search = Searches.search ~course ~reduction ~started limits options Latest "batteries" in
+  let search = Searches.search ~started limits (Successors.create ~course reduction options) Latest "batteries" in
   let system = Search.system search in
   let found (l : Levels.t) =
     { bound = l.least; of_ways = List.map (fun way -> (system, way)) (Option.to_list l.way) } in
@@ -141,11 +141,11 @@ let lowest options (v : Scenario.vehicle) known { bound; of_ways } =
     | exception (Timed_system.Broken | Dates.Contradiction) -> None
   in
   let stretched (system, way) goal () =
-    match Unfold.run system goal options (Timed_system.along system way) with
+    match Unfold.run system goal (Timed_system.along system way) with
     | None -> None
     | Some steps -> (
         let start = Timed_system.start system in
-        match Schedule.stretched options start steps (Batteries.spans v start steps) with
+        match Schedule.stretched (Timed_system.successors system) start steps (Batteries.spans v start steps) with
         | Some dates -> Some (with_dates options start steps ~chain:[] (Some dates))
         | None | (exception Dates.Contradiction) -> None)
     | exception (Timed_system.Broken | Dates.Contradiction) -> None
@@ -199,7 +199,8 @@ let batteries options system ~observed ~tasks ~last ~is_known vehicles =
 let most_observed = 10
 
 let find ~(reduction : reduction) ~sharing ~started ?deadline ~vehicles limits options =
-  let late, early = Searches.both sharing ~working:(vehicles <> []) ~reduction ~started limits options in
+  let successors = Successors.create reduction options in
+  let late, early = Searches.both sharing ~working:(vehicles <> []) ~started limits successors in
   let late_system = Search.system late in
   let tasks =
     let both (task, moments) = (task, windows (Option.value (List.assoc_opt task early.tasks) ~default:[]) moments) in
@@ -249,7 +250,7 @@ let untimed limits (options : Timed.options) =
 (* Ends that are inert leave A too, and states that are alike have other plans: so all is followed. *)
 let pairs ~started limits (options : Timed.options) ~candidates =
   let beside = Side_by_side.create options.program.fences in
-  let system = Timed_system.create ~reduction:Nothing Latest options in
+  let system = Timed_system.create Latest (Successors.create Nothing options) in
   let search = Search.create ~phase:"looking for plans side by side" ~started limits system in
   let seen = ref 0 in
   let enough () =
@@ -289,7 +290,7 @@ let slack_searches = "slack"
 
 let latest_end ~started limits options =
   let find reduction =
-    let search = Searches.search ~reduction ~started limits options Latest slack_searches in
+    let search = Searches.search ~started limits (Successors.create reduction options) Latest slack_searches in
     let system = Search.system search in
     let last = Searches.best is_later system in
     match Search.stopped search, Timed_system.cycle system, Timed_system.stuck system, last with

@@ -79,26 +79,26 @@ let same_event (a : Timed.step) (b : Timed.step) =
   Label.equal a.transition.label b.transition.label && Option.map fst a.due = Option.map fst b.due
 
 (* The step of [state] that is [step], though the inert [ended] are over. *)
-let as_followed options state ended (step : Timed.step) =
+let as_followed successors state ended (step : Timed.step) =
   let is_it (s : Timed.step) =
     same_event s step
     && match Inert.without ended step.next.configuration with
     | Some c -> Configuration.equal c s.transition.next
     | None -> true
   in
-  List.find_opt is_it (Timed.all_steps options state)
+  List.find_opt is_it (List.map (fun (s : Successors.successor) -> s.step) (Successors.all successors state))
 
-let at_end options state (item : Inert.item) =
-  List.find_opt (fun (s : Timed.step) -> Option.map fst s.due = Some item.awaited) (Timed.steps options state)
+let at_end successors state (item : Inert.item) =
+  List.find_opt (fun (s : Timed.step) -> Option.map fst s.due = Some item.awaited) (Successors.steps successors state)
 
-let steps options start events =
+let steps successors start events =
   let rec go taken state ended = function
     | [] -> Some (List.rev taken)
     | (_, event) :: rest -> (
         match event with
         | Followed (Rest _) -> go taken state [] rest
-        | Followed (Step { step; _ }) -> continue taken state ended rest (as_followed options state ended step)
-        | Inert_end item -> continue taken state (item.awaited :: ended) rest (at_end options state item))
+        | Followed (Step { step; _ }) -> continue taken state ended rest (as_followed successors state ended step)
+        | Inert_end item -> continue taken state (item.awaited :: ended) rest (at_end successors state item))
   and continue taken _ ended rest = function
     | Some (step : Timed.step) -> go (step :: taken) step.next ended rest
     | None -> None
@@ -108,17 +108,18 @@ let steps options start events =
 (* Later than all that has a latest date. What comes after something without one has none. *)
 let far = max_int / 2
 
-let in_dates system (goal : Timed_system.goal) options moves =
+let in_dates system (goal : Timed_system.goal) moves =
   let start = Timed_system.start system and n = List.length moves in
   let p = { walk = Schedule.set_out start; bounds = []; endings = []; rest = None; dates = n } in
   let _, p = List.fold_left (add system) (1, p) moves in
   let dates =
     match goal with Latest -> fst (Dates.latest p.dates p.bounds) | Earliest -> Dates.earliest p.dates p.bounds in
-  steps options start (in_order goal moves n (Array.map (Option.value ~default:far) dates) (List.rev p.endings))
+  let dates = Array.map (Option.value ~default:far) dates in
+  steps (Timed_system.successors system) start (in_order goal moves n dates (List.rev p.endings))
 
-let run system goal options arrivals =
+let run system goal arrivals =
   if Timed_system.is_reduced system then
-    Option.bind (Represented.moves system options arrivals) (in_dates system goal options)
+    Option.bind (Represented.moves system arrivals) (in_dates system goal)
   else
     let steps (a : Timed_system.arrival) =
       match a.move with Step { step; _ } -> [ step ] | Rest { steps; _ } -> steps in

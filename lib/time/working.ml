@@ -65,7 +65,7 @@ let begun execution (step : Timed.step) (i : Inert.item) =
   | Some task when not (is_mapped execution task) -> Some (task.vehicle, i.most)
   | Some _ | None -> None
 
-let of_step o (before : Timed_place.t) zone ({ step; begun = begins; inert = _ } : Timed_place.arrow) execution =
+let of_step o (before : Timed_place.t) zone ({ step; begun = begins; _ } : Timed_place.arrow) execution =
   let whole =
     match before.execution, execution with
     | None, Some _ -> at_start o execution step.next.configuration

@@ -1,0 +1,65 @@
+type reduction = Nothing | Inert_ends | Inert_ends_and_likeness
+
+type successor = {
+  step : Timed.step;
+  inert : Inert.item list Lazy.t;
+  spelled : Likeness.execution -> Likeness.spelled;
+}
+
+type t = {
+  options : Timed.options;
+  course : Course.t option;
+  ends : Inert.t option;
+  likeness : Likeness.t option;
+  known : successor list Timed.Table.t;
+}
+
+let create ?course reduction (options : Timed.options) =
+  let apart = Option.map Course.vehicle course in
+  { options; course; known = Timed.Table.create 1_000;
+    ends = (if reduction = Nothing then None else Some (Inert.create options));
+    likeness =
+      (if reduction = Inert_ends_and_likeness && not options.program.reads_now then
+         Some (Likeness.create ?apart options)
+       else None) }
+
+let options t = t.options
+let course t = t.course
+let likeness t = t.likeness
+
+(* The end of the vehicle that is observed is followed. *)
+let inert t state =
+  let is_observed (i : Inert.item) =
+    match t.course with Some c -> i.awaited = Task (Course.vehicle c) | None -> false in
+  match t.ends with
+  | Some ends -> List.filter (fun i -> not (is_observed i)) (Inert.of_state ends state)
+  | None -> []
+
+let successor t (step : Timed.step) =
+  let inert = lazy (inert t step.next) and known = ref [] in
+  let spelled e =
+    match List.assq_opt e !known with
+    | Some spelled -> spelled
+    | None ->
+      let spelled = Likeness.spell (Option.get t.likeness) e (Lazy.force inert) step.next in
+      known := (e, spelled) :: !known;
+      spelled
+  in
+  { step; inert; spelled }
+
+(* Of long searches, more would take more memory than what is asked again is worth. *)
+let most = 10_000
+
+let all t state =
+  match Timed.Table.find_opt t.known state with
+  | Some successors -> successors
+  | None ->
+    let successors = List.map (successor t) (Timed.all_steps t.options state) in
+    if Timed.Table.length t.known < most then Timed.Table.add t.known state successors;
+    successors
+
+let followed t state =
+  let all = all t state in
+  match List.find_opt (fun s -> Timed.comes_first t.options s.step) all with Some first -> [ first ] | None -> all
+
+let steps t state = List.map (fun s -> s.step) (followed t state)

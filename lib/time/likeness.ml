@@ -30,15 +30,6 @@ module Constants = Hashtbl.Make (struct
     let hash ((c, _) : t) = Configuration.hash c
   end)
 
-let mix a b = ((a * 0x2545f491) + b + (a lsr 17)) land max_int
-
-module Lists = Dolphin_checker.Interner.Make (struct
-    type t = int list
-
-    let equal = List.equal Int.equal
-    let hash = List.fold_left mix 1
-  end)
-
 (* What a part of a residual is, without what it consists of: code by the number of its skeleton. *)
 type head =
   | Task of { runs : bool; ending : Environment.ending; takes : takes; orbit : int }
@@ -71,7 +62,7 @@ type t = {
   options : Timed.options;
   skeletons : Skeleton.context;
   heads : Heads.t;
-  lists : Lists.t;
+  numbers : Form.numbers;
   constants : int Constants.t;
   executions : execution option Timed.Table.t;
   apart : Core.vehicle option;  (* it is like no other vehicle *)
@@ -81,7 +72,7 @@ type t = {
 let create ?apart (options : Timed.options) =
   let numbering = Dolphin_checker.Numbering.create () in
   { options; apart; skeletons = Skeleton.context numbering options.program; heads = Heads.create numbering;
-    lists = Lists.create numbering; constants = Constants.create 64; executions = Timed.Table.create 8;
+    numbers = Form.numbers numbering; constants = Constants.create 64; executions = Timed.Table.create 8;
     possible = Inert.names_are_free options }
 
 let number e = e.number
@@ -89,14 +80,9 @@ let number e = e.number
 let orbit e label =
   match Hashtbl.find_opt e.orbits label with Some orbit -> List.rev (Hashtbl.find e.members orbit) | None -> [ label ]
 
-(* {1 Trees} *)
+(* {1 Residuals as trees} *)
 
-(* A residual without names: pairs by their place, or below 0 if they may not be renamed; what is awaited by its place
-   among what is awaited in the tree. *)
-type tree =
-  | Leaf of { head : int; item : int option; named : int array }
-  | Node of { head : int; ordered : bool; children : tree list }
-
+(* Names are pairs of N: their places, or below 0 if they may not be renamed. Items are places in what is awaited. *)
 type spelling = {
   t : t;
   orbit : label -> int;
@@ -106,22 +92,19 @@ type spelling = {
 }
 
 let place pairs n = Option.value (Hashtbl.find_opt pairs.places n) ~default:(-1 - n)
-let head s head = Heads.number s.t.heads head
-let leaf s h = Leaf { head = head s h; item = None; named = [||] }
-let ordered s h children = Node { head = head s h; ordered = true; children }
-let beside s h children = Node { head = head s h; ordered = false; children }
+let tree s ?item ?names ?ordered head parts =
+  Form.tree s.t.numbers ?item ?names ?ordered (Heads.number s.t.heads head) parts
 
-let waiting s item h =
+let waiting s item head =
   if s.awaited item then begin
-    let place = List.length s.items in
     s.items <- item :: s.items;
-    Leaf { head = head s h; item = Some place; named = [||] }
+    tree s ~item:(List.length s.items - 1) head []
   end
-  else leaf s h
+  else tree s head []
 
 let code s ?(handler = false) kind c =
   let skeleton = Skeleton.of_code s.t.skeletons ~handler c in
-  Leaf { head = head s (kind skeleton.number); item = None; named = Array.map (place s.pairs) skeleton.pairs }
+  tree s ~names:(List.map (place s.pairs) (Array.to_list skeleton.pairs)) (kind skeleton.number) []
 
 let part n = Part n
 let label_of v (p : Core.platform_task) = { name = p.name; vehicle = v; site = p.task_site }
@@ -137,32 +120,32 @@ let platform_task s ~runs v (p : Core.platform_task) =
 
 let rec spell s (r : Residual.t) =
   match r with
-  | Ready (p, v) -> leaf s (platform_task s ~runs:false v p)
+  | Ready (p, v) -> tree s (platform_task s ~runs:false v p) []
   | Running (p, v) -> waiting s (Task v) (platform_task s ~runs:true v p)
   | Action c -> code s (fun n -> Action n) c
   | Condition c -> code s (fun n -> Condition n) c
-  | Sequence (a, rest) -> ordered s Sequence (List.map (spell s) (a :: rest))
-  | Parallel rs -> beside s Parallel (List.map (spell s) rs)
-  | All_of (a, bs) -> ordered s All_of [ optional s (spell s) a; branches s bs ]
-  | One_of bs -> ordered s One_of [ branches s bs ]
-  | Until (e, c, a) -> ordered s (Until e) [ code s part c; spell s a ]
+  | Sequence (a, rest) -> tree s Sequence (List.map (spell s) (a :: rest))
+  | Parallel rs -> tree s ~ordered:false Parallel (List.map (spell s) rs)
+  | All_of (a, bs) -> tree s All_of [ optional s (spell s) a; branches s bs ]
+  | One_of bs -> tree s One_of [ branches s bs ]
+  | Until (e, c, a) -> tree s (Until e) [ code s part c; spell s a ]
   | Idle { timer; seconds } -> waiting s (Timer timer) (Seconds seconds)
   | Confirm { question; prompt; _ } -> waiting s (Question question) (Confirm (question, prompt))
   | During { on_cut; timer; duration; started; body } ->
     let time =
       match duration with Seconds x -> waiting s (Timer timer) (Seconds x) | Given_by c -> code s part c in
-    ordered s (During (on_cut, started)) [ time; spell s body ]
-  | Watch (a, { code = c; _ }) -> ordered s Watch [ code s ~handler:true part c; spell s a ]
+    tree s (During (on_cut, started)) [ time; spell s body ]
+  | Watch (a, { code = c; _ }) -> tree s Watch [ code s ~handler:true part c; spell s a ]
   | Repeat { round; again = { left; until; each; site = _ } } ->
-    ordered s (Repeat left) [ optional s (code s part) until; optional s (spell s) round; spell s each ]
+    tree s (Repeat left) [ optional s (code s part) until; optional s (spell s) round; spell s each ]
   | Made _ | Unallocated _ | Hold _ | Recruit _ | Recruited _ -> invalid_arg "Likeness: a task that is made at its turn"
 
-and optional : 'a. spelling -> ('a -> tree) -> 'a option -> tree =
-  fun s spelled x -> beside s Some_of (List.map spelled (Option.to_list x))
+and optional : 'a. spelling -> ('a -> Form.tree) -> 'a option -> Form.tree =
+  fun s spelled x -> tree s Some_of (List.map spelled (Option.to_list x))
 
 and branches s bs =
-  let branch (b : Residual.branch) = ordered s Branch [ code s part b.guard; spell s b.body ] in
-  beside s Some_of (List.map branch bs)
+  let branch (b : Residual.branch) = tree s Branch [ code s part b.guard; spell s b.body ] in
+  tree s ~ordered:false Some_of (List.map branch bs)
 
 (* Without what is inert, but for tasks that move their vehicle. *)
 let root s inert (r : Residual.t) =
@@ -172,7 +155,7 @@ let root s inert (r : Residual.t) =
     | _ -> false
   in
   let components = match r with Parallel rs -> rs | r -> [ r ] in
-  beside s Parallel (List.map (spell s) (List.filter (fun r -> not (is_gone r)) components))
+  tree s ~ordered:false Parallel (List.map (spell s) (List.filter (fun r -> not (is_gone r)) components))
 
 (* Pairs of N, each with its place among those of its key, if that matters. *)
 let in_space t pairs tuples =
@@ -194,7 +177,7 @@ let constant t (s : Timed.state) m =
     Constants.add t.constants key n;
     n
 
-type parts = { tree : tree; awaited : Timed.item array; space : (int * int) list; constant : int }
+type parts = { tree : Form.tree; awaited : Timed.item array; placed : (int * int) list; constant : int }
 type spelled = { likeness : t; execution : execution; parts : parts }
 
 let parts t ~orbit ~pairs inert (state : Timed.state) m r =
@@ -203,79 +186,8 @@ let parts t ~orbit ~pairs inert (state : Timed.state) m r =
   let awaited item = is_awaited item && not (List.mem item inert) in
   let s = { t; orbit; pairs; awaited; items = [] } in
   let tree = root s inert r in
-  { tree; awaited = Array.of_list (List.rev s.items); space = in_space t pairs state.configuration.shared.tuples;
+  { tree; awaited = Array.of_list (List.rev s.items); placed = in_space t pairs state.configuration.shared.tuples;
     constant = constant t state m }
-
-(* {1 Colours} *)
-
-type shape = { hash : int; names : int array; in_order : bool; shapes : shape list }
-
-let rec shape ~color ~pair = function
-  | Leaf { head; item; named } ->
-    let h = mix head (Option.fold item ~none:0 ~some:color) in
-    { hash = Array.fold_left (fun h n -> mix h (pair n)) h named; names = named; in_order = true; shapes = [] }
-  | Node { head; ordered; children } ->
-    let shapes = List.map (shape ~color ~pair) children in
-    let add h s = if ordered then mix h s.hash else h + mix 7 s.hash in
-    { hash = mix 3 (List.fold_left add head shapes); names = [||]; in_order = ordered; shapes }
-
-(* [note n h] is called for each pair [n] that code names, with what is around it. *)
-let rec around note at s =
-  Array.iteri (fun i n -> note n (mix (mix at s.hash) i)) s.names;
-  let inside i child = around note (mix (mix at s.hash) (if s.in_order then i else child.hash)) child in
-  List.iteri inside s.shapes
-
-(* Colours of pairs, by place, which tell those apart that play different parts: first by their orbits, then by what is
-   around them. *)
-let colours ~color ~orbits { tree; space; _ } =
-  let count colours = List.length (List.sort_uniq Int.compare (Array.to_list colours)) in
-  let rec refine colours before =
-    if before = Array.length colours then colours
-    else begin
-      let found = Array.map (fun _ -> 0) colours in
-      let note n h = if n >= 0 then found.(n) <- found.(n) + h in
-      around note 1 (shape ~color ~pair:(fun n -> if n < 0 then mix 11 (-n) else colours.(n)) tree);
-      List.iter (fun (n, place) -> note n (mix 5 place)) space;
-      let next = Array.map2 (fun colour sum -> mix colour (sum land max_int)) colours found in
-      let now = count next in
-      if now > before then refine next now else next
-    end
-  in
-  refine orbits (count orbits)
-
-(* {1 Forms} *)
-
-type form = { number : int; items : Timed.item list }
-
-(* A tree as a number, with what is awaited in it and its colours. *)
-type written = { is : int; order : (int * int) list }
-
-let rec write t ~color ~colored ~pair = function
-  | Leaf { head; item; named } ->
-    let order = List.map (fun i -> (color i, i)) (Option.to_list item) in
-    let colours = if colored then List.map fst order else [] in
-    { is = Lists.number t.lists (head :: List.map pair (Array.to_list named) @ colours); order }
-  | Node { head; ordered; children } ->
-    let by_colour (a, _) (b, _) = Int.compare a b in
-    let compare a b = match Int.compare a.is b.is with 0 -> List.compare by_colour a.order b.order | order -> order in
-    let written = List.map (write t ~color ~colored ~pair) children in
-    let written = if ordered then written else List.sort compare written in
-    { is = Lists.number t.lists (head :: List.map (fun w -> w.is) written);
-      order = List.concat_map (fun w -> w.order) written }
-
-let form_of t ~orbits ~color ~colored parts =
-  let colors = Array.map color parts.awaited in
-  let color i = colors.(i) in
-  let colours = colours ~color ~orbits parts in
-  let compare m n = match Int.compare colours.(m) colours.(n) with 0 -> Int.compare m n | order -> order in
-  let names = Array.map (fun _ -> 0) orbits in
-  let name i n = names.(n) <- Lists.number t.lists [ -1; orbits.(n); i ] in
-  List.iteri name (List.sort compare (List.init (Array.length orbits) Fun.id));
-  let pair n = if n < 0 then Lists.number t.lists [ -2; n ] else names.(n) in
-  let { is; order } = write t ~color ~colored ~pair parts.tree in
-  let posted = List.sort Int.compare (List.map (fun (n, i) -> Lists.number t.lists [ -3; pair n; i ]) parts.space) in
-  { number = Lists.number t.lists (-4 :: parts.constant :: is :: posted);
-    items = List.map (fun (_, i) -> parts.awaited.(i)) order }
 
 let spell t e inert (s : Timed.state) =
   match s.configuration.control with
@@ -286,9 +198,14 @@ let spell t e inert (s : Timed.state) =
 
 let execution_of spelled = spelled.execution
 
-let form ~color ~colored { likeness; execution; parts } =
-  let form = form_of likeness ~orbits:execution.pair_orbits ~color ~colored parts in
-  { form with number = Lists.number likeness.lists [ -5; execution.number; form.number ] }
+type form = { number : int; items : Timed.item list }
+
+let form ~color ~colored { likeness; execution; parts = { tree; awaited; placed; constant } } =
+  let { Form.number; items } =
+    Form.make likeness.numbers ~orbits:execution.pair_orbits ~colors:(Array.map color awaited) ~colored ~placed
+      [ constant; execution.number ] tree
+  in
+  { number; items = List.map (fun i -> awaited.(i)) items }
 
 (* {1 Automorphisms} *)
 
@@ -343,13 +260,17 @@ let find_execution t (s : Timed.state) m r =
     let by_key, _ = classes (Skeleton.key_of t.skeletons) numbers in
     let by_key = Array.map (Hashtbl.find by_key) pairs.numbers in
     let form orbits orbit =
-      (form_of t ~orbits ~color:(fun _ -> 0) ~colored:false (parts t ~orbit ~pairs [] s m r)).number in
+      let { tree; awaited; placed; constant = _ } = parts t ~orbit ~pairs [] s m r in
+      let colors = Array.map (fun _ -> 0) awaited in
+      (Form.make t.numbers ~orbits ~colors ~colored:false ~placed [] tree).number
+    in
     let is_apart l = Bool.to_int (t.apart = Some l.vehicle) in
     let of_label l = form by_key (fun l' -> (2 * Bool.to_int (l = l')) + is_apart l') in
     let orbits, members = classes of_label (labels r) in
     let places = List.mapi (fun place _ -> place) numbers in
     (* A pair that is told apart from all others has an orbit of its own. *)
-    let of_place place = form (Array.mapi (fun p orbit -> if p = place then -1 - orbit else orbit) by_key) is_apart in
+    let apart place p orbit = if p = place then orbit + Array.length by_key else orbit in
+    let of_place place = form (Array.mapi (apart place) by_key) is_apart in
     let pair_orbits, same = classes of_place places in
     if has_several members || has_several same then
       let renamed = Hashtbl.fold (fun _ places all -> if List.length places > 1 then places @ all else all) same [] in

@@ -166,7 +166,7 @@ let includes source =
   List.filter_map of_line (String.split_on_char '\n' source)
 
 (* What a program that includes the prelude, if it does, has of it. *)
-let of_prelude d = if List.mem Prelude.name (includes d.source) then Prelude.entries else []
+let of_prelude d = if List.mem Prelude.name (includes d.source) then Prelude.entries () else []
 
 (* What may follow [owner] and a point: what is called [owner.x], up to the next point. *)
 let constants_of owner =

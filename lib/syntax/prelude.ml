@@ -44,9 +44,10 @@ let entry block =
            weak_law = Option.bind (told weak) (cut " is ") }
   | _, _ -> None
 
-let entries = List.filter_map entry (blocks text)
+let known = lazy (List.filter_map entry (blocks text))
+let entries () = Lazy.force known
 
-let find name = List.find_opt (fun (e : entry) -> e.name = name) entries
+let find name = List.find_opt (fun (e : entry) -> e.name = name) (entries ())
 
 (* {1 The page} *)
 
@@ -65,6 +66,6 @@ let section ({ form; text; example; law; weak_law; name = _ } : entry) =
   Printf.sprintf "## `%s`\n\n%s\n\n```groovy\n%s\n```\n%s%s" form (filled text) example (told "Law: " law)
     (told weak weak_law)
 
-let manual =
+let manual () =
   let introduction = String.concat " " (comment (List.hd (blocks text))) in
-  String.concat "\n" (("# The prelude\n\n" ^ filled introduction ^ "\n") :: List.map section entries)
+  String.concat "\n" (("# The prelude\n\n" ^ filled introduction ^ "\n") :: List.map section (entries ()))

@@ -18,11 +18,11 @@ type entry = {
   weak_law : (string * string) option;  (** two that are weakly so: in what vehicles do *)
 }
 
-val entries : entry list
+val entries : unit -> entry list
 (** In the order of the text. *)
 
 val find : string -> entry option
 (** The function of this name. *)
 
-val manual : string
+val manual : unit -> string
 (** All of it as a page in Markdown. *)

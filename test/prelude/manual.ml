@@ -1,1 +1,1 @@
-let () = print_string Dolphin_syntax.Prelude.manual
+let () = print_string (Dolphin_syntax.Prelude.manual ())

@@ -57,8 +57,7 @@ let bug error =
        (Printexc.to_string error));
   Exit_status.Bug
 
-(* Long programs and runs of many vehicles make much that lives long: a roomy nursery saves a fifth of the time. *)
-let () = Gc.set { (Gc.get ()) with minor_heap_size = 1024 * 1024 }
+let () = Nursery.make_room_later ()
 
 let () =
   let status =

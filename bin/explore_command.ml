@@ -97,6 +97,7 @@ let run path set fleet answers faults strict json period files cache reduction c
   let settings : Exploration.settings =
     { answers; faults; reduction; compress; spill; walks; bitstate; workers; max_states; max_depth; max_memory; timeout;
       invariants; formulas } in
+  Nursery.make_room ();
   Report.result
     (let* () = check_search settings in
      let* () = check_files files in

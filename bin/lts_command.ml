@@ -29,6 +29,7 @@ let load world path =
 
 let run path other set fleet answers faults workers max_states max_memory timeout format quotient output =
   let world : State_graph.world = { set; fleet; answers; faults; workers; max_states; max_memory; timeout } in
+  Nursery.make_room ();
   Report.result
     (let* graph = load world path in
      match other, quotient with

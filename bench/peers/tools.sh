@@ -46,9 +46,9 @@ heading() {
 # row NAME TITLE STATES: a line of the table, compared with $ours_seconds
 row() {
   local seconds kilobytes
-  read -r seconds kilobytes < <(awk 'END { printf "%.2f %d\n", $1 + $2, $3 }' "$work/$1.cost")
+  read -r seconds kilobytes < <(awk 'END { printf "%.3f %d\n", $1 + $2, $3 }' "$work/$1.cost")
   [ "$1" = explorer ] && ours_seconds=$seconds
   awk -v title="$2" -v states="$3" -v s="$seconds" -v kb="$kilobytes" -v ours="$ours_seconds" 'BEGIN {
-    printf "| %-34s | %11s | %8.2f | %8.1f | %6d | %7.2f |\n", title, states, s, kb * 1024 / states, kb / 1024, (s > 0 ? ours / s : 0) }'
+    printf "| %-34s | %11s | %8.3f | %8.1f | %6d | %7.3f |\n", title, states, s, kb * 1024 / states, kb / 1024, (s > 0 ? ours / s : 0) }'
   if [ "$3" != "$expected" ]; then echo "$2 finds $3 states, not $expected" >&2; exit 1; fi
 }

@@ -57,8 +57,6 @@ let bug error =
        (Printexc.to_string error));
   Exit_status.Bug
 
-let () = Nursery.make_room_later ()
-
 let () =
   let status =
     match

@@ -11,6 +11,7 @@ let done_ result = Result.map (fun () -> Exit_status.Done) result
 
 let run path set fleet answers faults reduction invariants show_greeting show_run =
   Sys.set_signal Sys.sigint (Signal_handle (fun _ -> Exit_status.exit_interrupted ()));
+  Nursery.make_room ();
   Report.result
     (let settings : Successors.settings = { answers; faults; reduction; invariants } in
      let* successors = load set fleet settings path in

@@ -1,8 +1,8 @@
 (* TLC and the explorer, each with its own statement of the semantics, on the same programs: as many states, isomorphic
    graphs, equal labels, effects, derivations and ends.
 
-   crosscheck.exe [quick | all | mutate | refinement | dates | coverage | counts | rules]. In the environment: PROGRAMS, how
-   many random programs; SEED; LIMIT, the most states of one; TICKS, the most ticks of one whose dates are compared;
+   crosscheck.exe [quick | all | mutate | refinement | dates | coverage | counts | rules]. In the environment: PROGRAMS,
+   how many random programs; SEED; LIMIT, the most states of one; TICKS, the most ticks of one whose dates are compared;
    BATCH, how many are given to TLC at once; VERDICTS, of how many random programs TLC's own verdict is asked, which
    takes a start of TLC for each; ONLY, a part of the names of the mistakes that are made; JOBS, how many processes run
    at once. *)

@@ -107,8 +107,8 @@ let deadline =
 
 let workers =
   let doc =
-    "Look for the earliest and for the latest times in two processes at once, if there are some 300 states, and for \
-     slacks in $(docv). What is found is the same whatever $(docv) is. There is one process with $(b,--max-memory)."
+    "Look for slacks ($(b,--slack)) with $(docv) processes. What is found is the same whatever $(docv) is. There is \
+     one process with $(b,--max-memory)."
   in
   Options.workers ~doc
 

@@ -1,7 +1,7 @@
 open Dolphin_semantics
 module Limits = Dolphin_checker.Limits
 module Scenario = Dolphin_scenario.Scenario
-module Search = Searches.Search
+module Search = Dolphin_checker.Breadth_first.Make (Timed_system)
 
 type date = Timed_system.date = At of int | Unbounded
 type window = { earliest : int; latest : date }
@@ -63,10 +63,12 @@ let run_of goal options system steps =
   with_dates options start steps (Option.map (fun (s : Schedule.t) -> s.dates) schedule)
     ~chain:(Option.fold schedule ~none:[] ~some:(fun (s : Schedule.t) -> s.chain))
 
-let run_along goal options system moves = run_of goal options system (Searches.steps_along goal system moves)
-let run_to goal options system n = run_along goal options system (Timed_system.path system n)
+let run_along goal options system moves =
+  match Unfold.run system goal moves with
+  | Some steps -> run_of goal options system steps
+  | None -> raise Timed_system.Broken
 
-let is_later = Searches.is_later
+let run_to goal options system n = run_along goal options system (Timed_system.path system n)
 
 let rec without n xs = match xs with _ :: rest when n > 0 -> without (n - 1) rest | xs -> xs
 
@@ -85,7 +87,19 @@ let endless options system =
   | None, Some n -> Some ({ (run_to Latest options system n) with chain = [] }, `Stuck)
   | None, None -> None
 
-(* {1 Both dates} *)
+(* The end that [is_better] than all others. *)
+let best is_better system =
+  let better found (_, (date, n)) =
+    match found with Some (known, _) when not (is_better date known) -> found | Some _ | None -> Some (date, n)
+  in
+  List.fold_left better None (Timed_system.endings system)
+
+let is_later a b =
+  match a, b with Unbounded, At _ -> true | At m, At n -> m > n | (At _ | Unbounded), Unbounded -> false
+
+let is_sooner a b = is_later b a
+
+(* {1 Both searches} *)
 
 let window earliest latest =
   match earliest with At earliest -> Some { earliest; latest } | Unbounded -> None
@@ -99,16 +113,23 @@ let windows early late =
   List.filter_map both late
 
 (* Each [within], as both searches found it. *)
-let deadlines options (early : _ Early.t) late =
+let deadlines options early late =
+  let early = Timed_system.deadlines early in
   let both (site, missed) =
     let with_earliest (latest, moves) =
-      let with_run window = (window, run_along Timed_system.Latest options late moves) in
-      let of_earliest earliest = Option.map with_run (window earliest latest) in
-      Option.bind (List.assoc_opt site early.missed) of_earliest
+      match Option.join (List.assoc_opt site early) with
+      | Some (earliest, _) ->
+        Option.map (fun window -> (window, run_along Timed_system.Latest options late moves)) (window earliest latest)
+      | None -> None
     in
     (site, Option.bind missed with_earliest)
   in
   List.map both (Timed_system.deadlines late)
+
+let search ?working ~started limits successors goal phase =
+  let search = Search.create ~phase ~started limits (Timed_system.create ?working goal successors) in
+  Search.run search;
+  search
 
 (* {1 Batteries} *)
 
@@ -126,7 +147,7 @@ type bounded = { bound : float; of_ways : (Timed_system.t * Timed_system.edge li
 (* The same, from a search of its own that observes [v]: with charge, and with what is seen of the battery. *)
 let observed ~reduction ~started limits options (v : Scenario.vehicle) =
   let course = Course.create options v.id in
-  let search = Searches.search ~started limits (Successors.create ~course reduction options) Latest "batteries" in
+  let search = search ~started limits (Successors.create ~course reduction options) Latest "batteries" in
   let system = Search.system search in
   let found (l : Levels.t) =
     { bound = l.least; of_ways = List.map (fun way -> (system, way)) (Option.to_list l.way) } in
@@ -198,20 +219,25 @@ let batteries options system ~observed ~tasks ~last ~is_known vehicles =
 (* A search that observes a battery has more states than one that does not. More than so many times are not worth it. *)
 let most_observed = 10
 
-let find ~(reduction : reduction) ~sharing ~started ?deadline ~vehicles limits options =
+let find ~(reduction : reduction) ~started ?deadline ~vehicles limits options =
   let successors = Successors.create reduction options in
-  let late, early = Searches.both sharing ~working:(vehicles <> []) ~started limits successors in
-  let late_system = Search.system late in
+  let late = search ~working:(vehicles <> []) ~started limits successors Latest "latest dates" in
+  let early = search ~started limits successors Earliest "earliest dates" in
+  let late_system = Search.system late and early_system = Search.system early in
+  let dates system = List.map (fun (e, (date, _)) -> (e, date)) (Timed_system.endings system) in
   let tasks =
-    let both (task, moments) = (task, windows (Option.value (List.assoc_opt task early.tasks) ~default:[]) moments) in
+    let early = Timed_system.tasks early_system in
+    let both (task, moments) =
+      (task, windows (Option.value (List.assoc_opt task early) ~default:[]) moments)
+    in
     List.map both (Timed_system.tasks late_system)
   in
-  let last = Searches.best is_later late_system in
+  let last = best is_later late_system in
   let is_late date = match deadline with Some deadline -> is_later date (At deadline) | None -> false in
-  let run_at = Option.map (fun (_, n) -> run_to Latest options late_system n) in
-  let last_run = run_at last in
+  let run_at goal system = Option.map (fun (_, n) -> run_to goal options system n) in
+  let last_run = run_at Latest late_system last in
   let endless = endless options late_system in
-  let stopped = match Search.stopped late with Some bound -> Some bound | None -> early.stopped in
+  let stopped = match Search.stopped late with Some bound -> Some bound | None -> Search.stopped early in
   let is_known = endless = None && stopped = None in
   let observed =
     let most = most_observed * (100 + Search.count late) in
@@ -219,21 +245,21 @@ let find ~(reduction : reduction) ~sharing ~started ?deadline ~vehicles limits o
     observed ~reduction ~started { limits with max_states } options
   in
   let batteries tasks last = batteries options late_system ~observed ~tasks ~last ~is_known in
-  { endings = windows early.endings (Searches.dates late_system); tasks;
-    last = last_run; first = Option.map (run_of Earliest options late_system) early.first;
+  { endings = windows (dates early_system) (dates late_system); tasks;
+    last = last_run; first = run_at Earliest early_system (best is_sooner early_system);
     endless;
     unknown = Timed_system.unknown late_system;
-    deadlines = deadlines options early late_system;
+    deadlines = deadlines options early_system late_system;
     late = (match last with Some (date, _) when is_late date -> last_run | Some _ | None -> None);
-    failing = run_at (List.assoc_opt Timed_system.Failed (Timed_system.endings late_system));
+    failing = run_at Latest late_system (List.assoc_opt Timed_system.Failed (Timed_system.endings late_system));
     batteries = (if stopped = None then batteries tasks last_run vehicles else []);
     apart = None;
     stopped;
     reduction;
-    states = Search.count late + early.states;
-    depth = max (Search.depth late) early.depth;
+    states = Search.count late + Search.count early;
+    depth = max (Search.depth late) (Search.depth early);
     seconds = limits.Limits.clock () -. started;
-    bytes = max (Search.memory late) early.bytes }
+    bytes = max (Search.memory late) (Search.memory early) }
 
 (* With less left out where more was unsound. *)
 let rec attempt find (reduction : reduction) =
@@ -277,11 +303,9 @@ let apart ~started limits (options : Timed.options) =
   in
   Option.map found (Fences.least_distance options.program.fences)
 
-let run ?(reduction = Inert_ends_and_likeness) ?deadline ?(vehicles = []) ?(workers = 1)
-    ?(fork_from = Searches.worth_a_fork) limits options =
-  let started = limits.Limits.clock () and sharing = Searches.sharing ~workers ~fork_from limits in
-  let find reduction = find ~reduction ~sharing ~started ?deadline ~vehicles limits options in
-  let found = attempt find reduction in
+let run ?(reduction = Inert_ends_and_likeness) ?deadline ?(vehicles = []) limits options =
+  let started = limits.Limits.clock () in
+  let found = attempt (fun reduction -> find ~reduction ~started ?deadline ~vehicles limits options) reduction in
   match apart ~started limits options with
   | None -> found
   | Some _ as apart -> { found with apart; seconds = limits.clock () -. started }
@@ -290,10 +314,9 @@ let slack_searches = "slack"
 
 let latest_end ~started limits options =
   let find reduction =
-    let search = Searches.search ~started limits (Successors.create reduction options) Latest slack_searches in
+    let search = search ~started limits (Successors.create reduction options) Latest slack_searches in
     let system = Search.system search in
-    let last = Searches.best is_later system in
-    match Search.stopped search, Timed_system.cycle system, Timed_system.stuck system, last with
+    match Search.stopped search, Timed_system.cycle system, Timed_system.stuck system, best is_later system with
     | Some _, _, _, _ -> None
     | None, None, None, Some (date, _) -> Some date
     | None, _, _, _ -> Some Unbounded
@@ -304,32 +327,15 @@ let latest o =
   let later found (_, w) = match found with Some d when not (is_later w.latest d) -> found | _ -> Some w.latest in
   List.fold_left later None o.endings
 
-let of_tasks ~(sharing : Searches.sharing) ~started limits options o latest =
-  let tasks = Array.of_list (List.map fst o.tasks) in
-  let slack limits i = Slack.of_task ~latest:(latest_end ~started limits) options latest tasks.(i) in
-  let count = Array.length tasks in
-  let beside =
-    if min sharing.workers count > 1 && o.states >= sharing.fork_from then
-      Beside.start ~workers:sharing.workers limits ~count slack
-    else None
-  in
-  let found, cut_short =
-    match beside with
-    | Some beside ->
-      let measures : Limits.measures = { states = 0; expanded = 0; depth = 0; used = o.bytes; growth = 0 } in
-      Fun.protect
-        ~finally:(fun () -> Beside.stop beside)
-        (fun () -> Beside.await beside ~started limits measures slack_searches)
-    | None ->
-      let found = List.init count (fun i -> (i, slack limits i)) in
-      (found, if limits.interrupted () then Some Interruption else None)
-  in
-  { known = List.filter_map (fun (i, slack) -> Option.map (fun slack -> (tasks.(i), slack)) slack) found; cut_short }
-
-let slacks ?(workers = 1) ?(fork_from = Searches.worth_a_fork) limits options o =
-  let started = limits.Limits.clock () and sharing = Searches.sharing ~workers ~fork_from limits in
+let slacks ?(workers = 1) limits options o =
+  let started = limits.Limits.clock () and tasks = Array.of_list (List.map fst o.tasks) in
   match o.endless, o.stopped, latest o with
-  | None, None, Some (At n) -> of_tasks ~sharing ~started limits options o n
+  | None, None, Some (At n) ->
+    let slack limits i = Slack.of_task ~latest:(latest_end ~started limits) options n tasks.(i) in
+    let measures : Limits.measures = { states = 0; expanded = 0; depth = 0; used = o.bytes; growth = 0 } in
+    let count = Array.length tasks in
+    let found, cut_short = Share_out.all ~workers ~started limits measures ~phase:slack_searches ~count slack in
+    { known = List.filter_map (fun (i, slack) -> Option.map (fun slack -> (tasks.(i), slack)) slack) found; cut_short }
   | Some _, _, _ | None, Some _, _ | None, None, (Some Unbounded | None) -> { known = []; cut_short = None }
 
 (* Of what has no latest date it is not known. *)

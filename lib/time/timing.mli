@@ -59,15 +59,11 @@ type outcome = {
 }
 
 val run :
-  ?reduction:reduction -> ?deadline:int -> ?vehicles:Dolphin_scenario.Scenario.vehicle list -> ?workers:int ->
-  ?fork_from:int -> Dolphin_checker.Limits.t -> Timed.options -> outcome
+  ?reduction:reduction -> ?deadline:int -> ?vehicles:Dolphin_scenario.Scenario.vehicle list ->
+  Dolphin_checker.Limits.t -> Timed.options -> outcome
 (** [run ~deadline ~vehicles limits o] is what there is to know, within [limits]; [deadline] is in milliseconds; of
     [vehicles], by default none, the batteries are looked at. The [reduction], all by default, makes no difference to
-    the answers, but for how close the bounds of batteries are.
-
-    With [workers], by default 1, another process looks for the earliest dates once the search for the latest ones has
-    [fork_from] states, by default as many as that takes to be worth it. What is found is the same. There is one process
-    if memory has a bound. *)
+    the answers, but for how close the bounds of batteries are. *)
 
 val latest : outcome -> date option
 (** [latest o] is when the last run is over; [None] if none that was looked at ends. *)
@@ -77,10 +73,10 @@ type slacks = {
   cut_short : Dolphin_checker.Limits.bound option;  (** an interruption, or a process ended early *)
 }
 
-val slacks : ?workers:int -> ?fork_from:int -> Dolphin_checker.Limits.t -> Timed.options -> outcome -> slacks
+val slacks : ?workers:int -> Dolphin_checker.Limits.t -> Timed.options -> outcome -> slacks
 (** [slacks limits o outcome] is the slack of each task of [outcome], which is of [o], by searches of their own; without
     those that are not found within [limits], each search for itself but for the time. None is known if it is not known
-    that all runs end by some date. [workers] processes look for them if [outcome] has [fork_from] states. *)
+    that all runs end by some date. [workers] processes look for them, by default 1, as {!Share_out.all} says. *)
 
 type verdict = Dolphin_checker.Verdict.t = Holds | Violated | Inconclusive
 

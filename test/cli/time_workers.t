@@ -1,4 +1,4 @@
-Several processes look for the times of a program: the earliest and the latest dates at once, and slacks.
+Several processes look for slacks.
 
   $ cat > six.dol <<'END'
   > vs = pick { count 6 }
@@ -11,9 +11,17 @@ Several processes look for the times of a program: the earliest and the latest d
 
 What is found is the same.
 
-  $ found() { dolphin time "$@" | sed 's/, [0-9.]* s, [0-9]* MiB//'; }
-  $ found six.dol --workers 1 > one; found six.dol --workers 2 | diff one - && grep states one
-  718 states, depth 47
+  $ cat > two.dol <<'END'
+  > vs = pick { count 2 }
+  > execute vs: task('out') >> task('back') | task('survey')
+  > END
+  $ grep -v "'v[3-6]'" six.fleet > two.fleet
+  $ found() { dolphin time two.dol --slack "$@" | sed 's/, [0-9.]* s, [0-9]* MiB//'; }
+  $ found --workers 1 > one; found --workers 2 | diff one - && grep out one
+  out     v1       0:00            10:00 to 20:00  0:00   two.dol:2
+   0:00                     starts out                  two.dol:2
+  20:00                     ends out                    two.dol:2
+  its end depends on: two.dol:2:13: out on v1 (20:00), then two.dol:2:28: back on v1 (20:00)
   $ dolphin time six.dol --workers 0
   dolphin: option '--workers': '0' is no number from 1 on
   Usage: dolphin time [OPTION]… PROG
@@ -21,13 +29,6 @@ What is found is the same.
   [2]
 
 Ctrl-C ends all of them with what is known; whoever is killed leaves no process behind, and is missed.
-
-  $ cp ../../examples/missions/barrier.* .
-  $ python3 time_workers.py 1 barrier.dol --workers 2
-  SIGINT to the leader 3 ['inconclusive: it was interrupted']
-  SIGTERM to the leader -15 []
-  SIGKILL to the leader -9 []
-  SIGKILL to the worker 3 ['inconclusive: a worker process ended early, killed']
 
   $ python3 time_workers.py 2 six.dol --workers 2 --slack
   SIGINT to the leader 3 ['slack: inconclusive: it was interrupted']

@@ -1569,41 +1569,19 @@ let processes =
       ("processes outlive whoever made them", {|if Unix.getppid () <> parent then|}, {|if parent = 0 then|});
       ("processes heed Ctrl-C", {|Sys.Signal_ignore) [ Sys.sigint; Sys.sighup ]|}, {|Sys.Signal_default) [ Sys.sigint ]|});
     ]
-  @ in_file "lib/time/choices.ml" ~noticed_by:"time/test_workers"
+  @ in_file "lib/time/share_out.ml" ~noticed_by:"time/test_workers"
     [
-      ( "steps with one label are one",
-        {|  && Timed.equal a.next b.next|},
-        {||} );
-      ( "choices count from the last step",
-        {|List.nth (Timed.all_steps options state) choice|},
-        {|List.nth (List.rev (Timed.all_steps options state)) choice|} );
-    ]
-  @ in_file "lib/time/beside.ml" ~noticed_by:"time/test_workers"
-    [
-      ( "all processes report",
-        {|Limits.progress = ignore|},
-        {|Limits.progress = limits.Limits.progress|} );
+      ("all processes report", {|(f { limits with progress = ignore })|}, {|(f limits)|});
       ( "an interruption is a lack of time",
-        {|      | exception Limits.Stop bound -> t.stopped <- Some bound|},
-        {|      | exception Limits.Stop _ -> t.stopped <- Some Time|} );
-      ( "nobody looks at the others meanwhile",
-        {|  look t ~timeout:0.;|},
-        {||} );
-    ]
-  @ in_file "lib/time/searches.ml" ~noticed_by:"time/test_workers"
-    [
-      ( "the other process is left alone",
-        {|    ~finally:(fun () -> Option.iter Beside.stop (begun ()))|},
-        {|    ~finally:ignore|} );
-      ( "there may be another process if memory has a bound",
-        {|if limits.max_memory = None then workers else 1|},
-        {|if limits.max_memory = None then workers else workers|} );
-      ( "what the other process could not rely on is found",
-        {|        | [ (_, None) ], _ -> raise Broken|},
-        {|        | [ (_, None) ], _ -> Early.nothing States|} );
+        {|      | exception Limits.Stop bound -> (found, Some bound)|},
+        {|      | exception Limits.Stop _ -> (found, Some Limits.Time)|} );
+      ("the other processes are left alone", {|~finally:(fun () -> Workers.stop workers)|}, {|~finally:ignore|});
+      ( "there may be other processes if memory has a bound",
+        {|if limits.max_memory = None then min workers count else 1|},
+        {|if limits.max_memory = None then min workers count else min workers 2|} );
     ]
   @ in_file "lib/time/timing.ml" ~noticed_by:"time/test_missions"
-    [ ("slacks of other tasks", {|(tasks.(i), slack)) slack) found|}, {|(tasks.(count - 1 - i), slack)) slack) found|}) ]
+    [ ("slacks of other tasks", {|(tasks.(i), slack)) slack) found;|}, {|(tasks.(count - 1 - i), slack)) slack) found;|}) ]
 
 let travel =
   in_file "lib/semantics/language/travel.ml" ~noticed_by:"plan/test_travel"

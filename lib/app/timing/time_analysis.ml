@@ -26,7 +26,7 @@ let options s (program : Program_file.t) (fleet : Fleet_file.t) : Dolphin_time.T
 let run ~interrupted ~progress s program fleet =
   let { Fleet_file.scenario; _ } = fleet in
   let limits = limits ~interrupted ~progress s in
-  Timing.run ?deadline:s.deadline ~workers:s.workers ~vehicles:scenario.vehicles limits (options s program fleet)
+  Timing.run ?deadline:s.deadline ~vehicles:scenario.vehicles limits (options s program fleet)
 
 let slacks ~interrupted ~progress s program fleet =
   Timing.slacks ~workers:s.workers (limits ~interrupted ~progress s) (options s program fleet)

@@ -6,7 +6,7 @@ type settings = {
   answers : string list;
   faults : Dolphin_environment.Faults.t;
   deadline : int option;  (** milliseconds *)
-  workers : int;  (** processes *)
+  workers : int;  (** processes that look for slacks *)
   max_states : int option;
   max_depth : int option;
   max_memory : int option;

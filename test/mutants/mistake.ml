@@ -1519,8 +1519,6 @@ let transition_systems =
         {|      numbers.(id) <- id;
       ids.(id) <- id;
       incr known|} );
-      ("labels lose their place when more are known", {|Array.append t.texts (Array.make n "")|},
-       {|Array.append (Array.make n "") t.texts|});
     ]
   @ in_file "lib/explore/temporal/observer.ml" ~noticed_by:"explore/test_transition_system"
     [

@@ -1,26 +1,24 @@
 open Dolphin_semantics
 open Dolphin_checker
 
-(* Labels by number: the actions of transitions. *)
-module Labels = struct
-  type t = { numbers : (string, int) Hashtbl.t; mutable texts : string array }
+module Labels = Interner.Make (struct
+    type t = string
 
-  let create () = { numbers = Hashtbl.create 64; texts = [| "" |] }
+    let equal = String.equal
+    let hash = Hashtbl.hash
+  end)
 
-  let number t text =
-    match Hashtbl.find_opt t.numbers text with
-    | Some n -> n
-    | None ->
-      let n = Hashtbl.length t.numbers + 1 in
-      if n = Array.length t.texts then t.texts <- Array.append t.texts (Array.make n "");
-      t.texts.(n) <- text;
-      Hashtbl.add t.numbers text n;
-      n
+(* The actions of transitions are their labels. What these numbers stand for need not be the same in several processes:
+   no state has them. *)
+let labels () =
+  let labels = Labels.create (Numbering.create ()) in
+  let nothing = Labels.number labels "" in
+  assert (nothing = Observer.nothing);
+  labels
 
-  let observer t : Observer.t =
-    { action = (fun observed -> number t (Format.asprintf "%a" Label.pp observed.label));
-      valuation = (fun _ _ _ -> 0) }
-end
+let observer labels : Observer.t =
+  { action = (fun observed -> Labels.number labels (Format.asprintf "%a" Label.pp observed.label));
+    valuation = (fun _ _ _ -> 0) }
 
 type t = { graph : State_graph.t; ids : int array (* by state: its number in [graph] *) }
 
@@ -28,7 +26,7 @@ let states t = Array.length t.ids
 let state t i = State_graph.state t.graph t.ids.(i)
 
 (* States in the order in which transitions come to them: several processes have numbered them as it happened. *)
-let list_in_order graph (labels : Labels.t) each =
+let list_in_order graph labels each =
   let highest = ref 0 in
   State_graph.iter graph (fun id -> highest := max !highest id);
   let numbers = Array.make (!highest + 1) (-1) and ids = Array.make (State_graph.count graph) 0 in
@@ -43,7 +41,7 @@ let list_in_order graph (labels : Labels.t) each =
   in
   let tick = State_graph.ticker graph "listing transitions" in
   let list i id =
-    let take (arrival : State_graph.arrival) = each i labels.texts.(arrival.action) (number arrival.into) in
+    let take (arrival : State_graph.arrival) = each i (Labels.value labels arrival.action) (number arrival.into) in
     tick ();
     List.iter take (State_graph.arrivals graph id)
   in
@@ -54,8 +52,8 @@ let list_in_order graph (labels : Labels.t) each =
 type problem = Stopped of Limits.bound | Unclear of Fault.t
 
 let explore ?workers ?fork_from limits options program world each =
-  let labels = Labels.create () in
-  let space = Space.create ~observer:(Labels.observer labels) options program world in
+  let labels = labels () in
+  let space = Space.create ~observer:(observer labels) options program world in
   let graph = State_graph.create ?workers ?fork_from limits space in
   State_graph.run graph;
   match Space.unclear space, State_graph.stopped graph with

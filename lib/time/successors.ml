@@ -58,8 +58,6 @@ let all t state =
     if Timed.Table.length t.known < most then Timed.Table.add t.known state successors;
     successors
 
-let followed t state =
-  let all = all t state in
-  match List.find_opt (fun s -> Timed.comes_first t.options s.step) all with Some first -> [ first ] | None -> all
+let followed t state = Timed.enough t.options (fun s -> s.step) (all t state)
 
 let steps t state = List.map (fun s -> s.step) (followed t state)

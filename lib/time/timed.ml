@@ -487,11 +487,10 @@ let all_steps o s =
 
 let comes_first o step = step.urgent && starts_without_moving step && not o.program.asks_running
 
-let steps o s =
-  let steps = all_steps o s in
-  match List.find_opt (comes_first o) steps with
-  | Some start -> [ start ]
-  | None -> steps
+let enough o step_of all =
+  match List.find_opt (fun x -> comes_first o (step_of x)) all with Some first -> [ first ] | None -> all
+
+let steps o s = enough o Fun.id (all_steps o s)
 
 let holds_up steps =
   let most : Bounds.t -> int = function Within { most; _ } -> most | Some_time | Never -> max_int in

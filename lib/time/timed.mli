@@ -89,8 +89,8 @@ val steps : options -> state -> step list
 val all_steps : options -> state -> step list
 (** Likewise, with each [START]. *)
 
-val comes_first : options -> step -> bool
-(** [comes_first o step] is whether {!steps} is [[step]] if it is the first of which this holds. *)
+val enough : options -> ('a -> step) -> 'a list -> 'a list
+(** [enough o step_of xs] is those of [xs], which belong to {!all_steps}, that belong to {!steps}. *)
 
 val taken : options -> state -> on:Transition.event option -> Transition.t -> step
 (** [taken o s ~on t] is the transition [t] of [s] as a step, whether or not it is among {!steps}; what the outside

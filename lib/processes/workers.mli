@@ -13,6 +13,9 @@ exception Died of { number : int; how : string }
 (** The process that computed this number ended early: [f] raised an exception, which it told on standard error, or it
     was killed. [how] is ["killed"], or ["with status 1"]. *)
 
+val how : Unix.process_status -> string
+(** How a process ended, as {!Died} says it. *)
+
 val next : 'a t -> timeout:float -> (int * 'a) list
 (** [next w ~timeout] is what is new, waiting for something for so many seconds at most.
     @raise Died *)

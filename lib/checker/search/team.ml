@@ -84,12 +84,7 @@ let exists t f =
 
 (* {1 Looking around} *)
 
-let how = function
-  | Unix.WEXITED n -> Printf.sprintf "with status %d" n
-  | WSIGNALED n when n = Sys.sigkill -> "killed"
-  | WSIGNALED _ | WSTOPPED _ -> "by a signal"
-
-let ended status = Limits.Stop (Unsettled ("a worker process ended early, " ^ how status))
+let ended status = Limits.Stop (Unsettled ("a worker process ended early, " ^ Dolphin_processes.Workers.how status))
 
 let look_at_others t =
   let look other =

@@ -6,6 +6,7 @@ module Text_table = Dolphin_display.Text_table
 
 let say format = Printf.ksprintf Run_columns.say format
 
+let bound_text bound = Format.asprintf "%a" Dolphin_checker.Limits.pp_bound bound
 let time ms = Format.asprintf "%a" Bounds.pp_time ms
 
 (* {1 Names} *)
@@ -211,21 +212,19 @@ let print_apart (a : Timing.apart) =
   let why =
     match verdict, a.cut_short with
     | Violated, _ -> ": plans run side by side whose ways come nearer to each other"
-    | Inconclusive, Some bound -> Format.asprintf ", %a" Dolphin_checker.Limits.pp_bound bound
+    | Inconclusive, Some bound -> ", " ^ bound_text bound
     | Inconclusive, None -> ", plans run side by side, nobody knows how near"
     | Holds, _ -> ""
   in
   say "%s: %s%s" a.fence (Dolphin_checker.Verdict.name verdict) why
 
 let print_slacks (s : Timing.slacks) =
-  let print bound = say "slack: inconclusive: %s" (Format.asprintf "%a" Dolphin_checker.Limits.pp_bound bound) in
+  let print bound = say "slack: inconclusive: %s" (bound_text bound) in
   Option.iter print s.cut_short
 
 let print ?deadline ?slacks p (o : Timing.outcome) =
   (match o.stopped with
-   | Some bound -> 
-     Run_columns.say
-       (Format.asprintf "inconclusive: %a; times are of the runs until then" Dolphin_checker.Limits.pp_bound bound)
+   | Some bound -> say "inconclusive: %s; times are of the runs until then" (bound_text bound)
    | None -> ());
   List.iter print_ending o.endings;
   if o.endings = [] && o.stopped = None then print_endline "no run ends";
@@ -269,7 +268,7 @@ let json_of_battery p (b : Timing.battery) : Yojson.Safe.t =
      @ Option.fold b.lowest ~none:[] ~some:lowest)
 
 let json_of_apart p (a : Timing.apart) : Yojson.Safe.t =
-  let bound b = ("bound", `String (Format.asprintf "%a" Dolphin_checker.Limits.pp_bound b)) in
+  let bound b = ("bound", `String (bound_text b)) in
   `Assoc
     ([ ("fence", `String a.fence); ("verdict", `String (Dolphin_checker.Verdict.name (Timing.judge_apart a)));
        ("pairs", Beside_report.json p a.pairs) ]
@@ -294,7 +293,7 @@ let to_json ?deadline ?slacks p (o : Timing.outcome) : Yojson.Safe.t =
     `Assoc (("at", place) :: missed)
   in
   let optional name f x = match x with Some x -> [ (name, f x) ] | None -> [] in
-  let bound b : Yojson.Safe.t = `String (Format.asprintf "%a" Dolphin_checker.Limits.pp_bound b) in
+  let bound b : Yojson.Safe.t = `String (bound_text b) in
   let verdict = Dolphin_checker.Verdict.name (Timing.verdict ?deadline o) in
   let endless (run, why) : Yojson.Safe.t =
     let why = match why with `Cycle -> "cycle" | `In_no_time -> "cycle in no time" | `Stuck -> "stuck" in

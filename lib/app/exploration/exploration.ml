@@ -44,9 +44,8 @@ let explore ~interrupted ~progress s (program : Program_file.t) (fleet : Fleet_f
       search_again = Search.default.search_again; workers = s.workers; fork_from = Search.default.fork_from;
       spare_bits = Search.default.spare_bits;
       limits =
-        { max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory;
-          memory_taken = Memory.taken; memory_left = Memory.left;
-          timeout = s.timeout; clock = Unix.gettimeofday; interrupted; progress };
+        Search_limits.make ?max_states:s.max_states ?max_depth:s.max_depth ?max_memory:s.max_memory ?timeout:s.timeout
+          ~interrupted ~progress ();
       invariants; formulas }
   in
   Ok (Search.run options core (Scenario_world.world fleet.scenario))

@@ -35,9 +35,8 @@ let graph (program : Core.program) system builder =
 let of_program w ~interrupted ~progress path =
   let* program, fleet = Program_file.load_with_fleet ~set:w.set ~fleet:w.fleet path in
   let environment = Scenario_world.environment ~answers:w.answers ~faults:w.faults program.program fleet.scenario in
-  let limits : Limits.t =
-    { max_states = Some w.max_states; max_depth = None; max_memory = w.max_memory; memory_taken = Memory.taken;
-      memory_left = Memory.left; timeout = w.timeout; clock = Unix.gettimeofday; interrupted; progress } in
+  let limits =
+    Search_limits.make ~max_states:w.max_states ?max_memory:w.max_memory ?timeout:w.timeout ~interrupted ~progress () in
   let world = Scenario_world.world fleet.scenario in
   let builder = Graph.Builder.create () in
   let add = Graph.Builder.add builder in

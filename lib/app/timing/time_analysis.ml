@@ -12,10 +12,9 @@ type settings = {
   timeout : float option;
 }
 
-let limits ~interrupted ~progress s : Dolphin_checker.Limits.t =
-  { max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory;
-    memory_taken = Memory.taken; memory_left = Memory.left;
-    timeout = s.timeout; clock = Unix.gettimeofday; interrupted; progress }
+let limits ~interrupted ~progress s =
+  Search_limits.make ?max_states:s.max_states ?max_depth:s.max_depth ?max_memory:s.max_memory ?timeout:s.timeout
+    ~interrupted ~progress ()
 
 let options s (program : Program_file.t) (fleet : Fleet_file.t) : Dolphin_time.Timed.options =
   { environment = Scenario_world.environment ~answers:s.answers ~faults:s.faults program.program fleet.scenario;

@@ -6,11 +6,12 @@ let alone (limits : Limits.t) ~count f =
   (found, if limits.interrupted () then Some Limits.Interruption else None)
 
 (* Time and memory are the others' to look at. *)
-let await workers ~started (limits : Limits.t) measures phase =
+let await workers ~started (limits : Limits.t) measures ~phase ~count =
   let guard = Limits.guard ~started { limits with timeout = None; memory_left = (fun () -> None) } in
   let rec go found =
     if Workers.is_done workers then (found, None)
     else
+      let phase = Printf.sprintf "%s, %d of %d" phase (List.length found) count in
       match Limits.look guard phase measures; Workers.next workers ~timeout:0.2 with
       | more -> go (more @ found)
       | exception Limits.Stop bound -> (found, Some bound)
@@ -28,4 +29,4 @@ let all ~workers ~started (limits : Limits.t) measures ~phase ~count f =
     | workers ->
       Fun.protect
         ~finally:(fun () -> Workers.stop workers)
-        (fun () -> await workers ~started limits measures phase)
+        (fun () -> await workers ~started limits measures ~phase ~count)

@@ -9,4 +9,5 @@ val all :
     and why some are missing, if so: an interruption, or a process ended early. Several processes work them out, at most
     [workers], but this one alone if there is but one, if memory has a bound, which none of several would know, or if
     the system makes no other. [limits'] are [limits], of several processes without reports: this one reports [phase],
-    which is of what [started] then, with [m]. What [f] gives is as {!Dolphin_processes.Workers.start} says. *)
+    and how many of [count] are there, of what [started] then, with [m]. What [f] gives is as
+    {!Dolphin_processes.Workers.start} says. *)

@@ -20,7 +20,9 @@ let test_periods () =
   check "those that nothing is reported in are left out" [ 35.; 40. ] [ 35.; 36.; 40. ]
 
 let test_line () =
-  Alcotest.(check string) "a line" "exploring: 1200 states, 100/s, frontier 40, depth 7, 3 MiB, 12 s" (line 12.)
+  Alcotest.(check string) "a line" "exploring: 1200 states, 100/s, frontier 40, depth 7, 3 MiB, 12 s" (line 12.);
+  Alcotest.(check string) "of what has no states" "slack, 3 of 20: 3 MiB, 12 s"
+    (Progress_lines.line { (at 12.) with phase = "slack, 3 of 20"; states = 0 })
 
 let () =
   let case name f = Alcotest.test_case name `Quick f in

@@ -5,4 +5,5 @@ val every : float -> (string -> unit) -> Dolphin_checker.Limits.progress -> unit
     first call in each so many seconds of a search but the first. *)
 
 val line : Dolphin_checker.Limits.progress -> string
-(** ["exploring: 120000 states, 11843/s, frontier 4021, depth 40, 12 MiB, 10 s"]. *)
+(** ["exploring: 120000 states, 11843/s, frontier 4021, depth 40, 12 MiB, 10 s"]; of what has no states,
+    ["slack, 3 of 20: 5 MiB, 10 s"]. *)

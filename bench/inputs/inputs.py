@@ -44,6 +44,13 @@ def connect(path):
     return s.makefile("rw", encoding="utf-8")
 
 
+def connect_two_threads(path):
+    """What one thread writes to and another one reads from: a file is not for two."""
+    s = socket.socket(socket.AF_UNIX)
+    s.connect(path)
+    return s.makefile("w", encoding="utf-8"), s.makefile("r", encoding="utf-8")
+
+
 def post(lines, key, value):
     lines.write(json.dumps({"request": "post", "key": key, "value": value}) + "\n")
 
@@ -168,9 +175,9 @@ def latency(figures, run, begin, times, what):
 
 
 def load(figures, run, begin, times, rate, what):
-    lines = connect(run.path)
+    lines, answers = connect_two_threads(run.path)
     replies = []
-    reader = threading.Thread(target=lambda: replies.extend(lines.readline() for _ in range(times)))
+    reader = threading.Thread(target=lambda: replies.extend(answers.readline() for _ in range(times)))
     reader.start()
     start, cpu = time.perf_counter(), run.seconds()
     for i in range(times):
@@ -189,7 +196,7 @@ def load(figures, run, begin, times, rate, what):
 
 
 def garbage(figures, run, times):
-    lines = connect(run.path)
+    lines, answers = connect_two_threads(run.path)
     size = os.path.getsize(run.journal)
 
     def send():
@@ -200,7 +207,7 @@ def garbage(figures, run, times):
     sender = threading.Thread(target=send)
     start = time.perf_counter()
     sender.start()
-    errors = sum("error" in json.loads(lines.readline()) for _ in range(times))
+    errors = sum("error" in json.loads(answers.readline()) for _ in range(times))
     sender.join()
     seconds = time.perf_counter() - start
     with open(run.journal, encoding="utf-8") as file:

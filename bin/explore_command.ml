@@ -93,10 +93,10 @@ let of_values settings sweep fleet ~strict ~json ~period ~files ~cache =
     Ok (Exit_status.of_verdict (Sweep.verdict rows))
 
 let run path set fleet answers faults strict json period files cache reduction compress spill walks bitstate workers
-    invariants formulas max_states max_depth max_memory timeout =
+    invariants formulas fairness max_states max_depth max_memory timeout =
   let settings : Exploration.settings =
     { answers; faults; reduction; compress; spill; walks; bitstate; workers; max_states; max_depth; max_memory; timeout;
-      invariants; formulas } in
+      invariants; formulas; fairness } in
   Nursery.make_room ();
   Report.result
     (let* () = check_search settings in
@@ -178,6 +178,15 @@ let formulas =
      $(b,W). $(i,docs/questions.md) lists its propositions. May be repeated."
   in
   Arg.(value & opt_all string [] & info [ "ltl" ] ~docv:"FORMULA" ~doc)
+
+let fairness =
+  let kinds = [ ("weak", Dolphin_explore.Search.Weak); ("none", No_fairness) ] in
+  let doc =
+    "Of which runs $(b,--ltl) asks: with $(b,weak) of those that are fair, as for termination (tasks that run end some \
+     time, timers expire, no step that stays possible is put off for ever), and of those that go on for ever without \
+     any event; with $(b,none) of all runs."
+  in
+  Arg.(value & opt (enum kinds) Weak & info [ "fairness" ] ~docv:"KIND" ~doc)
 
 let run_file =
   let parse path =
@@ -350,5 +359,5 @@ let command =
   Cmd.v info
     Term.(
       const run $ Options.program $ Options.set_range $ Options.fleet $ answers $ faults $ strict $ json $ period
-      $ files $ cache $ reduction $ compress $ spill $ walks $ bitstate $ workers $ invariants $ formulas $ max_states
-      $ max_depth $ max_memory $ timeout)
+      $ files $ cache $ reduction $ compress $ spill $ walks $ bitstate $ workers $ invariants $ formulas $ fairness
+      $ max_states $ max_depth $ max_memory $ timeout)

@@ -421,9 +421,11 @@ let only_recruits options e ts =
   in
   match recruits [] ts with None -> false | Some vs -> may_all_stay_away options e vs
 
+(* Nothing can be posted where nothing at all can happen: that is an end. *)
 let is_stuck options (program : Core.program) e choices =
+  let is_over = Option.is_none (find (fun _ -> true) choices) in
   let goes_on =
     if program.recruits then not (only_recruits options e (List.of_seq (Seq.map fst choices)))
     else Option.is_some (find (fun (t, _) -> not (is_voluntary t)) choices)
   in
-  not (goes_on || owes options program e)
+  is_over || not (goes_on || owes options program e)

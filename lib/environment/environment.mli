@@ -124,7 +124,7 @@ val upcoming : options -> Core.program -> t -> (string * Core.value) list
 (** [upcoming o p e] is all pairs that may be posted now or later. *)
 
 val owes : options -> Core.program -> t -> bool
-(** Whether some input is certain that has not come as often as it will. *)
+(** Whether some input is certain that has not come as often as it will. After the end of a run none comes. *)
 
 (** A transition that may happen. *)
 type choice = {
@@ -175,5 +175,5 @@ val only_recruits : options -> t -> Transition.t list -> bool
     vehicles that may all stay away. *)
 
 val is_stuck : options -> Core.program -> t -> (Transition.t * 'state) Seq.t -> bool
-(** [is_stuck o p e choices] is whether there is nothing among [choices], those of a state with memory [e], but
-    interruptions, and inputs that are not certain: nobody need ever interrupt, or post. *)
+(** [is_stuck o p e choices] is whether [choices], those of a state with memory [e], are empty, or are interruptions
+    and inputs that are not certain: neither need ever come. *)

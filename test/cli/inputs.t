@@ -112,3 +112,22 @@ Of what was observed elsewhere, inputs are labels:
     before it: 1 line
   [1]
   $ check-journals
+
+An input that is certain may come after the end, which is too late:
+
+  $ cat > owed.dol << 'END'
+  > input 'abort'
+  > v = pick { type 'UUV' }
+  > execute until { poll abort: true } run task('survey')
+  > END
+  $ cat > owed.fleet << 'END'
+  > vehicle 'u1', { type 'UUV' }
+  > plan 'survey', { duration 1.min, 2.min }
+  > input 'abort', true, after 5.min
+  > END
+  $ dolphin explore owed.dol --ltl 'F input(abort)' --ltl 'F ended' | grep '^formula.*: [hv]'
+  formula F input(abort): violated after 6 steps: it does not hold
+  formula F ended: holds
+  $ dolphin exec owed.dol | grep -c 'gets abort'
+  0
+  [1]

@@ -52,3 +52,24 @@ Whoever dies within a round, or between two tries, another one goes on: after ea
   22 died.run: a run, of 23 transitions in 35:47; completed
   $ resumed ../../examples/missions/replacement.dol
   21 died.run: a run, of 22 transitions in 43:59; completed
+
+Formulas are asked of fair runs: one in which q never ends, while p goes round, is none, unless all runs are asked. One
+without any event is what the runtime would do.
+
+  $ cat > fair.dol << 'END'
+  > v = pick { type 'UUV' }
+  > w = pick { type 'UUV' }
+  > execute (task('q')[w] >> action { post z: 1 }) | (until { poll z: 1 } run repeat task('p')[v])
+  > END
+  $ printf "vehicle 'a', { type 'UUV' }\nvehicle 'b', { type 'UUV' }\n" > fair.fleet
+  $ dolphin explore fair.dol --ltl 'F ended' --ltl 'F G !start(p)' | grep -e termination -e '^formula.*: [hv]'
+  termination: holds
+  formula F ended: holds
+  formula F G !start(p): holds
+  $ dolphin explore fair.dol --fairness none --ltl 'F ended' | grep -e termination -e '^formula.*: [hv]'
+  termination: holds
+  formula F ended: violated: after 8 steps, 2 steps that can repeat for ever
+  $ dolphin explore spin.dol --ltl 'F ended' | grep -e termination -e '^formula.*: [hv]'
+  termination: violated: after 2 steps, 2 steps that can repeat for ever
+  formula F ended: violated: after 2 steps, 2 steps that can repeat for ever
+  termination: a run in which the program can go on for ever

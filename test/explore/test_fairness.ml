@@ -9,6 +9,9 @@ open Dolphin_environment
 open Dolphin_explore
 module Generate = Test_support.Generate
 module Pure_run = Test_support.Pure_run
+module Linear = Test_support.Linear
+module Formula = Dolphin_ltl.Formula
+module Automaton = Dolphin_ltl.Automaton
 
 let programs = match Sys.getenv_opt "PROGRAMS" with Some n -> int_of_string n | None -> 1_000
 let world = Generate.world
@@ -187,8 +190,10 @@ let is_settled all edges members i (owed : edge) =
 let is_fair all edges members =
   List.for_all (fun i -> List.for_all (is_settled all edges members i) all.(i)) members
 
-let judged (g : Reference.t) =
-  let all = Array.mapi (fun i edges -> if executes g i then List.map (edge g i) edges else []) g.edges in
+let all_edges (g : Reference.t) =
+  Array.mapi (fun i edges -> if executes g i then List.map (edge g i) edges else []) g.edges
+
+let judged (g : Reference.t) all =
   let kept p = Array.map (List.filter (fun e -> executes g e.into && p e)) all in
   let has_fair p =
     let edges = kept p in
@@ -198,6 +203,68 @@ let judged (g : Reference.t) =
   else if has_fair (fun e -> not e.endless) then Goes_on
   else if has_fair (fun _ -> true) then By_design
   else Ends
+
+(* {1 Formulas} *)
+
+(* A formula is violated if the component of some run with an accepted cycle is fair, or has no event: components are of
+   the product of the graph with the automaton of the negated formula. Each step that is possible is followed as
+   above. *)
+
+let propositions = [ "ended"; "end"; "done"; "message"; "timeout"; "start"; "poll(k: 1)"; "running(p11)"; "{h == 1}" ]
+
+let formula =
+  let open QCheck2.Gen in
+  let p = map (fun p -> Formula.Proposition p) (oneofl propositions) in
+  let again f = Formula.Globally (Finally f) and at_last f = Formula.Finally (Globally f) in
+  let literal = oneof [ p; map (fun f -> Formula.Not f) p ] in
+  oneof
+    [ map (fun f -> Formula.Finally f) literal; map again literal; map at_last literal;
+      map2 (fun f g -> Formula.Globally (Implies (f, Finally g))) literal literal;
+      map2 (fun f g -> Formula.Implies (again f, again g)) literal literal;
+      map2 (fun f g -> Formula.Or (again f, at_last g)) literal literal;
+      map2 (fun f g -> Formula.Until (f, g)) literal literal; Linear.formula (oneofl propositions) ]
+
+(* Of the script, which has no cycle here, and of a run that stays where nothing need happen. *)
+let other into = { into; step = ""; inside = false; closes = false; endless = false; part = -1; is_event = true }
+
+let holds_of_fair_runs program (g : Reference.t) all f =
+  let a = Automaton.of_formula (Formula.Not f) in
+  let read = Letters.holds program world in
+  let numbers = Hashtbl.create 100 and nodes = ref [] in
+  let edges = Hashtbl.create 100 in
+  let rec node i q =
+    match Hashtbl.find_opt numbers (i, q) with
+    | Some n -> n
+    | None ->
+      let n = Hashtbl.length numbers in
+      Hashtbl.add numbers (i, q) n;
+      nodes := (n, (i, q)) :: !nodes;
+      let arrive letter j e =
+        let continued q' = if Automaton.admits a q' (read letter) then Some { e with into = node j q' } else None in
+        List.filter_map continued (Automaton.successors a q)
+      in
+      let c = g.states.(i).configuration in
+      let is_stuck = Environment.is_stuck g.options program g.states.(i).outside (List.to_seq g.edges.(i)) in
+      let of_edge k ((t : Transition.t), j) = arrive (Some t, t.next) j (if all.(i) = [] then other j else List.nth all.(i) k) in
+      let stays = if is_stuck then arrive (None, c) i (other i) else [] in
+      Hashtbl.replace edges n (stays @ List.concat (List.mapi of_edge g.edges.(i)));
+      n
+  in
+  let first q = if Automaton.admits a q (read (None, g.states.(0).configuration)) then ignore (node 0 q) in
+  List.iter first (Automaton.initial a);
+  let count = Hashtbl.length numbers in
+  if count > 300 then None else
+    let pair = Array.make count (0, 0) in
+    List.iter (fun (n, p) -> pair.(n) <- p) !nodes;
+    let edges = Array.init count (Hashtbl.find edges) in
+    let possible = Array.init count (fun n -> all.(fst pair.(n))) in
+    let meets members k = List.exists (fun n -> Automaton.is_in a (snd pair.(n)) k) members in
+    let is_accepting members = List.for_all (meets members) (List.init (Automaton.acceptance_sets a) Fun.id) in
+    let without_event = Array.map (List.filter (fun e -> not e.is_event)) edges in
+    Some
+      (not
+         (List.exists is_accepting (components without_event)
+          || List.exists (fun members -> is_accepting members && is_fair possible edges members) (components edges)))
 
 (* {1 Comparison} *)
 
@@ -211,15 +278,33 @@ let said (verdict : Search.verdict) =
   | By_design _ -> "by design"
   | Unreached _ | Inconclusive _ -> "inconclusive"
 
-let compare source environment program =
+let note what = Hashtbl.replace found what (1 + Option.value ~default:0 (Hashtbl.find_opt found what))
+
+let formulas_agree source environment program g all formulas =
+  let shown = Format.asprintf "%a" (Formula.pp Format.pp_print_string) in
+  let read f = Result.get_ok (Temporal.of_string program (shown f)) in
+  let o = Search.run { Search.default with environment; formulas = List.map read formulas } program world in
+  let agrees f =
+    match holds_of_fair_runs program g all f with
+    | None -> true
+    | Some holds ->
+      let verdict = said (List.assoc (Property.Formula (shown f)) o.verdicts) in
+      let expected = if holds then "holds" else "violated" in
+      note ("formula " ^ expected);
+      verdict = expected || QCheck2.Test.fail_reportf "%s is %s, not %s, of %s" (shown f) verdict expected source
+  in
+  List.for_all agrees formulas
+
+let compare source environment program formulas =
   match Reference.explore ~limit:250 environment program world with
   | None -> true
   | Some g ->
-    match judged g with
-    | exception Ambiguous -> true
-    | judged ->
+    let all = try Some (all_edges g) with Ambiguous -> None in
+    match Option.map (fun all -> (all, judged g all)) all with
+    | None -> true
+    | Some (all, judged) ->
       let expected = text judged in
-      Hashtbl.replace found expected (1 + Option.value ~default:0 (Hashtbl.find_opt found expected));
+      note expected;
       let agrees reduction =
         let o = Search.run { Search.default with environment; reduction; search_again = 0 } program world in
         let verdict = said (List.assoc Property.Termination o.verdicts) in
@@ -227,6 +312,7 @@ let compare source environment program =
         verdict = expected || QCheck2.Test.fail_reportf "%s, %s expected (%s) of %s" verdict expected reductions source
       in
       List.for_all agrees [ Reduction.Whole; Partial_order; All ]
+      && formulas_agree source environment program g all formulas
 
 (* What goes round without any wait is refused where its text shows that. *)
 let is_refused ds =
@@ -235,14 +321,14 @@ let is_refused ds =
   in
   List.for_all of_round ds
 
-let agrees (source, (_, environment)) =
+let agrees ((source, (_, environment)), formulas) =
   match Pure_run.compile source with
-  | Ok program -> compare source environment program
+  | Ok program -> compare source environment program formulas
   | Error ds -> is_refused ds || failwith (Pure_run.explain source ds)
 
 let test_fairness () =
-  let print (source, (name, _)) = name ^ ":\n" ^ source in
-  let generator = QCheck2.Gen.(pair source (oneofl environments)) in
+  let print ((source, (name, _)), _) = name ^ ":\n" ^ source in
+  let generator = QCheck2.Gen.(pair (pair source (oneofl environments)) (list_repeat 2 formula)) in
   let test = QCheck2.Test.make ~count:programs ~print ~name:"termination by the definition" generator agrees in
   Test_support.Property.on_each_seed ~usual:20_261_123 ~programs test;
   Hashtbl.iter (Printf.printf "%s: %d\n") found
@@ -258,7 +344,8 @@ let special =
 let test_special () =
   let picks = "v1 = pick { id 'a' }\nv2 = pick { id 'b' }\nh = 0\n" in
   let in_environment source (_, environment) =
-    assert (compare source environment (Pure_run.compile_exn source))
+    let formulas = List.map (fun p -> Formula.Finally (Proposition p)) propositions in
+    assert (compare source environment (Pure_run.compile_exn source) formulas)
   in
   let check source = List.iter (in_environment (picks ^ source)) environments in
   List.iter check special
@@ -294,7 +381,7 @@ let test_variety () =
     if Option.value ~default:0 (Hashtbl.find_opt found verdict) * 20 < programs then
       Alcotest.failf "too few programs for: %s" verdict
   in
-  List.iter enough [ "holds"; "violated"; "by design" ]
+  List.iter enough [ "holds"; "violated"; "by design"; "formula holds"; "formula violated" ]
 
 let () =
   Alcotest.run "fairness"

@@ -75,6 +75,7 @@ let environments =
       { answering with faults = { Faults.none with fail = At_most 1; loss = At_most 1; join = At_most 1 } } );
     ("with all of it, twice", { answering with faults = twice });
     ("with inputs", { answering with inputs = Test_support.Posts.once });
+    ("with certain inputs", { answering with inputs = Test_support.Posts.inputs });
     ("with interruptions", { answering with faults = { Faults.none with interrupt = true } });
     ("with failures and interruptions", { answering with faults = { Faults.none with fail = Any_number; interrupt = true } }) ]
 
@@ -97,23 +98,6 @@ let print ((program, _), looped, (name, _), formulas) =
   Printf.sprintf "%s, %s:\n%s\n%s" name (if looped then "for ever" else "once") (Generate.print program)
     (String.concat "\n" (List.map shown formulas))
 
-(* What a position of a run is to formulas: the transition that led there, if any, and the state. *)
-let at program world =
-  let known = Hashtbl.create 8 in
-  let proposition text =
-    match Hashtbl.find_opt known text with
-    | Some p -> p
-    | None ->
-      let p = match Proposition.of_string program text with Ok p -> p | Error why -> failwith why in
-      Hashtbl.add known text p;
-      p
-  in
-  fun (transition, c) text ->
-    let p = proposition text in
-    if Proposition.needs_action p then
-      Option.fold ~none:false ~some:(fun t -> Proposition.holds_after p (Proposition.observed t)) transition
-    else Result.get_ok (Proposition.holds_in program world p c)
-
 let graph_of program (g : Reference.t) : _ Product_search.graph =
   let configuration i = g.states.(i).configuration in
   let successors i =
@@ -134,6 +118,17 @@ let limit = 800
 let judged = Hashtbl.create 7
 let note what = Hashtbl.replace judged what (1 + Option.value (Hashtbl.find_opt judged what) ~default:0)
 
+(* Of the runs that are fair: what holds of all runs holds of those, and what is shown is a violation.
+   [Test_fairness] compares them with the definition. *)
+let agrees_on_fair_runs program world environment at plain (f, verdict) =
+  match (verdict : Search.verdict) with
+  | Holds -> true
+  | Violated run ->
+    Product_search.satisfying ~holds:at plain (Not f) <> None
+    && is_run program world environment run
+    && not (Linear.holds at (word_of program run) f)
+  | Unreached _ | By_design _ | Inconclusive _ -> false
+
 let agrees_on program world environment at plain (f, verdict) =
   let expected = Product_search.satisfying ~holds:at plain (Not f) = None in
   match (verdict : Search.verdict) with
@@ -149,9 +144,9 @@ let agrees ((ast, world), looped, (_, environment), formulas) =
   match Reference.explore ~limit environment program world with
   | None | (exception Environment.Unclear _) -> note "are skipped"; true
   | Some reference ->
-    let plain = graph_of program reference and at = at program world in
+    let plain = graph_of program reference and at = Letters.holds program world in
     let read f = match Temporal.of_string program (shown f) with Ok f -> f | Error why -> failwith why in
-    let options = { Search.default with environment; formulas = List.map read formulas } in
+    let options = { Search.default with environment; formulas = List.map read formulas; fairness = No_fairness } in
     let options = { options with fork_from = 0; spare_bits = Some 0 } in
     let options =
       match Hashtbl.hash (Generate.print ast) mod 4 with
@@ -161,8 +156,11 @@ let agrees ((ast, world), looped, (_, environment), formulas) =
       | _ -> options
     in
     let o = Search.run options program world in
+    let fair = Search.run { options with fairness = Weak } program world in
+    let verdict (o : Search.outcome) f = List.assoc (Property.Formula (shown f)) o.verdicts in
     let judge f =
-      agrees_on program world environment at plain (f, List.assoc (Property.Formula (shown f)) o.verdicts)
+      (agrees_on program world environment at plain (f, verdict o f)
+       && agrees_on_fair_runs program world environment at plain (f, verdict fair f))
       || QCheck2.Test.fail_reportf "%s" (shown f)
     in
     List.for_all judge formulas
@@ -187,9 +185,8 @@ let print_properties_case (program, looped, failing) =
   Printf.sprintf "%s, %s:\n%s" (if failing then "failing" else "as planned") (if looped then "for ever" else "once")
     (Generate.print program)
 
-(* Each formula holds exactly if none of the properties is violated, or is not meant to hold: formulas know no design.
-   And formulas are about runs that are not fair, too: where a task may go round, one may be violated by a run on which
-   something is possible for ever and never taken, which termination leaves out. *)
+(* Each formula holds exactly if none of the properties is violated, or is not meant to hold: formulas know no
+   design. *)
 let agreements : (string * Property.t list) list =
   [ ("F ended", [ No_deadlock; Termination ]);
     ("G (ended -> G ended)", []);
@@ -213,18 +210,12 @@ let agrees_with_properties (ast, looped, failing) =
   let options = { Search.default with environment; limits = { Limits.none with max_states = Some 3_000 } } in
   let formulas = List.map (fun (text, _) -> read text) agreements in
   let o = Search.run { options with formulas } program Generate.world in
-  let goes_round (run : Search.run) =
-    let closes_round (t : Transition.t) =
-      List.exists (fun r -> List.mem r [ Rule.Repeat_2; Repeat_again; Watch_retry ]) t.rules
-    in
-    List.exists closes_round run.cycle
-  in
   let agree (text, properties) =
     match List.assoc (Property.Formula text) o.verdicts with
     | Inconclusive _ -> o.stopped <> None || o.states > 500
     | Holds -> not (List.exists (is_broken o) properties)
     | Violated run ->
-      (List.exists (is_broken o) properties || o.stopped <> None || goes_round run)
+      (List.exists (is_broken o) properties || o.stopped <> None)
       && is_run program Generate.world environment run
     | Unreached _ | By_design _ -> false
   in

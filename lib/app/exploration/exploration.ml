@@ -17,6 +17,7 @@ type settings = {
   timeout : float option;
   invariants : string list;
   formulas : string list;
+  fairness : Search.fairness;
 }
 
 let ( let* ) = Result.bind
@@ -46,7 +47,7 @@ let explore ~interrupted ~progress s (program : Program_file.t) (fleet : Fleet_f
       limits =
         Search_limits.make ?max_states:s.max_states ?max_depth:s.max_depth ?max_memory:s.max_memory ?timeout:s.timeout
           ~interrupted ~progress ();
-      invariants; formulas }
+      invariants; formulas; fairness = s.fairness }
   in
   Ok (Search.run options core (Scenario_world.world fleet.scenario))
 

@@ -19,6 +19,7 @@ type settings = {
   timeout : float option;  (** seconds *)
   invariants : string list;  (** expressions ({!Dolphin_explore.Condition}) *)
   formulas : string list;  (** of linear temporal logic ({!Dolphin_explore.Temporal}) *)
+  fairness : Dolphin_explore.Search.fairness;
 }
 
 val invariants :

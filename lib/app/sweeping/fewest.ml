@@ -27,7 +27,7 @@ type t =
 let exploration (s : Time_analysis.settings) : Exploration.settings =
   { answers = s.answers; faults = s.faults; reduction = All; compress = false; spill = None; walks = None;
     bitstate = None; workers = 1; max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory;
-    timeout = s.timeout; invariants = []; formulas = [] }
+    timeout = s.timeout; invariants = []; formulas = []; fairness = Weak }
 
 let part (fleet : Fleet_file.t) vehicles =
   let is_part (v : Scenario.vehicle) = List.mem v.id vehicles in

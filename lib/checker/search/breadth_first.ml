@@ -112,8 +112,10 @@ module Make (S : System.S) = struct
   let arrivals t i = arrivals_with ignore t i
 
   let rec visiting t i expand =
-    let arrived = ref ignore in
-    let visit key _ _ = !arrived (States.find t.states key) in
+    let arrived = ref (fun _ _ -> ()) in
+    let arrive key valuation = !arrived (States.find t.states key) valuation in
+    let visit key action _ =
+      match t.monitor with None -> arrive key 0 | Some monitor -> under t monitor key action (arrive key) in
     fetch t i;
     match expand t.key arrived { System.visit; tick = ignore; rest = ignore } with
     | found -> found

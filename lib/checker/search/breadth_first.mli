@@ -142,9 +142,10 @@ module Make (S : System.S) : sig
 
   type arrival = { into : int; action : int; valuation : int; via : S.via }
 
-  val visiting : t -> int -> (int array -> (int -> unit) ref -> S.via System.visitor -> 'a) -> 'a
+  val visiting : t -> int -> (int array -> (int -> int -> unit) ref -> S.via System.visitor -> 'a) -> 'a
   (** [visiting t i f] is [f key arrived v]: [key] is the vector of state [i], to be expanded with [v], which calls
-      [!arrived] with the number of each state that is visited, all of which are known. [f] may be called again. *)
+      [!arrived] with the number of each state that is visited, all of which are known, and the valuation, 0 without a
+      monitor. With a monitor, states after which no violation is possible are left out. [f] may be called again. *)
 
   val arrivals : t -> int -> arrival list
   (** [arrivals t i] is the states that transitions of the expanded state [i] lead to, in order. *)

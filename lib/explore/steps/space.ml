@@ -57,7 +57,9 @@ let expand_script t number (visitor : via System.visitor) =
   in
   Seq.iter go (choices t outside c);
   t.tick := ignore;
-  if not (!goes_on || owes t outside) then visitor.rest ();
+  let is_over =
+    match c.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false in
+  if is_over || not (!goes_on || owes t outside) then visitor.rest ();
   !taken
 
 (* {1 All steps} *)
@@ -156,10 +158,10 @@ let local_status t (x : Expansion.source) place step : Stubborn.status =
     else if result = special then dependent ()
     else Impossible
 
-(* Nothing is observed where steps are left out. *)
 let take_step t (x : Expansion.source) place step =
   let go shared' =
-    Expansion.go_to x place step.successor ~action:Observer.nothing shared';
+    let action = if Option.is_some t.observer then action t step x.shared else Observer.nothing in
+    Expansion.go_to x place step.successor ~action shared';
     1
   in
   match step.dependence with

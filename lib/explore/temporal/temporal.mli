@@ -2,8 +2,8 @@
     transition that led to it. A run that comes to an end, or cannot go on, stays in its last state for ever, without
     transitions.
 
-    Every run without end is fair (docs/explorer.md): so a formula holds of the program if it holds of every path of its
-    state graph. No reduction is used: propositions see every transition. *)
+    A formula holds of the program if it holds of every path of its state graph that is fair (docs/explorer.md), or of
+    every path: {!Search.fairness}. No reduction is used: propositions see every transition. *)
 
 open Dolphin_semantics
 

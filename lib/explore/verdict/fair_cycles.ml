@@ -1,4 +1,5 @@
 open Dolphin_semantics
+open Dolphin_checker
 open Dolphin_ltl
 
 type lasso = { stem : int list; around : int list }
@@ -12,8 +13,16 @@ type verdict =
 
 (* {1 The part of the graph in which tasks execute} *)
 
-(* Of a step, by its number: see {!Space.possible}. [renews] is the places of the repeats that begin a round. *)
-type edge = { into : int; by : int; is_event : bool; rounds : Task_rules.round list; renews : int list list }
+(* Of a step, by its number: see {!Space.possible}. [renews] is the places of the repeats that begin a round,
+   [valuation] that of a formula's propositions. *)
+type edge = {
+  into : int;
+  by : int;
+  is_event : bool;
+  rounds : Task_rules.round list;
+  renews : int list list;
+  valuation : int;
+}
 
 (* The steps that are possible and that nobody may prevent by staying away, and where those lead that are followed. *)
 type node = { possible : int list; edges : edge list }
@@ -24,7 +33,11 @@ type t = {
   numbers : (int list, int) Hashtbl.t;
   steps : (int, Space.possible) Hashtbl.t;  (* by number *)
   nodes : (int, node) Hashtbl.t;  (* by state *)
+  automaton : Monitor.t option;  (* then what is searched is pairs: see {!Formulas} below *)
 }
+
+let create ?automaton program graph =
+  { program; graph; numbers = Hashtbl.create 100; steps = Hashtbl.create 100; nodes = Hashtbl.create 1_000; automaton }
 
 let number t (p : Space.possible) =
   let id = p.at @ (-2 :: p.name) in
@@ -70,12 +83,13 @@ let examined t i =
       let possible p = found := (number t p, p) :: !found in
       let taken (p : Space.possible) rounds layers =
         let by = number t p and is_event = is_event p and renews = places_of rounds layers in
-        arrived := fun into -> edges := { into; by; is_event; rounds; renews } :: !edges
+        let arrive into valuation = edges := { into; by; is_event; rounds; renews; valuation } :: !edges in
+        arrived := arrive
       in
       Space.examine (State_graph.system t.graph) key ~possible ~taken visitor;
       { possible = certain t key !found; edges = List.rev !edges })
 
-let node t i =
+let node_of_state t i =
   match Hashtbl.find_opt t.nodes i with
   | Some node -> node
   | None ->
@@ -83,7 +97,53 @@ let node t i =
     Hashtbl.add t.nodes i node;
     node
 
-let executes t i = Space.executes (State_graph.system t.graph) (State_graph.load t.graph i).(0)
+let state_executes t i = Space.executes (State_graph.system t.graph) (State_graph.load t.graph i).(0)
+
+(* {1 Pairs}
+
+   With a formula, a node is the pair of a state and a state of the automaton in its set, as one number: only within
+   one component of the automaton, as no cycle leaves it. *)
+
+let pairs_after automaton q into valuation =
+  let n = Monitor.automaton_states automaton and component = Monitor.component automaton q in
+  let is_inside q' = component >= 0 && Monitor.component automaton q' = component in
+  List.map (fun q' -> (into * n) + q') (List.filter is_inside (Monitor.after automaton q valuation))
+
+let pairs_of t automaton states =
+  let n = Monitor.automaton_states automaton in
+  let of_state i =
+    let is_inside q = Monitor.component automaton q >= 0 in
+    List.map (fun q -> (i * n) + q) (List.filter is_inside (Monitor.members automaton (State_graph.set t.graph i)))
+  in
+  List.concat_map of_state states
+
+let split t i =
+  match t.automaton with
+  | None -> (i, 0)
+  | Some automaton ->
+    let n = Monitor.automaton_states automaton in
+    (i / n, i mod n)
+
+let node t i =
+  match t.automaton with
+  | None -> node_of_state t i
+  | Some automaton ->
+    let state, q = split t i in
+    let { possible; edges } = node_of_state t state in
+    let paired e = List.map (fun into -> { e with into }) (pairs_after automaton q e.into e.valuation) in
+    { possible; edges = List.concat_map paired edges }
+
+let executes t i = state_executes t (fst (split t i))
+
+(* What a cycle has to meet. *)
+let acceptance t =
+  match t.automaton with
+  | None -> []
+  | Some automaton ->
+    let set k i = Monitor.is_in automaton (snd (split t i)) k in
+    List.init (Monitor.acceptance_sets automaton) set
+
+let is_accepting t members = List.for_all (fun is_in -> List.exists is_in members) (acceptance t)
 let successors t keeps i = List.filter (fun e -> keeps e && executes t e.into) (node t i).edges
 
 (* {1 Components} *)
@@ -188,43 +248,49 @@ let cycle_graph edges : edge Cycles.graph =
 
 let rec last = function [ x ] -> x | _ :: rest -> last rest | [] -> invalid_arg "Fair_cycles.last"
 
-(* A way around the component that takes all steps that are owed, as far as the component does, and comes to a state in
-   which another is not possible. *)
-let lasso t keeps members =
+(* A way around the component that takes all steps that are owed, as far as the component does, comes to a state in
+   which another is not possible, and meets what it has to: its first node, and its edges. *)
+let around t keeps members =
   let edges = kept_inside t keeps members and start = List.fold_left min max_int members in
   let graph = cycle_graph edges in
   let to_goal from goal =
     if goal from then []
     else
       match Cycles.way graph ~within:(fun _ -> true) ~goal (graph.successors from) with
-      | Some way -> List.map fst way
-      | None -> invalid_arg "Fair_cycles.lasso: no component"
+      | Some way -> List.map snd way
+      | None -> invalid_arg "Fair_cycles.around: no component"
   in
   let is_taken k = List.exists (fun i -> List.exists (fun e -> e.by = k) (edges i)) members in
   let owed = List.filter is_taken (owed t edges members) in
   let go_on (from, cycle) k =
     let takes i = List.find_opt (fun e -> e.by = k) (edges i) in
     let way = to_goal from (fun i -> takes i <> None) in
-    let at = match way with [] -> from | way -> last way in
+    let at = match way with [] -> from | way -> (last way).into in
     match takes at with
-    | Some e -> (e.into, cycle @ way @ [ e.into ])
-    | None -> invalid_arg "Fair_cycles.lasso: a step that nobody takes"
+    | Some e -> (e.into, cycle @ way @ [ e ])
+    | None -> invalid_arg "Fair_cycles.around: a step that is not taken"
   in
-  let elsewhere (from, cycle) k =
-    let way = to_goal from (fun i -> not (List.mem k (node t i).possible)) in
-    ((match way with [] -> from | way -> last way), cycle @ way)
+  let meet (from, cycle) goal =
+    let way = to_goal from goal in
+    ((match way with [] -> from | way -> (last way).into), cycle @ way)
   in
+  let elsewhere k i = not (List.mem k (node t i).possible) in
   let everywhere k = List.for_all (fun i -> List.mem k (node t i).possible) members in
   let sometimes = List.filter (fun k -> not (everywhere k)) (node t start).possible in
-  let from, cycle = List.fold_left elsewhere (List.fold_left go_on (start, []) owed) sometimes in
+  let goals = List.map elsewhere sometimes @ acceptance t in
+  let from, cycle = List.fold_left meet (List.fold_left go_on (start, []) owed) goals in
   let back =
     if from = start && cycle <> [] then []
     else
       match Cycles.way graph ~within:(fun _ -> true) ~goal:(Int.equal start) (graph.successors from) with
-      | Some way -> List.map fst way
-      | None -> invalid_arg "Fair_cycles.lasso: no way back"
+      | Some way -> List.map snd way
+      | None -> invalid_arg "Fair_cycles.around: no way back"
   in
-  { stem = State_graph.path t.graph start; around = start :: (cycle @ back) }
+  (start, cycle @ back)
+
+let lasso t keeps members =
+  let start, cycle = around t keeps members in
+  { stem = State_graph.path t.graph start; around = start :: List.map (fun e -> e.into) cycle }
 
 (* {1 Cycles of the script} *)
 
@@ -283,7 +349,7 @@ let by_design t members =
   (found endless, retries, left_by t members ~done_too:(retries <> []))
 
 let judge program graph ~all:whole =
-  let t = { program; graph; numbers = Hashtbl.create 100; steps = Hashtbl.create 100; nodes = Hashtbl.create 1_000 } in
+  let t = create program graph in
   let tick = State_graph.ticker graph "looking for cycles" in
   let states = List.filter (executes t) (State_graph.all graph) in
   let of_kind keeps =
@@ -314,3 +380,51 @@ let judge program graph ~all:whole =
             let repeats = together (fun (repeats, _, _) -> repeats) in
             let retries = together (fun (_, retries, _) -> retries) in
             By_design { repeats; retries; left_by = together (fun (_, _, left_by) -> left_by) }))
+
+(* {1 Formulas} *)
+
+(* An accepting cycle through the script, in which no step stays possible all around. *)
+let accepting_through_script t automaton ~tick =
+  if not (Space.may_cycle_in_script (State_graph.system t.graph)) then None
+  else
+    let successors i =
+      let state, q = split t i in
+      let after (a : State_graph.arrival) =
+        List.map (fun into -> (into, a.valuation)) (pairs_after automaton q a.into a.valuation) in
+      List.concat_map after (State_graph.arrivals t.graph state)
+    in
+    let sets = Monitor.acceptance_sets automaton in
+    let is_in i k = if k = sets then not (executes t i) else Monitor.is_in automaton (snd (split t i)) k in
+    let graph : int Cycles.graph = { successors; sets = sets + 1; is_in } in
+    let starts = List.filter (fun i -> not (state_executes t i)) (State_graph.all t.graph) in
+    let shown component =
+      let start = Cycles.first component in
+      let cycle = Cycles.around graph component start in
+      (fst (split t start), List.map (fun (i, valuation) -> (fst (split t i), valuation)) cycle)
+    in
+    Option.map shown (Cycles.find ~tick graph (pairs_of t automaton starts))
+
+let violation program graph automaton : Breadth_first.violation option =
+  let t = create ~automaton program graph in
+  let tick = State_graph.ticker graph "checking formulas" in
+  let pairs = pairs_of t automaton (List.filter (state_executes t) (State_graph.all graph)) in
+  let accepting keeps is_fair =
+    let is_it members = is_accepting t members && is_fair members in
+    let shown members =
+      let start, cycle = around t keeps members in
+      (fst (split t start), List.map (fun e -> (fst (split t e.into), e.valuation)) cycle)
+    in
+    Option.map shown (List.find_opt is_it (components t ~tick keeps pairs))
+  in
+  let all _ = true in
+  let ways =
+    [ (fun () -> accepting_through_script t automaton ~tick);
+      (fun () -> accepting (fun e -> not e.is_event) (fun _ -> true));
+      (fun () -> accepting all (fun members -> fairness t all members = Fair)) ]
+  in
+  let rec first = function
+    | [] -> None
+    | way :: ways -> (match way () with Some found -> Some found | None -> first ways)
+  in
+  let of_found (start, cycle) = Breadth_first.Around { stem = State_graph.path graph start; cycle } in
+  Option.map of_found (first ways)

@@ -3,6 +3,7 @@ open Dolphin_environment
 open Dolphin_checker
 
 type walks = { number : int; seed : int }
+type fairness = Weak | No_fairness
 
 type options = {
   environment : Environment.options;
@@ -18,6 +19,7 @@ type options = {
   limits : Limits.t;
   invariants : Condition.t list;
   formulas : Temporal.t list;
+  fairness : fairness;
 }
 
 let default =
@@ -35,6 +37,7 @@ let default =
     limits = Limits.none;
     invariants = [];
     formulas = [];
+    fairness = Weak;
   }
 
 type run = { steps : Transition.t list; cycle : Transition.t list; shortest : bool }
@@ -210,8 +213,16 @@ let formula x (options : options) f : verdict * int * int =
       let found = Counterexample.of_violation ~tick options.environment x.program x.world graph labelling violation in
       { steps = found.steps; cycle = found.cycle; shortest = false }
     in
+    let in_fair_runs (verdict : _ Breadth_first.verdict) : _ Breadth_first.verdict =
+      match verdict, options.fairness with
+      | Violated (Breadth_first.Around _), Weak when Space.goes_round (State_graph.system graph) -> (
+          match Fair_cycles.violation x.program graph (Labelling.monitor labelling) with
+          | Some violation -> Violated violation
+          | None -> Holds)
+      | (Holds | Violated _ | Inconclusive _), (Weak | No_fairness) -> verdict
+    in
     State_graph.run graph;
-    let verdict = told (fun () -> of_verdict run (State_graph.formula graph)) in
+    let verdict = told (fun () -> of_verdict run (in_fair_runs (State_graph.formula graph))) in
     (verdict, State_graph.count graph, State_graph.memory graph)
   in
   match

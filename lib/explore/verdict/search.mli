@@ -8,6 +8,11 @@ open Dolphin_checker
 
 type walks = { number : int; seed : int }
 
+(** Of which runs formulas are asked. *)
+type fairness =
+  | Weak  (** those that are fair as for {!Property.Termination}, and those that go on for ever without any event *)
+  | No_fairness  (** all *)
+
 type options = {
   environment : Environment.options;
   reduction : Reduction.t;
@@ -31,6 +36,7 @@ type options = {
   limits : Limits.t;
   invariants : Condition.t list;
   formulas : Temporal.t list;  (** for each, states are explored anew, after all others are forgotten *)
+  fairness : fairness;  (** [Weak] by default *)
 }
 
 val default : options

@@ -5,12 +5,14 @@ import dataclasses
 import hashlib
 import json
 import math
+import re
 
 from .wire import mavlink
 
 WAYPOINT, LOITER_UNLIMITED, LOITER_TURNS, LOITER_TIME = 16, 17, 18, 19
 RETURN, LAND, TAKE_OFF, VTOL_TAKE_OFF, VTOL_LAND, DELAY = 20, 21, 22, 84, 85, 93
 JUMP, CHANGE_SPEED = 177, 178
+JUMP_TO_TAG = 601
 
 # Frames in the form of MISSION_ITEM_INT; an autopilot may give back the same frame in its other form.
 GLOBAL, RELATIVE, MISSION_FRAME = 5, 6, 2
@@ -19,6 +21,9 @@ _FRAMES = {0, 2, 3, 5, 6, 10, 11}
 
 # Commands with a place; and the parameters that decide what a vehicle does: they must come back as they were sent.
 LOCATED = {16, 17, 18, 19, 21, 22, 31, 82, 84, 85, 201, 195}
+# Those of them that a vehicle flies to.
+_FLOWN_TO = LOCATED - {195, 201}
+_NEED_A_PLACE = {16, 31, 82, 195, 201}
 _DECISIVE = {16: (1,), 18: (1,), 19: (1,), 93: (1,), 112: (1,), 177: (1, 2), 178: (2,)}
 
 
@@ -133,9 +138,13 @@ class Mission:
 def _number(value, what, default=0.0):
     if value is None:
         return default
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
-        raise Unreadable(f"{what} is no number")
-    return float(value)
+    try:
+        number = math.inf if isinstance(value, bool) else float(value) if isinstance(value, (int, float)) else math.inf
+    except OverflowError:
+        number = math.inf
+    if not math.isfinite(number):
+        raise Unreadable(f"{what} is not a number")
+    return number
 
 
 def _item(command, frame, values, autocontinue, what):
@@ -151,6 +160,11 @@ def _item(command, frame, values, autocontinue, what):
     latitude, longitude, z = named[4:]
     if command in LOCATED and not (abs(latitude) <= 90 and abs(longitude) <= 180):
         raise Unreadable(f"{what} is at {latitude:g}, {longitude:g}, which is no place")
+    unset = [value is None for value in values[4:6]]
+    if command in LOCATED and (unset[0] != unset[1] or (any(unset) and command in _NEED_A_PLACE)):
+        raise Unreadable(f"{what} has no place")
+    if command in _FLOWN_TO and frame == MISSION_FRAME and (latitude, longitude) != (0, 0):
+        raise Unreadable(f"{what} flies to a place, and frame {frame} has none")
     scale = 1e7 if command in LOCATED else 1
     x, y = round(latitude * scale), round(longitude * scale)
     if max(abs(x), abs(y)) >= 2**31:
@@ -158,13 +172,55 @@ def _item(command, frame, values, autocontinue, what):
     return Item(command, _SAME_FRAME.get(frame, frame), tuple(named[:4]), x, y, z, 1 if autocontinue else 0)
 
 
+def _with_jumps(items, numbers):
+    """`items` with each jump to the place of its target among them, from 1. `numbers` are the items' own in the file,
+    which its jumps name; None where an item has none."""
+    found = []
+    for n, item in enumerate(items, 1):
+        if item.command == JUMP:
+            target = item.params[0]
+            places = [place for place, number in enumerate(numbers, 1) if number is not None and number == target]
+            if len(places) != 1:
+                which = "is the number of no item" if not places else f"is that of {len(places)} items"
+                raise Unreadable(f"item {n} jumps to number {target:g}, which {which} of the file")
+            item = dataclasses.replace(item, params=(float(places[0]), *item.params[1:]))
+        found.append(item)
+    return found
+
+
+_LANDING_PATTERNS = {"fwLandingPattern", "vtolLandingPattern"}
+
+
+def _refuse_constant(name):
+    raise ValueError(f"{name} is not JSON")
+
+
+def _json(text):
+    try:
+        plan = json.loads(text, parse_constant=_refuse_constant)
+    except (ValueError, RecursionError):
+        return None
+    return plan if isinstance(plan, dict) else None
+
+
 def _of_plan(text):
     """A `.plan` of QGroundControl, of simple items, and of complex ones that list their items."""
-    try:
-        items = json.loads(text)["mission"]["items"]
-    except (ValueError, KeyError, TypeError):
-        raise Unreadable("it is no plan of QGroundControl") from None
-    flat = []
+    mission = (_json(text) or {}).get("mission")
+    if not isinstance(mission, dict) or "items" not in mission:
+        raise Unreadable("it is no plan of QGroundControl")
+    flat, numbers = [], []
+
+    def add_complex(entry):
+        kind = entry.get("complexItemType")
+        if kind in _LANDING_PATTERNS:
+            raise Unreadable(
+                f"its landing pattern ({kind}) is not flown: replace it by way points and LAND, or by a return"
+            )
+        transects = entry.get("TransectStyleComplexItem")
+        inner = transects if isinstance(transects, dict) else entry
+        if "Items" not in inner:
+            raise Unreadable(f"its item of type {kind} lists no items: save it anew")
+        add(inner["Items"])
 
     def add(entries):
         if not isinstance(entries, list):
@@ -172,50 +228,97 @@ def _of_plan(text):
         for entry in entries:
             if not isinstance(entry, dict):
                 raise Unreadable("an item is no object")
-            if entry.get("type") == "ComplexItem":
-                transects = entry.get("TransectStyleComplexItem")
-                inner = transects if isinstance(transects, dict) else entry
-                if "Items" not in inner:
-                    raise Unreadable(f"its item of type {entry.get('complexItemType')} lists no items: save it anew")
-                add(inner["Items"])
+            kind = entry.get("type", "SimpleItem")
+            if kind == "ComplexItem":
+                add_complex(entry)
+            elif kind == "SimpleItem":
+                command, frame, params = (entry.get(key) for key in ("command", "frame", "params"))
+                flat.append(_item(command, frame, params, entry.get("autoContinue", True), f"item {len(flat) + 1}"))
+                numbers.append(entry.get("doJumpId"))
             else:
-                what = f"item {len(flat) + 1}"
-                flat.append(
-                    _item(
-                        entry.get("command"),
-                        entry.get("frame"),
-                        entry.get("params"),
-                        entry.get("autoContinue", True),
-                        what,
-                    )
-                )
+                raise Unreadable(f"item {len(flat) + 1} is of type {kind}, which Dolphin does not know")
 
-    add(items)
-    return flat
+    add(mission["items"])
+    if all(number is None for number in numbers):
+        numbers = list(range(1, len(flat) + 1))
+    return _with_jumps(flat, numbers)
+
+
+def left_out(name, text):
+    """The parts of the file `name` that are not flown, in words; None if there are none."""
+    if not name.endswith(".plan"):
+        return None
+    plan = _json(text.removeprefix(_MARK)) or {}
+    fence, rally = plan.get("geoFence"), plan.get("rallyPoints")
+    has_fence = isinstance(fence, dict) and (fence.get("polygons") or fence.get("circles"))
+    has_rally = isinstance(rally, dict) and rally.get("points")
+    parts = ["its fence"] * bool(has_fence) + ["its rally points"] * bool(has_rally)
+    return f"{' and '.join(parts)} {'is' if parts == ['its fence'] else 'are'} not uploaded" if parts else None
+
+
+_WHOLE = re.compile(r"[0-9]{1,9}")
+_DECIMAL = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
+
+
+def _column(text):
+    """The number in a column, None for `nan`: the autopilot's own choice."""
+    if text.lower() in ("nan", "-nan"):
+        return None
+    if not _DECIMAL.fullmatch(text):
+        raise ValueError(text)
+    return float(text)
+
+
+def _whole_column(text):
+    if not _WHOLE.fullmatch(text):
+        raise ValueError(text)
+    return int(text)
+
+
+# A row 0 with WAYPOINT is the home position. Ground stations take any first row as that, and lose it.
+def _check_home(number, item):
+    if number == 0 and item.command != WAYPOINT:
+        raise Unreadable(
+            f"row 0 is the home position, a WAYPOINT ({WAYPOINT}), and has command {item.command}: put a row before it"
+        )
+    if number != 0 and item.command == WAYPOINT:
+        raise Unreadable(
+            f"its first row is number {number}: number the home position 0, or put a row 0 with it before this one"
+        )
 
 
 def _of_waypoints(text):
-    """A `.waypoints`: a first line `QGC WPL 110`, then twelve columns; item 0 is the home position."""
-    lines = [line for line in text.splitlines() if line.strip()]
+    """A `.waypoints`: a first line `QGC WPL 110`, then rows of twelve columns; a row 0 is the home position. A file
+    that begins with another row, a take-off, has none."""
+    lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
     if not lines or lines[0].split()[:3] != ["QGC", "WPL", "110"]:
         raise Unreadable("its first line is not QGC WPL 110")
-    items = []
+    items, numbers = [], []
     for line in lines[1:]:
         what = f"item {len(items)}"
         columns = line.split()
         if len(columns) != 12:
             raise Unreadable(f"{what} has {len(columns)} columns instead of 12")
         try:
-            frame, command = int(columns[2]), int(columns[3])
-            values = [float(c) for c in columns[4:11]]
+            number, _, frame, command = (_whole_column(c) for c in columns[:4])
+            values = [_column(c) for c in columns[4:11]]
         except ValueError:
             raise Unreadable(f"{what} has a column that is no number") from None
         items.append(_item(command, frame, values, columns[11] != "0", what))
-    return items[1:]
+        numbers.append(number)
+    if items:
+        _check_home(numbers[0], items[0])
+    if numbers and numbers[0] == 0:
+        del items[0], numbers[0]
+    return _with_jumps(items, numbers)
+
+
+_MARK = "\ufeff"  # of byte order
 
 
 def of_file(name, text):
     """The items of the file `name`, which has `text`. Raises Unreadable."""
+    text = text.removeprefix(_MARK)
     items = _of_plan(text) if name.endswith(".plan") else _of_waypoints(text)
     if not items:
         raise Unreadable("it has no items")
@@ -223,9 +326,11 @@ def of_file(name, text):
 
 
 def problems(items):
-    """What keeps any vehicle from carrying out `items`: places that are none, jumps that lead nowhere."""
+    """What keeps any vehicle from carrying out `items`: jumps that lead nowhere, or that cannot be followed."""
     found = []
     for n, item in enumerate(items, 1):
+        if item.command == JUMP_TO_TAG:
+            found.append(f"item {n} jumps to a tag, which Dolphin cannot follow: use DO_JUMP")
         if item.command == JUMP and not 1 <= item.params[0] <= len(items):
             found.append(f"item {n} jumps to item {item.params[0]:g}, and there are {len(items)}")
     return found

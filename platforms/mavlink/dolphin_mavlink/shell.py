@@ -148,7 +148,10 @@ def read_missions(directory):
             continue
         try:
             with open(os.path.join(directory, file), encoding="utf-8") as opened:
-                stored[name] = missions.of_file(file, opened.read())
+                text = opened.read()
+            stored[name] = missions.of_file(file, text)
+            if unused := missions.left_out(file, text):
+                print(f"{file}: {unused}", file=sys.stderr)
         except (OSError, UnicodeDecodeError, missions.Unreadable, RecursionError) as error:
             stored[name] = f"{file}: {error}"
     return stored

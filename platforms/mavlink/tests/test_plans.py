@@ -1,5 +1,6 @@
 """Stored missions, inline plans: what they become, and what is refused with which words."""
 
+import json
 import math
 import os
 import tempfile
@@ -91,6 +92,101 @@ class Files(unittest.TestCase):
         found = mission.of_file("a.waypoints", WAYPOINTS)
         self.assertEqual([(i.command, i.params[0]) for i in found], [(22, 0.0), (16, 5.0)])
 
+    def test_jumps_of_plans_name_items_by_their_ids(self):
+        def plan(*items):
+            place = {16: [0, 0, 0, None, 41.19, -8.7, 50], 22: [0, 0, 0, None, 41.185, -8.706, 30]}
+            entries = [
+                {
+                    "type": "SimpleItem",
+                    "command": command,
+                    "frame": 2 if command == 177 else 3,
+                    "params": [to, 2, 0, 0, 0, 0, 0] if command == 177 else place[command],
+                    "doJumpId": number,
+                }
+                for command, number, to in items
+            ]
+            return json.dumps({"fileType": "Plan", "mission": {"items": entries}})
+
+        found = mission.of_file("a.plan", plan((22, 2, 0), (16, 3, 0), (16, 4, 0), (177, 5, 3)))
+        self.assertEqual(found[3].params[:2], (2.0, 2.0))
+        found = mission.of_file("a.plan", plan((22, 9, 0), (177, 3, 9), (16, 1, 0), (177, 4, 1)))
+        self.assertEqual([i.params[0] for i in found if i.command == 177], [1.0, 3.0])
+        for items, why in (
+            (((22, 2, 0), (177, 3, 1)), "item 2 jumps to number 1, which is the number of no item of the file"),
+            (((22, 2, 0), (16, 2, 0), (177, 3, 2)), "item 3 jumps to number 2, which is that of 2 items of the file"),
+            (((22, 2, 0), (177, 3, 2.5)), "item 2 jumps to number 2.5, which is the number of no item of the file"),
+        ):
+            with self.assertRaises(Unreadable) as caught:
+                mission.of_file("a.plan", plan(*items))
+            self.assertEqual(str(caught.exception), why)
+
+    def test_jumps_to_tags_are_refused(self):
+        with self.assertRaises(plans.Refused) as caught:
+            read({"name": "a"}, stored={"a": (*way(2), Item(601, params=(1.0, -1.0, 0.0, 0.0)))})
+        self.assertEqual(
+            caught.exception.problems, ["item 3 jumps to a tag, which Dolphin cannot follow: use DO_JUMP"]
+        )
+
+    def test_what_is_left_out_of_a_plan_is_named(self):
+        fence = '"geoFence": {"polygons": [[0]], "circles": []}'
+        rally = '"rallyPoints": {"points": [[1, 2, 3]]}'
+        self.assertIsNone(mission.left_out("a.plan", PLAN))
+        self.assertIsNone(mission.left_out("a.waypoints", WAYPOINTS))
+        self.assertEqual(mission.left_out("a.plan", "{%s}" % fence), "its fence is not uploaded")
+        self.assertEqual(
+            mission.left_out("a.plan", "{%s, %s}" % (fence, rally)),
+            "its fence and its rally points are not uploaded",
+        )
+
+    def test_the_first_row_of_waypoints(self):
+        head, home, *rows = WAYPOINTS.splitlines()
+        take_off = "1\t0\t3\t84\t0\t0\t-0.0\t0\t41.185\t-8.706\t10\t1"
+
+        def commands(*lines):
+            return [i.command for i in mission.of_file("a.waypoints", "\n".join([head, *lines]))]
+
+        self.assertEqual(commands(home, *rows), [22, 16])
+        self.assertEqual(commands(take_off, *rows), [84, 22, 16])
+        for first, why in (
+            (
+                "0" + take_off[1:],
+                "row 0 is the home position, a WAYPOINT (16), and has command 84: put a row before it",
+            ),
+            (
+                "1" + home[1:],
+                "its first row is number 1: number the home position 0, or put a row 0 with it before this one",
+            ),
+        ):
+            with self.assertRaises(Unreadable) as caught:
+                commands(first, *rows)
+            self.assertEqual(str(caught.exception), why)
+
+    def test_jumps_of_waypoints_name_rows(self):
+        head, home, *rows = WAYPOINTS.splitlines()
+        jump = "3\t0\t2\t177\t2\t4\t0\t0\t0\t0\t0\t1"
+        found = mission.of_file("a.waypoints", "\n".join([head, home, *rows, jump]))
+        self.assertEqual(found[2].params[:2], (2.0, 4.0))
+        take_off = rows[0].replace("\t22\t", "\t84\t")
+        with self.assertRaises(Unreadable):
+            mission.of_file("a.waypoints", "\n".join([head, take_off, *rows, jump.replace("177\t2", "177\t1")]))
+
+    def test_comments_a_byte_order_mark_and_nan_in_waypoints(self):
+        text = "\ufeff# mine\n" + WAYPOINTS.replace("22\t0\t0\t0\t0\t", "22\t0\tNaN\t0\tnan\t") + "# end\n"
+        found = mission.of_file("a.waypoints", text)
+        self.assertEqual([i.command for i in found], [22, 16])
+        self.assertEqual(found[0].params[1], 0.0)
+        self.assertTrue(math.isnan(found[0].params[3]))
+        self.assertEqual(len(mission.of_file("a.plan", "\ufeff" + PLAN)), 5)
+
+    def test_numbers_are_those_of_the_format(self):
+        for bad in ("1_0", "0x29", "inf", "1e999", "\u0661", "--1", "1e", "."):
+            for column in ("\t5\t", "\t41.186\t"):
+                with self.assertRaises(Unreadable):
+                    mission.of_file("a.waypoints", WAYPOINTS.replace(column, f"\t{bad}\t"))
+        for bad in ("NaN", "Infinity", "1e999", "1" + "0" * 400, "true", '"5"'):
+            with self.assertRaises(Unreadable):
+                mission.of_file("a.plan", PLAN.replace("41.186", bad))
+
     def test_unreadable_ones_say_why(self):
         for name, text, why in (
             ("a.plan", "{", "it is no plan of QGroundControl"),
@@ -112,6 +208,28 @@ class Files(unittest.TestCase):
                 '{"mission": {"items": [{"type": "ComplexItem", "complexItemType": "survey"}]}}',
                 "its item of type survey lists no items: save it anew",
             ),
+            (
+                "a.plan",
+                '{"mission": {"items": [{"type": "ComplexItem", "complexItemType": "fwLandingPattern"}]}}',
+                "its landing pattern (fwLandingPattern) is not flown: "
+                "replace it by way points and LAND, or by a return",
+            ),
+            (
+                "a.plan",
+                '{"mission": {"items": [{"type": "Marker"}]}}',
+                "item 1 is of type Marker, which Dolphin does not know",
+            ),
+            (
+                "a.plan",
+                '{"mission": {"items": [{"command": 16, "frame": 3, "params": [0,0,0,0,null,null,0]}]}}',
+                "item 1 has no place",
+            ),
+            (
+                "a.plan",
+                '{"mission": {"items": [{"command": 16, "frame": 2, "params": [0,0,0,0,41,-8,0]}]}}',
+                "item 1 flies to a place, and frame 2 has none",
+            ),
+            ("a.plan", "[" * 100000, "it is no plan of QGroundControl"),
             ("a.waypoints", "", "its first line is not QGC WPL 110"),
             ("a.waypoints", WAYPOINTS + "1 2\n", "item 3 has 2 columns instead of 12"),
             ("a.waypoints", WAYPOINTS.replace("41.186", "north"), "item 2 has a column that is no number"),

@@ -91,7 +91,7 @@ let check_sampling (s : Run.settings) show ~follow ~resumed ~keep =
                             and --speed")
   else if
     follow <> None || resumed <> None || keep || s.supplier <> None || s.supplier_timeout <> None
-    || s.recording <> { Recording.nothing with drawing = s.recording.drawing }
+    || Recording.is_wanted { s.recording with drawing = None }
     || show.Terminal_run.quiet || show.only <> [] || show.colour <> None
   then
     Error (Error.Bad_input "of many runs (--runs, --until) there is one answer: of the other options only --fleet, \

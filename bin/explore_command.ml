@@ -78,7 +78,12 @@ let of_program settings (program : Program_file.t) fleet ~strict ~json ~period ~
   | Error _ -> Ok Exit_status.Platform_trouble
 
 let of_values settings sweep fleet ~strict ~json ~period ~files ~cache =
-  if cache || files <> { trace = None; drawing = None; junit = None; sarif = None } then
+  let are_files =
+    match files with
+    | { trace = None; drawing = None; junit = None; sarif = None } -> false
+    | { trace = _; drawing = _; junit = _; sarif = _ } -> true
+  in
+  if cache || are_files then
     let options = "--trace, --draw, --junit, --sarif and --cache" in
     Error (Error.Bad_input (options ^ " are for one program: give --set no range of values"))
   else

@@ -111,7 +111,10 @@ let suggested (s : Scenario.t) (program : Dolphin_semantics.Core.program) : json
   let of_key key =
     let typed x =
       let text = Format.asprintf "%a" Dolphin_semantics.Value.pp x in
-      if Typed_input.read (key ^ ": " ^ text) = Ok [ (key, x) ] then Some text else None in
+      match Typed_input.read (key ^ ": " ^ text) with
+      | Ok [ (k, y) ] when k = key && Dolphin_semantics.Value.compare x y = 0 -> Some text
+      | Ok _ | Error _ -> None
+    in
     let values (i : Scenario.input) = if i.key = key then List.concat i.rounds else [] in
     match List.sort_uniq compare (List.filter_map typed (List.concat_map values s.inputs)) with
     | [] -> None

@@ -66,7 +66,7 @@ let set_analysis h subject started =
   changed h
 
 let set_helm h helm =
-  if helm <> h.helm then begin
+  if not (Helm.equal helm h.helm) then begin
     h.helm <- helm;
     changed h
   end

@@ -1,5 +1,6 @@
 type t = { holder : string option; asking : string list }
 
+let equal a b = Option.equal String.equal a.holder b.holder && List.equal String.equal a.asking b.asking
 let free = { holder = None; asking = [] }
 let holder h = h.holder
 let asking h = h.asking

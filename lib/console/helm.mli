@@ -5,6 +5,8 @@ type t
 val free : t
 (** Nobody has the helm. *)
 
+val equal : t -> t -> bool
+
 val holder : t -> string option
 val asking : t -> string list
 (** Those who ask for it, the first one first. *)

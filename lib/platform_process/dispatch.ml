@@ -69,7 +69,10 @@ let timeout_of v d = Option.value (Names.find_opt v d.timeouts) ~default:d.timeo
 (* {1 Events} *)
 
 let all_news d = d.ready @ List.rev d.news
-let changed v d = if List.mem (Changed v) d.ready || List.mem (Changed v) d.news then d else tell (Changed v) d
+let is_change v = function Changed w -> String.equal v w | Told _ -> false
+
+let changed v d =
+  if List.exists (is_change v) d.ready || List.exists (is_change v) d.news then d else tell (Changed v) d
 
 (* What is known of a vehicle goes before the end of its task. *)
 let end_task v event d = tell (Told event) (changed v d)

@@ -40,7 +40,7 @@ let see time (state : World.vehicle_state) s =
   let said = { s with unsaid = without state.id s.unsaid } in
   if Fleet.told state.id s.f = Some state then said
   else
-    match until ~last:time (fun event -> event = Platform.Vehicle state) s with
+    match until ~last:time (function Platform.Vehicle told -> told = state | _ -> false) s with
     | Some s -> { s with unsaid = without state.id s.unsaid }
     | None -> said
 

@@ -13,8 +13,8 @@ let equal_input (a : input) (b : input) =
   let equal_value x y = Value.compare x y = 0 in
   a.key = b.key && a.times = b.times && a.after = b.after && List.equal (List.equal equal_value) a.rounds b.rounds
 
-(* Areas are plain data. *)
-let equal_fence (a : Fences.fence) (b : Fences.fence) = a.rule = b.rule && a.margin = b.margin && a.text = b.text
+let equal_fence (a : Fences.fence) (b : Fences.fence) =
+  Fences.equal_rule a.rule b.rule && a.margin = b.margin && a.text = b.text
 
 (* The rest is plain data without functions or cycles, and without numbers that are none. *)
 let equal (a : t) (b : t) =

@@ -157,3 +157,20 @@ A state of another place of the run is no step of it.
   $ dolphin successors relay.dol --run < without
   dolphin: state 3 of the run is no state of this program: it names a part that was not given
   [2]
+
+States that hold areas are the same states when they are read again.
+
+  $ cat > areas.dol <<'END'
+  > quay = location(41.185, -8.70)
+  > a = polygon([quay, quay.displace(0, 300), quay.displace(200, 300), quay.displace(200, 0)])
+  > b = polygon([quay.displace(150, -10), quay.displace(151, 500), quay.displace(299, 370), quay.displace(299, 11)])
+  > v = pick { region a + b; count 1 }
+  > execute imcPlan('a')
+  > assert { false }, 'over'
+  > END
+  $ cat > areas.fleet <<'END'
+  > vehicle 'noptilus-1', { type 'UUV'; at 41.1858, -8.699 }
+  > END
+  $ python3 search.py areas.dol > found
+  $ dolphin successors areas.dol --run < run | tail -n 1
+  6   fault(assertion failed: over)                         areas.dol:6

@@ -30,8 +30,10 @@ let is_stuck r = Environment.is_stuck r.world.options r.world.program r.now.outs
 let after ((t : Transition.t), outside) = { configuration = t.next; outside }
 let is_step (t : Transition.t) (t' : Transition.t) = Label.equal t.label t'.label && Configuration.equal t.next t'.next
 
+let assumes (t : Transition.t) assumed = List.compare World.compare_assumption t.assumed assumed = 0
+
 let same ((t : Transition.t), e) ((t' : Transition.t), e') =
-  is_step t t' && t.assumed = t'.assumed && Environment.compare e e' = 0
+  is_step t t' && assumes t t'.assumed && Environment.compare e e' = 0
 
 let is_next r choice = match r.ahead with next :: _ -> same next choice | [] -> false
 
@@ -55,7 +57,7 @@ let rec goto n r =
 (* The choice that [t] is, under the same assumptions if there is one: the outside may have fewer. *)
 let choice_of world state (t : Transition.t) =
   let find p = Environment.find p (choices_of world state) in
-  match find (fun ((t' : Transition.t), _) -> is_step t t' && t'.assumed = t.assumed) with
+  match find (fun ((t' : Transition.t), _) -> is_step t t' && assumes t t'.assumed) with
   | Some _ as choice -> choice
   | None -> find (fun (t', _) -> is_step t t')
 

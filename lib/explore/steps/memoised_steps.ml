@@ -36,7 +36,8 @@ let world t = Components.world t.components
 let outside_after t (Task_rules.Step { offer; _ }) event outside =
   match offer with
   | End_of (task, v) ->
-    List.assoc_opt event (Environment.task_ends (Components.options t.components) outside v task)
+    let is_it (event', _) = Transition.equal_event event event' in
+    Option.map snd (List.find_opt is_it (Environment.task_ends (Components.options t.components) outside v task))
   | Recruit_for _ -> (
       match event with Transition.Recruited (_, v) -> Some (Environment.heard_of v outside) | _ -> Some outside)
   | Start _ | Perform _ | Check _ | Refute _ | Decide _ | Take _ | Measure _ | Make _ | Allocate _

@@ -425,7 +425,7 @@ let in_step options program world ~image found =
       Option.map real (Lockstep.follow options.environment world program ~image ~ends_alike { steps; cycle })
   in
   let verdicts = List.map of_verdict found.verdicts in
-  if List.mem None verdicts then None
+  if List.exists Option.is_none verdicts then None
   else Some { found with verdicts = List.filter_map Fun.id verdicts; alike_values = true }
 
 let judged_with_alike_values (options : options) program world =

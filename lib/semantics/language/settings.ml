@@ -34,7 +34,10 @@ let pp_pick ppf pick =
    | Exactly n -> Format.fprintf ppf "%d vehicles" n);
   pp_filter ppf pick.filter
 
-let compare_pick (a : pick) (b : pick) = Stdlib.compare a b
+let compare_pick (a : pick) (b : pick) =
+  Order.both (Vehicle_filter.compare a.filter b.filter) (fun () ->
+      Stdlib.compare (a.count, a.timeout, a.otherwise) (b.count, b.timeout, b.otherwise))
+
 let fault (s : setting) message = Error (Fault.make s.setting_site message)
 
 let wrong s what =

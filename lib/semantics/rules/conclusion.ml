@@ -19,7 +19,9 @@ let cut waits (s : Shared.t) =
   @ List.map (fun (v, _) -> Effect.Stop v) (Vehicle_map.bindings s.allocation)
 
 let ending ?(waits = []) ?(recruits = []) ?(before = []) rules label (s : Shared.t) ending =
-  let waits = List.filter (fun wait -> not (List.mem (Effect.ceases wait) before)) waits in
+  let is_ceased (number, _) =
+    List.exists (function Effect.Cancel_timer n | Withdraw_question n -> n = number | _ -> false) before in
+  let waits = List.filter (fun wait -> not (is_ceased wait)) waits in
   let left = function Effect.Release vs -> vs | _ -> [] in
   let left = if recruits = [] then [] else List.concat_map left before in
   let bound = s.bound @ List.filter (fun v -> not (List.mem v left)) recruits in

@@ -13,6 +13,23 @@ type event =
   | Input of string * value
   | Interruption
 
+let equal_event a b =
+  match a, b with
+  | Vehicle_done v, Vehicle_done w -> String.equal v w
+  | Vehicle_failed (v, why), Vehicle_failed (w, why') -> String.equal v w && String.equal why why'
+  | Timer_expired n, Timer_expired n' -> Int.equal n n'
+  | Confirmed (n, reply), Confirmed (n', reply') ->
+    Int.equal n n' && Result.equal ~ok:Bool.equal ~error:String.equal reply reply'
+  | Recruited (n, v), Recruited (n', w) -> Int.equal n n' && String.equal v w
+  | Answered a, Answered b -> String.equal a.text b.text && Value.compare_closure a.code b.code = 0
+  | Nobody_answers why, Nobody_answers why' | Host_failed why, Host_failed why' -> String.equal why why'
+  | Replied x, Replied y -> Value.compare x y = 0
+  | Input (k, x), Input (k', y) -> String.equal k k' && Value.compare x y = 0
+  | Interruption, Interruption -> true
+  | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Confirmed _ | Recruited _ | Answered _ | Nobody_answers _
+      | Replied _ | Host_failed _ | Input _ | Interruption ),
+      _ ) -> false
+
 type outcome = Goes_on of Residual.t | Over | Ends of Configuration.ending
 
 type t = {

@@ -23,6 +23,8 @@ type event =
   | Input of string * value
   | Interruption
 
+val equal_event : event -> event -> bool
+
 (** What becomes of the residual. *)
 type outcome =
   | Goes_on of Residual.t

@@ -85,7 +85,8 @@ let rec compare r r' =
           Order.both (Int.compare a.place b.place) (fun () ->
               Order.both (Int.compare a.depth b.depth) (fun () ->
                   Order.both (Int.compare a.site b.site) (fun () ->
-                      Order.both (Value.compare_closure a.code b.code) (fun () -> Stdlib.compare a.asked b.asked)))))
+                      Order.both (Value.compare_closure a.code b.code) (fun () ->
+                          Vehicle_filter.compare a.asked b.asked)))))
     | ( ( Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _
         | Idle _ | Confirm _ | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ | Recruit _
         | Recruited _ ),

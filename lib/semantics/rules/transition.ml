@@ -14,6 +14,8 @@ type event = Local_step.event =
   | Input of string * value
   | Interruption
 
+let equal_event = Local_step.equal_event
+
 type t = Conclusion.t = {
   rules : Rule.t list;
   label : Label.t;

@@ -20,6 +20,8 @@ type event = Local_step.event =
   | Input of string * value  (** a pair of N that the outside posts *)
   | Interruption
 
+val equal_event : event -> event -> bool
+
 type t = Conclusion.t = {
   rules : Rule.t list;  (** the derivation, from the axiom outwards *)
   label : Label.t;

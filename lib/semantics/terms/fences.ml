@@ -2,6 +2,13 @@ open Dolphin_geo
 module Location = Dolphin_syntax.Location
 
 type rule = Inside of Area.t | Outside of Area.t | Depth of float | Height of float | Distance of float
+
+let equal_rule a b =
+  match a, b with
+  | Inside a, Inside b | Outside a, Outside b -> Area.equal a b
+  | Depth x, Depth y | Height x, Height y | Distance x, Distance y -> Float.equal x y
+  | (Inside _ | Outside _ | Depth _ | Height _ | Distance _), _ -> false
+
 type fence = { rule : rule; margin : float; text : string; at : Location.t }
 
 (* [on_ground] are the fences of the rules of [planned] and [seen], by number: with margins, and without. [limits] are

@@ -11,6 +11,8 @@ type rule =
   | Height of float  (** metres above the ellipsoid, the ground or home, at most *)
   | Distance of float  (** metres between vehicles under way, at least *)
 
+val equal_rule : rule -> rule -> bool
+
 type fence = {
   rule : rule;
   margin : float;  (** metres that plans keep from it, at least 0 *)

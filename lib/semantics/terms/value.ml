@@ -77,7 +77,7 @@ and compare_task t t' =
               Order.both (Int.compare a.site b.site) (fun () -> compare_task a.body b.body)))
     | Recruit a, Recruit b ->
       Order.both (compare_closure a.code b.code) (fun () ->
-          Order.both (Int.compare a.site b.site) (fun () -> Stdlib.compare a.asked b.asked))
+          Order.both (Int.compare a.site b.site) (fun () -> Vehicle_filter.compare a.asked b.asked))
     | ( ( Platform _ | Action _ | Condition _ | Sequence _ | Parallel _ | Allocated _ | All_of _ | One_of _
         | Until _ | Idle _ | Confirm _ | During _ | Watch _ | Repeat _ | Made _ | Recruit _ ),
         _ ) -> Int.compare (rank_task t) (rank_task t')

@@ -1,9 +1,12 @@
-(* What a [pick] or a [recruit] asks of a vehicle. A types-only module: it has no interface of its own. {!Settings}
-   reads one, and says who is accepted. *)
-
 type t = {
   id : string option;
   kind : string option;
   payload : string list;
   region : Dolphin_geo.Area.t option;
 }
+
+let compare a b =
+  Order.both (Option.compare String.compare a.id b.id) (fun () ->
+      Order.both (Option.compare String.compare a.kind b.kind) (fun () ->
+          Order.both (List.compare String.compare a.payload b.payload) (fun () ->
+              Option.compare Dolphin_geo.Area.compare a.region b.region)))

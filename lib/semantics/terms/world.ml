@@ -31,6 +31,16 @@ type assumption =
   | Placed of Core.vehicle * Position.t
   | Claim of string * bool
 
+let compare_assumption a b =
+  let rank = function Late _ -> 0 | Missing _ -> 1 | Sensed _ -> 2 | Placed _ -> 3 | Claim _ -> 4 in
+  match a, b with
+  | Late v, Late w | Missing v, Missing w -> String.compare v w
+  | Sensed (s, v, x), Sensed (s', w, y) ->
+    Order.both (Stdlib.compare (s, v) (s', w)) (fun () -> Value.compare x y)
+  | Placed (v, p), Placed (w, q) -> Order.both (String.compare v w) (fun () -> Position.compare p q)
+  | Claim (text, b), Claim (text', b') -> Order.both (String.compare text text') (fun () -> Bool.compare b b')
+  | (Late _ | Missing _ | Sensed _ | Placed _ | Claim _), _ -> Int.compare (rank a) (rank b)
+
 (* Vehicles by their rank in the order of first hearing; [states] has each rank that [ranks] has. *)
 type order = By_hearing | By_id
 type date = Exactly of int | Since of int | Any

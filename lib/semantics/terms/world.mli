@@ -67,6 +67,8 @@ type assumption =
   | Placed of Core.vehicle * Dolphin_geo.Position.t  (** it is seen there *)
   | Claim of string * bool  (** this comparison with what a sensor shows holds, or does not *)
 
+val compare_assumption : assumption -> assumption -> int
+
 val pp_assumption : Format.formatter -> assumption -> unit
 (** ["battery(x8-02) is 0.2"], ["battery(x8-02) < 0.3 is true"], ["x8-02 is missing"]. *)
 

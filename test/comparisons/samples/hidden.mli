@@ -1,0 +1,5 @@
+(** An abstract type. *)
+
+type t
+
+val make : int -> t

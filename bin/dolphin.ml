@@ -58,6 +58,8 @@ let bug error =
   Exit_status.Bug
 
 let () =
+  (* A write beyond a limit of file sizes fails as any other does. *)
+  Sys.set_signal Sys.sigxfsz Signal_ignore;
   let status =
     match
       let status = evaluate () in

@@ -31,8 +31,8 @@ let die_with parent =
   ignore (Unix.setitimer ITIMER_REAL { it_interval = 0.5; it_value = 0.5 })
 
 let compute ~parent ~jobs ~last pipe f n =
-  List.iter (fun signal -> Sys.set_signal signal Sys.Signal_ignore) [ Sys.sigint; Sys.sighup ];
-  Sys.set_signal Sys.sigterm Signal_default;
+  List.iter (fun signal -> Sys.set_signal signal Sys.Signal_default) (Ending_signals.requests @ Ending_signals.others);
+  List.iter (fun signal -> Sys.set_signal signal Sys.Signal_ignore) [ Sys.sigint; Sys.sighup; Sys.sigxfsz ];
   die_with parent;
   let rec from n =
     if not (is_past last n) then begin

@@ -28,7 +28,7 @@ let with_environment added =
 let become command environment standard_input standard_output =
   (try
      ignore (Unix.setsid ());
-     Sys.set_signal Sys.sigpipe Sys.Signal_default;
+     List.iter (fun signal -> Sys.set_signal signal Sys.Signal_default) [ Sys.sigpipe; Sys.sigxfsz ];
      Unix.dup2 ~cloexec:false standard_input Unix.stdin;
      Unix.dup2 ~cloexec:false standard_output Unix.stdout;
      Unix.execve "/bin/sh" [| "/bin/sh"; "-c"; command |] environment

@@ -33,6 +33,45 @@ Other requests to terminate do the same.
   $ tail -1 again.txt | cut -c 10-
   program     is interrupted
 
+So do SIGQUIT, SIGUSR1, SIGUSR2, signals of timers and limits, and real-time signals (here by their numbers): none ends the process while vehicles move. They do so
+once: only requests to end can end it at once.
+
+  $ for number in 3 10 12 14 16 24 25 26 27 29 30 34 50 64; do
+  >   dolphin exec long.dol --speed 1 > again.txt & run=$!
+  >   signal $number 'starts right' again.txt || echo "$number: $?, $(tail -1 again.txt | cut -c 10-)"
+  > done
+  3: 130, program     is interrupted
+  10: 130, program     is interrupted
+  12: 130, program     is interrupted
+  14: 130, program     is interrupted
+  16: 130, program     is interrupted
+  24: 130, program     is interrupted
+  25: 130, program     is interrupted
+  26: 130, program     is interrupted
+  27: 130, program     is interrupted
+  29: 130, program     is interrupted
+  30: 130, program     is interrupted
+  34: 130, program     is interrupted
+  50: 130, program     is interrupted
+  64: 130, program     is interrupted
+  $ sed 's/^vs/onInterrupt task("left")\nvs/' long.dol > home.dol; cp long.fleet home.fleet
+  $ dolphin exec home.dol --speed 1 > again.txt & run=$!
+  $ until grep -qs 'starts right' again.txt; do sleep 0.05; done; kill -ALRM $run
+  $ until grep -qs 'onInterrupt' again.txt; do sleep 0.05; done; kill -ALRM $run; kill -XCPU $run; sleep 0.2
+  $ signal INT 'executes onInterrupt' again.txt
+  [130]
+  $ tail -3 again.txt | cut -c 10-
+  a           stops left
+  program     releases a, b
+  program     is interrupted
+
+A journal over the limit of file sizes ends the run in the same order; the log is not over it yet.
+
+  $ (ulimit -f 2; exec dolphin exec long.dol --speed 1 --journal limited.run > limited.txt 2> errors.txt)
+  [3]
+  $ cat errors.txt
+  dolphin: the journal cannot be written: limited.run: File too large; the run was ended as by Ctrl-C
+
 A script that loops without any effect can be interrupted, so can one that waits for an answer or for vehicles.
 
   $ echo 'while (true) { }' > loop.dol

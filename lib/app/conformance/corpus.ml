@@ -48,7 +48,8 @@ let with_implementation ~name ~timeout command f =
     let implementation = Implementation.make ~timeout command in
     let finally () = Implementation.close implementation in
     (* It leads a session of its own, so Ctrl-C is for us alone, and we end it. *)
-    List.iter (fun s -> Sys.set_signal s (Signal_handle (fun _ -> raise Sys.Break))) [ Sys.sigint; Sys.sigterm ];
+    let ends = Dolphin_processes.Ending_signals.requests @ Dolphin_processes.Ending_signals.others in
+    List.iter (fun s -> Sys.set_signal s (Signal_handle (fun _ -> raise Sys.Break))) ends;
     Fun.protect ~finally (fun () -> f (Implementation.ask implementation))
 
 (* {1 Judging} *)

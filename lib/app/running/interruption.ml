@@ -18,6 +18,13 @@ let happen stage =
 let interrupt i = happen i.first
 let once_more i = if i.first.happened then happen i.second else happen i.first
 
+(* A limit on processor time or file size repeats its signal, and others come from timers or from programs that mean
+   another process: these never end the process at once while vehicles move. *)
+let on_mild_signals i =
+  let notification = Lwt_unix.make_notification (fun () -> interrupt i) in
+  let behaviour = Sys.Signal_handle (fun _ -> if not i.first.happened then Lwt_unix.send_notification notification) in
+  List.iter (fun signal -> Sys.set_signal signal behaviour) Dolphin_processes.Ending_signals.others
+
 (* Signals may come at any point of the program: one that interrupts only asks the event loop, which breathes often, to
    do so. The last one need not wait for it. *)
 let on_signals ?(goes_on = fun () -> false) ?again i =
@@ -31,7 +38,8 @@ let on_signals ?(goes_on = fun () -> false) ?again i =
          if before = 0 || (before = 1 && goes_on ()) then Lwt_unix.send_notification notification
          else Option.iter (fun again -> ignore (again ())) again)
   in
-  List.iter (fun signal -> Sys.set_signal signal behaviour) [ Sys.sigint; Sys.sigterm ];
+  on_mild_signals i;
+  List.iter (fun signal -> Sys.set_signal signal behaviour) Dolphin_processes.Ending_signals.requests;
   match Sys.signal Sys.sighup behaviour with
   | Signal_ignore -> Sys.set_signal Sys.sighup Signal_ignore
   | Signal_default | Signal_handle _ -> ()

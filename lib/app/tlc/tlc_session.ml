@@ -103,7 +103,9 @@ let run installation mode ~directory ~main ~configuration printed =
   let interrupted = ref false in
   let ask_to_stop = Sys.Signal_handle (fun _ -> interrupted := true) in
   let former =
-    List.map (fun signal -> (signal, Sys.signal signal ask_to_stop)) [ Sys.sigint; Sys.sigterm; Sys.sighup ]
+    List.map
+      (fun signal -> (signal, Sys.signal signal ask_to_stop))
+      (Sys.sighup :: Dolphin_processes.Ending_signals.requests @ Dolphin_processes.Ending_signals.others)
   in
   let live = Unix.isatty Unix.stderr in
   let reader = ref Message.start and outcome = ref Outcome.start in

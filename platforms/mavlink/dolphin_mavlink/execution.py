@@ -20,6 +20,7 @@ happened.
 
 from .boarding import Boarding
 from .commands import Commands
+from .landing import OPEN, Disarmed
 from .progress import Progress
 from .wire import mavlink
 
@@ -61,7 +62,8 @@ class Execution:
         self._beats = 0
         self._left, self._left_since, self._left_mode = None, None, None  # a mode that was left: when a verdict falls
         self._known, self._asked_for = set(), set()  # the modes that it may be in; those that we asked for
-        self._mode_at_stop, self._disarmed_at = None, None
+        self._mode_at_stop, self._stop_accepted = None, None
+        self._disarmed, self._lands = None, False  # since it is disarmed; whether it was at an item that lands it then
         self._armed_by_us, self._resumes, self._stopping, self._unknown = False, False, False, False
 
     # What the station calls
@@ -275,15 +277,16 @@ class Execution:
                 return self._run(now)
             return self._arm(now)
         if self.stage == "stop" and self._commands.is_last_mode:
-            # All that was sent before is acknowledged: this acknowledgement is the hold's.
-            return self._finish_stop()
+            # All that was sent before is acknowledged: this acknowledgement is the hold's. Heartbeats after it tell.
+            self._stop_accepted = now
         return []
 
     def _denied(self, now, result):
         said_at, text = self.vehicle.words
         why = text if text and now - said_at < 3 else _RESULTS.get(result, f"result {result}")
         if self.stage == "stop":
-            return []  # heartbeats decide, and it is repeated
+            self._commands.later(now)  # heartbeats decide, and it is repeated
+            return []
         if self.stage == "hold" and self.vehicle.idle_mission:
             return self._upload(now)  # its mission has ended: there was nothing to hold
         if result == mavlink.MAV_RESULT_TEMPORARILY_REJECTED and self.stage != "arm" and now - self._stage_at < GRACE:
@@ -329,27 +332,38 @@ class Execution:
 
     def _heartbeat_in_run(self, now):
         v = self.vehicle
+        if v.armed:
+            self._disarmed = None
+        if self._disarmed is not None:
+            return []
         if v.mode == v.modes.mission:
             self._asked_mode, self._left = None, None
             if v.armed:
-                self._disarmed_at = None
+                self._progress.flies_on()
                 return []
-            return self._disarmed(now)
+            return self._was_disarmed(now)
         if self._asked_mode is not None and v.mode == self._mode_before:
             if now - self._stage_at > GRACE and v.heartbeats - self._beats >= 3:
                 return self._fail(f"its autopilot did not go into mode {v.modes.mission}: it is in mode {v.mode}")
             return []
         if self._progress.returns_by_itself():
-            return self._disarmed(now) if not v.armed else []
+            return self._was_disarmed(now) if not v.armed else []
         return self._taken_over(now)
 
     def _heartbeat_in_stop(self, now):
         v = self.vehicle
         if v.mode == v.modes.mission and v.armed:
+            if self._stop_accepted is not None and now - self._stop_accepted > 1:
+                self._stop_accepted = None
+                return self._set_mode(now, self.stop_mode)
             return []  # it has not heard us yet: it is repeated
-        if v.mode == self.stop_mode or not v.armed:
+        if not v.armed:
             return self._finish_stop()
-        if v.mode not in (self._mode_at_stop, self._mode_before):
+        if v.mode == self.stop_mode:
+            # Was it in this mode when the mission was to begin, that order may still be on its way.
+            if self._stop_accepted is not None or self._mode_at_stop != self.stop_mode:
+                return self._finish_stop()
+        elif v.mode not in (self._mode_at_stop, self._mode_before):
             return self._finish_stop()  # somebody else has stopped it, and flies
         if self._progress.returns_by_itself():
             return []
@@ -361,18 +375,29 @@ class Execution:
         self._end("stopped")
         return []
 
-    def _disarmed(self, now):
-        """In the mode of the mission, and not armed. Whether it has landed is told apart, and a moment later."""
-        if now - self._stage_at < GRACE:
-            return []
-        if self._disarmed_at is None:
-            self._disarmed_at = now
-        if self._progress.has_landed():
-            self._end("done")
-        elif now - self._disarmed_at >= AFTERWARDS:
-            flies = self.vehicle.frame in ("copter", "plane", "vtol") and not self.vehicle.landed
-            return self._fail("was disarmed in flight" if flies else "was disarmed")
+    def _was_disarmed(self, now):
+        if now - self._stage_at >= GRACE:
+            self._disarmed, self._lands = Disarmed(now, self.vehicle), self._progress.lands
         return []
+
+    def _judge_disarmed(self, now):
+        """Whether it has landed shows a moment later."""
+        v, disarmed, progress = self.vehicle, self._disarmed, self._progress
+        since = now - disarmed.since
+        if progress.was_at_its_landing or (disarmed.was_away and progress.is_where_it_lands):
+            if disarmed.has_landed:
+                self._end("done")
+            elif disarmed.has_landed is False and (disarmed.fell or since >= AFTERWARDS):
+                self._fail("was disarmed in flight")
+            elif since >= OPEN and v.link(now):
+                self._tell_unknown("was disarmed, and does not say whether it has landed")
+        elif since >= AFTERWARDS and v.link(now):
+            if disarmed.was_in_flight(self._lands):
+                self._fail("was disarmed in flight")
+            elif disarmed.was_away:
+                self._fail("was disarmed while it was not heard: it may have flown its mission")
+            else:
+                self._fail("was disarmed")
 
     def _mission_news(self, now):
         v, progress = self.vehicle, self._progress
@@ -380,7 +405,7 @@ class Execution:
             return self._accepted(now)
         if self.stage not in ("run", "mode"):
             return []
-        if progress.current != v.current and self.stage == "run":
+        if progress.current != v.current and self.stage == "run" and v.armed and self._disarmed is None:
             self.events.append(("progress", progress.share))
         progress.news(now)
         goes_on = v.mission_state not in (None, mavlink.MISSION_STATE_COMPLETE)
@@ -393,6 +418,8 @@ class Execution:
     def _look(self, now):
         if self.stage == "run" and not self.is_over and self._progress.is_over(now):
             self._end("done")
+        elif self.stage == "run" and not self.is_over and self._disarmed is not None:
+            self._judge_disarmed(now)
         return []
 
     # Ends
@@ -435,10 +462,13 @@ class Execution:
         if not self._mode_asked:
             out = self._disarm() if self._armed_by_us else []
             return out + self._fail(f"no answer from its autopilot for {self.timeout:g} seconds ({self.stage})")
+        self._tell_unknown(f"it did not say whether it went into mode {self.vehicle.modes.mission}")
+        return []
+
+    def _tell_unknown(self, why):
         if not self._unknown:
             self._unknown = True
-            self.events.append(("unknown", f"it did not say whether it went into mode {self.vehicle.modes.mission}"))
-        return []
+            self.events.append(("unknown", why))
 
     def _go_to_stop(self, now):
         v = self.vehicle

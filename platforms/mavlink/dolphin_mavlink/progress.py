@@ -16,7 +16,7 @@ class Progress:
     def __init__(self, vehicle, mission):
         self._vehicle, self._mission = vehicle, mission
         self.current = None
-        self._was_active, self._near_since = False, None
+        self._was_active, self._near_since, self._was_at_last = False, None, False
         self._reached, self._visits, self._reached_last = False, 0, None
         # What decides is believed when it is said twice.
         self._complete_since, self._completes = None, 0
@@ -24,11 +24,12 @@ class Progress:
 
     def begin(self):
         self.current, self._total = None, None
-        self._was_active, self._reached, self._visits = False, False, 0
+        self._was_active, self._reached, self._visits, self._was_at_last = False, False, 0, False
 
     def resume(self):
         """It has begun before."""
         self.current, self._was_active = self._vehicle.current, True
+        self._was_at_last = self._at_last
 
     # Items
 
@@ -58,6 +59,7 @@ class Progress:
         """The vehicle has told of its mission's state."""
         v = self._vehicle
         self.current = v.current
+        self._was_at_last = self._was_at_last or self._at_last
         if v.mission_state == mavlink.MISSION_STATE_ACTIVE:
             self._was_active = True
         if v.mission_state == mavlink.MISSION_STATE_COMPLETE:
@@ -68,6 +70,10 @@ class Progress:
         self._strange = self._strange + 1 if v.total not in (None, self._total) else 0
         if self._total is None:
             self._total = v.total
+
+    def flies_on(self):
+        """The vehicle reports that it is armed, after it has told where in its mission it is."""
+        self._was_at_last = self._at_last
 
     def item_reached(self, seq):
         if seq >= self._last and (self._reached_last is None or self._reached_last < self._last):
@@ -85,26 +91,46 @@ class Progress:
     def is_over(self, now):
         """Whether the last item is reached and what it does has begun."""
         finished = self._completes >= 2 and (self._was_active or now - self._complete_since >= 2)
-        if (self._reached and (self._at_last or self._completes > 0)) or finished:
+        if (self._reached and (self._was_at_last or self._completes > 0)) or finished:
             return True
         return self._at_last and self._begun_without_end(now)
 
     def was_over(self):
         """Whether a vehicle has left the mission because it was over."""
-        return self._reached or (self._at_last and self._is_near(self._last_item))
+        return self._reached or (self._was_at_last and self._is_near(self._last_item))
 
     def returns_by_itself(self):
         """Whether its mode is one that the mission's last item asks for."""
         last = self._last_item.command
-        if not self._at_last:
+        if not self._was_at_last:
             return False
         returns = {"RTL", "QRTL", "SMART_RTL", "LAND", "QLAND"} if last == missions.RETURN else {"LAND", "QLAND"}
         return last in _ENDS_ON_THE_GROUND and self._vehicle.mode in returns
 
-    def has_landed(self):
-        """Whether a vehicle that is disarmed has done what the last item asks for."""
-        on_the_ground = self._last_item.command in _ENDS_ON_THE_GROUND
-        return self._at_last and on_the_ground and self._vehicle.landed is not False
+    @property
+    def was_at_its_landing(self):
+        """Whether the vehicle was at its last item, which lands it. ArduCopter goes back to its first item when it is
+        disarmed: where it is then does not count."""
+        return self._was_at_last and self._lands(self._last_item)
+
+    @property
+    def is_where_it_lands(self):
+        """Whether the mission ends with a landing, and the vehicle is at its place."""
+        last = self._last_item
+        places = [item for item in self._mission.items[: self._mission.last + 1] if item.has_place]
+        if last.command == missions.RETURN:
+            return self._is_near(last)
+        return self._lands(last) and bool(places) and self._is_near(places[-1])
+
+    @property
+    def lands(self):
+        """Whether the item that it is at lands it."""
+        n = None if self.current is None else self.current - self.first
+        return n is not None and 0 <= n < len(self._mission.items) and self._lands(self._mission.items[n])
+
+    @staticmethod
+    def _lands(item):
+        return item.command in _ENDS_ON_THE_GROUND
 
     def _begun_without_end(self, now):
         """Of an item that no autopilot calls reached, or whose word was lost: by where the vehicle is."""

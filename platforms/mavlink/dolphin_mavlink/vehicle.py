@@ -8,6 +8,8 @@ from .wire import mavlink, version_of
 
 LINK_SILENCE = 5.0  # seconds without a heartbeat, after which the link counts as lost
 MOVE_SILENCE = 10.0  # seconds after which a vehicle may be heard from another address
+FALL = 3.0  # metres a second: no copter lands as fast
+_CLOCK_WRAPS = 2**32 / 1000  # seconds
 _DEVICES = {mavlink.MAV_TYPE_CAMERA: "camera", mavlink.MAV_TYPE_GIMBAL: "gimbal", mavlink.MAV_TYPE_WINCH: "winch"}
 _DISTRESS = re.compile(r"failsafe|fence breach|battery .*(low|critical)|(low|critical) battery|crash", re.IGNORECASE)
 _UNABLE = {
@@ -58,7 +60,14 @@ class Vehicle:
         self.relative = None  # above home; of what dives above the surface
         self.geoid = None  # how far mean sea level is above the ellipsoid, where it says so
         self.battery, self.speed, self.home, self.landed = None, None, None, None
+        self.heard = {}  # when each kind of message was heard last
+        self.armed_at = -math.inf  # when a heartbeat last reported it armed
+        self.flew_at = -math.inf  # when it last reported that it is in the air
+        self.grounded = False  # whether it was on the ground while it was armed
+        self.sank_at = -math.inf  # when it last sank faster than any landing
+        self.boot, self.restarted_at = None, -math.inf  # the seconds since its start; when it last started again
         self.current, self.total, self.mission_state = None, None, None
+        self._height = None  # metres above home, and when, by its clock
         self.news = 0  # how many times it told of its mission
         self.distress = (-math.inf, "")  # when it last spoke of an emergency, and how
         self.words = (-math.inf, "")  # its last warning
@@ -88,10 +97,23 @@ class Vehicle:
                 self.devices.append(_DEVICES[message.type])
             return False
         if new:
+            self.heard[kind] = now
+            self._time(now, message)
             hear = getattr(self, "_" + kind.lower(), None)
             if hear is not None:
                 hear(now, message)
         return new
+
+    def _time(self, now, message):
+        """Its clock counts from its start."""
+        milliseconds = getattr(message, "time_boot_ms", None)
+        if milliseconds is None:
+            return
+        seconds = milliseconds / 1000
+        if self.boot is not None and _CLOCK_WRAPS - 3600 > self.boot > seconds + 2:
+            self.restarted_at = now
+            self.landed, self.grounded = None, False
+        self.boot = seconds
 
     def _heartbeat(self, now, message):
         if message.type != self._type:
@@ -104,13 +126,26 @@ class Vehicle:
             self.pilot = None
         if mode != self.mode or not armed:
             self.idle_mission = False
+        if armed:
+            self.armed_at, self.grounded = now, bool(self.landed)
         self.mode, self.armed, self.status = mode, armed, message.system_status
 
     def _global_position_int(self, now, message):
+        self._sink(now, message)
         if (message.lat, message.lon) != (0, 0) and abs(message.lat) <= 900000000 and abs(message.lon) <= 1800000000:
             self.place = message.lat / 1e7, message.lon / 1e7
             self.altitude, self.relative = message.alt / 1000, message.relative_alt / 1000
             self.speed = math.hypot(message.vx, message.vy) / 100
+
+    def _sink(self, now, message):
+        height, at = message.relative_alt / 1000, message.time_boot_ms / 1000
+        sunk = 0.0
+        if self._height is not None:
+            before, then = self._height
+            sunk = before - height - 2 - 2 * abs(at - then)
+        if message.vz > 100 * FALL or sunk > 0:
+            self.sank_at = now
+        self._height = height, at
 
     def _gps_raw_int(self, now, message):
         if message.alt_ellipsoid != 0 and message.fix_type >= 3:
@@ -134,6 +169,8 @@ class Vehicle:
     def _extended_sys_state(self, now, message):
         known = message.landed_state != mavlink.MAV_LANDED_STATE_UNDEFINED
         self.landed = message.landed_state == mavlink.MAV_LANDED_STATE_ON_GROUND if known else None
+        if self.landed is False:
+            self.flew_at, self.grounded = now, False
 
     def _mission_current(self, now, message):
         self.current, self.news = message.seq, self.news + 1

@@ -61,6 +61,7 @@ def main():
         speed = given.time * {"plane": 18.0, "copter": 8.0}.get(kind, 1.5)
         where = geo.displace(place, 0, 20 * n)
         vehicle = SimVehicle(given.first + n, kind, autopilot == "px4", where, speed, given.armed)
+        vehicle.pace = given.time
         peers.append(Peer(vehicle, (host or "127.0.0.1", int(port)), given.key))
     fly(peers, given.began)
 

@@ -1,6 +1,10 @@
 """A vehicle that speaks MAVLink, for tests: the mission protocol and the modes as ArduPilot or PX4 have them, on a
 straight way at constant speed. Pure: messages and the time go in, messages come out. Faults are ordered by its
-attributes and by `pilot`, `failsafe`, `disarm`.
+attributes and by `pilot`, `failsafe`, `disarm`, `kill`, `restart`.
+
+The order of its messages is the one seen of ArduCopter 4.6: an acknowledgement before the heartbeat with the new mode,
+the reason of a refusal half a second after it, and at a landing, within a quarter of a second: a text, the heartbeat
+that is disarmed, the mission at its first item again, and only then the ground.
 
 It shares pymavlink's messages and the tables of modes with the adapter, nothing else.
 """
@@ -26,9 +30,7 @@ class SimVehicle:
         self.autopilot = modes.PX4 if px4 else modes.ARDUPILOT
         self.type, self.frame = KINDS[kind], kind
         self.modes = modes.modes_of(self.autopilot, kind)
-        self.mode = (
-            "HOLD" if px4 else "GUIDED" if armed else {"copter": "STABILIZE", "sub": "STABILIZE"}.get(kind, "MANUAL")
-        )
+        self.mode = "GUIDED" if armed and not px4 else self._first_mode()
         self.place, self.home, self.altitude, self.speed = place, place, 0.0, speed
         self.armed, self.battery, self.status = armed, battery, mavlink.MAV_STATE_STANDBY
         self.items, self.current, self.state = [], 0, mavlink.MISSION_STATE_NO_MISSION
@@ -43,10 +45,21 @@ class SimVehicle:
         self.tells_state = True  # of its mission, as newer autopilots do
         self.tells_reached = True
         self.keeps = lambda items: items  # what it keeps of an upload
+        self.reasons = {}  # of refused commands, by their numbers: a severity and a text, after the acknowledgement
+        self.lag = 0.1  # seconds between an acknowledgement and its heartbeat
+        self.pace = 1.0  # how many times as fast its clock goes
         self._out, self._at = [], None
+        self._soon = []  # what it says in a moment: when, and the messages then
+        self._streams, self._booted, self._silent_until = True, 0.0, -1.0
+        self._on_ground, self._falls = True, None  # what it claims; since when it falls, and from what height
         self._upload = None
         self._waits_until, self._jumps = None, {}
         self._beat_at = -1.0
+
+    def _first_mode(self):
+        if self.autopilot == modes.PX4:
+            return "HOLD"
+        return {"copter": "STABILIZE", "sub": "STABILIZE"}.get(self.frame, "MANUAL")
 
     # From the ground station
 
@@ -67,6 +80,15 @@ class SimVehicle:
     def _take(self):
         out, self._out = self._out, []
         return out
+
+    def _later(self, at, say, *arguments):
+        """Says at the time `at` what `say` says then."""
+        self._soon.append((at, say, arguments))
+
+    def _say_due(self, now):
+        due, self._soon = [x for x in self._soon if x[0] <= now], [x for x in self._soon if x[0] > now]
+        for _, say, arguments in sorted(due, key=lambda x: x[0]):
+            say(*arguments)
 
     def _hear_mission_count(self, now, message):
         self._upload = {
@@ -159,6 +181,8 @@ class SimVehicle:
                 command, result, 0, 0, message.get_srcSystem(), message.get_srcComponent()
             )
         )
+        if result != mavlink.MAV_RESULT_ACCEPTED and command in self.reasons:
+            self._later(now + 0.5, self._text, *self.reasons[command])
 
     def _carry_out(self, now, command, message):
         if command == mavlink.MAV_CMD_DO_SET_MODE:
@@ -166,12 +190,17 @@ class SimVehicle:
             number = int(message.param2) << 16 | int(message.param3) << 24 if px4 else int(message.param2)
             self._enter(now, modes.name_of(self.autopilot, self.frame, number))
         elif command == mavlink.MAV_CMD_COMPONENT_ARM_DISARM:
-            self.armed = message.param1 == 1
-            self._begin(now)
-            self._beat(now)
+            if message.param1 == 1:
+                self.armed, self._on_ground = True, self.altitude <= 0
+                self._begin(now)
+            else:
+                self._disarm(now)
+            self._later(now + self.lag, self._beat, now + self.lag)
         elif command == mavlink.MAV_CMD_DO_SET_MISSION_CURRENT:
             self._rewind(is_new=False)
-        elif command not in (mavlink.MAV_CMD_SET_MESSAGE_INTERVAL, mavlink.MAV_CMD_MISSION_START):
+        elif command == mavlink.MAV_CMD_SET_MESSAGE_INTERVAL:
+            self._streams = True
+        elif command not in (mavlink.MAV_CMD_REQUEST_MESSAGE, mavlink.MAV_CMD_MISSION_START):
             return mavlink.MAV_RESULT_UNSUPPORTED
         return mavlink.MAV_RESULT_ACCEPTED
 
@@ -185,15 +214,53 @@ class SimVehicle:
     def failsafe(self, now, text, mode):
         self._advance(now)
         self.status = mavlink.MAV_STATE_CRITICAL
-        self._out.append(mavlink.MAVLink_statustext_message(mavlink.MAV_SEVERITY_CRITICAL, text.encode()))
+        self._text(mavlink.MAV_SEVERITY_CRITICAL, text)
+        self._enter(now, mode)
+        return self._take()
+
+    def breach(self, now, mode, kind=mavlink.FENCE_BREACH_BOUNDARY, text=None):
+        """Its fence, as ArduPilot tells of it: by a message, and copters by a text too."""
+        self._advance(now)
+        self._out.append(mavlink.MAVLink_fence_status_message(1, 1, kind, 0))
+        if text is not None:
+            self._text(mavlink.MAV_SEVERITY_NOTICE, text)
         self._enter(now, mode)
         return self._take()
 
     def disarm(self, now):
         self._advance(now)
-        self.armed = False
+        self._disarm(now)
         self._beat(now)
         return self._take()
+
+    def kill(self, now):
+        """Its motors are stopped: it falls, and claims the ground at once, as ArduCopter does."""
+        self._advance(now)
+        self._falls = now, self.altitude
+        self._disarm(now)
+        self._beat(now)
+        return self._take()
+
+    def restart(self, now, away=2.0):
+        """Its autopilot restarts, and is heard again `away` seconds later. It sends what it is asked for."""
+        self._advance(now)
+        self._falls = now, self.altitude
+        self.armed, self._on_ground, self._soon = False, True, []
+        self.mode, self.state, self.current = self._first_mode(), mavlink.MISSION_STATE_NOT_STARTED, 0
+        self._booted, self._silent_until, self._streams = now, now + away, False
+
+    def _text(self, severity, text):
+        self._out.append(mavlink.MAVLink_statustext_message(severity, text.encode()))
+
+    def _disarm(self, now):
+        self.armed = False
+        if self.autopilot == modes.ARDUPILOT and self.frame == "copter":
+            # Its mission goes back to the first item, and is called active; it claims the ground, at any height.
+            self._on_ground = True
+            if self.state == mavlink.MISSION_STATE_ACTIVE:
+                self.current, self._waits_until, self._jumps = self._first, None, {}
+                self._later(now + 0.1, self._news)
+            self._later(now + 0.2, self._tell_ground)
 
     # Its mission
 
@@ -214,7 +281,7 @@ class SimVehicle:
             self._begin(now)
         elif self.state == mavlink.MISSION_STATE_ACTIVE:
             self.state = mavlink.MISSION_STATE_PAUSED
-        self._beat(now)
+        self._later(now + self.lag, self._beat, now + self.lag)
 
     def _begin(self, now):
         runs = self.armed and self.mode == self.modes.mission and len(self.items) > self._first
@@ -258,18 +325,32 @@ class SimVehicle:
                 share = (now - self._at) * self.speed / far
                 self.place = geo.displace(self.place, north * share, east * share)
                 return False
-            self._at, self.place, self.altitude = self._at + takes, goal, item.z
+            self._at, self.place = self._at + takes, goal
+            if not self._descends(item):
+                self.altitude, self._on_ground = item.z, item.z <= 0
         if item.command == mavlink.MAV_CMD_NAV_LOITER_UNLIM:
             return False
         holds = {mavlink.MAV_CMD_NAV_LOITER_TIME, mavlink.MAV_CMD_NAV_DELAY, mavlink.MAV_CMD_NAV_WAYPOINT}
         seconds = item.param1 if item.command in holds and math.isfinite(item.param1) else 0.0
+        if self._descends(item):
+            seconds = self.altitude / self._sink + 1 if self._waits_until is None else 0
         if self._waits_until is None:
             self._waits_until = self._at + seconds
         if self._waits_until > now:
+            if self._descends(item):
+                self.altitude = min(self.altitude, max(0.0, (self._waits_until - 1 - now) * self._sink))
             return False
         self._at, self._waits_until = max(self._at, self._waits_until), None
         self._fulfilled(item)
         return True
+
+    @property
+    def _sink(self):
+        return 1.5 * self.pace
+
+    def _descends(self, item):
+        lands = item.command in (mavlink.MAV_CMD_NAV_LAND, mavlink.MAV_CMD_NAV_RETURN_TO_LAUNCH)
+        return lands and self.frame == "copter"
 
     def _jump(self, item):
         done = self._jumps.get(self.current, 0)
@@ -282,14 +363,18 @@ class SimVehicle:
         return True
 
     def _fulfilled(self, item):
+        if self._descends(item) and self.autopilot == modes.ARDUPILOT:
+            # It is disarmed by touching the ground, and never calls the item reached.
+            self.altitude = 0.0
+            self._text(mavlink.MAV_SEVERITY_INFO, "Disarming motors")
+            self._disarm(self._at)
+            self._beat(self._at)
+            return
         self.reached.append(self.current)
         if self.tells_reached and item.command <= _DONE_AT_ONCE:
             self._out.append(mavlink.MAVLink_mission_item_reached_message(self.current))
-        if (
-            item.command in (mavlink.MAV_CMD_NAV_LAND, mavlink.MAV_CMD_NAV_RETURN_TO_LAUNCH)
-            and self.frame == "copter"
-        ):
-            self.altitude, self.armed = 0.0, False
+        if self._descends(item):
+            self.altitude, self._on_ground, self.armed = 0.0, True, False
         self._next()
 
     def _next(self):
@@ -315,14 +400,19 @@ class SimVehicle:
 
     def tick(self, now):
         self._advance(now)
-        if self.silent:
+        if self._falls is not None:
+            since, height = self._falls
+            self.altitude = max(0.0, height - 4.9 * ((now - since) * self.pace) ** 2)
+        self._say_due(now)
+        if self.silent or now < self._silent_until:
             self._out = []
             return []
         if now - self._beat_at >= 1:
             self._beat_at = now
             self._beat(now)
-            self._news()
-            self._sense(now)
+            if self._streams:
+                self._news()
+                self._sense(now)
         upload = self._upload
         if upload is not None:
             px4 = self.autopilot == modes.PX4
@@ -340,13 +430,29 @@ class SimVehicle:
         speed = round(self.speed * 100) if moves else 0
         self._out += [
             mavlink.MAVLink_global_position_int_message(
-                round(now * 1000) & 0xFFFFFFFF, latitude, longitude, millimetres, millimetres, speed, 0, 0, 65535
+                round((now - self._booted) * self.pace * 1000) & 0xFFFFFFFF,
+                latitude,
+                longitude,
+                millimetres,
+                millimetres,
+                speed,
+                0,
+                self._sinks(now),
+                65535,
             ),
             mavlink.MAVLink_sys_status_message(0, 0, 0, 0, 12000, -1, self.battery, 0, 0, 0, 0, 0, 0),
             mavlink.MAVLink_home_position_message(
                 round(self.home[0] * 1e7), round(self.home[1] * 1e7), 0, 0, 0, 0, [1, 0, 0, 0], 0, 0, 0
             ),
-            mavlink.MAVLink_extended_sys_state_message(
-                0, mavlink.MAV_LANDED_STATE_ON_GROUND if self.altitude <= 0 else mavlink.MAV_LANDED_STATE_IN_AIR
-            ),
         ]
+        self._tell_ground()
+
+    def _sinks(self, now):
+        """Centimetres a second, by its clock."""
+        if self._falls is None or self.altitude <= 0:
+            return 0
+        return round(min(9.8 * (now - self._falls[0]) * self.pace, 300) * 100)
+
+    def _tell_ground(self):
+        state = mavlink.MAV_LANDED_STATE_ON_GROUND if self._on_ground else mavlink.MAV_LANDED_STATE_IN_AIR
+        self._out.append(mavlink.MAVLink_extended_sys_state_message(0, state))

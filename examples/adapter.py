@@ -34,6 +34,10 @@ def report(kind, **members):
         print(json.dumps({"kind": kind, **members}), flush=True)
 
 
+def show():
+    report("vehicle", vehicle=rover.name, type="UGV", latitude=41.185, longitude=-8.706, link=True)
+
+
 def say(request, kind, **members):
     """Reports on a request; after its end the rover is free, and nothing else is ever said of it."""
     global running
@@ -81,7 +85,9 @@ for line in sys.stdin:
         kind, request = order["kind"], order.get("request")
         if kind == "hello":
             report("hello", protocol=1, name="rover", plans=["name"], announce=1, patience=5)
-            report("vehicle", vehicle=rover.name, type="UGV", latitude=41.185, longitude=-8.706, link=True)
+            show()
+        elif kind == "refused":  # a line of ours was not understood: all that it may have said is said again
+            show()
         elif kind == "ping":
             report("pong", id=order["id"])
         elif kind == "start":

@@ -147,6 +147,27 @@ let strange_orders plans ~started command =
   Talk.send_text t {|{"later": {"version": 2}, "kind": "ping", "id": 7}|};
   Talk.await t ~within:5. ~what:"the pong" (function Pong 7 -> Some () | _ -> None) >>= fun () -> fine
 
+(* What the adapter reports of [v] after an order to say all again. *)
+let refused_line plans ~started command =
+  with_vehicle plans ~started command >>= fun (t, v) ->
+  let before = List.length (Talk.reports t) in
+  Talk.send t (Refused "is not a 'vehicle' as the protocol has it: of latitude and longitude one is missing");
+  let add (known : Report.sight) : Report.t -> Report.sight = function
+    | Vehicle s when String.equal s.vehicle v ->
+      let now x before = if x = None then before else x in
+      { known with kind = now s.kind known.kind; place = now s.place known.place; link = now s.link known.link }
+    | _ -> known
+  in
+  let rec again ~within =
+    let later = List.filteri (fun i _ -> i >= before) (Talk.reports t) in
+    match List.fold_left add (Report.nothing v) later with
+    | { kind = Some _; place = Some _; link = Some _; _ } -> fine
+    | _ when within <= 0. ->
+      wrong "a line was refused, and %s is not reported again with type, position and link within %g s" v plans.patience
+    | _ -> Lwt_unix.sleep 0.1 >>= fun () -> again ~within:(within -. 0.1)
+  in
+  again ~within:plans.patience
+
 let pings plans ~started command =
   with_vehicle plans ~started command >>= fun (t, v) ->
   let r = request () in
@@ -404,6 +425,7 @@ let all =
   [ situation "greeting" "greets within 10 s, before all else" greeting;
     situation "vehicles" "reports a vehicle that is ready, at first with type and link" sightings;
     situation "strange-orders" "ignores orders and members that it does not know" strange_orders;
+    situation "refused-line" "reports its vehicles again, with all members, when a line is refused" refused_line;
     situation "completion" "runs a plan to its end, and reports one end" completion;
     situation "next" "runs the next plan at once" one_after_the_other;
     situation "pings" "answers pings while a vehicle runs a plan" pings;

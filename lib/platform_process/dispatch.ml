@@ -25,6 +25,9 @@ type output =
   | Remark of Core.vehicle option * string
   | Give_up of string
 
+(* When the adapter was last informed of a line that was refused, and why another one was since. *)
+type refusal = { informed : float; waits : string option }
+
 type ping = { next : float; id : int; unanswered : int }
 
 type t = {
@@ -41,6 +44,7 @@ type t = {
   telemetry : bool;
   timers : Timers.t;
   ping : ping;
+  refusal : refusal;
   news : news list;  (* latest first *)
   ready : news list;  (* before these, earliest first *)
   outputs : output list;  (* of this step, latest first *)
@@ -49,17 +53,26 @@ type t = {
 let ping_interval = 5.
 let most_unanswered = 3
 let no_ping = { next = infinity; id = 0; unanswered = 0 }
+let refusal_interval = 1.
+let no_refusal = { informed = neg_infinity; waits = None }
 
 let create ~platform ~prefix =
   { platform; prefix; numbered = 0; adapter = None; seen = Names.empty; slots = Names.empty; given_up = [];
     bound = Name_set.empty; timeout = 60.; timeouts = Names.empty; telemetry = false; timers = Timers.none;
-    ping = no_ping; news = []; ready = []; outputs = [] }
+    ping = no_ping; refusal = no_refusal; news = []; ready = []; outputs = [] }
 
 (* {1 Steps} *)
 
 let output o d = { d with outputs = o :: d.outputs }
 let finish d = ({ d with outputs = [] }, List.rev d.outputs)
 let send order d = if d.adapter = None then d else output (Send order) d
+
+(* An adapter that writes thousands of such lines is informed of the first and of the last of each second. *)
+let refuse ~now why d =
+  if now >= d.refusal.informed +. refusal_interval then
+    send (Order.Refused why) { d with refusal = { informed = now; waits = None } }
+  else { d with refusal = { d.refusal with waits = Some why } }
+
 let keep v kept d = output (Keep (v, Kept.to_json ~platform:d.platform kept)) d
 let remark v text d = output (Remark (v, text)) d
 let tell news d = { d with news = news :: d.news }
@@ -209,7 +222,7 @@ let sight ~now (s : Report.sight) d =
   let v = s.vehicle in
   let known = Names.find_opt v d.seen in
   match Sighting.add s (Option.map (fun seen -> seen.sighting) known) with
-  | Error why -> remark None (why ^ ": it is ignored") d
+  | Error why -> remark None (why ^ ": it is ignored") (refuse ~now why d)
   | Ok sighting ->
     let before = Option.value known ~default:{ sighting; since = now; told = None } in
     let d = relink ~now v before sighting d in
@@ -240,6 +253,8 @@ let report ~now (r : Report.t) d =
      | Trouble why -> remark None ("the adapter cannot go on: " ^ why) d
      | Hello _ | Pong _ | Checked _ | Quiet -> d)
 
+let refused ~now why d = finish (refuse ~now why d)
+
 (* {1 Adapters come and go} *)
 
 let repeat_orders ~now v (slot : slot) d =
@@ -260,7 +275,8 @@ let repeat_stop d (v, (e : Errand.t)) =
   send (Stop { request = e.request; vehicle = v }) (send (resume_order v e d) d)
 
 let born ~now greeting d =
-  let d = { d with adapter = Some greeting; ping = { no_ping with next = now +. ping_interval } } in
+  let ping = { no_ping with next = now +. ping_interval } in
+  let d = { d with adapter = Some greeting; ping; refusal = no_refusal } in
   let d = send (Timeout (None, d.timeout)) d in
   let d = Names.fold (fun v seconds d -> send (Timeout (Some [ v ], seconds)) d) d.timeouts d in
   let d = if d.telemetry then send (Telemetry true) d else d in
@@ -293,9 +309,11 @@ let due_of v (slot : slot) d =
   let of_errand = Errand.due ~link ~lost ~timeout:(timeout_of v d) ~patience:(patience d) slot.errand in
   Float.min of_next of_errand
 
+let refusal_due d = if d.refusal.waits = None then infinity else d.refusal.informed +. refusal_interval
+
 let due d =
   Names.fold (fun v slot first -> Float.min first (due_of v slot d)) d.slots
-    (Float.min d.ping.next (Timers.first d.timers))
+    (Float.min (refusal_due d) (Float.min d.ping.next (Timers.first d.timers)))
 
 let seconds x = if x = 1. then "1 second" else Printf.sprintf "%g seconds" x
 
@@ -334,6 +352,7 @@ let ping ~now d =
 let tick ~now d =
   let expired, timers = Timers.expired ~now d.timers in
   let d = List.fold_left (fun d timer -> tell (Told (Timer timer)) d) { d with timers } expired in
+  let d = match d.refusal.waits with Some why when refusal_due d <= now -> refuse ~now why d | Some _ | None -> d in
   finish (ping ~now (Names.fold (check_slot ~now) d.slots d))
 
 (* {1 Commands} *)

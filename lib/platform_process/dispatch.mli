@@ -40,6 +40,11 @@ val died : now:float -> t -> t * output list
 (** It is gone: its vehicles have no link. *)
 
 val report : now:float -> Report.t -> t -> t * output list
+
+val refused : now:float -> string -> t -> t * output list
+(** A line of the adapter is no report, and why: the adapter is informed, about once a second at most, and reports all
+    that it knows again. *)
+
 val durable : now:float -> string -> t -> t * output list
 val tick : now:float -> t -> t * output list
 

@@ -117,7 +117,9 @@ let write_ahead p sync =
 (* {1 Reports} *)
 
 let hear p = function
-  | Adapter.Garbage why -> told p ("a line of the adapter " ^ why ^ "; it is ignored")
+  | Adapter.Garbage why ->
+    told p ("a line of the adapter " ^ why ^ "; it is ignored");
+    absorb p (Dispatch.refused ~now:(now p) why)
   | Adapter.Report report -> (
       Log.debug (fun m -> m "%.3f %s > %s" (now p) p.platform (String.trim (Report.to_line report)));
       absorb p (Dispatch.report ~now:(now p) report);

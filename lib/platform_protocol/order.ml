@@ -22,6 +22,7 @@ type t =
     }
   | Check of { id : int; vehicle : Core.vehicle option; plan : Yojson.Safe.t }
   | Kept of int
+  | Refused of string
   | Close
 
 let purposes = [ ("run", Run); ("look", Look); ("check", (Check : purpose)) ]
@@ -31,6 +32,9 @@ let name_of_purpose purpose = fst (List.find (fun (_, other) -> other = purpose)
 
 let text = Line.text
 let optional_text name = function Some x -> [ (name, text x) ] | None -> []
+
+(* A reason may quote what was not even UTF-8. *)
+let ascii = String.map (function ' ' .. '~' as c -> c | _ -> '?')
 
 let task request vehicle plan timeout =
   [ ("request", text request); ("vehicle", text vehicle); ("plan", plan); ("timeout", `Float timeout) ]
@@ -54,6 +58,7 @@ let to_json = function
   | Check { id; vehicle; plan } ->
     Line.make "check" ([ ("id", `Int id); ("plan", plan) ] @ optional_text "vehicle" vehicle)
   | Kept id -> Line.make "kept" [ ("id", `Int id) ]
+  | Refused why -> Line.make "refused" [ ("why", text (ascii why)) ]
   | Close -> Line.make "close" []
 
 let to_line order = Yojson.Safe.to_string (to_json order) ^ "\n"
@@ -118,6 +123,7 @@ let kinds =
         Ok (Resume { request; vehicle; plan; timeout; notes }) );
     ("check", check);
     ("kept", fun m -> let* id = get Line.count "id" m in Ok (Kept id));
+    ("refused", fun m -> let* why = get Field.text "why" m in Ok (Refused why));
     ("close", fun _ -> Ok Close) ]
 
 let of_line text = Line.read kinds text

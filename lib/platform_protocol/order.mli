@@ -22,6 +22,7 @@ type t =
     }
   | Check of { id : int; vehicle : Core.vehicle option; plan : Yojson.Safe.t }
   | Kept of int
+  | Refused of string  (** A report was not understood, and why. In JSON, bytes outside of ASCII are ["?"]. *)
   | Close
 
 val to_json : t -> Yojson.Safe.t

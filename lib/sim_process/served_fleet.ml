@@ -140,9 +140,12 @@ let resume request f =
 
 let on_fleet f fleet = ({ f with fleet }, [])
 
+let everyone f = List.map sight (Fleet.vehicles f.fleet)
+
 let carry_out (o : Order.t) f =
   match o with
   | Hello _ | Timeout _ | Kept _ -> (f, [])
+  | Refused _ -> (f, everyone f)
   | Telemetry on -> on_fleet f (Fleet.telemetry on f.fleet)
   | Hold vs -> on_fleet f (Fleet.bind vs f.fleet)
   | Release vs -> on_fleet f (Fleet.release vs f.fleet)
@@ -165,11 +168,9 @@ let changes (o : Order.t) f =
   | Start { request; _ } -> not (Names.mem request f.said)
   | Stop { request; vehicle } -> Names.find_opt vehicle f.running = Some request
   | Close -> not (Names.is_empty f.running)
-  | Hello _ | Telemetry _ | Hold _ | Release _ | Timeout _ | Ping _ | Resume _ | Check _ | Kept _ -> false
+  | Hello _ | Telemetry _ | Hold _ | Release _ | Timeout _ | Ping _ | Resume _ | Check _ | Kept _ | Refused _ -> false
 
 let order ~now o f =
   let f, before = advance ~until:now f in
   let f, said = carry_out o f in
   (f, before @ said)
-
-let everyone f = List.map sight (Fleet.vehicles f.fleet)

@@ -12,7 +12,7 @@ import sys
 
 KNOWN = {"$schema", "$defs", "$ref", "title", "type", "properties", "required", "additionalProperties", "items",
          "oneOf", "not", "enum", "const", "pattern", "minimum", "maximum", "minItems", "maxItems",
-         "minProperties", "minLength"}
+         "minProperties", "minLength", "dependentRequired"}
 TYPES = {"object": dict, "array": list, "string": str, "boolean": bool, "null": type(None)}
 DOCUMENTS = {}
 
@@ -69,6 +69,8 @@ def wrong(value, schema, path, at="$"):
             found.append(f"{at}: {fits} of the possibilities fit")
     if isinstance(value, dict):
         found += [f"{at}: {name} is missing" for name in schema.get("required", []) if name not in value]
+        for name, others in schema.get("dependentRequired", {}).items():
+            found += [f"{at}: {name} without {other}" for other in others if name in value and other not in value]
         properties, others = schema.get("properties", {}), schema.get("additionalProperties", True)
         for name, x in value.items():
             if name in properties:

@@ -11,7 +11,7 @@ FAULT, COMMAND = sys.argv[1:]
 base = subprocess.Popen(COMMAND, shell=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
 lock = threading.RLock()
 vehicle_of, ended, resumed = {}, set(), set()  # of requests
-starts = 0
+starts, sights = 0, 0
 just_started = None  # the request of the order before this one, if it was a start
 
 
@@ -49,6 +49,8 @@ def on_order(order):
         if FAULT == "one at a time" and running():
             return True
         vehicle_of[request] = order["vehicle"]
+    if FAULT == "says all once" and kind == "refused":
+        return True
     if kind == "stop":
         if FAULT == "no stop":
             return True
@@ -69,6 +71,7 @@ def on_order(order):
 
 def on_report(report):
     """What becomes of a report: the lines in its place."""
+    global sights
     kind, request = report["kind"], report.get("request")
     if kind in ("done", "failed", "stopped"):
         ended.add(request)
@@ -79,6 +82,10 @@ def on_report(report):
     if FAULT == "dies" and kind == "taken" and not os.path.exists("died"):
         open("died", "w").close()
         os._exit(4)
+    if FAULT == "half a place" and kind == "vehicle":
+        if sights == 1:
+            del report["longitude"]
+        sights += 1
     if FAULT == "typeless" and kind == "vehicle":
         del report["type"]
     if FAULT == "doubled ends" and kind == "done":

@@ -9,6 +9,7 @@ The simulated fleet passes the kit, with a hundred vehicles.
   ok    greeting         greets within 10 s, before all else (it is sim, and takes name, imcPlan, mission)
   ok    vehicles         reports a vehicle that is ready, at first with type and link (auv-001 is ready)
   ok    strange-orders   ignores orders and members that it does not know
+  ok    refused-line     reports its vehicles again, with all members, when a line is refused
   ok    completion       runs a plan to its end, and reports one end
   ok    next             runs the next plan at once
   ok    pings            answers pings while a vehicle runs a plan
@@ -26,14 +27,14 @@ The simulated fleet passes the kit, with a hundred vehicles.
   ok    never-ordered    does not claim a request that was never ordered (it says 'absent')
   ok    console-dies     lets vehicles fly on when its input ends, and ends (it says 'taken')
   ok    close            stops all, says that it is quiet, and ends
-  20 of 20 situations passed
+  21 of 21 situations passed
   $ grep -c '<testcase' kit.xml
-  20
+  21
 
 So does the example, whose vehicle has no memory.
 
   $ dolphin platform check ../../examples/adapter.py --patience 10 | tail -1
-  20 of 20 situations passed
+  21 of 21 situations passed
 
 Each situation finds an adapter out that is wrong there.
 
@@ -54,10 +55,18 @@ Each situation finds an adapter out that is wrong there.
   typeless: status 1
     vehicles         reports a vehicle that is ready, at first with type and link
         the first report of auv-001 lacks its type or its link
+  $ find_out vehicles 'half a place'
+  half a place: status 1
+    vehicles         reports a vehicle that is ready, at first with type and link
+        a line is no 'vehicle' as the protocol has it: of latitude and longitude one is missing: {"kind": "vehicle", "vehicle": "auv-002", "type": "UUV", "payload": [], "latitude": 41.1851800869126, "height": 0.0, "depth": null, "altitude": null, ...
   $ find_out strange-orders fragile
   fragile: status 1
     strange-orders   ignores orders and members that it does not know
         the adapter ended where the pong was awaited
+  $ find_out refused-line 'says all once'
+  says all once: status 1
+    refused-line     reports its vehicles again, with all members, when a line is refused
+        a line was refused, and auv-001 is not reported again with type, position and link within 4 s
   $ find_out completion 'doubled ends'
   doubled ends: status 1
     completion       runs a plan to its end, and reports one end

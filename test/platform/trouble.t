@@ -22,6 +22,47 @@ A line that is no report is told, and does no harm.
   program     releases auv-1
   program     ends
 
+A report of which one member is wrong is ignored as a whole, and the adapter is informed: it reports all again.
+
+  $ cat > half.py <<'END'
+  > import json, sys
+  > def report(kind, **members): print(json.dumps({"kind": kind, **members}), flush=True)
+  > def vehicle(**members): report("vehicle", vehicle="rover-1", **members)
+  > for line in sys.stdin:
+  >     order = json.loads(line)
+  >     kind = order["kind"]
+  >     if kind == "hello":
+  >         report("hello", protocol=1, name="half", announce=1)
+  >         vehicle(type="UGV", latitude=41, longitude=-8, link=True, battery=0.43)
+  >     elif kind == "ping":
+  >         report("pong", id=order["id"])
+  >     elif kind == "start":
+  >         request = order["request"]
+  >         vehicle(latitude=41.1, battery=0.19)
+  >     elif kind == "refused":
+  >         print(order["why"], file=sys.stderr, flush=True)
+  >         vehicle(type="UGV", latitude=41.1, longitude=-8, link=True, battery=0.19)
+  >         report("done", request=request)
+  >     elif kind == "close":
+  >         report("quiet")
+  >         break
+  > END
+  $ cat > half.dol <<'END'
+  > v = pick { type 'UGV' }
+  > execute v: imcPlan('short')
+  > message battery(v)
+  > END
+  $ run half.dol --journal half.run --platform 'python3 half.py 2> refused.txt'
+  program     picks rover-1
+  rover-1     starts short
+  program     platform half: a line of the adapter is no 'vehicle' as the protocol has it: of latitude and longitude one is missing; it is ignored
+  rover-1     ends short
+  program     says: 0.19
+  program     releases rover-1
+  program     ends
+  $ cat refused.txt
+  is no 'vehicle' as the protocol has it: of latitude and longitude one is missing
+
 The adapter dies: its vehicle loses its link, the next adapter says what became of the plan.
 
   $ run m.dol --journal 2.run --platform "$(with dies)"

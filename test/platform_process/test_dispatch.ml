@@ -71,6 +71,7 @@ let shown = function
       | Resume { request; vehicle; notes; _ } ->
         Some (Printf.sprintf "resume %s %s %s" request vehicle (Yojson.Safe.to_string (`List notes)))
       | Kept id -> Some (Printf.sprintf "kept %d" id)
+      | Refused why -> Some ("refused: " ^ why)
       | Hello _ | Telemetry _ | Hold _ | Release _ | Timeout _ | Ping _ | Check _ | Close -> None)
   | Remark (v, text) -> Some (Printf.sprintf "remark %s: %s" (Option.value v ~default:"-") text)
   | Give_up why -> Some ("give up: " ^ why)
@@ -132,6 +133,45 @@ let measurements () =
   Alcotest.check measured "the others are as before" ([ ("Depth", 3.); ("Temperature", 13.) ], Some 1.5) (readings ());
   tell (Some None) [ ("Depth", None) ];
   Alcotest.check measured "not known any more" ([ ("Temperature", 13.) ], None) (readings ())
+
+let refusals () =
+  let w = fresh () in
+  let refused why = step w (fun ~now d -> D.refused ~now why d) in
+  refused "a";
+  check_out w "the adapter is informed at once" [ "refused: a" ];
+  pass w 0.5;
+  List.iter (fun n -> refused (string_of_int n)) [ 1; 2; 3 ];
+  check_out w "not each time" [];
+  pass w 0.4;
+  check_out w "not yet" [];
+  pass w 0.2;
+  check_out w "of the last one" [ "refused: 3" ];
+  pass w 3.;
+  check_out w "once" [];
+  report w (Vehicle { (Report.nothing "new") with link = Some true });
+  let why = "the first report of new has no type" in
+  check_out w "a report that cannot be used" [ "refused: " ^ why; "remark -: " ^ why ^ ": it is ignored" ];
+  refused "b";
+  died w;
+  born w;
+  pass w 3.;
+  check_out w "another adapter is not informed of it" []
+
+let both_or_neither =
+  let members (latitude, longitude) =
+    let one name = function Some x -> [ (name, `Float x) ] | None -> [] in
+    one "latitude" latitude @ one "longitude" longitude
+  in
+  let line place =
+    Yojson.Safe.to_string (`Assoc (("kind", `String "vehicle") :: ("vehicle", `String "v") :: members place)) in
+  Test_support.Property.case ~count:300 "latitude and longitude: both or neither" ~print:line
+    QCheck2.Gen.(pair (opt (float_range (-90.) 90.)) (opt (float_range (-180.) 180.)))
+    (fun place ->
+       match Report.of_line (line place), place with
+       | Ok (Some (Vehicle { place = Some found; _ })), (Some a, Some b) -> found = (a, b)
+       | Ok (Some (Vehicle { place = None; _ })), (None, None) -> true
+       | Error _, ((Some _, None) | (None, Some _)) -> true
+       | _, _ -> false)
 
 let stop_then_start () =
   let w = fresh () in
@@ -299,7 +339,7 @@ let strangers () =
   born w;
   report w (Vehicle { (Report.nothing "v") with link = Some true });
   report w (Request ("nobody's", Done));
-  check_out w "told" [ "remark -: the first report of v has no type: it is ignored" ];
+  check_out w "told" [ "refused: the first report of v has no type"; "remark -: the first report of v has no type: it is ignored" ];
   report w (Vehicle { (Report.nothing "v") with link = Some true; kind = Some "UAV" });
   check_events w "no program sees it without a position" [];
   report w (Vehicle { (Report.nothing "v") with place = Some (1., 2.); unready = Some (Some "is on the ground") });
@@ -420,7 +460,8 @@ let () =
           case "nothing is ordered before the disk has it" not_yet_durable;
           case "a link that is lost for too long" silence; case "a link that returns" link_returns;
           case "a start without an answer" no_answer; case "a stop without an answer" stop_without_answer;
-          case "what is not certain" unknown; case "a vehicle without type or position" strangers ] );
+          case "what is not certain" unknown; case "a vehicle without type or position" strangers;
+          case "a line that is refused" refusals; both_or_neither ] );
       ( "deaths",
         [ case "the adapter dies, and is asked" death; case "what never reached it is ordered again" death_and_absent;
           case "it is dead for long" death_for_long; case "a start meanwhile" start_while_dead;

@@ -3,12 +3,19 @@
 from . import modes
 
 
+_PLACE = ("latitude", "longitude")
+
+
 class Sightings:
     """`telemetry`: whether positions and batteries are wanted every second."""
 
     def __init__(self):
         self._told, self._told_at = {}, {}  # by names
         self.telemetry = False
+
+    def forget(self):
+        """A report was refused, and it is not known which: the next one of each vehicle has all members."""
+        self._told = {}
 
     def news(self, now, name, vehicle, payload, has_plan, at_once):
         """What is to be told of a vehicle: links and readiness at once, the rest about once a second. None: nothing."""
@@ -33,6 +40,8 @@ class Sightings:
             report.update({"depth": 0.0 - above} if vehicle.frame == "sub" else {"altitude": above})
         report.update(battery=vehicle.battery, speed=vehicle.speed)
         changed = {k: x for k, x in report.items() if k not in before or before[k] != x}
+        if not changed.keys().isdisjoint(_PLACE):
+            changed.update((k, report[k]) for k in _PLACE)  # Dolphin refuses one without the other
         if not changed:
             return None
         self._told[name] = report

@@ -194,6 +194,10 @@ class Station:
     def _order_telemetry(self, now, line):
         self._sightings.telemetry = bool(line["on"])
 
+    def _order_refused(self, now, line):
+        """A report was not understood. Vehicles are reported again, in a second at the latest."""
+        self._sightings.forget()
+
     def _order_ping(self, now, line):
         self._report({"kind": "pong", "id": line["id"]})
 

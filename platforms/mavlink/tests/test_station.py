@@ -65,6 +65,34 @@ class Protocol(Case):
         wires.run(2)
         self.assertEqual(wires.vehicle_said("mav-1")["payload"], ["camera"])
 
+    def test_a_place_is_reported_whole(self):
+        """Dolphin refuses a line with one coordinate, and with it a failsafe or a battery in it."""
+        vehicle, wires = one()
+        wires.order(kind="telemetry", on=True)
+        latitude, longitude = HARBOUR
+        for n in range(40):
+            vehicle.place = latitude + 1e-5 * (n % 3), longitude + 1e-5 * (n // 3)
+            vehicle.battery = 90 - n
+            wires.run(1)
+        wires.run(3)
+        told = wires.said("vehicle")
+        self.assertGreater(len([r for r in told if "latitude" in r]), 35)
+        for report in told:
+            self.assertEqual("latitude" in report, "longitude" in report, report)
+        seen = wires.vehicle_said("mav-1")
+        self.assertAlmostEqual(seen["latitude"], vehicle.place[0], 6)
+        self.assertAlmostEqual(seen["longitude"], vehicle.place[1], 6)
+
+    def test_a_report_that_was_refused_is_followed_by_a_whole_one(self):
+        vehicle, wires = one()
+        wires.run(10)
+        before = wires.vehicle_said("mav-1")
+        count = len(wires.reports)
+        wires.order(kind="refused", why="is no 'vehicle' as the protocol has it")
+        wires.run(1.5)
+        [again] = [r for r in wires.reports[count:] if r["kind"] == "vehicle"]
+        self.assertEqual(set(before), set(again))
+
     def test_links(self):
         vehicle, wires = one()
         vehicle.silent = True

@@ -7,6 +7,7 @@ import json
 import math
 import re
 
+from . import geo
 from .wire import mavlink
 
 WAYPOINT, LOITER_UNLIMITED, LOITER_TURNS, LOITER_TIME = 16, 17, 18, 19
@@ -19,11 +20,24 @@ GLOBAL, RELATIVE, MISSION_FRAME = 5, 6, 2
 _SAME_FRAME = {0: 5, 3: 6, 10: 11}
 _FRAMES = {0, 2, 3, 5, 6, 10, 11}
 
-# Commands with a place; and the parameters that decide what a vehicle does: they must come back as they were sent.
-LOCATED = {16, 17, 18, 19, 21, 22, 31, 82, 84, 85, 201, 195}
-# Those of them that a vehicle flies to.
-_FLOWN_TO = LOCATED - {195, 201}
-_NEED_A_PLACE = {16, 31, 82, 195, 201}
+# In every frame but MISSION_FRAME, MISSION_ITEM_INT has places in units of 1e-7 degrees, whatever the command is. These
+# commands use param5 and param6 for other numbers in all frames, as ArduPilot reads them.
+_NOT_SCALED = {
+    mavlink.MAV_CMD_DO_DIGICAM_CONFIGURE,
+    mavlink.MAV_CMD_DO_DIGICAM_CONTROL,
+    mavlink.MAV_CMD_DO_GIMBAL_MANAGER_PITCHYAW,
+    mavlink.MAV_CMD_NAV_SCRIPT_TIME,
+    mavlink.MAV_CMD_NAV_ATTITUDE_TIME,
+}
+# Commands that fly to their place.
+DESTINATIONS = {16, 17, 18, 19, 21, 22, 31, 36, 82, 84, 85, 94}
+_DEFINED = mavlink.enums["MAV_CMD"]
+# ArduPilot stores a place also of these, for which MAVLink defines none: NAV_CONTINUE_AND_CHANGE_ALT, NAV_GUIDED_ENABLE,
+# DO_GO_AROUND.
+_STORED_PLACE = {30, 92, 191}
+_NEED_A_PLACE = {16, 31, 36, 82, 195, 201, mavlink.MAV_CMD_CONDITION_GATE}
+
+# The parameters that decide what a vehicle does: they must come back as they were sent.
 _DECISIVE = {16: (1,), 18: (1,), 19: (1,), 93: (1,), 112: (1,), 177: (1, 2), 178: (2,)}
 
 
@@ -31,13 +45,27 @@ class Unreadable(Exception):
     """Why there is no mission; a text for people."""
 
 
+def is_scaled(command, frame):
+    """Whether MISSION_ITEM_INT has the 1e7-fold of param5 and param6."""
+    return frame != MISSION_FRAME and command not in _NOT_SCALED
+
+
+def _has_defined_place(command):
+    return command in DESTINATIONS or (command in _DEFINED and _DEFINED[command].has_location)
+
+
+def _may_drop_place(command):
+    """Whether MAVLink defines no place for the command: an autopilot need not keep one, and does not fly to it."""
+    return command in _DEFINED and not _has_defined_place(command) and command not in _STORED_PLACE
+
+
 @dataclasses.dataclass(frozen=True)
 class Item:
     command: int
     frame: int = MISSION_FRAME
     params: tuple = (0.0, 0.0, 0.0, 0.0)
-    x: int = 0  # latitude, in 1e-7 degrees
-    y: int = 0  # longitude
+    x: int = 0  # param5 as MISSION_ITEM_INT has it: the latitude in 1e-7 degrees, if it is scaled
+    y: int = 0  # param6: the longitude
     z: float = 0.0
     autocontinue: int = 1
 
@@ -47,8 +75,18 @@ class Item:
         return self.command <= 95
 
     @property
+    def is_scaled(self):
+        return is_scaled(self.command, self.frame)
+
+    @property
     def has_place(self):
-        return self.command in LOCATED and (self.x, self.y) != (0, 0)
+        """Whether it has a place other than 0, 0, which stands for the vehicle's own."""
+        return self.is_scaled and (self.x, self.y) != (0, 0)
+
+    @property
+    def is_destination(self):
+        """Whether the vehicle flies to its place; not so a region of interest, or a home position that is set."""
+        return self.command in DESTINATIONS and self.has_place
 
     @property
     def place(self):
@@ -74,7 +112,8 @@ def of_message(message):
     """The item in a MISSION_ITEM_INT or MISSION_ITEM."""
     x, y = message.x, message.y
     if message.get_type() == "MISSION_ITEM":
-        x, y = (round(c * 1e7) if math.isfinite(c) else 0 for c in (x, y))
+        scale = 1e7 if is_scaled(message.command, message.frame) else 1
+        x, y = (round(c * scale) if math.isfinite(c) else 0 for c in (x, y))
     params = (message.param1, message.param2, message.param3, message.param4)
     return Item(message.command, message.frame, params, x, y, message.z, message.autocontinue)
 
@@ -94,10 +133,18 @@ def difference(sent, kept):
             return (
                 f"parameter {n} of command {sent.command} is {kept.params[n - 1]:g} instead of {sent.params[n - 1]:g}"
             )
-    if not sent.has_place:
+    if sent.is_scaled or _has_defined_place(sent.command):
+        return _different_place(sent, kept)
+    return None
+
+
+def _different_place(sent, kept):
+    if (kept.x, kept.y) == (0, 0) and _may_drop_place(sent.command):
         return None
     if max(abs(sent.x - kept.x), abs(sent.y - kept.y)) > 1:
         return f"{kept.x / 1e7:.7f}, {kept.y / 1e7:.7f} instead of {sent.x / 1e7:.7f}, {sent.y / 1e7:.7f}"
+    if not sent.is_scaled or not (sent.has_place or sent.command in DESTINATIONS):
+        return None
     if _SAME_FRAME.get(sent.frame, sent.frame) != _SAME_FRAME.get(kept.frame, kept.frame):
         return f"frame {kept.frame} instead of {sent.frame}"
     if not (math.isnan(sent.z) or abs(sent.z - kept.z) <= 0.02):
@@ -158,18 +205,33 @@ def _item(command, frame, values, autocontinue, what):
         _number(value, f"parameter {n} of {what}", math.nan if n == 4 else 0.0) for n, value in enumerate(values, 1)
     ]
     latitude, longitude, z = named[4:]
-    if command in LOCATED and not (abs(latitude) <= 90 and abs(longitude) <= 180):
-        raise Unreadable(f"{what} is at {latitude:g}, {longitude:g}, which is no place")
     unset = [value is None for value in values[4:6]]
-    if command in LOCATED and (unset[0] != unset[1] or (any(unset) and command in _NEED_A_PLACE)):
+    if _has_defined_place(command) and (unset[0] != unset[1] or (any(unset) and command in _NEED_A_PLACE)):
         raise Unreadable(f"{what} has no place")
-    if command in _FLOWN_TO and frame == MISSION_FRAME and (latitude, longitude) != (0, 0):
+    if command in DESTINATIONS and frame == MISSION_FRAME and (latitude, longitude) != (0, 0):
         raise Unreadable(f"{what} flies to a place, and frame {frame} has none")
-    scale = 1e7 if command in LOCATED else 1
-    x, y = round(latitude * scale), round(longitude * scale)
+    x, y = _integers(command, frame, latitude, longitude, what)
+    return Item(command, _SAME_FRAME.get(frame, frame), tuple(named[:4]), x, y, z, 1 if autocontinue else 0)
+
+
+def _integers(command, frame, param5, param6, what):
+    """param5 and param6 as MISSION_ITEM_INT has them."""
+    scaled = is_scaled(command, frame)
+    if scaled and not (abs(param5) <= 90 and abs(param6) <= 180):
+        raise Unreadable(f"{what} is at {param5:g}, {param6:g}, which is not a place")
+    x, y = (round(p * 1e7) if scaled else round(p) for p in (param5, param6))
     if max(abs(x), abs(y)) >= 2**31:
         raise Unreadable(f"{what} has a parameter out of range")
-    return Item(command, _SAME_FRAME.get(frame, frame), tuple(named[:4]), x, y, z, 1 if autocontinue else 0)
+    if (param5, param6) == (0, 0):
+        return x, y
+    if scaled and geo.distance((0.0, 0.0), (x / 1e7, y / 1e7)) < 1:
+        raise Unreadable(f"{what} is at {param5:g}, {param6:g}, within a metre of 0, 0: give 0, 0 or its true place")
+    if not scaled and _has_defined_place(command) and abs(x) <= 90 and abs(y) <= 180:
+        # Degrees, which the vehicle would take for units of 1e-7 degrees.
+        raise Unreadable(
+            f"{what} would be sent to a place within metres of 0, 0, for frame {frame} has none: give a global frame"
+        )
+    return x, y
 
 
 def _with_jumps(items, numbers):

@@ -154,8 +154,8 @@ class Progress:
 
     def _is_near(self, item):
         v = self._vehicle
-        place = v.home if item.command == missions.RETURN else item.place if item.has_place else v.place
+        place = v.home if item.command == missions.RETURN else item.place if item.is_destination else v.place
         if place is None or v.place is None:
             return False
-        radius = abs(item.params[2]) if item.command in missions.LOCATED and math.isfinite(item.params[2]) else 0.0
+        radius = abs(item.params[2]) if item.command in missions.DESTINATIONS and math.isfinite(item.params[2]) else 0.0
         return geo.distance(v.place, place) <= max(NEAR.get(v.frame, 15.0), 1.5 * radius)

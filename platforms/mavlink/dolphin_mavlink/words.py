@@ -113,8 +113,10 @@ class Builder:
             if item.command == missions.JUMP:
                 item = dataclasses.replace(item, params=(item.params[0] + base, *item.params[1:]))
             self.items.append(item)
-            if item.has_place:
+            if item.is_destination:
                 self._to(item.place)
+            elif item.command == mavlink.MAV_CMD_DO_SET_HOME:
+                self._home = item.place if item.has_place else self._place
 
     def _speed(self, a):
         self._change_speed(a.number("speed"))
@@ -125,6 +127,7 @@ class Builder:
     def _set_home(self, a):
         place = a.place("position", None)
         if place is None:
+            self._home = self._place
             self.items.append(Item(mavlink.MAV_CMD_DO_SET_HOME, params=(1.0, 0.0, 0.0, 0.0)))
         else:
             self._home = place

@@ -201,7 +201,7 @@ class Files(unittest.TestCase):
             (
                 "a.plan",
                 '{"mission": {"items": [{"command": 16, "frame": 3, "params": [0,0,0,0,91,0,0]}]}}',
-                "item 1 is at 91, 0, which is no place",
+                "item 1 is at 91, 0, which is not a place",
             ),
             (
                 "a.plan",
@@ -442,6 +442,10 @@ class Missions(unittest.TestCase):
             self.refused(("takeOff", 5), ("loiterPos", Named(turns=2, duration=5))),
             ["item 2, loiterPos: it takes seconds or turns, above 0, not both"],
         )
+
+    def test_a_home_that_is_set_on_the_way(self):
+        found = self.found(("takeOff", 30), ("move", 100), ("home",), ("move", 50), ("returnHome",)).items
+        self.assertEqual(found[-1].place, found[1].place)
 
     def test_whose_it_is(self):
         plan = items(("takeOff", 5))

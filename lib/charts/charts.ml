@@ -1,7 +1,7 @@
 open Dolphin_semantics
 module Map_file = Dolphin_maps.Map_file
 
-type chart = { path : string; digest : string; value : (Core.value, string) result }
+type chart = { path : string; digest : string; value : (Chart.t, string) result }
 type t = chart list
 
 let of_thing : Map_file.thing -> Core.value = function
@@ -9,9 +9,12 @@ let of_thing : Map_file.thing -> Core.value = function
   | Line ps -> List (Vector.of_list (List.rev (List.rev_map (fun p -> Core.Position p) ps)))
   | Area area -> Area area
 
-let of_text path text : (Core.value, string) result =
-  let entries things = List.rev (List.rev_map (fun (name, thing) -> (name, of_thing thing)) things) in
-  Result.map (fun things -> Core.Map (entries things)) (Map_file.read ~path text)
+let of_map ({ things; notes } : Map_file.t) : Chart.t =
+  let entry (name, thing) = (name, match thing with Ok thing -> of_thing thing | Error _ -> Core.Null) in
+  let flaw (name, thing) = match thing with Ok _ -> None | Error why -> Some (name, why) in
+  { value = Map (List.rev (List.rev_map entry things)); flawed = List.filter_map flaw things; notes }
+
+let of_text path text = Result.map of_map (Map_file.read ~path text)
 
 (* An editor asks for the same files again with each letter that is typed. *)
 let most_recent = 8

@@ -8,9 +8,9 @@ val read : (string -> (string, string) result) -> Dolphin_syntax.Ast.program -> 
 (** [read file program] reads all files that [program] names so; [file path] is what the file [path] holds, or why it
     cannot be read. *)
 
-val value : t -> string -> (Core.value, string) result
-(** [value charts path] is a map from the names in the file [path] to positions, lists of positions and areas; or what
-    is wrong with the file, and where. *)
+val value : t -> string -> (Chart.t, string) result
+(** [value charts path] is a map from the names in the file [path] to positions, lists of positions and areas, [null]
+    where a feature is flawed; or what is wrong with the file, and where. *)
 
 val identity : t -> string
 (** [identity charts] is text that differs if another file is named or the contents of one have changed, [""] without

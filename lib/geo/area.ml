@@ -69,9 +69,12 @@ let shape plane rings =
 
 let rings shape = Array.to_list (Array.map Array.to_list shape.corners)
 
+let on_own_plane shape = (shape.plane, shape.points)
+
 (* {1 From corners} *)
 
-let most_corners = 5_000
+let most_corners = 20_000
+let most_of_path = 500
 
 let plane_of positions = Option.to_result ~none:Too_wide (Plane.between positions)
 
@@ -323,7 +326,7 @@ let corridor path width =
   else
     match path with
     | [] -> Error (Few_corners 0)
-    | _ when List.length path > most_corners / 10 -> Error (Many_corners (List.length path))
+    | _ when List.length path > most_of_path -> Error (Many_corners (List.length path))
     | path ->
       let* plane = plane_of path in
       if width > 2. *. Plane.reach then Error Too_wide
@@ -345,7 +348,7 @@ let offset area metres =
     let count = Array.fold_left (fun n ring -> n + Array.length ring) 0 corners in
     if metres = 0. then Ok area
     else if Float.abs metres > Plane.reach then Error Too_wide
-    else if count > most_corners / 10 then Error (Many_corners count)
+    else if count > most_of_path then Error (Many_corners count)
     else
       let rims = List.concat_map (fun ring -> capsules (Float.abs metres) (closed ring)) (Array.to_list points) in
       let f = if metres > 0. then ( || ) else fun a b -> a && not b in

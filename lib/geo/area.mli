@@ -36,7 +36,7 @@ val polygon : ?holes:Position.t list list -> Position.t list -> (t, error) resul
     without [holes]. A corner that follows itself counts once. In either order of corners it is the same area. *)
 
 val most_corners : int
-(** 5,000. *)
+(** 20,000. *)
 
 val corridor : Position.t list -> float -> (t, error) result
 (** [corridor path width] has the points at most [width / 2] metres from the way along [path], up to the accuracy
@@ -48,6 +48,9 @@ val of_rings : Position.t list list -> (t, error) result
 val rings : shape -> Position.t list list
 (** The rims, each from its corner in the south, of those in the west: counterclockwise around an area, clockwise
     around a hole. They neither cross nor overlap. *)
+
+val on_own_plane : shape -> Plane.t * Plane.point array array
+(** [on_own_plane shape] is the plane around the middle of [shape], and its rims there, in the order of {!rings}. *)
 
 (** {1:ask What an area is like} *)
 
@@ -78,7 +81,7 @@ val on_plane : t -> (Plane.t * Arrangement.ring list, error) result
     They work in a plane, {!Plane}, on a grid of a millimetre. A circle takes part as a polygon of {!corners_of_circle}
     corners on its rim, which is inside of the circle by at most a 3,300th part of the radius. The arcs of {!corridor}
     and {!offset} have a corner every 11 degrees, and are right to half a percent of their radius; these two take at
-    most a tenth of {!most_corners}. Results have no parts that are thinner than some millimetres. *)
+    most 500 corners. Results have no parts that are thinner than some millimetres. *)
 
 val corners_of_circle : int
 (** 128. *)

@@ -43,7 +43,7 @@ and number text i found =
   let signed = not (is_of_number text.[i]) in
   let first = if signed then i + 1 else i in
   let j = span is_of_number text first in
-  match float_of_string_opt (String.sub text first (j - first)) with
+  match Dolphin_numerals.Numeral.number (String.sub text first (j - first)) with
   | Some x when j > first -> tokens text j (Number ((if text.[i] = '-' then -.x else x), signed) :: found)
   | Some _ | None -> Error "a number of it cannot be read"
 

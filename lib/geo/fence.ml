@@ -73,21 +73,17 @@ let excess side margin depth = match side with Inside -> margin -. depth | Outsi
 
 type ready = { number : int; side : side; margin : float; region : region }
 
-(* [extent]: how far from its origin the plane's areas reach. *)
-type group = { plane : Plane.t; extent : float; rules : ready list }
+(* [extent]: how far from its origin, the [middle], the plane's areas reach. *)
+type group = { plane : Plane.t; middle : Wgs84.vector; extent : float; rules : ready list }
 type t = group list
 
 let near = 10_000.
 
-let walls_of plane rings =
-  let of_ring ring =
-    let points = Array.of_list (List.map (Plane.of_position plane) ring) in
-    let n = Array.length points in
-    Array.init n (fun i ->
-        let a = points.(i) and b = points.((i + 1) mod n) in
-        { low_end = a; high_end = b; box = box_of a b })
-  in
-  Array.concat (List.map of_ring rings)
+let walls_of_ring points =
+  let n = Array.length points in
+  Array.init n (fun i ->
+      let a = points.(i) and b = points.((i + 1) mod n) in
+      { low_end = a; high_end = b; box = box_of a b })
 
 let box_of_walls walls =
   let wider a b =
@@ -95,40 +91,62 @@ let box_of_walls walls =
       high = Float.max a.high b.high } in
   Array.fold_left (fun box w -> wider box w.box) walls.(0).box walls
 
+let region_of_rings rings =
+  let walls = Array.concat (List.map walls_of_ring rings) in
+  Walls (walls, box_of_walls walls)
+
 let region plane = function
   | Area.Circle { centre; radius } -> Disc (Plane.of_position plane centre, radius)
   | Shape shape ->
-    let walls = walls_of plane (Area.rings shape) in
-    Walls (walls, box_of_walls walls)
+    let on_plane ring = Array.of_list (List.map (Plane.of_position plane) ring) in
+    region_of_rings (List.map on_plane (Area.rings shape))
 
-let reach_of plane = function
-  | Area.Circle { centre; radius } -> Wgs84.distance (Plane.origin plane) centre +. radius
-  | Shape shape ->
-    List.fold_left
-      (List.fold_left (fun most p -> Float.max most (Wgs84.distance (Plane.origin plane) p)))
-      0. (Area.rings shape)
+(* Whether all of an area is near a group's middle. Most are so far that their first corner shows it. *)
+let is_near group area =
+  let within reach p =
+    Wgs84.chord group.middle (Wgs84.vector p) <= reach && Wgs84.distance (Plane.origin group.plane) p <= reach in
+  match area with
+  | Area.Circle { centre; radius } -> within (near -. radius) centre
+  | Shape shape -> List.for_all (List.for_all (within near)) (Area.rings shape)
 
-let own_plane = function
-  | Area.Circle { centre; _ } -> Plane.around centre
-  | Shape shape -> (
-      let corners = List.concat (Area.rings shape) in
-      match Plane.between corners with Some plane -> plane | None -> Plane.around (List.hd corners))
+(* A group of one area, in the plane of this. *)
+let alone ({ side; area; margin } : rule) number =
+  let plane, region, extent =
+    match area with
+    | Area.Circle { centre; radius } -> (Plane.around centre, Disc ((0., 0.), radius), radius)
+    | Shape shape ->
+      let plane, rings = Area.on_own_plane shape in
+      let from_middle = Array.fold_left (fun most (x, y) -> Float.max most (Float.hypot x y)) in
+      (plane, region_of_rings (Array.to_list rings), Array.fold_left from_middle 0. rings)
+  in
+  { plane; middle = Wgs84.vector (Plane.origin plane); extent = (if extent <= near then near else extent);
+    rules = [ { number; side; margin; region } ] }
 
 let make rules =
-  let add groups (number, ({ side; area; margin } : rule)) =
+  let add groups (number, ({ side; area; margin } as rule : rule)) =
     let join group = { group with rules = { number; side; margin; region = region group.plane area } :: group.rules } in
     let rec into = function
-      | group :: others when group.extent <= near && reach_of group.plane area <= near -> join group :: others
+      | group :: others when group.extent <= near && is_near group area -> join group :: others
       | group :: others -> group :: into others
-      | [] ->
-        let plane = own_plane area in
-        let extent = reach_of plane area in
-        [ join { plane; extent = (if extent <= near then near else extent); rules = [] } ]
+      | [] -> [ alone rule number ]
     in
     into groups
   in
   let in_order group = { group with rules = List.rev group.rules } in
   List.map in_order (List.fold_left add [] (List.mapi (fun i rule -> (i, rule)) rules))
+
+let without_margins groups =
+  let bare (rule : ready) = { rule with margin = 0. } in
+  List.map (fun group -> { group with rules = List.map bare group.rules }) groups
+
+(* For the roundings of a chord. *)
+let slack = 1_000.
+
+(* Whether no point at most [metres] from the place of [vector] can break a rule of [group]. *)
+let is_out_of_sight group vector metres =
+  let only_outside = List.for_all (fun rule -> rule.side = Outside) group.rules in
+  let margin = List.fold_left (fun most (rule : ready) -> Float.max most rule.margin) 0. group.rules in
+  only_outside && Wgs84.chord group.middle vector > group.extent +. margin +. metres +. slack
 
 (* {1 One line against one rule} *)
 
@@ -286,21 +304,33 @@ let breach groups way =
     | None, _ -> found
     | Some _, _ -> best
   in
+  let begins = List.map (fun (_, piece) -> (Wgs84.vector piece.from, longest_piece +. piece.radius)) cut_way in
   let of_group best group =
-    let lines = on_plane group.plane cut_way in
-    List.fold_left (fun best rule -> earlier best (of_rule group cut_way lines rule)) best group.rules
+    if List.for_all (fun (from, metres) -> is_out_of_sight group from metres) begins then best
+    else
+      let lines = on_plane group.plane cut_way in
+      List.fold_left (fun best rule -> earlier best (of_rule group cut_way lines rule)) best group.rules
   in
   let to_breach (stretch, rule, by, p, plane) = { rule; stretch; at = Plane.to_position plane p; by } in
   Option.map to_breach (List.fold_left of_group None groups)
 
+let is_beside margin (x, y) = function
+  | Disc _ -> false
+  | Walls (_, box) -> not (are_near box { left = x; right = x; low = y; high = y } margin)
+
 let breaches_at groups p =
+  let vector = Wgs84.vector p in
   let of_group group =
-    let xy = Plane.of_position group.plane p in
-    let of_rule { number; side; margin; region } =
-      let by = excess side margin (depth region xy) in
-      if by > tolerance then Some (number, by) else None
-    in
-    List.filter_map of_rule group.rules
+    if is_out_of_sight group vector 0. then []
+    else
+      let xy = Plane.of_position group.plane p in
+      let of_rule { number; side; margin; region } =
+        if side = Outside && is_beside margin xy region then None
+        else
+          let by = excess side margin (depth region xy) in
+          if by > tolerance then Some (number, by) else None
+      in
+      List.filter_map of_rule group.rules
   in
   List.sort compare (List.concat_map of_group groups)
 

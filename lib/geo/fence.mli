@@ -17,6 +17,9 @@ type t
 val make : rule list -> t
 (** Areas that lie within 10 km share a plane ({!Plane}), others have one of their own. *)
 
+val without_margins : t -> t
+(** [without_margins (make rules)] is [make] of [rules] with margins of 0. *)
+
 type breach = {
   rule : int;  (** from 0 *)
   stretch : int;  (** from 0 *)

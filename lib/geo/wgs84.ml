@@ -205,3 +205,15 @@ let cartesian (p : Position.t) =
 
 let straight a b =
   sqrt (square (a.x -. b.x) +. square (a.y -. b.y) +. square (a.z -. b.z))
+
+(* {1 Through the earth} *)
+
+type vector = { x : float; y : float; z : float }
+
+let vector (p : Position.t) =
+  let sine, cosine = sine_and_cosine (radians p.latitude) and east, ahead = sine_and_cosine (radians p.longitude) in
+  let square_eccentricity = flattening *. (2. -. flattening) in
+  let normal = semi_major_axis /. sqrt (1. -. (square_eccentricity *. square sine)) in
+  { x = normal *. cosine *. ahead; y = normal *. cosine *. east; z = normal *. (1. -. square_eccentricity) *. sine }
+
+let chord a b = sqrt (square (a.x -. b.x) +. square (a.y -. b.y) +. square (a.z -. b.z))

@@ -13,6 +13,15 @@ val distance : Position.t -> Position.t -> float
 (** [distance a b] is the length in metres of the shortest way over the ground from [a] to [b], at least 0.
     [distance a b] and [distance b a] agree to the accuracy above. *)
 
+type vector
+(** A position at height 0, as a point of space. *)
+
+val vector : Position.t -> vector
+
+val chord : vector -> vector -> float
+(** [chord (vector a) (vector b)] is the length in metres of the straight line through the earth from [a] to [b]: at
+    most [distance a b], and cheap. *)
+
 val bearing : Position.t -> Position.t -> float
 (** [bearing a b] is the course, in degrees clockwise from true north, 0 up to but without 360, on which the
     shortest way from [a] to [b] begins; 0 if they coincide. *)

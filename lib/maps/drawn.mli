@@ -9,12 +9,14 @@ type shape =
   | Ground of ring list  (** polygons, each with its holes *)
   | Sketch of Position.t list  (** an area if it makes one, else a line *)
   | Round of { centre : Position.t; radius : float }
+  | Flawed of string  (** no shape can be made of it, for this reason *)
+  | Note of string  (** no shape, but a remark for people *)
 
 and ring = { rim : Position.t list; holes : Position.t list list }
 
 type t = {
   name : string;  (** [""]: none *)
-  place : string;  (** in the file, for whoever is told that something is wrong there *)
+  place : string;  (** in the file, for messages *)
   shape : shape;
 }
 
@@ -23,6 +25,15 @@ exception Wrong of { place : string; why : string }
 
 val wrong : string -> ('a, unit, string, 'b) format4 -> 'a
 (** [wrong place format ...] raises {!Wrong}. *)
+
+val each : name:string -> place:string -> (unit -> shape list) -> t list
+(** [each ~name ~place f] is the shapes of [f ()]. If [f] raises {!Wrong}, it is one {!Flawed} shape. *)
+
+val left_out : ?name:string -> string -> ('a, unit, string, t list) format4 -> 'a
+(** [left_out ~name place format ...] is a {!Note}: [format ...], "and left out". *)
+
+val empty : shape
+(** The {!Note} of a shape without positions. *)
 
 val position : string -> latitude:float -> longitude:float -> height:float -> Position.t
 (** [position place ...] is that position, or wrong at [place]. *)

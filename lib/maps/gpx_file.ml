@@ -8,7 +8,8 @@ let point x =
     | None -> wrong x.place "a point has the attributes lat and lon"
   in
   let height = match text_of "ele" x with "" -> 0. | text -> number x text in
-  Drawn.position x.place ~latitude:(degrees "lat") ~longitude:(degrees "lon") ~height
+  let latitude = degrees "lat" in
+  Drawn.position x.place ~latitude ~longitude:(degrees "lon") ~height
 
 (* Of one point, it is that. *)
 let way tag x =
@@ -17,15 +18,19 @@ let way tag x =
   | [ p ] -> [ Spot p ]
   | ps -> [ Way ps ]
 
+let unless_empty = function [] -> [ empty ] | shapes -> shapes
+
 let things x =
-  let shapes =
-    match x.tag with
-    | "wpt" -> [ Spot (point x) ]
-    | "rte" -> way "rtept" x
-    | "trk" -> List.concat_map (way "trkpt") (children "trkseg" x)
-    | _ -> []
-  in
-  List.map (fun shape -> { name = text_of "name" x; place = x.place; shape }) shapes
+  let each ?(from = x) f = each ~name:(text_of "name" x) ~place:from.place f in
+  match x.tag with
+  | "wpt" -> each (fun () -> [ Spot (point x) ])
+  | "rte" -> each (fun () -> unless_empty (way "rtept" x))
+  | "trk" ->
+    (* Recorders begin segments that stay empty. *)
+    let segment s = each ~from:s (fun () -> way "trkpt" s) in
+    let found = List.concat_map segment (children "trkseg" x) in
+    if found = [] then each (fun () -> [ empty ]) else found
+  | _ -> []
 
 let read text =
   let root = Xml_text.read text in

@@ -1,3 +1,5 @@
+module Numeral = Dolphin_numerals.Numeral
+
 let most_deep = 100
 
 (* The place of the bracket that goes too deep: Yojson recurs once for each. *)
@@ -32,6 +34,7 @@ let told why =
   | None -> Drawn.wrong "" "this is no JSON: %s" (String.uncapitalize_ascii why)
 
 let read text =
+  let text = fst (Utf8_text.repaired (Utf8_text.without_mark text)) in
   match too_deep text with
   | Some offset -> Drawn.wrong (place_of text offset) "lists and objects are nested more than %d deep" most_deep
   | None -> ( try Yojson.Safe.from_string text with Yojson.Json_error why -> told why)
@@ -46,8 +49,9 @@ let elements place : Yojson.Safe.t -> Yojson.Safe.t list = function
 
 let number place : Yojson.Safe.t -> float = function
   | `Int n -> float_of_int n
-  | `Float x -> x
-  | `Intlit digits -> float_of_string digits
+  | `Float x when Float.is_finite x -> x
+  | `Float _ -> Drawn.wrong place "a number of that size or kind is not known"
+  | `Intlit digits when Numeral.number digits <> None -> float_of_string digits
   | _ -> Drawn.wrong place "a number belongs here"
 
 let text : Yojson.Safe.t -> string option = function

@@ -1,7 +1,8 @@
 (** JSON that may be hostile. *)
 
 val read : string -> Yojson.Safe.t
-(** [read text] is its value. Raises {!Drawn.Wrong} with line and column; also where lists and objects are nested more
+(** [read text] is its value. A byte order mark is skipped, bytes that are not UTF-8 become U+FFFD.
+    Raises {!Drawn.Wrong} with line and column; also where lists and objects are nested more
     than {!most_deep} deep. *)
 
 val most_deep : int
@@ -18,7 +19,7 @@ val elements : string -> Yojson.Safe.t -> Yojson.Safe.t list
 (** Those of a list; else wrong at [place]. *)
 
 val number : string -> Yojson.Safe.t -> float
-(** Likewise. *)
+(** A finite number; else wrong at [place]. *)
 
 val text : Yojson.Safe.t -> string option
 (** A text, or a whole number as text. *)

@@ -23,40 +23,54 @@ let coordinates x =
   | None -> wrong x.place "%s has no coordinates" x.tag
   | Some c -> List.rev (List.rev_map (fun word -> position c (String.split_on_char ',' word)) (words c.text))
 
-let way x = function [] | [ _ ] -> wrong x.place "a line has two positions at least" | ps -> Way ps
+let way x = function
+  | [] -> [ empty ]
+  | [ _ ] -> wrong x.place "a line has two positions at least"
+  | ps -> [ Way ps ]
 
 let polygon x =
   let ring side = List.concat_map (children "LinearRing") (children side x) in
   match ring "outerBoundaryIs" with
   | [] -> wrong x.place "a polygon has an outerBoundaryIs with a LinearRing"
-  | rim :: _ -> { rim = coordinates rim; holes = List.map coordinates (ring "innerBoundaryIs") }
+  | rim :: _ -> (
+      let holes = List.filter (( <> ) []) (List.map coordinates (ring "innerBoundaryIs")) in
+      match coordinates rim with [] -> [ empty ] | rim -> [ Ground [ { rim; holes } ] ])
 
 let track x = List.map (fun c -> position c (words c.text)) (children "coord" x)
 
+let rec has_coordinates x =
+  List.exists (fun y -> y.tag = "coordinates" || y.tag = "coord" || has_coordinates y) x.inside
+
 let rec shapes x =
   match x.tag with
-  | "Point" -> (
-      match coordinates x with
-      | p :: _ -> [ Spot p ]
-      | [] -> wrong x.place "a point has a position")
-  | "LineString" | "LinearRing" -> [ way x (coordinates x) ]
-  | "Polygon" -> [ Ground [ polygon x ] ]
-  | "Track" -> ( match track x with [] -> [] | [ p ] -> [ Spot p ] | ps -> [ Way ps ])
-  | "MultiGeometry" | "MultiTrack" ->
+  | "Point" -> ( match coordinates x with p :: _ -> [ Spot p ] | [] -> [ empty ])
+  | "LineString" | "LinearRing" -> way x (coordinates x)
+  | "Polygon" -> polygon x
+  | "Track" -> ( match track x with [] -> [ empty ] | [ p ] -> [ Spot p ] | ps -> [ Way ps ])
+  | "MultiGeometry" | "MultiTrack" | "MultiPolygon" | "MultiLineString" | "MultiPoint" ->
     (* Polygons of one place are one area. *)
-    let ground, others = List.partition (function Ground _ -> true | Spot _ | Way _ | Sketch _ | Round _ -> false)
+    let ground, others =
+      List.partition_map (function Ground rings -> Either.Left rings | other -> Either.Right other)
         (List.concat_map shapes x.inside) in
-    let rings = List.concat_map (function Ground rings -> rings | Spot _ | Way _ | Sketch _ | Round _ -> []) ground in
+    let rings = List.concat ground in
     if rings = [] then others else Ground rings :: others
-  | _ -> []
+  | "Model" -> [ Note "a model has no shape on the ground, and is left out" ]
+  | tag -> if has_coordinates x then [ Note (tag ^ " is not known here, and left out") ] else []
 
-let rec things x =
-  if x.tag = "Placemark" then
-    let name = text_of "name" x in
-    List.map (fun shape -> { name; place = x.place; shape }) (List.concat_map shapes x.inside)
-  else List.concat_map things x.inside
+let link x =
+  let of_child tag = Option.fold (child tag x) ~none:"" ~some:(text_of "href") in
+  match of_child "Link" with "" -> of_child "Url" | href -> href
 
-let read text =
+let rec things ~follow x =
+  let name = text_of "name" x in
+  match x.tag with
+  | "Placemark" -> each ~name ~place:x.place (fun () -> List.concat_map shapes x.inside)
+  | "NetworkLink" ->
+    let href = link x in
+    if follow href then [] else left_out ~name x.place "the link to '%s' is not followed" href
+  | _ -> List.concat_map (things ~follow) x.inside
+
+let read ~follow text =
   let root = Xml_text.read text in
   if root.tag <> "kml" then wrong root.place "this is no KML: its root is '%s'" root.tag;
-  things root
+  things ~follow root

@@ -1,4 +1,5 @@
 (** KML: the places of a document, those in folders too. *)
 
-val read : string -> Drawn.t list
-(** Raises {!Drawn.Wrong}. *)
+val read : follow:(string -> bool) -> string -> Drawn.t list
+(** [read ~follow text] is what stands in [text]. [follow href] is whether the target of a [NetworkLink] is read, too,
+    by the caller. Raises {!Drawn.Wrong}. *)

@@ -4,10 +4,19 @@ open Dolphin_geo
 
 type thing = Point of Position.t | Line of Position.t list  (** of at least two *) | Area of Area.t
 
-val read : path:string -> string -> ((string * thing) list, string) result
-(** [read ~path text] is what the map with this contents has, by name, in the order of the file. The end of [path] says
-    which format it is: one of {!formats}. What has no name is ["area 1"], ["line 1"], ["point 1"], counted by kind;
-    what has the name of another is ["NAME 2"]. Or what is wrong with it, and where, in one sentence. *)
+type t = {
+  things : (string * (thing, string) result) list;
+  (** by name, in the order of the file; [Error why] where a feature makes no thing, [why] with its place in the
+      file *)
+  notes : string list;  (** what is left out, and what was repaired: each a sentence with its place in the file *)
+}
+
+val read : path:string -> string -> (t, string) result
+(** [read ~path text] is what the map with this contents has. The end of [path] says which format it is: one of
+    {!formats}. A feature that has the name of an earlier one is ["NAME 2"], or the next number that is not another
+    feature's name. A feature without a name is ["area 1"], ["line 1"], ["point 1"] or ["feature 1"], counted by kind.
+    [Error why] if the file as a whole is not as its format wants it, or if no feature of it makes a thing and some
+    should: what is wrong, and where, in one sentence. *)
 
 (** What stands on a map as it is drawn; whether it makes an area is nobody's business. *)
 type outline =

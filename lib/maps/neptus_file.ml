@@ -68,7 +68,7 @@ let segment x =
   [ Way [ beside x centre (-.half) 0.; beside x centre half 0. ] ]
 
 let things x =
-  let shapes =
+  let shapes () =
     match x.tag with
     | "mark" | "transponder" -> [ Spot (location x) ]
     | "path" -> path x
@@ -79,7 +79,7 @@ let things x =
     | _ -> []
   in
   let name = match text_of "id" x with "" -> text_of "name" x | id -> id in
-  List.map (fun shape -> { name; place = x.place; shape }) shapes
+  each ~name ~place:x.place shapes
 
 let read text =
   let root = Xml_text.read text in

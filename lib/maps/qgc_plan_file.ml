@@ -11,28 +11,47 @@ let numbered things =
   let one (word, place, shape) =
     let n = 1 + Option.value (Hashtbl.find_opt count word) ~default:0 in
     Hashtbl.replace count word n;
-    { name = Printf.sprintf "%s %d" word n; place; shape }
+    each ~name:(Printf.sprintf "%s %d" word n) ~place (fun () -> [ shape () ])
   in
-  List.map one things
+  List.concat_map one things
+
+(* {1 The fence} *)
 
 let side json = match Json_text.member "inclusion" json with `Bool false -> "outside" | _ -> "inside"
 
 let fence json =
   let circle i json =
     let place = Printf.sprintf "circle %d of the fence" (i + 1) in
-    let circle = Json_text.member "circle" json in
-    let radius = Json_text.number place (Json_text.member "radius" circle) in
-    (side json, place, Round { centre = position place (Json_text.member "center" circle); radius })
+    let shape () =
+      let circle = Json_text.member "circle" json in
+      let radius = Json_text.number place (Json_text.member "radius" circle) in
+      Round { centre = position place (Json_text.member "center" circle); radius }
+    in
+    (side json, place, shape)
   in
   let polygon i json =
     let place = Printf.sprintf "polygon %d of the fence" (i + 1) in
-    (side json, place, Ground [ { rim = positions place (Json_text.member "polygon" json); holes = [] } ])
+    (side json, place, fun () -> Ground [ { rim = positions place (Json_text.member "polygon" json); holes = [] } ])
   in
   let each name f = List.mapi f (listed ("the fence's " ^ name) (Json_text.member name json)) in
   each "polygons" polygon @ each "circles" circle
 
-(* Items of MAVLink have their position as the fifth to the seventh parameter; 0 and null are none. *)
-let way_point place item =
+(* {1 The mission} *)
+
+(* Commands of MAVLink that are flown to their place. Those of cameras, of regions of interest, of the home position
+   and of markers for landings have a place, too, which is none of the way. *)
+let flown =
+  [ (16, "WAYPOINT"); (17, "LOITER_UNLIM"); (18, "LOITER_TURNS"); (19, "LOITER_TIME"); (21, "LAND"); (22, "TAKEOFF");
+    (31, "LOITER_TO_ALT"); (36, "ARC_WAYPOINT"); (82, "SPLINE_WAYPOINT"); (84, "VTOL_TAKEOFF"); (85, "VTOL_LAND");
+    (94, "PAYLOAD_PLACE") ]
+
+(* Height above the sea, home or ground; each also with whole numbers of 1e-7 degrees on the wire. *)
+let global_frames = [ 0; 3; 5; 6; 10; 11 ]
+
+let whole = function `Int n -> Some n | _ -> None
+
+(* The place is the fifth to the seventh parameter; 0 and null are none. *)
+let place_of place item =
   match Json_text.member "params" item with
   | `List [ _; _; _; _; latitude; longitude; height ] when latitude <> `Null && longitude <> `Null ->
     let latitude = Json_text.number place latitude and longitude = Json_text.number place longitude in
@@ -40,7 +59,28 @@ let way_point place item =
     if latitude = 0. && longitude = 0. then None else Some (Drawn.position place ~latitude ~longitude ~height)
   | _ -> None
 
-let complex place item =
+(* Where the way of the mission goes by this item, and what is left out of it. *)
+let way_point (place, item) =
+  let is_simple = match Json_text.member "type" item with `Null | `String "SimpleItem" -> true | _ -> false in
+  let command = Option.bind (whole (Json_text.member "command" item)) (fun n -> List.assoc_opt n flown) in
+  let is_global frame = List.mem frame global_frames in
+  match command, whole (Json_text.member "frame" item) with
+  | Some command, Some frame when is_simple && not (is_global frame) ->
+    Either.Right (left_out place "%s in frame %d has no place on the globe" command frame)
+  | Some _, (Some _ | None) when is_simple -> Left (place_of place item)
+  | (Some _ | None), (Some _ | None) -> Left None
+
+let way items =
+  let way, notes = List.partition_map way_point items in
+  let line =
+    match List.filter_map Fun.id way with
+    | [] | [ _ ] -> []
+    | way -> [ { name = "mission"; place = "the mission"; shape = Way way } ]
+  in
+  line @ List.concat notes
+
+(* Surveys have an area or a line; their own way belongs to what QGroundControl makes of it. *)
+let complex (place, item) =
   let polygon = Json_text.member "polygon" item and line = Json_text.member "polyline" item in
   let word =
     match Json_text.member "complexItemType" item with
@@ -49,9 +89,25 @@ let complex place item =
     | _ -> "survey"
   in
   match polygon, line with
-  | `List _, _ -> [ (word, place, Ground [ { rim = positions place polygon; holes = [] } ]) ]
-  | _, `List _ -> [ (word, place, Way (positions place line)) ]
+  | `List _, _ -> [ (word, place, fun () -> Ground [ { rim = positions place polygon; holes = [] } ]) ]
+  | _, `List _ -> [ (word, place, fun () -> Way (positions place line)) ]
   | _, _ -> []
+
+let unknown (place, item) =
+  let word json = match json with `String word -> word | _ -> "no type" in
+  match Json_text.member "type" item with
+  | `Null | `String "SimpleItem" -> []
+  | `String "ComplexItem" when complex (place, item) <> [] -> []
+  | `String "ComplexItem" -> (
+      match word (Json_text.member "complexItemType" item) with
+      | ("fwLandingPattern" | "vtolLandingPattern") as word ->
+        left_out place "the landing pattern (%s) has no place on the map" word
+      | word -> left_out place "%s has no area and no line" word)
+  | kind -> left_out place "%s is not an item that is known here" (word kind)
+
+let rally i p =
+  let place = Printf.sprintf "rally point %d" (i + 1) in
+  ("rally", place, fun () -> Spot (position place p))
 
 let read text =
   let json = Json_text.read text in
@@ -65,20 +121,12 @@ let read text =
   let home =
     match Json_text.member "plannedHomePosition" mission with
     | `Null -> []
-    | home -> [ { name = "home"; place = "the home position"; shape = Spot (position "the home position" home) } ]
+    | home ->
+      let place = "the home position" in
+      each ~name:"home" ~place (fun () -> [ Spot (position place home) ])
   in
-  let way =
-    match List.filter_map (fun (place, item) -> way_point place item) items with
-    | [] | [ _ ] -> []
-    | way -> [ { name = "mission"; place = "the mission"; shape = Way way } ]
-  in
-  let rally i p =
-    let place = Printf.sprintf "rally point %d" (i + 1) in
-    ("rally", place, Spot (position place p))
-  in
+  let mission =
+    try way items with Wrong { place; why } -> [ { name = "mission"; place; shape = Flawed why } ] in
   let rallies = listed "the rally points" (Json_text.member "points" (Json_text.member "rallyPoints" json)) in
-  home @ way
-  @ numbered
-    (List.concat_map (fun (place, item) -> complex place item) items
-     @ fence (Json_text.member "geoFence" json)
-     @ List.mapi rally rallies)
+  home @ mission @ List.concat_map unknown items
+  @ numbered (List.concat_map complex items @ fence (Json_text.member "geoFence" json) @ List.mapi rally rallies)

@@ -1,3 +1,5 @@
+module Numeral = Dolphin_numerals.Numeral
+
 type t = {
   minimum : int;
   maximum : int;
@@ -46,10 +48,12 @@ let is_search step =
   String.starts_with ~prefix:"SEARCH" step && not (List.mem "AUTOMATIC" (String.split_on_char ' ' step))
 
 (* Without an index each tile takes a look at all of them; a view may even search without end. *)
-let is_quick db =
-  let+ plan = ask db ("EXPLAIN QUERY PLAN " ^ one_tile) (place 0 0 0) in
+let searches db query parameters =
+  let+ plan = ask db ("EXPLAIN QUERY PLAN " ^ query) parameters in
   let step row = match row.(Array.length row - 1) with Sqlite3.Data.TEXT text -> text | _ -> "" in
   List.for_all (fun row -> is_search (step row)) plan
+
+let is_quick db = searches db one_tile (place 0 0 0)
 
 let metadata db name =
   let query = "SELECT substr(value, 1, ?) FROM metadata WHERE name = ? LIMIT 1" in
@@ -59,12 +63,24 @@ let metadata db name =
   | Ok _ | Error _ -> None
 
 let level db name =
-  match Option.bind (metadata db name) int_of_string_opt with
+  match Option.bind (metadata db name) (fun text -> Numeral.whole (String.trim text)) with
   | Some n when 0 <= n && n <= deepest -> Some n
   | Some _ | None -> None
 
+(* The first and the last level that have tiles, if the index finds them. *)
+let levels_with_tiles db =
+  let query = "SELECT 1 FROM tiles WHERE zoom_level = ? LIMIT 1" in
+  let at level = [ Sqlite3.Data.INT (Int64.of_int level) ] in
+  let has_tiles level = match ask db query (at level) with Ok (_ :: _) -> true | Ok [] | Error _ -> false in
+  match searches db query (at 0) with
+  | Error _ | Ok false -> None
+  | Ok true -> (
+      match List.filter has_tiles (List.init (deepest + 1) Fun.id) with
+      | [] -> None
+      | first :: others -> Some (first, List.fold_left (fun _ level -> level) first others))
+
 let bounds db =
-  let numbers text = List.map (fun part -> float_of_string_opt (String.trim part)) (String.split_on_char ',' text) in
+  let numbers text = List.map (fun part -> Numeral.number (String.trim part)) (String.split_on_char ',' text) in
   match Option.map numbers (metadata db "bounds") with
   | Some [ Some west; Some south; Some east; Some north ]
     when -180. <= west && west < east && east <= 180. && -90. <= south && south < north && north <= 90. ->
@@ -79,8 +95,13 @@ let read path =
       | _ when not quick -> Error "its tiles have no index by zoom_level, tile_column and tile_row"
       | Some "pbf" -> Error "its tiles are vectors (pbf), and only pictures are shown: png, jpg, webp"
       | Some _ | None ->
-        let minimum = Option.value (level db "minzoom") ~default:0 in
-        let maximum = Option.value (level db "maxzoom") ~default:deepest in
+        let known = (level db "minzoom", level db "maxzoom") in
+        let first, last =
+          match known with
+          | Some first, Some last -> (first, last)
+          | _, _ -> Option.value (levels_with_tiles db) ~default:(0, deepest)
+        in
+        let minimum = Option.value (fst known) ~default:first and maximum = Option.value (snd known) ~default:last in
         if minimum > maximum then Error (Printf.sprintf "it has no tiles from level %d to level %d" minimum maximum)
         else
           let attribution = Option.value (metadata db "attribution") ~default:"" in

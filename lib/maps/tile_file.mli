@@ -2,7 +2,7 @@
     hostile: it is only read, and no tile is read that takes a search through all of them. *)
 
 type t = {
-  minimum : int;
+  minimum : int;  (** from the metadata, else of the tiles themselves *)
   maximum : int;  (** zoom levels that there are; at level [z] the world is [2 ** z] tiles wide *)
   bounds : (float * float * float * float) option;  (** west, south, east, north, in degrees, if the file tells them *)
   attribution : string;  (** whom to thank; [""]: the file does not say *)

@@ -37,9 +37,18 @@ let tree input =
   in
   go [] 0
 
+(* By the declaration, which is in ASCII; Xmlm does not know this encoding. *)
+let is_windows_1252 text =
+  let head = String.lowercase_ascii (String.sub text 0 (Int.min 200 (String.length text))) in
+  let declaration = match String.index_opt head '>' with Some i -> String.sub head 0 i | None -> "" in
+  let quoted = String.concat "\"" (String.split_on_char '\'' declaration) in
+  String.starts_with ~prefix:"<?xml" declaration
+  && List.exists (fun word -> word = "windows-1252" || word = "cp1252") (String.split_on_char '"' quoted)
+
 let read text =
   (* Prefixes without a declaration are common, and mean nothing here. *)
-  let input = Xmlm.make_input ~strip:true ~ns:(fun prefix -> Some prefix) (`String (0, text)) in
+  let text, enc = if is_windows_1252 text then (Utf8_text.of_windows_1252 text, Some `UTF_8) else (text, None) in
+  let input = Xmlm.make_input ~enc ~strip:true ~ns:(fun prefix -> Some prefix) (`String (0, text)) in
   try tree input
   with Xmlm.Error (position, error) ->
     Drawn.wrong (place_of position) "this is no XML: %s" (Xmlm.error_message error)
@@ -49,6 +58,6 @@ let children tag x = List.filter (fun y -> y.tag = tag) x.inside
 let text_of tag x = match child tag x with Some y -> y.text | None -> ""
 
 let number x text =
-  match float_of_string_opt text with
-  | Some number when Float.is_finite number -> number
-  | Some _ | None -> Drawn.wrong x.place "'%s' is no number" (if String.length text > 40 then "..." else text)
+  match Dolphin_numerals.Numeral.number (String.trim text) with
+  | Some number -> number
+  | None -> Drawn.wrong x.place "'%s' is no number" (if String.length text > 40 then "..." else text)

@@ -2,4 +2,5 @@
 
 val files : most:int -> (string -> bool) -> string -> (string * string) list
 (** [files ~most wanted archive] are the [wanted] files of [archive], by their names in it, with what they hold. Raises
-    {!Drawn.Wrong} if it is no archive, or if they hold more than [most] bytes together. *)
+    {!Drawn.Wrong} if it is no archive, if they hold more than [most] bytes together, or if one is cut short or does not
+    have its checksum. Resource forks of macOS are left out. *)

@@ -264,7 +264,7 @@ let fence state (word : string located) arguments =
     | _, _ -> d
   in
   match Fence_declarations.read state.constants word.at arguments with
-  | Ok fence -> { state with fences = fence :: state.fences }
+  | Ok fences -> { state with fences = List.rev_append fences state.fences }
   | Error found -> add_faults state (List.map without_variables found)
 
 let entries = [ "vehicle"; "plan"; "answer"; "reply"; "input"; "field"; "fence" ]

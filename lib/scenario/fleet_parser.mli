@@ -4,7 +4,7 @@
 open Dolphin_syntax
 
 val read :
-  chart:(string -> (Dolphin_semantics.Core.value, string) result) -> file:string -> string ->
+  chart:(string -> (Dolphin_semantics.Chart.t, string) result) -> file:string -> string ->
   (Entry.t, Diagnostic.t list) result
 (** See {!Scenario.read}. *)
 

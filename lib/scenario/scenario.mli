@@ -10,7 +10,7 @@ end
 (** {1:reading Reading and writing} *)
 
 val read :
-  ?chart:(string -> (Dolphin_semantics.Core.value, string) result) -> file:string -> string ->
+  ?chart:(string -> (Dolphin_semantics.Chart.t, string) result) -> file:string -> string ->
   (t, Dolphin_syntax.Diagnostic.t list) result
 (** [read ~chart ~file source] is the scenario that [source] describes, or what is wrong with it: at least one
     diagnostic and at most {!Dolphin_syntax.Parse.most_faults}, in the order of the text. [file] is only a name. [chart]

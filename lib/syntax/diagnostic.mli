@@ -21,7 +21,7 @@ type code =
   | Misplaced_jump  (** [break], [continue], [return] *)
   | Misplaced_when | Misplaced_setting | Misplaced_function | Misplaced_input
   | Misplaced_parameter | Misplaced_interrupt
-  | Bad_map  (** a file that [map] names cannot be read *)
+  | Bad_map  (** a file that [map] names cannot be read, or a feature of it cannot be used *)
   | Bad_fence  (** [fence] with what is not known, or is no fence; or out of place *)
   | Broken_fence  (** a plan that breaks a fence wherever its vehicle is *)
   | Deed_in_answer  (** an answer may only compute *)
@@ -33,6 +33,7 @@ type code =
   | Wide_value  (** a warning: the value of a pair has a condition in it that may be meant to stand beside it *)
   | Unknown_plan  (** a warning: the fleet says nothing of it *)
   | Unread_input  (** a warning: what the outside posts with this key is never looked at *)
+  | Partial_map  (** a warning: features of a map are flawed, left out or repaired *)
 
 val codes : (code * string) list
 (** Every code with its name, which does not change: ["unknown-name"]. *)

@@ -146,17 +146,169 @@ Areas that are none, and those that would take all day.
 
   $ for file in ringless cornerless flat nothing bow beyond world endless lattice; do
   >   echo "x = map '$file.geojson'" > hostile.dol
-  >   (ulimit -v 4000000; dolphin check hostile.dol) 2>&1 | sed -n 's/.*cannot be read: //p'
+  >   (ulimit -v 4000000; dolphin check hostile.dol) 2>&1 | sed -n 's/.*cannot be read: //p; s/.*warning: //p'
   > done
-  ringless.geojson: the geometry: a polygon has a ring of positions
-  cornerless.geojson: the geometry: a polygon has three corners or more that differ, not 0
+  ringless.geojson: the geometry: it is empty, and left out
+  cornerless.geojson: the geometry: it is empty, and left out
   flat.geojson: the geometry: the corners of a polygon are not on one line
-  nothing.geojson: the geometry: a polygon has corners
+  nothing.geojson: the geometry: it is empty, and left out
   bow.geojson: the geometry: a polygon does not cross itself: its sides from corner 1 and from corner 3 meet
   beyond.geojson: the geometry, position 3: longitude 240 is not from -180 to 180 degrees
   world.geojson: the geometry: an area reaches at most 200 km from its middle
-  endless.geojson: the geometry: longitude inf is not from -180 to 180 degrees
-  lattice.geojson: the geometry: an area has 5000 corners at most, not 10000
+  endless.geojson: the geometry: a number of that size or kind is not known
+  lattice.geojson: the geometry: an area has 20000 corners at most, not 40000
+
+A feature that is wrong does not hide the others: it is null, and an error where it is used.
+
+  $ cat > some.geojson <<'EOF'
+  > {"type": "FeatureCollection", "features": [
+  > {"type": "Feature", "properties": {"name": "bow"}, "geometry": {"type": "Polygon",
+  >   "coordinates": [[[0,0],[0.01,0.01],[0.01,0],[0,0.01],[0,0]]]}},
+  > {"type": "Feature", "properties": {"name": "spike"}, "geometry": {"type": "Polygon",
+  >   "coordinates": [[[-8.7,41.1],[-8.69,41.1],[-8.68,41.1],[-8.69,41.1],[-8.69,41.11],[-8.7,41.11],[-8.7,41.1]]]}},
+  > {"type": "Feature", "properties": {"name": "nowhere"}, "geometry": {"type": "Point", "coordinates": []}},
+  > {"type": "Feature", "properties": {"name": "buoy"}, "geometry": {"type": "Point", "coordinates": [-8.7, 41.1]}}]}
+  > EOF
+  $ cat > some.dol <<'EOF'
+  > m = map 'some.geojson'
+  > message m.buoy in m.spike
+  > message m.bow
+  > fence outside m
+  > fence outside m['bow']
+  > EOF
+  $ dolphin check some.dol
+  some.dol:1:9: warning: some.geojson: 'bow' is null: feature 1 ('bow'): a polygon does not cross itself: its sides from corner 1 and from corner 3 meet
+    1 | m = map 'some.geojson'
+      |         ^^^^^^^^^^^^^^
+  some.dol:1:9: warning: some.geojson: feature 2 ('spike'): spikes are cut off, corners that repeat the one before are left out
+    1 | m = map 'some.geojson'
+      |         ^^^^^^^^^^^^^^
+  some.dol:1:9: warning: some.geojson: feature 3 ('nowhere'): it is empty, and left out
+    1 | m = map 'some.geojson'
+      |         ^^^^^^^^^^^^^^
+  some.dol:3:11: error: 'bow' of some.geojson cannot be used: feature 1 ('bow'): a polygon does not cross itself: its sides from corner 1 and from corner 3 meet
+    3 | message m.bow
+      |           ^^^
+  some.dol:4:15: error: 'bow' cannot be part of a fence: feature 1 ('bow'): a polygon does not cross itself: its sides from corner 1 and from corner 3 meet
+    4 | fence outside m
+      |               ^
+  some.dol:5:17: error: 'bow' of some.geojson cannot be used: feature 1 ('bow'): a polygon does not cross itself: its sides from corner 1 and from corner 3 meet
+    5 | fence outside m['bow']
+      |                 ^^^^^
+  some.dol: 3 errors, 3 warnings
+  [2]
+  $ sed -i '/bow/d; /fence/d' some.dol
+  $ dolphin exec some.dol | grep says
+  some.dol:1:9: warning: some.geojson: 'bow' is null: feature 1 ('bow'): a polygon does not cross itself: its sides from corner 1 and from corner 3 meet
+    1 | m = map 'some.geojson'
+      |         ^^^^^^^^^^^^^^
+  some.dol:1:9: warning: some.geojson: feature 2 ('spike'): spikes are cut off, corners that repeat the one before are left out
+    1 | m = map 'some.geojson'
+      |         ^^^^^^^^^^^^^^
+  some.dol:1:9: warning: some.geojson: feature 3 ('nowhere'): it is empty, and left out
+    1 | m = map 'some.geojson'
+      |         ^^^^^^^^^^^^^^
+     0:00  program     says: true
+
+The areas of a map, or of a list, keep vehicles out, each by itself; places and lines of a map are left out.
+
+  $ cat > zones.geojson <<'EOF'
+  > {"type": "FeatureCollection", "features": [
+  > {"type": "Feature", "properties": {"name": "a"}, "geometry": {"type": "Polygon",
+  >   "coordinates": [[[-8.71,41.18],[-8.70,41.18],[-8.70,41.19],[-8.71,41.19],[-8.71,41.18]]]}},
+  > {"type": "Feature", "properties": {"name": "it's b"}, "geometry": {"type": "Polygon",
+  >   "coordinates": [[[-8.73,41.18],[-8.72,41.18],[-8.72,41.19],[-8.73,41.19],[-8.73,41.18]]]}},
+  > {"type": "Feature", "properties": {"name": "buoy"}, "geometry": {"type": "Point", "coordinates": [-8.7, 41.1]}}]}
+  > EOF
+  $ cat > zones.dol <<'EOF'
+  > zones = map 'zones.geojson'
+  > fence outside FENCE
+  > v = pick { count 1 }
+  > execute v: imcPlan {
+  >   planName 'p'
+  >   locate location(41.185, -8.725)
+  >   goTo()
+  > }
+  > EOF
+  $ for fence in zones "map('zones.geojson')" "zones.values().findAll { !(it in [zones.buoy]) }" zones.a "([zones.buoy])" \
+  >     "([a: zones.a, b: 1])" "([:])"; do
+  >   sed "s/FENCE/$fence/" zones.dol > fenced.dol
+  >   dolphin check fenced.dol | head -1
+  > done
+  fenced.dol:7:3: error: plan 'p': 1.Goto breaks fence outside zones['it\'s b'] (fenced.dol:2) by 419.5 m, at (41.185000, -8.725000)
+    7 |   goTo()
+      |   ^^^^^^
+  fenced.dol: 1 error
+  fenced.dol:7:3: error: plan 'p': 1.Goto breaks fence outside (map('zones.geojson'))['it\'s b'] (fenced.dol:2) by 419.5 m, at (41.185000, -8.725000)
+    7 |   goTo()
+      |   ^^^^^^
+  fenced.dol: 1 error
+  fenced.dol:2:38: error: an answer may not contain code { ... }
+    2 | fence outside zones.values().findAll { !(it in [zones.buoy]) }
+      |                                      ^^^^^^^^^^^^^^^^^^^^^^^^^
+  fenced.dol: 1 error
+  fenced.dol: no errors
+  fenced.dol:2:16: error: fence outside takes areas, and '0' is a position
+    2 | fence outside ([zones.buoy])
+      |                ^^^^^^^^^^^^
+  fenced.dol: 1 error
+  fenced.dol:2:16: error: fence outside takes areas, and 'b' is a number
+    2 | fence outside ([a: zones.a, b: 1])
+      |                ^^^^^^^^^^^^^^^^^^
+  fenced.dol: 1 error
+  fenced.dol:2:16: error: fence outside takes areas, and there are none
+    2 | fence outside ([:])
+      |                ^^^
+  fenced.dol: 1 error
+  $ cat > zones.fleet <<'EOF'
+  > vehicle 'a', { type 'UUV'; at 41.17, -8.725 }
+  > fence outside map 'zones.geojson'
+  > EOF
+  $ sed '/FENCE/d' zones.dol > fleet.dol
+  $ dolphin check fleet.dol --fleet zones.fleet | head -1
+  fleet.dol:6:3: error: plan 'p': 1.Goto breaks fence outside (map('zones.geojson'))['it\'s b'] (zones.fleet:2) by 419.5 m, at (41.185000, -8.725000)
+    6 |   goTo()
+      |   ^^^^^^
+  fleet.dol: 1 error
+
+A map of 160 areas with 86,000 corners takes no time: limits of a test allow for other load.
+
+  $ python3 - <<'EOF'
+  > import json, math
+  > def ring(x, y):
+  >     turns = [2 * math.pi * k / 540 for k in range(540)]
+  >     corners = [[x + (0.05 + 0.005 * math.sin(7 * t)) * math.cos(t), y + 0.05 * math.sin(t)] for t in turns]
+  >     return corners + corners[:1]
+  > features = [{"type": "Feature", "properties": {"name": str(i)},
+  >              "geometry": {"type": "Polygon", "coordinates": [ring(-8.7 + 0.3 * (i % 13), 42 + 0.3 * (i // 13))]}}
+  >             for i in range(160)]
+  > json.dump({"type": "FeatureCollection", "features": features}, open("large.json", "w"))
+  > EOF
+  $ echo "zones = map 'large.json'" > large.dol
+  $ sed 1d zones.dol | sed 's/FENCE/zones/' >> large.dol
+  $ timeout 10 sh -c 'ulimit -t 3; dolphin exec large.dol' | tail -1
+    17:31  program     ends
+
+A map of another program that is damaged, or that says that it is elsewhere.
+
+  $ python3 - <<'EOF'
+  > import zipfile
+  > with zipfile.ZipFile("stored.kmz", "w") as z:
+  >     z.writestr("doc.kml", "<kml><Placemark><Point><coordinates>-8,41</coordinates></Point></Placemark></kml>")
+  > text = open("stored.kmz", "rb").read()
+  > open("changed.kmz", "wb").write(text.replace(b"-8,41", b"-8,42"))
+  > EOF
+  $ echo '{"type": "Point", "coordinates": [0, 0], "crs": {"type": "name", "properties": {"name": "EPSG:3857"}}}' > web.json
+  $ for file in changed.kmz web.json; do
+  >   echo "x = map '$file'" > hostile.dol
+  >   dolphin check hostile.dol | sed -n 's/.*cannot be read: //p'
+  > done
+  hostile.dol:1:9: error: the map cannot be read: changed.kmz: 'doc.kml' in this archive is damaged: its checksum is another
+    1 | x = map 'changed.kmz'
+      |         ^^^^^^^^^^^^^
+  hostile.dol:1:9: error: the map cannot be read: web.json: its coordinates are in the system EPSG:3857: they have to be in WGS 84, longitude first (EPSG:4326)
+    1 | x = map 'web.json'
+      |         ^^^^^^^^^^
 
 Around a pole and across the meridian of 180 degrees.
 

@@ -76,14 +76,15 @@ let long_tracks () =
 let shown path text =
   match Map_file.read ~path text with
   | Error why -> "wrong: " ^ why
-  | Ok things ->
-    let one (name, (thing : Map_file.thing)) =
-      match thing with
-      | Point p -> Format.asprintf "%s: %a" name Position.pp p
-      | Line ps -> Printf.sprintf "%s: line of %d" name (List.length ps)
-      | Area area -> Printf.sprintf "%s: %.0f m2, %d corners" name (Area.size area) (List.length (Area.corners area))
+  | Ok { things; notes } ->
+    let one (name, thing) =
+      match (thing : (Map_file.thing, string) result) with
+      | Error why -> Printf.sprintf "%s: flawed: %s" name why
+      | Ok (Point p) -> Format.asprintf "%s: %a" name Position.pp p
+      | Ok (Line ps) -> Printf.sprintf "%s: line of %d" name (List.length ps)
+      | Ok (Area area) -> Printf.sprintf "%s: %.0f m2, %d corners" name (Area.size area) (List.length (Area.corners area))
     in
-    String.concat "; " (List.map one things)
+    String.concat "; " (List.map one things @ List.map (fun note -> "note: " ^ note) notes)
 
 let feature ?(properties = {|{"name":"a"}|}) kind coordinates =
   Printf.sprintf {|{"type":"Feature","properties":%s,"geometry":{"type":"%s","coordinates":%s}}|} properties kind
@@ -121,7 +122,15 @@ let reading_geojson () =
        [ feature ~properties:{|{"name":"a 2"}|} "Point" "[1,0]"; feature "Point" "[2,0]"; feature "Point" "[3,0]" ]);
   check "a made name that is taken" "point 1: (0.000000, 1.000000); point 2: (0.000000, 2.000000)"
     (read [ feature ~properties:{|{"name":"point 1"}|} "Point" "[1,0]"; feature ~properties:"{}" "Point" "[2,0]" ]);
-  check "no geometry" "" (read [ {|{"type":"Feature","properties":{},"geometry":null}|} ]);
+  check "a name of another that a made one would be"
+    "zone: (0.000000, 1.000000); zone 3: (0.000000, 2.000000); zone 2: (0.000000, 3.000000); point 1: (0.000000, \
+     4.000000); point 2: (0.000000, 5.000000)"
+    (read
+       (List.mapi
+          (fun i name ->
+             feature ~properties:(Printf.sprintf {|{"name":"%s"}|} name) "Point" (Printf.sprintf "[%d,0]" (i + 1)))
+          [ "zone"; "zone"; "zone 2"; "point 1"; "" ]));
+  check "no geometry" "note: feature 1: it has no geometry, and is left out" (read [ {|{"type":"Feature","properties":{},"geometry":null}|} ]);
   check "a bare geometry" "point 1: (2.000000, 1.000000)" (shown "m.json" {|{"type":"Point","coordinates":[1,2]}|})
 
 let wrong_geojson () =
@@ -132,7 +141,8 @@ let wrong_geojson () =
   begins_with "wrong: line 2, bytes " (read "[1\n }");
   begins_with "wrong: line 1, bytes " (read "[1, 2");
   check "something else" "wrong: this is no GeoJSON: it has no \"type\": \"FeatureCollection\"" (read "[1]");
-  check "a geometry that is none" "wrong: feature 2 ('a'): GeoJSON has no geometry 'Circle'"
+  check "a geometry that is none"
+    "a: (2.000000, 1.000000); a 2: flawed: feature 2 ('a'): GeoJSON has no geometry 'Circle'"
     (told [ feature "Point" "[1,2]"; feature "Circle" "[1,2]" ]);
   check "a latitude" "wrong: feature 1 ('a'): latitude 91 is not from -90 to 90 degrees"
     (told [ feature "Point" "[1,91]" ]);
@@ -146,6 +156,119 @@ let wrong_geojson () =
   check "another ending" "wrong: a map ends in .geojson, .json, .kml, .kmz, .gpx, .plan, .nmap, .nmisz"
     (shown "m.txt" "");
   check "too long" "wrong: it has more than 20 MB" (read (String.make (Map_file.most_bytes + 1) ' '))
+
+let empty_geometries () =
+  let read features = shown "m.geojson" (collection (features @ [ feature ~properties:"{}" "Point" "[1,0]" ])) in
+  let left_out = "point 1: (0.000000, 1.000000); note: feature 1 ('a'): it is empty, and left out" in
+  List.iter
+    (fun (kind, coordinates) -> check (kind ^ " " ^ coordinates) left_out (read [ feature kind coordinates ]))
+    [ ("Point", "[]"); ("MultiPoint", "[]"); ("LineString", "[]"); ("MultiLineString", "[[]]"); ("Polygon", "[]");
+      ("Polygon", "[[]]"); ("MultiPolygon", "[]"); ("MultiPolygon", "[[[]]]") ];
+  check "an empty collection" left_out
+    (read [ {|{"type":"Feature","properties":{"name":"a"},"geometry":{"type":"GeometryCollection","geometries":[]}}|} ]);
+  check "an empty part" "a: (0.000000, 2.000000); point 1: (0.000000, 1.000000)"
+    (read [ feature "MultiPoint" "[[],[2,0]]" ]);
+  check "an empty hole" "a: 12309 m2, 4 corners; point 1: (0.000000, 1.000000)"
+    (read [ feature "Polygon" (Printf.sprintf "[%s,[]]" square) ]);
+  let kml inside = shown "m.kml" ("<kml><Placemark><name>a</name>" ^ inside ^ "</Placemark></kml>") in
+  let note = "note: line 1: it is empty, and left out" in
+  check "KML: a point" note (kml "<Point><coordinates/></Point>");
+  check "KML: a line" note (kml "<LineString><coordinates> </coordinates></LineString>");
+  check "KML: a ring" note
+    (kml "<Polygon><outerBoundaryIs><LinearRing><coordinates/></LinearRing></outerBoundaryIs></Polygon>");
+  check "GPX" note (shown "m.gpx" "<gpx><rte/></gpx>")
+
+let bad_features () =
+  let read bad = shown "m.geojson" (collection [ bad; feature ~properties:{|{"name":"b"}|} "Point" "[1,0]" ]) in
+  let b = "; b: (0.000000, 1.000000)" in
+  check "a bow tie" ("a: flawed: feature 1 ('a'): a polygon does not cross itself: its sides from corner 1 and from \
+                      corner 3 meet" ^ b)
+    (read (feature "Polygon" "[[[0,0],[0.01,0.01],[0.01,0],[0,0.01],[0,0]]]"));
+  check "too wide" ("a: flawed: feature 1 ('a'): an area reaches at most 200 km from its middle" ^ b)
+    (read (feature "Polygon" "[[[0,0],[9,0],[9,9],[0,0]]]"));
+  check "a number" ("a: flawed: feature 1 ('a'): a number of that size or kind is not known" ^ b)
+    (read (feature "Point" "[1e999,0]"));
+  check "a control character in its kind" ("a: flawed: feature 1 ('a'): GeoJSON has no geometry ' [2J'" ^ b)
+    (read (feature {|\u001b[2J|} "[1,0]"));
+  check "without a name"
+    ("feature 1: flawed: feature 1: latitude 91 is not from -90 to 90 degrees; point 1: (0.000000, 1.000000)")
+    (shown "m.geojson"
+       (collection [ feature ~properties:"{}" "Point" "[1,91]"; feature ~properties:"{}" "Point" "[1,0]" ]));
+  check "GPX" "feature 1: flawed: line 1: '0x29' is no number; point 1: (1.000000, 2.000000)"
+    (shown "m.gpx" "<gpx><wpt lat='0x29' lon='-8_7'/><wpt lat='1' lon='2'/></gpx>");
+  check "KML" "a: flawed: line 1: '4_1' is no number; b: (1.000000, 2.000000)"
+    (shown "m.kml"
+       "<kml><Placemark><name>a</name><Point><coordinates>-8,4_1</coordinates></Point></Placemark>\
+        <Placemark><name>b</name><Point><coordinates>2,1</coordinates></Point></Placemark></kml>")
+
+let repaired () =
+  let read rings = shown "m.geojson" (collection [ feature "Polygon" (Printf.sprintf "[%s]" rings) ]) in
+  let a = "a: 12309 m2, 4 corners" and note = "; note: feature 1 ('a'): " in
+  check "a ring that nearly closes" a (read "[[0,0],[0.001,0],[0.001,0.001],[0,0.001],[0.000000003,0.000000003]]");
+  check "a spike" (a ^ note ^ "spikes are cut off, corners that repeat the one before are left out")
+    (read "[[0,0],[0.001,0],[0.002,0],[0.001,0],[0.001,0.001],[0,0.001],[0,0]]");
+  check "a spike where the ring closes" (a ^ note ^ "spikes are cut off, corners that repeat the one before are left out")
+    (read "[[0,0.003],[0,0.001],[0,0],[0.001,0],[0.001,0.001],[0,0.001],[0,0.003]]");
+  check "a spike with two sides" (a ^ note ^ "spikes are cut off, corners that repeat the one before are left out")
+    (read "[[0,0],[0.001,0],[0.0012,0.0005],[0.001,0.0000000001],[0.001,0.001],[0,0.001],[0,0]]");
+  check "a corner twice within a millimetre" (a ^ note ^ "corners that repeat the one before are left out")
+    (read "[[0,0],[0.001,0],[0.001,0.00000000001],[0.001,0.001],[0,0.001],[0,0]]");
+  check "a rim that touches itself"
+    ("a: 24618 m2, 8 corners" ^ note ^ "the rim touches or crosses itself slightly, and is cut there")
+    (read "[[0,0],[0.001,0],[0.001,0.001],[0.002,0.001],[0.002,0.002],[0.001,0.002],[0.001,0.001],[0,0.001],[0,0]]");
+  let hole x = Printf.sprintf "[[%g,0.0002],[%g,0.0002],[%g,0.0007],[%g,0.0007]]" x (x +. 0.0002) (x +. 0.0002) x in
+  check "a hole that touches the rim" "a: 11078 m2, 8 corners" (read (square ^ "," ^ hole 0.));
+  check "holes beside each other" "a: 9847 m2, 12 corners" (read (square ^ "," ^ hole 0.0002 ^ "," ^ hole 0.0004));
+  check "holes that overlap"
+    ("a: 10463 m2, 8 corners" ^ note ^ "holes that meet or reach out of the polygon are united and cut off")
+    (read (square ^ "," ^ hole 0.0002 ^ "," ^ hole 0.0003));
+  check "a hole without extent" (a ^ note ^ "holes without extent are left out")
+    (read (square ^ ",[[0.0002,0.0002],[0.0002,0.0005],[0.0002,0.0002]]"));
+  let many = List.init 12_000 (fun i ->
+      let angle = Float.pi *. float_of_int i /. 6000. in
+      Printf.sprintf "[%.9f,%.9f]" (0.01 *. cos angle) (0.01 *. sin angle)) in
+  check "many corners" "a: 3867009 m2, 12000 corners" (read (Printf.sprintf "[%s]" (String.concat "," many)))
+
+let coordinate_systems () =
+  let with_crs crs = Printf.sprintf {|{"type":"FeatureCollection","crs":%s,"features":[%s]}|} crs (feature "Point" "[2,1]") in
+  let named name = with_crs (Printf.sprintf {|{"type":"name","properties":{"name":"%s"}}|} name) in
+  let read text = shown "m.geojson" text in
+  List.iter
+    (fun name -> check name "a: (1.000000, 2.000000)" (read (named name)))
+    [ "urn:ogc:def:crs:OGC:1.3:CRS84"; "urn:ogc:def:crs:OGC::CRS84"; "EPSG:4326"; "urn:ogc:def:crs:EPSG::4326"; "epsg:4326";
+      "http://www.opengis.net/def/crs/OGC/1.3/CRS84"; "http://www.opengis.net/def/crs/EPSG/0/4326"; "WGS84" ];
+  List.iter
+    (fun name ->
+       check name
+         (Printf.sprintf
+            "wrong: its coordinates are in the system %s: they have to be in WGS 84, longitude first (EPSG:4326)" name)
+         (read (named name)))
+    [ "urn:ogc:def:crs:EPSG::3857"; "EPSG:32629"; "EPSG:14326"; "IAU:4326"; "" ];
+  check "none" "a: (1.000000, 2.000000)" (read (with_crs "null"));
+  check "a code" "a: (1.000000, 2.000000)" (read (with_crs {|{"type":"EPSG","properties":{"code":4326}}|}));
+  check "another code"
+    "wrong: its coordinates are in the system EPSG:3763: they have to be in WGS 84, longitude first (EPSG:4326)"
+    (read (with_crs {|{"type":"EPSG","properties":{"code":3763}}|}));
+  check "a link"
+    "wrong: its coordinates are in the system of a crs that names none: they have to be in WGS 84, longitude first \
+     (EPSG:4326)"
+    (read (with_crs {|{"type":"link","properties":{"href":"a"}}|}))
+
+let encodings () =
+  let geojson name = collection [ feature ~properties:(Printf.sprintf {|{"name":"%s"}|} name) "Point" "[1,0]" ] in
+  let place = ": (0.000000, 1.000000)" in
+  check "a byte order mark" ("a" ^ place) (shown "m.geojson" ("\xef\xbb\xbf" ^ geojson "a"));
+  check "Latin-1 in JSON" ("Leix\xef\xbf\xbdes" ^ place ^ "; note: 1 byte is not UTF-8, and read as U+FFFD")
+    (shown "m.geojson" (geojson "Leix\xf5es"));
+  check "a name of controls" ("a b" ^ place) (shown "m.geojson" (geojson {|a\u001bb\u0085|}));
+  let gpx head name =
+    shown "m.gpx" (Printf.sprintf "%s<gpx><wpt lat='0' lon='1'><name>%s</name></wpt></gpx>" head name) in
+  check "windows-1252" ("\xe2\x82\xac Leix\xc3\xb5es" ^ place)
+    (gpx "<?xml version=\"1.0\" encoding=\"windows-1252\"?>" "\x80 Leix\xf5es");
+  check "windows-1252, in capitals" ("\xe2\x80\x99" ^ place) (gpx "<?xml version='1.0' encoding='Windows-1252'?>" "\x92");
+  check "ISO 8859-1" ("Leix\xc3\xb5es" ^ place) (gpx "<?xml version='1.0' encoding='ISO-8859-1'?>" "Leix\xf5es");
+  check "a byte order mark before XML" ("a" ^ place) (gpx "\xef\xbb\xbf<?xml version='1.0'?>" "a");
+  check "not UTF-8" "wrong" (String.sub (gpx "" "\xf5") 0 5)
 
 let reading_kml () =
   let read inside = shown "m.kml" (Printf.sprintf "<kml xmlns='k'><Document>%s</Document></kml>" inside) in
@@ -162,6 +285,12 @@ let reading_kml () =
   check "a track" "t: line of 2"
     (read (placed "t" "<gx:Track><when/><gx:coord>1 2 3</gx:coord><gx:coord>1 3 3</gx:coord></gx:Track>"));
   check "what has no place" "" (read (placed "n" "" ^ "<Style/>"));
+  let polygon = "<Polygon><outerBoundaryIs>" ^ ring ^ "</outerBoundaryIs></Polygon>" in
+  check "MultiPolygon" "a: 12309 m2, 4 corners" (read (placed "a" ("<MultiPolygon>" ^ polygon ^ "</MultiPolygon>")));
+  check "a geometry that is not known" "note: line 1: Circle is not known here, and left out"
+    (read (placed "a" "<Circle><coordinates>0,0</coordinates></Circle>"));
+  check "a link" "note: line 1: the link to 'http://example.org/a.kml' is not followed, and left out"
+    (read "<NetworkLink><name>n</name><Link><href>http://example.org/a.kml</href></Link></NetworkLink>");
   check "no number" "wrong: line 3: 'x' is no number"
     (read (placed "p\n\n" "<Point><coordinates>-8,x\n\n</coordinates></Point>"));
   check "no coordinates" "wrong: line 1: Point has no coordinates" (read (placed "p" "<Point/>"));
@@ -198,6 +327,157 @@ let reading_plans () =
     (shown "m.plan" {|{"fileType":"Plan","geoFence":{"circles":[{"circle":{"center":[41,-8],"radius":-1}}]}}|});
   check "another file" "wrong: this is no plan of QGroundControl: it has no \"fileType\": \"Plan\"" (shown "m.plan" "{}")
 
+(* Commands with a place that is not flown to, in frames that have no place on the globe, and landing patterns. *)
+let missions () =
+  let item ?(frame = 3) command place =
+    Printf.sprintf {|{"type":"SimpleItem","command":%d,"frame":%d,"params":[0,0,0,null,%s]}|} command frame place in
+  let plan items = Printf.sprintf {|{"fileType":"Plan","mission":{"items":[%s]}}|} (String.concat "," items) in
+  let read items = shown "m.plan" (plan items) in
+  let first = item 22 "41,-8,30" and second = item 16 "42,-8,30" in
+  let two = "mission: line of 2" in
+  check "two" two (read [ first; second ]);
+  List.iter
+    (fun command -> check (string_of_int command) two (read [ first; item command "43,-7,0"; second ]))
+    [ 80; 179; 189; 195; 196; 197; 201; 203; 206; 4501; 2000 ];
+  List.iter
+    (fun command -> check (string_of_int command) "mission: line of 3" (read [ first; item command "43,-7,0"; second ]))
+    [ 16; 17; 18; 19; 21; 22; 31; 82; 84; 85 ];
+  List.iter
+    (fun frame -> check (Printf.sprintf "frame %d" frame) "mission: line of 3"
+        (read [ first; item ~frame 16 "43,-7,0"; second ]))
+    [ 0; 3; 5; 6; 10; 11 ];
+  check "a local frame" (two ^ "; note: item 2 of the mission: WAYPOINT in frame 1 has no place on the globe, and left out")
+    (read [ first; item ~frame:1 16 "43,-7,0"; second ]);
+  check "a place that is none"
+    "mission: flawed: item 2 of the mission: latitude 91 is not from -90 to 90 degrees; survey 1: line of 2"
+    (read [ first; item 16 "91,0,0"; {|{"type":"ComplexItem","polyline":[[0,0],[1,1]]}|} ]);
+  check "a landing pattern"
+    (two ^ "; note: item 2 of the mission: the landing pattern (fwLandingPattern) has no place on the map, and left out")
+    (read [ first; {|{"type":"ComplexItem","complexItemType":"fwLandingPattern"}|}; second ]);
+  check "an item that is not known"
+    (two ^ "; note: item 2 of the mission: Marker is not an item that is known here, and left out")
+    (read [ first; {|{"type":"Marker","params":[0,0,0,0,1,1,1]}|}; second ])
+
+(* {1 Archives} *)
+
+(* Files without compression, with their checksums or another. *)
+let archive ?(check = fun text -> Int32.to_int (Zlib.update_crc_string 0l text 0 (String.length text))) files =
+  let b = Buffer.create 1000 and directory = Buffer.create 1000 in
+  let u16 b n = Buffer.add_uint16_le b n and u32 b n = Buffer.add_int32_le b (Int32.of_int n) in
+  let common b text =
+    List.iter (u16 b) [ 20; 0; 0; 0; 0 ];
+    u32 b (check text);
+    u32 b (String.length text);
+    u32 b (String.length text)
+  in
+  let add (name, text) =
+    let start = Buffer.length b in
+    u32 b 0x04034b50;
+    common b text;
+    List.iter (u16 b) [ String.length name; 0 ];
+    Buffer.add_string b (name ^ text);
+    u32 directory 0x02014b50;
+    u16 directory 20;
+    common directory text;
+    List.iter (u16 directory) [ String.length name; 0; 0; 0; 0 ];
+    u32 directory 0;
+    u32 directory start;
+    Buffer.add_string directory name
+  in
+  List.iter add files;
+  let start = Buffer.length b in
+  Buffer.add_buffer b directory;
+  u32 b 0x06054b50;
+  List.iter (u16 b) [ 0; 0; List.length files; List.length files ];
+  u32 b (Buffer.length directory);
+  u32 b start;
+  u16 b 0;
+  Buffer.contents b
+
+let place name = Printf.sprintf "<Placemark><name>%s</name><Point><coordinates>-8,41</coordinates></Point></Placemark>" name
+let link href = Printf.sprintf "<NetworkLink><Link><href>%s</href></Link></NetworkLink>" href
+let kml inside = "<kml>" ^ inside ^ "</kml>"
+
+let archives () =
+  let at = ": (41.000000, -8.000000)" in
+  let read files = shown "m.kmz" (archive files) in
+  check "one" ("a" ^ at) (read [ ("a.kml", kml (place "a")) ]);
+  check "a resource fork" ("a" ^ at)
+    (read [ ("__MACOSX/._doc.kml", "\000\005"); ("doc.kml", kml (place "a")); ("._a.kml", "\000") ]);
+  check "doc.kml is the map" ("a" ^ at ^ "; note: b.kml: doc.kml does not link to this file, and left out")
+    (read [ ("b.kml", kml (place "b")); ("doc.kml", kml (place "a")) ]);
+  check "links are followed, each once"
+    ("a" ^ at ^ "; b" ^ at ^ "; note: files/b.kml, line 1: the link to '../doc.kml' is not followed, and left out")
+    (read
+       [ ("doc.kml", kml (place "a" ^ link "files/b.kml")); ("files/b.kml", kml (place "b" ^ link "../doc.kml")) ]);
+  check "another checksum" "wrong: 'doc.kml' in this archive is damaged: its checksum is another"
+    (shown "m.kmz" (archive ~check:(fun _ -> 7) [ ("doc.kml", kml (place "a")) ]))
+
+(* An archive by another program, cut or changed at any byte, ends at once: as an error or as the same map. *)
+let damaged_archives =
+  let whole =
+    archive [ ("doc.kml", kml (place "a")) ] in
+  let good = shown "m.kmz" whole in
+  let gen = QCheck2.Gen.(pair (int_bound (String.length whole - 1)) (int_bound 255)) in
+  Test_support.Property.case ~count:2000 "a byte of an archive is changed" gen
+    ~print:(fun (i, c) -> Printf.sprintf "%d is %d" i c)
+    (fun (i, c) ->
+       let text = String.mapi (fun j old -> if i = j then Char.chr c else old) whole in
+       let found = shown "m.kmz" text in
+       found = good || String.starts_with ~prefix:"wrong: " found
+       || (* its name is no part of what is checked *) String.starts_with ~prefix:"note: " found)
+
+(* A stream of deflate that is cut anywhere. *)
+let cut_streams () =
+  let packed text =
+    let b = Buffer.create 100 and read = ref 0 in
+    let refill bytes =
+      let n = Int.min (Bytes.length bytes) (String.length text - !read) in
+      Bytes.blit_string text !read bytes 0 n;
+      read := !read + n;
+      n
+    in
+    Zlib.compress ~header:false refill (fun bytes n -> Buffer.add_subbytes b bytes 0 n);
+    Buffer.contents b
+  in
+  let text = kml (String.concat "" (List.init 50 (fun i -> place (string_of_int i)))) in
+  let stream = packed text in
+  let archive stream =
+    let name = "doc.kml" in
+    let b = Buffer.create 1000 in
+    let u16 n = Buffer.add_uint16_le b n and u32 n = Buffer.add_int32_le b (Int32.of_int n) in
+    let common () =
+      List.iter u16 [ 20; 0; 8; 0; 0 ];
+      u32 (Int32.to_int (Zlib.update_crc_string 0l text 0 (String.length text)));
+      u32 (String.length stream);
+      u32 (String.length text)
+    in
+    u32 0x04034b50;
+    common ();
+    List.iter u16 [ String.length name; 0 ];
+    Buffer.add_string b (name ^ stream);
+    let start = Buffer.length b in
+    u32 0x02014b50;
+    u16 20;
+    common ();
+    List.iter u16 [ String.length name; 0; 0; 0; 0 ];
+    u32 0;
+    u32 0;
+    Buffer.add_string b name;
+    let length = Buffer.length b - start in
+    u32 0x06054b50;
+    List.iter u16 [ 0; 0; 1; 1 ];
+    u32 length;
+    u32 start;
+    u16 0;
+    Buffer.contents b
+  in
+  let read stream = Map_file.read ~path:"m.kmz" (archive stream) in
+  Alcotest.(check bool) "whole" true (Result.is_ok (read stream));
+  for length = 0 to String.length stream - 1 do
+    if Result.is_ok (read (String.sub stream 0 length)) then Alcotest.failf "cut to %d bytes, it is read" length
+  done
+
 let reading_neptus () =
   let at = "<coordinate><latitude>41N30'36.0''</latitude><longitude>8W15'0''</longitude><height>0</height>" in
   let element kind inside = Printf.sprintf "<%s><id>x</id><name>id_1</name>%s</coordinate>%s</%s>" kind at inside kind in
@@ -227,7 +507,7 @@ let a_box_is_turned () =
      <attitude><psi>90</psi></attitude><type>Parallelepiped</type><dimensions><x-dim>20</x-dim><y-dim>400</y-dim>\
      </dimensions></geometry></features></map>" in
   match Map_file.read ~path:"m.nmap" text with
-  | Ok [ (_, Area area) ] ->
+  | Ok { things = [ (_, Ok (Area area)) ]; _ } ->
     let inside north east = Area.contains area (Wgs84.displace (at 41. (-8.)) ~north ~east) in
     Alcotest.(check (list bool)) "east, north" [ true; false ] [ inside 0. 190.; inside 15. 0. ]
   | Ok _ | Error _ -> Alcotest.fail "one area is there"
@@ -315,6 +595,10 @@ let tiles () =
 let strange_tiles () =
   let read sql = with_tiles sql described in
   check "nothing known" "0 to 24, everywhere, ''" (read [ table; index ]);
+  let some = [ table; index; add 3 1 1 png; add 5 0 0 png ] in
+  check "levels of the tiles" "3 to 5, everywhere, ''" (read some);
+  check "the last level of the tiles" "2 to 5, everywhere, ''" (read (some @ [ metadata [ ("minzoom", "2") ] ]));
+  check "a level in hexadecimal" "3 to 5, everywhere, ''" (read (some @ [ metadata [ ("maxzoom", "0x7") ] ]));
   check "numbers, and bounds that are none" "2 to 24, everywhere, ''"
     (read [ table; index; "CREATE TABLE metadata (name, value)"; "INSERT INTO metadata VALUES ('minzoom', 2)";
             "INSERT INTO metadata VALUES ('maxzoom', 'x')"; "INSERT INTO metadata VALUES ('bounds', '1,2,3')" ]);
@@ -338,7 +622,7 @@ let strange_tiles () =
       "CREATE VIEW tiles AS SELECT zoom_level, tile_column, tile_row, tile_data FROM map JOIN images ON images.tile_id = \
        map.tile_id"; "INSERT INTO map VALUES (1, 0, 0, 'a')"; "INSERT INTO images VALUES ('a', " ^ png ^ ")" ] in
   with_tiles shared (fun path ->
-      check "a view of tiles that share pictures" "0 to 24, everywhere, ''" (described path);
+      check "a view of tiles that share pictures" "1 to 1, everywhere, ''" (described path);
       check "one of them" "image/png 8" (tile path 1 0 1));
   let path = Filename.temp_file "tiles" ".mbtiles" in
   Fun.protect ~finally:(fun () -> Sys.remove path) (fun () ->
@@ -361,5 +645,9 @@ let () =
       ( "reading",
         [ case "GeoJSON" reading_geojson; case "wrong GeoJSON" wrong_geojson; case "KML" reading_kml;
           case "GPX" reading_gpx; case "plans of QGroundControl" reading_plans; case "maps of Neptus" reading_neptus;
-          case "a box is turned" a_box_is_turned; case "outlines" outlines ] );
+          case "a box is turned" a_box_is_turned; case "outlines" outlines;
+          case "empty geometries" empty_geometries; case "bad features" bad_features;
+          case "slightly wrong polygons" repaired; case "coordinate systems" coordinate_systems;
+          case "encodings" encodings; case "missions" missions; case "archives" archives;
+          case "streams cut short" cut_streams; damaged_archives ] );
       ("tiles", [ case "pictures" tiles; case "strange databases" strange_tiles ]) ]

@@ -1146,11 +1146,13 @@ let maps =
     ]
   @ in_file "lib/maps/map_file.ml" ~noticed_by:"maps/test_maps"
     [
-      ("what has no name gets one without a number", {|if bare && n = 1 then|}, {|if (bare || true) && n = 1 then|});
-      ("names are used twice", {|if Hashtbl.mem taken name then from (n + 1)|}, {|if false then from (n + 1)|});
+      ("what has no name is counted from 0", {|free kind ~from:1|}, {|free kind ~from:0|});
+      ("names that stand in the file are given to others", {|Hashtbl.mem own name || Hashtbl.mem taken name|},
+       {|Hashtbl.mem taken name|});
+      ("names are used twice", {|else if Hashtbl.mem taken name then free name|}, {|else if false then free name|});
       ("long files are read", {|String.length text > most_bytes|}, {|String.length text > 2 * most_bytes|});
-      ("only the first polygon counts", {|Area (united d.place (List.map polygon rings))|},
-       {|Area (united d.place [ polygon (List.hd rings) ])|});
+      ("only the first polygon counts", {|united place (List.map polygon rings)|},
+       {|united place [ polygon (List.hd rings) ]|});
       ("holes are filled", {|~holes:(List.map opened holes)|}, {|~holes:(List.map opened (List.tl (rim :: holes |> List.rev)))|});
     ]
   @ in_file "lib/maps/json_text.ml" ~noticed_by:"maps/test_maps"

@@ -47,7 +47,7 @@ let rec forest indent = function
 (* {1 Items} *)
 
 let int { at; _ } word =
-  match int_of_string_opt word with Some n -> n | None -> fail at "%s is not a number" word
+  match Dolphin_numerals.Numeral.whole_or_hexadecimal word with Some n -> n | None -> fail at "%s is not a number" word
 
 let leaf tree = if tree.parts <> [] then fail tree.at "nothing can be indented under this line"
 

@@ -49,7 +49,7 @@ let required e name =
 
 let int e name =
   let text = required e name in
-  match int_of_string_opt text with
+  match Dolphin_numerals.Numeral.whole_or_hexadecimal text with
   | Some n -> n
   | None -> fail e.at "<%s>: the attribute %s is %s, not a number" e.tag name text
 

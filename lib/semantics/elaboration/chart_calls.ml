@@ -1,6 +1,5 @@
 module Ast = Dolphin_syntax.Ast
 module Include = Dolphin_syntax.Include
-open Core
 open Checks
 
 let word = "map"
@@ -37,20 +36,34 @@ let assigned ast =
     in
     List.filter_map of_statement ast
 
-let names = function Map entries -> List.map fst entries | _ -> []
-
 let note program (x, path) =
   match Scope.chart program path with
-  | Ok chart -> Scope.note_chart program x path (names chart)
+  | Ok chart -> Scope.note_chart program x path chart
   | Error _ -> ()
 
 let hint = "write map 'harbour.geojson'"
+
+let most_warnings = 10
+
+(* What is not on the map as it is in the file. *)
+let warn env at path (chart : Chart.t) =
+  let flaw (name, why) = Printf.sprintf "'%s' is null: %s" name why in
+  let told = List.map flaw chart.flawed @ chart.notes in
+  let warning text =
+    Scope.report env.program (Diagnostic.warning Partial_map at (Printf.sprintf "%s: %s" (Filename.basename path) text))
+  in
+  List.iteri (fun i text -> if i < most_warnings then warning text) told;
+  match List.length told - most_warnings with
+  | further when further > 0 -> warning (Printf.sprintf "and %d more like these" further)
+  | _ -> ()
 
 let elaborate env at arguments =
   match arguments with
   | [ Ast.Positional ({ it = String path; at = text_at } : Ast.expression) ] when path <> "" -> (
       match Scope.chart env.program (Include.beside (Dolphin_syntax.Location.file text_at) path) with
-      | Ok chart -> constant env at chart
+      | Ok chart ->
+        warn env text_at path chart;
+        constant env at chart.value
       | Error why -> error env Bad_map text_at "the map cannot be read: %s" why; null env at)
   | [ Ast.Positional e ] ->
     error env Bad_map e.at "map takes the name of a file, as a text in quotes: it is read before anything runs" ~hint;
@@ -59,12 +72,20 @@ let elaborate env at arguments =
     error env Wrong_arity at "map takes 1 argument, not %d" (List.length arguments) ~hint;
     null env at
 
+let chart_of env (subject : Ast.expression) =
+  match subject.it, file subject with
+  | Variable x, _ when not (is_hidden env x) -> Scope.find_chart env.program x
+  | _, Some (path, _) when is_call env.program word ->
+    Option.map (fun chart -> (path, chart)) (Result.to_option (Scope.chart env.program path))
+  | _, (Some _ | None) -> None
+
 let check_member env (subject : Ast.expression) (name : string Ast.located) =
-  match subject.it with
-  | Variable x when not (is_hidden env x) -> (
-      match Scope.find_chart env.program x with
-      | Some (path, names) when not (List.mem name.it names) ->
-        error env Unknown_name name.at "%s has no '%s'" (Filename.basename path) name.it
-          ?hint:(did_you_mean name.it names)
-      | Some _ | None -> ())
-  | _ -> ()
+  match chart_of env subject with
+  | None -> ()
+  | Some (path, chart) -> (
+      let path = Filename.basename path and names = Chart.names chart in
+      match List.assoc_opt name.it chart.flawed with
+      | Some why -> error env Bad_map name.at "'%s' of %s cannot be used: %s" name.it path why
+      | None ->
+        if not (List.mem name.it names) then
+          error env Unknown_name name.at "%s has no '%s'" path name.it ?hint:(did_you_mean name.it names))

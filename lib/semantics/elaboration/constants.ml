@@ -3,8 +3,13 @@ module Ast = Dolphin_syntax.Ast
 module Diagnostic = Dolphin_syntax.Diagnostic
 module String_map = Map.Make (String)
 
-type t = { known : value String_map.t; own : string list; chart : string -> (value, string) result }
-(* [own]: what the program itself names, known or not. *)
+(* [own]: what the program itself names, known or not. [charted]: variables that are a map, with its file. *)
+type t = {
+  known : value String_map.t;
+  own : string list;
+  chart : string -> (Chart.t, string) result;
+  charted : (string * string) list;
+}
 
 (* {1 What only computes} *)
 
@@ -47,6 +52,7 @@ let elaborated constants (e : Ast.expression) =
   let globals = String_map.bindings constants.known in
   let program = Scope.create ~chart:constants.chart ~functions:[] ~globals:(List.map fst globals) () in
   let lambda = Lambdas.shell program e.at "constant" 0 in
+  List.iter (Chart_calls.note program) constants.charted;
   let env = Translate.env program (Scope.code program Main None) ~answer:true in
   Lambdas.fill env lambda Main [] e.at [ { Ast.it = Expression e; at = e.at } ];
   let not_there (name, at) = Diagnostic.error ~code:Unknown_name at (Printf.sprintf "unknown name '%s'" name) in
@@ -75,6 +81,15 @@ let value constants (e : Ast.expression) =
   | Some why -> Error [ why ]
   | None -> Result.bind (elaborated constants e) (fun code -> run code e.at)
 
+let chart constants (e : Ast.expression) =
+  let path =
+    match e.it, Chart_calls.file e with
+    | Variable name, _ -> List.assoc_opt name constants.charted
+    | _, Some (path, _) when not (List.mem Chart_calls.word constants.own) -> Some path
+    | _, (Some _ | None) -> None
+  in
+  Option.bind path (fun path -> Result.to_option (constants.chart path))
+
 (* {1 Variables} *)
 
 let function_names (ast : Ast.program) =
@@ -93,4 +108,5 @@ let of_program ~chart ast =
         | Error _ -> constants)
     | _ -> constants
   in
-  List.fold_left add { known = String_map.empty; own = Assigned.names ast @ function_names ast; chart } ast
+  List.fold_left add { known = String_map.empty; own = Assigned.names ast @ function_names ast; chart;
+                       charted = Chart_calls.assigned ast } ast

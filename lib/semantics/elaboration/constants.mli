@@ -10,9 +10,12 @@ type t
 val function_names : Ast.program -> string list
 (** The functions that it defines. *)
 
-val of_program : chart:(string -> (Core.value, string) result) -> Ast.program -> t
+val of_program : chart:(string -> (Chart.t, string) result) -> Ast.program -> t
 (** [of_program ~chart ast] is the variables of [ast] that are assigned once, by a statement of the script outside of
     all braces, or declared as parameters, and of which the value is known. *)
+
+val chart : t -> Ast.expression -> Chart.t option
+(** [chart constants e] is the chart that [e] surely is: a call of [map], or a variable that is one. *)
 
 val value : t -> Ast.expression -> (Core.value, Diagnostic.t list) result
 (** [value constants e] is the value of [e], or why it is not known, and where. *)

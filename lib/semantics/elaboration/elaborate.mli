@@ -14,7 +14,7 @@ val program :
     [map]. *)
 
 val program_with_charts :
-  chart:(string -> (Core.value, string) result) ->
+  chart:(string -> (Chart.t, string) result) ->
   source_name:string ->
   Dolphin_syntax.Ast.program ->
   (Core.program * Diagnostic.t list, Diagnostic.t list) result
@@ -22,7 +22,7 @@ val program_with_charts :
     what is wrong with it. *)
 
 val known_plans :
-  chart:(string -> (Core.value, string) result) -> Dolphin_syntax.Ast.program ->
+  chart:(string -> (Chart.t, string) result) -> Dolphin_syntax.Ast.program ->
   (Dolphin_syntax.Ast.expression * Inline_plan.t) list
 (** [known_plans ~chart ast] is the plans that are known before the program runs: {!Fence_declarations.plans}. *)
 

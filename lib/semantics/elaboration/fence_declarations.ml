@@ -16,6 +16,37 @@ let area constants kind (e : Ast.expression) =
   | Area area -> Ok area
   | x -> error e.at "fence %s takes an area, not %s" kind (Value.kind x)
 
+(* The areas of a map or a list; [key] is how the text names each. What is neither a place nor a line, but no area
+   either, is flawed: a fence without it would let vehicles in. [only]: places and lines are not left out. *)
+let areas constants ~only (e : Ast.expression) entries =
+  let flaws = Option.fold (Constants.chart constants e) ~none:[] ~some:(fun (chart : Chart.t) -> chart.flawed) in
+  let add found ((key : string), (x : Core.value)) =
+    let* found = found in
+    match x with
+    | Area area -> Ok ((key, area) :: found)
+    | Position _ | List _ when not only -> Ok found
+    | x -> (
+        match List.assoc_opt key flaws with
+        | Some why -> error e.at "'%s' cannot be part of a fence: %s" key why
+        | None -> error e.at "fence outside takes areas, and '%s' is %s" key (Value.kind x))
+  in
+  let* found = List.fold_left add (Ok []) entries in
+  match List.rev found with [] -> error e.at "fence outside takes areas, and there are none" | areas -> Ok areas
+
+let in_brackets key =
+  Format.asprintf "[%a]" Dolphin_syntax.Print.expression { Ast.it = String key; at = Dolphin_syntax.Location.none }
+
+(* The rules of one declaration, each with what the text has behind the expression. *)
+let outside constants e : ((string * Fences.rule) list, Diagnostic.t list) result =
+  let* x = Constants.value constants e in
+  let each of_key areas = List.map (fun (key, area) -> (of_key key, Fences.Outside area)) areas in
+  match (x : Core.value) with
+  | Map entries -> Result.map (each in_brackets) (areas constants ~only:false e entries)
+  | List xs ->
+    let numbered = List.mapi (fun i x -> (string_of_int i, x)) (Vector.to_list xs) in
+    Result.map (each (Printf.sprintf "[%s]")) (areas constants ~only:true e numbered)
+  | _ -> Result.map (fun area -> [ ("", Fences.Outside area) ]) (area constants "outside" e)
+
 let metres constants what ~least (e : Ast.expression) =
   let* x = Constants.value constants e in
   match Value.to_number x with
@@ -28,7 +59,6 @@ let rule constants kind e : (Fences.rule, Diagnostic.t list) result =
   let above_0 = Float.min_float in
   match kind with
   | "inside" -> Result.map (fun area -> Fences.Inside area) (area constants kind e)
-  | "outside" -> Result.map (fun area -> Fences.Outside area) (area constants kind e)
   | "depth" -> Result.map (fun n -> Fences.Depth n) (metres constants "the depth of a fence" ~least:0. e)
   | "height" -> Result.map (fun n -> Fences.Height n) (metres constants "the height of a fence" ~least:0. e)
   | _ -> Result.map (fun n -> Fences.Distance n) (metres constants "the distance of a fence" ~least:above_0 e)
@@ -45,20 +75,28 @@ let margin constants kind (arguments : Ast.argument list) =
   | (Positional e | Keyed (_, e) | Named (_, e)) :: _ ->
     error e.at "after a comma, fence takes its margin" ~hint:"as in fence inside harbour, margin: 20.m"
 
-let text kind e (others : Ast.argument list) =
+let text kind e key (others : Ast.argument list) =
   let margin = function
     | Ast.Named (_, e) -> Format.asprintf ", margin: %a" Dolphin_syntax.Print.expression e
     | Positional _ | Keyed _ -> ""
   in
-  Format.asprintf "%s %s %a%s" word kind Dolphin_syntax.Print.expression e (String.concat "" (List.map margin others))
+  let shown =
+    match e.Ast.it with
+    | Ast.Variable _ -> Format.asprintf "%a" Dolphin_syntax.Print.expression e
+    | _ when key = "" -> Format.asprintf "%a" Dolphin_syntax.Print.expression e
+    | _ -> Format.asprintf "(%a)" Dolphin_syntax.Print.expression e
+  in
+  Format.asprintf "%s %s %s%s%s" word kind shown key (String.concat "" (List.map margin others))
 
 let read constants at (arguments : Ast.argument list) =
   match arguments with
   | Positional { it = Call { callee = { it = Variable kind; _ }; arguments = [ Positional e ] }; _ } :: others
     when List.mem kind kinds ->
-    let* rule = rule constants kind e in
+    let* rules =
+      if kind = "outside" then outside constants e
+      else Result.map (fun rule -> [ ("", rule) ]) (rule constants kind e) in
     let* margin = margin constants kind others in
-    Ok { Fences.rule; margin; text = text kind e others; at }
+    Ok (List.map (fun (key, rule) -> { Fences.rule; margin; text = text kind e key others; at }) rules)
   | Positional { it = Call { callee = { it = Variable kind; at }; arguments = _ }; _ } :: _ when List.mem kind kinds ->
     error at "fence %s takes one value" kind ~hint
   | Positional { it = Call { callee = { it = Variable kind; at }; _ }; _ } :: _ -> (
@@ -81,7 +119,7 @@ let declaration (s : Ast.statement) =
 let of_program constants ast =
   let add (fences, errors) (at, arguments) =
     match read (Lazy.force constants) at arguments with
-    | Ok fence -> (fence :: fences, errors)
+    | Ok found -> (List.rev_append found fences, errors)
     | Error found -> (fences, errors @ found)
   in
   match List.fold_left add ([], []) (List.filter_map declaration ast) with

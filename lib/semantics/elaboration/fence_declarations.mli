@@ -7,9 +7,9 @@ val word : string
 (** ["fence"]. *)
 
 val read :
-  Constants.t -> Dolphin_syntax.Location.t -> Ast.argument list -> (Fences.fence, Diagnostic.t list) result
-(** [read constants at arguments] is the fence declared by [fence] with these [arguments], at [at]; or what is wrong
-    with it, and where. *)
+  Constants.t -> Dolphin_syntax.Location.t -> Ast.argument list -> (Fences.fence list, Diagnostic.t list) result
+(** [read constants at arguments] is the fences declared by [fence] with these [arguments], at [at]: one for each area
+    of a map or a list, else one; or what is wrong with it, and where. *)
 
 val of_program : Constants.t Lazy.t -> Ast.program -> (Fences.fence list, Diagnostic.t list) result
 (** The fences that stand in the script, outside of all braces; or what is wrong with any. *)

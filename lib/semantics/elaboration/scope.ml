@@ -12,8 +12,8 @@ type program = {
   variables : string list;
   parameters : string list;
   suppliers : string list;
-  chart : string -> (Core.value, string) result;
-  charted : (string, string * string list) Hashtbl.t;  (* variables that are a chart: its file, and its names *)
+  chart : string -> (Chart.t, string) result;
+  charted : (string, string * Chart.t) Hashtbl.t;  (* variables that are a chart, with its file *)
   functions : (string, Core.lambda) Hashtbl.t;
   table : (string, global) Hashtbl.t;
   mutable global_names : string list;  (* latest first *)
@@ -149,7 +149,7 @@ let note_now program = program.reads_now <- true
 let note_running program = program.asks_running <- true
 let is_parameter program name = List.mem name program.parameters
 let chart program path = program.chart path
-let note_chart program name path keys = Hashtbl.replace program.charted name (path, keys)
+let note_chart program name path chart = Hashtbl.replace program.charted name (path, chart)
 let find_chart program name = Hashtbl.find_opt program.charted name
 let is_supplier program name = List.mem name program.suppliers
 let recruits program = program.recruits

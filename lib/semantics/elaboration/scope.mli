@@ -13,7 +13,7 @@ val create :
   ?variables:string list ->
   ?parameters:string list ->
   ?suppliers:string list ->
-  ?chart:(string -> (Core.value, string) result) ->
+  ?chart:(string -> (Chart.t, string) result) ->
   functions:(string * Core.lambda) list ->
   globals:string list ->
   unit ->
@@ -123,13 +123,13 @@ val is_assigned : program -> string -> bool
 
 val is_parameter : program -> string -> bool
 
-val chart : program -> string -> (Core.value, string) result
+val chart : program -> string -> (Chart.t, string) result
 (** What {!create} was given. *)
 
-val note_chart : program -> string -> string -> string list -> unit
-(** [note_chart p x path names]: the variable [x] surely is the map of the file [path], which has these [names]. *)
+val note_chart : program -> string -> string -> Chart.t -> unit
+(** [note_chart p x path chart]: the variable [x] surely is the map of the file [path], which is [chart]. *)
 
-val find_chart : program -> string -> (string * string list) option
+val find_chart : program -> string -> (string * Chart.t) option
 (** What {!note_chart} noted of a variable. *)
 
 val is_supplier : program -> string -> bool

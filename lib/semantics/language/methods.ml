@@ -2,6 +2,7 @@ open Dolphin_results
 open Core
 module Area = Dolphin_geo.Area
 module Suggest = Dolphin_syntax.Diagnostic
+module Numeral = Dolphin_numerals.Numeral
 
 let ( let* ) = Result.bind
 
@@ -214,10 +215,10 @@ let on_string s name arguments =
   | "replace", [ String target; String by ] -> Some (Ok (String (replace_all s target by)))
   | "split", [ String separator ] -> Some (Ok (strings (split s separator)))
   | "toInteger", [] ->
-    Some (parse_number "a whole number" s (fun s -> Option.map (fun i -> Integer i) (int_of_string_opt s)))
+    Some (parse_number "a whole number" s (fun s -> Option.map (fun i -> Integer i) (Numeral.whole s)))
   | ("toDouble" | "toFloat" | "toBigDecimal"), [] ->
-    Some (parse_number "a number" s (fun s -> Option.map (fun n -> Number n) (float_of_string_opt s)))
-  | "isNumber", [] -> Some (Ok (Boolean (float_of_string_opt s <> None)))
+    Some (parse_number "a number" s (fun s -> Option.map (fun n -> Number n) (Numeral.number s)))
+  | "isNumber", [] -> Some (Ok (Boolean (Numeral.number s <> None)))
   | ("padLeft" | "padRight"), [ Integer n ] when n > Value.most_items ->
     Some (Error (Printf.sprintf "a string of %d characters is too long" n))
   | ("padLeft" | "padRight"), [ Integer n ] ->

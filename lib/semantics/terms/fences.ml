@@ -25,9 +25,9 @@ let make all =
   let on_ground = List.filter_map (fun fence -> Option.map (fun rule -> (fence, rule)) (area_rule fence)) all in
   let rules = List.map snd on_ground in
   let is_limit fence = match fence.rule with Depth _ | Height _ -> true | Inside _ | Outside _ | Distance _ -> false in
+  let planned = Fence.make rules in
   { all; on_ground = Array.of_list (List.map fst on_ground); limits = Array.of_list (List.filter is_limit all);
-    planned = Fence.make rules;
-    seen = Fence.make (List.map (fun (rule : Fence.rule) -> { rule with margin = 0. }) rules) }
+    planned; seen = Fence.without_margins planned }
 
 let none = make []
 let list fences = fences.all

@@ -1,0 +1,1 @@
+(** Tests of {!Dolphin_numerals}. No value of its own. *)

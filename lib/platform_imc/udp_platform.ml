@@ -250,7 +250,8 @@ let release p vehicles = command p (Station.release ~now:(now p) vehicles)
 let start p vehicle task = command p (Station.start ~now:(now p) vehicle task)
 let stop p vehicle = command p (Station.stop ~now:(now p) vehicle)
 let set_connection_timeout p vehicles seconds = quietly p (Station.set_connection_timeout vehicles seconds)
-let telemetry p on = quietly p (Station.telemetry ~now:(now p) on)
+let telemetry p how = quietly p (Station.telemetry ~now:(now p) (how <> Platform.Off))
+let look _ = []
 
 (* {1 Events} *)
 

@@ -226,7 +226,8 @@ let release p vehicles = command p (Dispatch.release vehicles)
 let start p vehicle task = command p (Dispatch.start ~now:(now p) vehicle task)
 let stop p vehicle = command p (Dispatch.stop ~now:(now p) vehicle)
 let set_connection_timeout p vehicles seconds = command p (Dispatch.set_connection_timeout vehicles seconds)
-let telemetry p on = command p (Dispatch.telemetry on)
+let telemetry p how = command p (Dispatch.telemetry (how <> Platform.Off))
+let look _ = []
 
 (* {1 Events} *)
 

@@ -48,8 +48,9 @@ type t = {
   bound : String_set.t;
   timers : Event_queue.key Int_map.t;
   timeout : float;
-  telemetry : bool;
+  telemetry : Platform.telemetry;
   beat : Event_queue.key option;
+  stopped : String_set.t;                       (* and not told since *)
 }
 
 let default_timeout = 60.
@@ -90,12 +91,14 @@ let state f craft : World.vehicle_state =
     connected = craft.connected; unready = None;
     cruise = Some v.speed; drain = Some v.drain }
 
+let not_stopped id f = if String_set.mem id f.stopped then { f with stopped = String_set.remove id f.stopped } else f
+
 (* [tell id f] is the event that makes the state of [id] known, if it is not, and can be. *)
 let tell id f =
   let craft = find id f in
   let state = state f craft in
-  if craft.told = Some state then None, f
-  else Some (Platform.Vehicle state), put id { craft with told = Some state } f
+  if craft.told = Some state then None, not_stopped id f
+  else Some (Platform.Vehicle state), put id { craft with told = Some state } (not_stopped id f)
 
 (* {1 Telemetry} *)
 
@@ -108,7 +111,7 @@ let is_restless f id =
 
 (* Beats go on while there is something to tell, and begin again here when there may be. *)
 let wake f =
-  if f.telemetry && f.beat = None && not (String_set.is_empty f.bound) then
+  if f.telemetry <> Platform.Off && f.beat = None && not (String_set.is_empty f.bound) then
     let key, f = schedule f.now Beat f in
     { f with beat = Some key }
   else f
@@ -191,7 +194,21 @@ let stop id f =
   | Free -> f
   | Ordered _ | Under_way _ | Over _ ->
     let craft, f = give_up craft f in
-    wake (snd (schedule f.now (Tell id) (put id craft f)))
+    let f = { (put id craft f) with stopped = String_set.add id f.stopped } in
+    wake (snd (schedule f.now (Tell id) f))
+
+let look f =
+  let one id (states, f) =
+    if not (find id f).connected then (states, f)
+    else
+      match tell id f with
+      | Some (Platform.Vehicle state), f -> (state :: states, f)
+      | Some (Task_done _ | Task_failed _ | Timer _ | Input _ | Quiet), f | None, f -> (states, f)
+  in
+  if String_set.is_empty f.stopped then ([], f)
+  else
+    let states, f = String_set.fold one f.stopped ([], { f with stopped = String_set.empty }) in
+    (List.rev states, f)
 
 (* {1 What happens} *)
 
@@ -259,14 +276,21 @@ let happen f = function
 (* {1 Time} *)
 
 let now f = f.now
-let due f = Option.map (fun (time, _) -> Float.max f.now time) (Event_queue.first f.queue)
+
+(* Telemetry that is only shown waits for other events: without it, nothing would happen. *)
+let first f =
+  match Event_queue.first f.queue with
+  | Some (_, Beat) when f.telemetry = Platform.Shown && Event_queue.first (Event_queue.rest f.queue) = None -> None
+  | first -> first
+
+let due f = Option.map (fun (time, _) -> Float.max f.now time) (first f)
 
 let advance f time =
   let time = match due f with Some due -> Float.min due time | None -> time in
   { f with now = Float.max f.now time }
 
 let step f =
-  match Event_queue.first f.queue with
+  match first f with
   | None -> None
   | Some (time, occurrence) ->
     let f = { f with now = Float.max f.now time; queue = Event_queue.rest f.queue } in
@@ -274,7 +298,7 @@ let step f =
 
 (* What lies in the future is there because an event comes of it, at once or in the end. *)
 let rec quiet f =
-  match Event_queue.first f.queue with
+  match first f with
   | None -> true
   | Some (time, _) when time > f.now -> false
   | Some _ -> ( match step f with Some (None, f) -> quiet f | Some (Some _, _) -> false | None -> true)
@@ -304,8 +328,10 @@ let set_connection_timeout ids seconds f =
     let crafts = String_map.map (fun (craft : craft) -> { craft with timeout = None }) f.crafts in
     String_map.fold (fun id _ f -> renew_silence id f) crafts { f with crafts; timeout = seconds }
 
-let telemetry on f =
-  if on then wake { f with telemetry = true } else { (cancel f.beat f) with telemetry = false; beat = None }
+let telemetry how f =
+  match (how : Platform.telemetry) with
+  | Off -> { (cancel f.beat f) with telemetry = Off; beat = None }
+  | Shown | Awaited -> wake { f with telemetry = how }
 
 (* {1 The beginning} *)
 
@@ -317,7 +343,7 @@ let create ~seed (s : Scenario.t) =
       order = List.map (fun (v : Scenario.vehicle) -> v.id) s.vehicles; now = 0.;
       queue = Event_queue.empty;
       crafts = String_map.empty; bound = String_set.empty; timers = Int_map.empty; timeout = default_timeout;
-      telemetry = false; beat = None } in
+      telemetry = Off; beat = None; stopped = String_set.empty } in
   let add f (v : Scenario.vehicle) =
     let spans = List.concat_map (fun (from, until) -> [ from; until ]) (Scenario.silences v) in
     let connected, changes = match spans with 0. :: changes -> false, changes | changes -> true, changes in

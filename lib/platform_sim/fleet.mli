@@ -44,7 +44,10 @@ val release : Core.vehicle list -> t -> t
 val set_timer : Residual.timer -> float -> t -> t
 val cancel_timer : Residual.timer -> t -> t
 val set_connection_timeout : Core.vehicle list option -> float -> t -> t
-val telemetry : bool -> t -> t
+val telemetry : Platform.telemetry -> t -> t
+
+val look : t -> World.vehicle_state list * t
+(** [look f] is the state of each vehicle that was stopped and has not been reported since, and [f] after that. *)
 
 (** {1:displays For displays} *)
 

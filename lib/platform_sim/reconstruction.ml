@@ -107,6 +107,6 @@ let moment ~announce_period s { History.time; what } =
     Ok (List.fold_left (command ~announce_period) { s with f = Fleet.advance s.f time } effects)
 
 let make ~seed ~announce_period scenario history =
-  let start = { f = Fleet.telemetry true (Fleet.create ~seed scenario); untold = []; unsaid = [] } in
+  let start = { f = Fleet.telemetry Awaited (Fleet.create ~seed scenario); untold = []; unsaid = [] } in
   let finish s = { fleet = s.f; early = List.rev s.untold; news = List.rev s.unsaid } in
   Result.map finish (Results.fold (moment ~announce_period) start history)

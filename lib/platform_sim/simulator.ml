@@ -80,7 +80,18 @@ module Make (Time : Time) = struct
     command p (Fleet.stop vehicle)
 
   let set_connection_timeout p vehicles seconds = command p (Fleet.set_connection_timeout vehicles seconds)
-  let telemetry p on = command p (Fleet.telemetry on)
+  (* Where time passes by itself, it does so for displays too. *)
+  let telemetry p (how : Platform.telemetry) =
+    let how = match how with Shown when not Time.virtual_time -> Platform.Awaited | Off | Shown | Awaited -> how in
+    command p (Fleet.telemetry how)
+
+  let look p =
+    if not Time.virtual_time then []
+    else
+      let states, fleet = Fleet.look p.fleet in
+      p.fleet <- fleet;
+      states
+
   let close _ = Lwt.return_unit
 
   (* {1 Events} *)

@@ -82,7 +82,7 @@ module Make (P : Platform.S) = struct
     mutable moment : float;  (* the time of the world, if the program reads it *)
     mutable alarm : int option;  (* the date for which the platform's timer is set *)
     mutable alarms : int;  (* that rang since the latest event *)
-    mutable telemetry : bool;  (* as the platform was told last *)
+    mutable telemetry : Platform.telemetry;  (* as the platform was asked last *)
     mutable upcoming : (Platform.event Lwt.t * news Lwt.t) option;
     (* the platform's next event, if it was asked for, as it is told and as it is read *)
     mutable reply : news Lwt.t option;  (* from the console or the host, if it is awaited *)
@@ -297,11 +297,17 @@ module Make (P : Platform.S) = struct
     Inputs.tell item taken;
     taken
 
-  let switch_telemetry s on =
-    if on <> s.telemetry then begin
-      s.telemetry <- on;
-      P.telemetry s.platform on
+  (* Of a program that reads sensors, telemetry is on throughout; what others do does not depend on it. So a run that is
+     shown or recorded goes as any other. *)
+  let switch_telemetry s ~sensitive =
+    let how : Platform.telemetry =
+      if s.program.reads_sensors then Awaited else if sensitive || s.always_telemetry then Shown else Off in
+    if how <> s.telemetry then begin
+      s.telemetry <- how;
+      P.telemetry s.platform how
     end
+
+  let look s = List.iter (see s) (P.look s.platform)
 
   (* What a long script does not wait for all the same happens: on a platform whose time passes by itself, news of
      vehicles that came meanwhile reach the program. *)
@@ -386,6 +392,7 @@ module Make (P : Platform.S) = struct
     | Executing (_, r) when s.rounds >= most_rounds ->
       give_up s (Spins (Option.value (first_repeat r) ~default:Fault.unknown_site))
     | Script _ | Waiting _ | Executing _ -> (
+        look s;
         match Transition.internal s.program s.world s.configuration () with
         | Seq.Cons (t, _) -> take s ~cause:None t; continue s advance
         | Seq.Nil -> (
@@ -411,7 +418,7 @@ module Make (P : Platform.S) = struct
            && Transition.awaited c = [] ->
       give_up s (Stuck r)
     | Script _ | Waiting _ | Executing _ | Ended _ ->
-      switch_telemetry s (sensitive || s.always_telemetry);
+      switch_telemetry s ~sensitive;
       if sensitive then tell_unknown s;
       wait ~sensitive s
 
@@ -481,11 +488,11 @@ module Make (P : Platform.S) = struct
         configuration = beginning.configuration;
         world = beginning.world;
         dates = Dated_code.of_program program; moment = beginning.time; alarm = None; alarms = 0;
-        telemetry = false; upcoming = None; reply = None; questions = Task_questions.create (); posted = None;
+        telemetry = Off; upcoming = None; reply = None; questions = Task_questions.create (); posted = None;
         input_before = false; unknown = []; since_pause = 0; rounds = 0 }
     in
     let whole () =
-      switch_telemetry s always_telemetry;
+      switch_telemetry s ~sensitive:false;
       begin_at s beginning;
       advance s
     in

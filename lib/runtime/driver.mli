@@ -58,7 +58,7 @@ val run :
     declares by [onInterrupt], or ends. When [again] resolves (by default never), it is interrupted once more, and ends.
 
     The platform's telemetry is on while it may matter to the program, or with [~always_telemetry:true] (by default
-    false), for displays, all the time. Without [host], calls to the host process fail. What is posted to [inputs] the
+    false), for displays and journals, all the time; in virtual time, a run is the same with and without it. Without [host], calls to the host process fail. What is posted to [inputs] the
     run takes as it comes, and a flood of it does not keep the platform's events away.
 
     The run begins with the program, or as [beginning] says, and [platform] is one that stands as it did then: what the

@@ -121,7 +121,7 @@ module Make (P : Platform.S) = struct
     let close () = Option.iter Lwt.cancel s.upcoming; P.close platform in
     Lwt.finalize
       (fun () ->
-         P.telemetry platform true;
+         P.telemetry platform Awaited;
          look_around s >>= fun () -> go s ~interruption steps)
       close
 end

@@ -18,7 +18,8 @@ module Make (P : Platform.S) = struct
   let bind p = P.bind p.platform
   let release p = P.release p.platform
   let set_connection_timeout p = P.set_connection_timeout p.platform
-  let telemetry p on = P.telemetry p.platform (on || Fence_guard.watches p.guard)
+
+  let telemetry p how = P.telemetry p.platform (if Fence_guard.watches p.guard then Awaited else how)
 
   let wake p =
     let waiting = p.waiting in
@@ -56,17 +57,24 @@ module Make (P : Platform.S) = struct
 
   let make guard ~untold platform =
     let p = { platform; guard; failures = []; upcoming = None; waiting = None } in
-    if Fence_guard.watches guard then P.telemetry platform true;
+    if Fence_guard.watches guard then P.telemetry platform Awaited;
     List.iter (stop_and_fail p) untold;
     p
 
   (* {1 Events} *)
 
+  let see p (state : Dolphin_semantics.World.vehicle_state) =
+    p.guard <- Fence_guard.see state p.guard;
+    List.iter (stop_and_fail p) (Fence_guard.breaking state.id p.guard)
+
+  let look p =
+    let states = P.look p.platform in
+    List.iter (see p) states;
+    states
+
   let read p (event : Platform.event) =
     (match event with
-     | Vehicle state ->
-       p.guard <- Fence_guard.see state p.guard;
-       List.iter (stop_and_fail p) (Fence_guard.breaking state.id p.guard)
+     | Vehicle state -> see p state
      | Task_done v | Task_failed (v, _) -> p.guard <- Fence_guard.over v p.guard
      | Timer _ | Input _ | Quiet -> ());
     event

@@ -7,7 +7,7 @@ open Dolphin_semantics
 
 type event =
   | Vehicle of World.vehicle_state
-  (* First heard of, or changed: connection at once, position and battery at least while {!S.telemetry} is on. *)
+  (* First heard of, or changed: connection at once, position and battery at least while {!S.telemetry} is not [Off]. *)
   | Task_done of Core.vehicle
   | Task_failed of Core.vehicle * string
   (* In the vehicle's own words: it failed, refused, or its link was lost for longer than its connection timeout. *)
@@ -15,8 +15,14 @@ type event =
   | Input of string * Core.value
   (* Somebody posts a pair: only a platform that plays the people too knows. *)
   | Quiet
-  (* Nothing will ever happen again by itself, and no position or battery will change: only a platform of virtual time
-     can know. *)
+  (* Nothing will ever happen again by itself, and if telemetry is {!Awaited}, no position or battery will change: only
+     a platform of virtual time can know. *)
+
+(* How changes of positions and batteries are reported. *)
+type telemetry =
+  | Off
+  | Shown  (* for displays and journals: what the program does is the same as with [Off] *)
+  | Awaited  (* the program reads sensors *)
 
 module type S = sig
   type t
@@ -62,9 +68,14 @@ module type S = sig
   val set_connection_timeout : t -> Core.vehicle list option -> float -> unit
   (** For these vehicles, or for all, present and future; seconds. *)
 
-  val telemetry : t -> bool -> unit
-  (** Whether changes of positions and batteries are to be told as events, about once a second; and of a vehicle that
-      ends a task, just before that end. *)
+  val telemetry : t -> telemetry -> unit
+  (** Unless [Off], changes of positions and batteries are events, about once a second. The position of a vehicle that
+      ends a task is an event in any case, just before that end. *)
+
+  val look : t -> World.vehicle_state list
+  (** [look p] is the present state of the vehicles that were stopped and have not been reported since, in virtual time;
+      [[]] if time passes by itself, where {!next} reports them. A driver looks before the program goes on: the next
+      allocation may depend on where they stopped. *)
 
   val close : t -> unit Lwt.t
   (** Resolves once every stop is confirmed or given up, and what the platform held is closed. *)

@@ -58,8 +58,10 @@ let cancel_timer s timer =
   drop s (Overtaken.by_cancel timer);
   first s { each = (fun (type p) (module P : Platform.S with type t = p) p -> P.cancel_timer p timer) }
 
-let telemetry s on =
-  ignore (all s { each = (fun (type p) (module P : Platform.S with type t = p) p -> P.telemetry p on) })
+let telemetry s how =
+  ignore (all s { each = (fun (type p) (module P : Platform.S with type t = p) p -> P.telemetry p how) })
+
+let look s = List.concat (all s { each = (fun (type p) (module P : Platform.S with type t = p) p -> P.look p) })
 
 let close s =
   Lwt.join (all s { each = (fun (type p) (module P : Platform.S with type t = p) p -> P.close p) })

@@ -20,7 +20,7 @@ type t = {
 let for_ever = 1e9
 
 let create ~seed ~is_remembered scenario =
-  let fleet = Fleet.create ~seed scenario |> Fleet.set_connection_timeout None for_ever |> Fleet.telemetry true in
+  let fleet = Fleet.create ~seed scenario |> Fleet.set_connection_timeout None for_ever |> Fleet.telemetry Awaited in
   { fleet; scenario; is_remembered; said = Names.empty; running = Names.empty; stopped = Names.empty;
     linked = Names.empty }
 
@@ -146,7 +146,7 @@ let carry_out (o : Order.t) f =
   match o with
   | Hello _ | Timeout _ | Kept _ -> (f, [])
   | Refused _ -> (f, everyone f)
-  | Telemetry on -> on_fleet f (Fleet.telemetry on f.fleet)
+  | Telemetry on -> on_fleet f (Fleet.telemetry (if on then Awaited else Off) f.fleet)
   | Hold vs -> on_fleet f (Fleet.bind vs f.fleet)
   | Release vs -> on_fleet f (Fleet.release vs f.fleet)
   | Ping id -> (f, [ Report.Pong id ])

@@ -99,7 +99,7 @@ let rec obey e = function
   | Hold v -> { e with fleet = Fleet.bind [ v ] e.fleet }
   | Let_go v -> { e with fleet = Fleet.release [ v ] e.fleet }
   | Timeout (v, n) -> { e with fleet = Fleet.set_connection_timeout (Option.map (fun v -> [ v ]) v) n e.fleet }
-  | Telemetry on -> { e with fleet = Fleet.telemetry on e.fleet }
+  | Telemetry on -> { e with fleet = Fleet.telemetry (if on then Awaited else Off) e.fleet }
   | Steps n -> if n = 0 then e else obey (step e) (Steps (n - 1))
 
 (* At last all that was started ends, and the platform falls silent. *)

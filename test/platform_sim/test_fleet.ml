@@ -299,24 +299,24 @@ let place () =
 
 let telemetry () =
   let f = make "vehicle 'a', { type 'UUV' }; vehicle 'b', { type 'UUV' }" in
-  let f = Fleet.telemetry true (Fleet.bind [ "a" ] (after 0. f)) in
+  let f = Fleet.telemetry Awaited (Fleet.bind [ "a" ] (after 0. f)) in
   check "each second, of those that are bound" [ "1 a seen"; "2 a seen"; "3 a seen" ] (fst (until 3.5 f));
-  let f = Fleet.telemetry false (after 3.5 f) in
+  let f = Fleet.telemetry Off (after 3.5 f) in
   check "off" [] (fst (until 10. f));
-  let f = Fleet.telemetry true (after 10. f) in
+  let f = Fleet.telemetry Awaited (after 10. f) in
   check "on again" [ "10 a seen"; "11 a seen" ] (fst (until 11.5 f));
   check "released" [] (fst (until 20. (Fleet.release [ "a" ] f)))
 
 let telemetry_ends () =
-  let f = Fleet.telemetry true (Fleet.bind [ "a" ] (after 0. (single "drain 0"))) in
+  let f = Fleet.telemetry Awaited (Fleet.bind [ "a" ] (after 0. (single "drain 0"))) in
   Alcotest.(check bool) "nothing changes" true (Fleet.quiet f);
-  let f = Fleet.telemetry true (Fleet.bind [ "a" ] (after 0. (single "drain 60.percent; battery 0.1.percent"))) in
+  let f = Fleet.telemetry Awaited (Fleet.bind [ "a" ] (after 0. (single "drain 60.percent; battery 0.1.percent"))) in
   Alcotest.(check bool) "the battery does" false (Fleet.quiet f);
   let happened, f = until 1000. f in
   Alcotest.(check int) "until it is empty" 24 (List.length happened);
   Alcotest.(check bool) "then nothing" true (Fleet.quiet f);
   let f = Fleet.start "a" (task "p") (after 0. (single "drain 0")) in
-  let f = Fleet.telemetry true (Fleet.bind [ "a" ] f) in
+  let f = Fleet.telemetry Awaited (Fleet.bind [ "a" ] f) in
   Alcotest.(check int) "under way, and at once how fast" 51 (List.length (fst (until 50. f)))
 
 (* {1 Whole runs} *)

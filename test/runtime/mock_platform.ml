@@ -93,7 +93,8 @@ struct
   let set_connection_timeout m vs seconds =
     note m "timeout %s %g" (match vs with None -> "all" | Some vs -> String.concat " " vs) seconds
 
-  let telemetry m on = note m "telemetry %b" on
+  let telemetry m how = note m "telemetry %b" (how <> Platform.Off)
+  let look _ = []
 
   let close m =
     note m "close";

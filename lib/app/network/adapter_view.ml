@@ -57,7 +57,7 @@ let rec open_all opened = function
       let give_up error = leave_all () >>= fun () -> Lwt.fail error in
       Lwt.catch (fun () -> Process_platform.open_ options) give_up >>= function
       | Ok adapter ->
-        Process_platform.telemetry adapter true;
+        Process_platform.telemetry adapter Shown;
         open_all (adapter :: opened) later
       | Error why -> leave_all () >|= fun () -> Error (Error.Unavailable why))
 

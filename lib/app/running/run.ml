@@ -269,7 +269,8 @@ let drive r recording host ~interruption (Platform ((module P), { platform; esti
   in
   let run () =
     Driver.run (module P) platform
-      ~always_telemetry:(r.front.wants_telemetry || Recording.is_wanted r.settings.recording)
+      ~always_telemetry:
+        ((not P.virtual_time) || r.front.wants_telemetry || Recording.is_wanted r.settings.recording)
       ~observer
       ~host:(match host with Some host -> Host.call host | None -> Replies.call ~past:(history r) r.scenario)
       ~inputs ?beginning:(beginning r.resumed news) ?fenced:r.fenced

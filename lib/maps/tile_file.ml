@@ -104,7 +104,7 @@ let read path =
         let minimum = Option.value (fst known) ~default:first and maximum = Option.value (snd known) ~default:last in
         if minimum > maximum then Error (Printf.sprintf "it has no tiles from level %d to level %d" minimum maximum)
         else
-          let attribution = Option.value (metadata db "attribution") ~default:"" in
+          let attribution = Utf8_text.harmless (Option.value (metadata db "attribution") ~default:"") in
           Ok { minimum; maximum; bounds = bounds db; attribution })
 
 (* {1 A tile} *)

@@ -15,7 +15,7 @@ let from_side p (a, b) =
   if Position.equal a b then Wgs84.distance p a
   else
     let metres share = Wgs84.distance p (Wgs84.interpolate a b share) in
-    Float.min (least metres 0. 1. 24) (Float.min (metres 0.) (metres 1.))
+    Float.min (least metres 0. 1. 44) (Float.min (metres 0.) (metres 1.))
 
 let sides ring = List.mapi (fun i a -> (a, List.nth ring ((i + 1) mod List.length ring))) ring
 let nearest p lines = List.fold_left (fun d line -> Float.min d (from_side p line)) infinity lines
@@ -117,6 +117,38 @@ let several =
   in
   pair (list_size (int_range 1 5) rule) (way origin)
 
+(* Ways of tens of kilometres that come from anywhere, and past or through the area. *)
+let from_afar =
+  let* origin = oneofl origins in
+  let* area = area origin in
+  let* margin = oneof [ return 0.; float_range 0. 150. ] in
+  let* bearing = float_range 0. 360. and* turn = float_range (-3.) 3. in
+  let* before = float_range 0. 60_000. and* behind = float_range 0. 60_000. in
+  let* radius = oneof [ return 0.; float_range 0. 120. ] in
+  let from = Wgs84.move origin ~bearing before and towards = Wgs84.move origin ~bearing:(bearing +. 180. +. turn) behind in
+  return ({ Fence.side = Outside; area; margin }, [ { Fence.from; towards; radius } ])
+
+(* The rules that a place breaks, anywhere around the area. *)
+let of_places ((rule : Fence.rule), p) =
+  let by = excess rule 0. p in
+  match Fence.breaches_at (Fence.make [ rule ]) p with
+  | [] -> by <= Fence.tolerance +. slack
+  | [ (0, found) ] -> Float.abs (found -. by) <= slack +. (1e-4 *. by)
+  | _ -> false
+
+let rule_and_place =
+  let* origin = oneofl origins in
+  let* side = oneofl [ Fence.Outside; Outside; Inside ] in
+  let* area = area origin in
+  let* margin = oneof [ return 0.; float_range 0. 150. ] in
+  let* bearing = float_range 0. 360. in
+  let* metres = oneof [ float_range 0. 1_000.; float_range 0. 20_000. ] in
+  return ({ Fence.side; area; margin }, Wgs84.move origin ~bearing metres)
+
+let without_margins (rules, p) =
+  let bare = List.map (fun (rule : Fence.rule) -> { rule with margin = 0. }) rules in
+  Fence.breaches_at (Fence.without_margins (Fence.make rules)) p = Fence.breaches_at (Fence.make bare) p
+
 (* {1 Ways beside each other} *)
 
 let apart a b =
@@ -207,6 +239,11 @@ let () =
   Alcotest.run "fence"
     [ ("laws",
        [ law "as by brute force" ~count:150 ~print case agrees;
+         law "from afar" ~count:150 ~print from_afar agrees;
+         law "places" ~count:500 rule_and_place of_places
+           ~print:(fun (rule, p) -> Fmt.str "%s %a" (print (rule, [])) Position.pp p);
+         law "without margins" ~count:100 (pair (map fst several) (place (List.hd origins))) without_margins
+           ~print:(fun (_, p) -> Fmt.str "%a" Position.pp p);
          law "the first of several" ~count:100 several first_of_all
            ~print:(fun (rules, way) -> String.concat "; " (List.map (fun rule -> print (rule, way)) rules));
          law "ways beside each other" ~count:100 ~print:print_two two_ways meets ]);

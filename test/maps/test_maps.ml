@@ -478,6 +478,70 @@ let cut_streams () =
     if Result.is_ok (read (String.sub stream 0 length)) then Alcotest.failf "cut to %d bytes, it is read" length
   done
 
+(* {1 Damaged files} *)
+
+let samples =
+  [ ("m.geojson", collection [ feature "Polygon" (Printf.sprintf "[%s,[]]" square); feature "LineString" "[[1,2],[3,4,5]]" ]);
+    ("m.kml", kml ("<Placemark><name>a</name><MultiGeometry><Polygon><outerBoundaryIs><LinearRing><coordinates>0,0 1e-3,0 \
+                    .001,0.001 0,0</coordinates></LinearRing></outerBoundaryIs></Polygon></MultiGeometry></Placemark>"
+                   ^ link "a.kml"));
+    ("m.kmz", archive [ ("doc.kml", kml (place "a")); ("b.kml", kml (place "b")) ]);
+    ("m.gpx", "<?xml version='1.0' encoding='windows-1252'?><gpx><wpt lat='1' lon='2'><ele>3</ele></wpt><trk><trkseg>\
+               <trkpt lat='1' lon='2'/></trkseg></trk></gpx>");
+    ("m.plan", {|{"fileType":"Plan","mission":{"plannedHomePosition":[41,-8,10],"items":[{"type":"SimpleItem","frame":3,
+      "command":16,"params":[0,0,0,null,41.1,-8,30]},{"type":"ComplexItem","complexItemType":"survey","polygon":[[0,0],
+      [0,0.001],[0.001,0]]}]},"geoFence":{"circles":[{"circle":{"center":[41,-8],"radius":9}}]},"rallyPoints":
+      {"points":[[1,2,3]]}}|});
+    ("m.nmap", "<map><features><path><id>x</id><coordinate><latitude>41N30'36.0''</latitude><longitude>8W15'0''</longitude>\
+                </coordinate><shape>true</shape><translation><n>1</n><e>2</e></translation></path><QRouteElement><path>1,2;\
+                3,4</path></QRouteElement></features></map>") ]
+
+type damage = Cut | Changed of char | Inserted of string
+
+(* Digits, brackets and quotes are changed into others more often than chance would. *)
+let damage =
+  let open QCheck2.Gen in
+  let character = oneof [ char; oneofl [ '0'; '9'; '-'; '.'; 'e'; '"'; '['; ']'; '{'; '}'; '<'; '>'; '/'; ','; ' '; '\''; '&' ] ] in
+  let inserted = oneofl [ "1e999"; "nan"; "0x29"; "[]"; "null"; "-1e308"; "\xff"; "99999999999999999999"; "<a>"; "]]>" ] in
+  oneof [ return Cut; map (fun c -> Changed c) character; map (fun c -> Changed c) character;
+          map (fun text -> Inserted text) inserted ]
+
+let damaged text (share, damage) =
+  let n = String.length text in
+  let i = Int.min (n - 1) (int_of_float (share *. float_of_int n)) in
+  let before = String.sub text 0 i and behind = String.sub text (i + 1) (n - i - 1) in
+  match damage with
+  | Cut -> before
+  | Changed c -> before ^ String.make 1 c ^ behind
+  | Inserted more -> before ^ more ^ behind
+
+let is_fit text =
+  let rec go i =
+    i >= String.length text
+    || (text.[i] >= ' ' && text.[i] <> '\127'
+        && go (i + 1)) in
+  go 0
+
+let damaged_files =
+  let open QCheck2.Gen in
+  let gen = pair (oneofl samples) (list_size (int_range 1 6) (pair (float_bound_inclusive 1.) damage)) in
+  let text ((_, text), damages) =
+    List.fold_left (fun text d -> if text = "" then text else damaged text d) text damages in
+  Test_support.Property.case ~count:5000 "damaged files" gen ~print:(fun x -> fst (fst x) ^ ": " ^ String.escaped (text x))
+    (fun x ->
+       let path = fst (fst x) in
+       (match Map_file.outlines ~path (text x) with
+        | Ok outlines -> List.for_all (fun (name, _) -> is_fit name) outlines
+        | Error why -> is_fit why)
+       &&
+       match Map_file.read ~path (text x) with
+       | Ok { things; notes } ->
+         let names = List.map fst things in
+         List.length (List.sort_uniq String.compare names) = List.length names
+         && List.for_all is_fit names && List.for_all is_fit notes
+         && List.for_all (fun (_, thing) -> match thing with Ok _ -> true | Error why -> is_fit why) things
+       | Error why -> is_fit why)
+
 let reading_neptus () =
   let at = "<coordinate><latitude>41N30'36.0''</latitude><longitude>8W15'0''</longitude><height>0</height>" in
   let element kind inside = Printf.sprintf "<%s><id>x</id><name>id_1</name>%s</coordinate>%s</%s>" kind at inside kind in
@@ -649,5 +713,5 @@ let () =
           case "empty geometries" empty_geometries; case "bad features" bad_features;
           case "slightly wrong polygons" repaired; case "coordinate systems" coordinate_systems;
           case "encodings" encodings; case "missions" missions; case "archives" archives;
-          case "streams cut short" cut_streams; damaged_archives ] );
+          case "streams cut short" cut_streams; damaged_archives; damaged_files ] );
       ("tiles", [ case "pictures" tiles; case "strange databases" strange_tiles ]) ]

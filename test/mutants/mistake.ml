@@ -1567,7 +1567,7 @@ let processes =
         {|  | 0 when is_past last w.next ->|},
         {|  | 0 when is_past last w.next || w.next > 0 ->|} );
       ("processes outlive whoever made them", {|if Unix.getppid () <> parent then|}, {|if parent = 0 then|});
-      ("processes heed Ctrl-C", {|Sys.Signal_ignore) [ Sys.sigint; Sys.sighup ]|}, {|Sys.Signal_default) [ Sys.sigint ]|});
+      ("processes heed Ctrl-C", {|Sys.Signal_ignore) [ Sys.sigint; Sys.sighup; Sys.sigxfsz ]|}, {|Sys.Signal_default) [ Sys.sigint ]|});
     ]
   @ in_file "lib/time/share_out.ml" ~noticed_by:"time/test_workers"
     [

@@ -1,3 +1,5 @@
+open Rims
+
 type side = Inside | Outside
 type rule = { side : side; area : Area.t; margin : float }
 type stretch = { from : Position.t; towards : Position.t; radius : float }
@@ -5,15 +7,7 @@ type breach = { rule : int; stretch : int; at : Position.t; by : float }
 
 let tolerance = 5e-3
 
-(* {1 Boxes, points and lines of a plane} *)
-
-type box = { left : float; right : float; low : float; high : float }
-
-let box_of (ax, ay) (bx, by) =
-  { left = Float.min ax bx; right = Float.max ax bx; low = Float.min ay by; high = Float.max ay by }
-
-let are_near a b metres =
-  a.left -. b.right <= metres && b.left -. a.right <= metres && a.low -. b.high <= metres && b.low -. a.high <= metres
+(* {1 Points and lines of a plane} *)
 
 let away (ax, ay) (bx, by) = Float.hypot (ax -. bx) (ay -. by)
 let between (ax, ay) (bx, by) share = (ax +. (share *. (bx -. ax)), ay +. (share *. (by -. ay)))
@@ -47,24 +41,21 @@ let nearest_of_lines a b c d =
 
 (* {1 Areas on a plane} *)
 
-type wall = { low_end : Plane.point; high_end : Plane.point; box : box }
-type region = Disc of Plane.point * float | Walls of wall array * box
+type region = Disc of Plane.point * float | Walls of Rims.t
 
 (* Metres from the rim, negative outside. *)
-let has walls (x, y) =
-  let inside = ref false in
-  Array.iter
-    (fun { low_end = ax, ay; high_end = bx, by; _ } ->
-       if ay > y <> (by > y) && x < ax +. ((y -. ay) /. (by -. ay) *. (bx -. ax)) then inside := not !inside)
-    walls;
-  !inside
-
 let depth region p =
   match region with
   | Disc (centre, radius) -> radius -. away p centre
-  | Walls (walls, _) ->
-    let from_rim = Array.fold_left (fun d w -> Float.min d (from_line p w.low_end w.high_end)) infinity walls in
-    if has walls p then from_rim else -.from_rim
+  | Walls rims ->
+    let from_rim = Rims.fold (fun d w -> Float.min d (from_line p w.low_end w.high_end)) infinity rims in
+    if Rims.has rims p then from_rim else -.from_rim
+
+(* Whether a point of the rim is less than [metres] from [p]. *)
+let is_near_rim rims ((_, y) as p) metres =
+  metres > 0.
+  && Rims.fold_between (fun near w -> near || from_line p w.low_end w.high_end < metres) false rims ~low:(y -. metres)
+    ~high:(y +. metres)
 
 (* Metres by which a point of this depth breaks a rule that asks for [margin]. *)
 let excess side margin depth = match side with Inside -> margin -. depth | Outside -> margin +. depth
@@ -79,27 +70,11 @@ type t = group list
 
 let near = 10_000.
 
-let walls_of_ring points =
-  let n = Array.length points in
-  Array.init n (fun i ->
-      let a = points.(i) and b = points.((i + 1) mod n) in
-      { low_end = a; high_end = b; box = box_of a b })
-
-let box_of_walls walls =
-  let wider a b =
-    { left = Float.min a.left b.left; right = Float.max a.right b.right; low = Float.min a.low b.low;
-      high = Float.max a.high b.high } in
-  Array.fold_left (fun box w -> wider box w.box) walls.(0).box walls
-
-let region_of_rings rings =
-  let walls = Array.concat (List.map walls_of_ring rings) in
-  Walls (walls, box_of_walls walls)
-
 let region plane = function
   | Area.Circle { centre; radius } -> Disc (Plane.of_position plane centre, radius)
   | Shape shape ->
     let on_plane ring = Array.of_list (List.map (Plane.of_position plane) ring) in
-    region_of_rings (List.map on_plane (Area.rings shape))
+    Walls (Rims.of_rings (List.map on_plane (Area.rings shape)))
 
 (* Whether all of an area is near a group's middle. Most are so far that their first corner shows it. *)
 let is_near group area =
@@ -117,7 +92,7 @@ let alone ({ side; area; margin } : rule) number =
     | Shape shape ->
       let plane, rings = Area.on_own_plane shape in
       let from_middle = Array.fold_left (fun most (x, y) -> Float.max most (Float.hypot x y)) in
-      (plane, region_of_rings (Array.to_list rings), Array.fold_left from_middle 0. rings)
+      (plane, Walls (Rims.of_rings (Array.to_list rings)), Array.fold_left from_middle 0. rings)
   in
   { plane; middle = Wgs84.vector (Plane.origin plane); extent = (if extent <= near then near else extent);
     rules = [ { number; side; margin; region } ] }
@@ -153,18 +128,19 @@ let is_out_of_sight group vector metres =
 type line = { a : Plane.point; b : Plane.point; line_box : box }
 
 (* Shares of [line] between which it does not cross the rim. *)
-let cuts walls line =
+let cuts rims line =
   let add cuts w =
     if are_near w.box line.line_box 0. then
       Option.fold (crossing line.a line.b w.low_end w.high_end) ~none:cuts ~some:(fun share -> share :: cuts)
     else cuts
   in
-  List.sort_uniq Float.compare (0. :: 1. :: Array.fold_left add [] walls)
+  let { low; high; _ } = line.line_box in
+  List.sort_uniq Float.compare (0. :: 1. :: Rims.fold_between add [] rims ~low ~high)
 
 let samples = 16
 
 (* The worst of some points of [line]: the excess and where. *)
-let worst_sample side margin region walls line =
+let worst_sample side margin region rims line =
   let look best share =
     let p = between line.a line.b share in
     let by = excess side margin (depth region p) in
@@ -177,26 +153,27 @@ let worst_sample side margin region walls line =
     | [ last ] -> look best last
     | [] -> best
   in
-  pieces (neg_infinity, line.a) (cuts walls line)
+  pieces (neg_infinity, line.a) (cuts rims line)
 
 (* The nearest point of [line] to the rim, if some of it is nearer than [metres]. *)
-let nearest_to_rim walls line metres =
+let nearest_to_rim rims line metres =
   let look best w =
     if are_near w.box line.line_box metres then
       let distance, share = nearest_of_lines line.a line.b w.low_end w.high_end in
       match best with Some (least, _) when least <= distance -> best | Some _ | None -> Some (distance, share)
     else best
   in
-  match Array.fold_left look None walls with
+  let low = line.line_box.low -. metres and high = line.line_box.high +. metres in
+  match Rims.fold_between look None rims ~low ~high with
   | Some (distance, _) as found when distance < metres -> found
   | Some _ | None -> None
 
 let worse (by, p) (by', p') = if by' > by then (by', p') else (by, p)
 
 (* The worst of [line], which comes within the margin of the rim or crosses it. *)
-let near_rim side margin region walls line (distance, share) =
+let near_rim side margin region rims line (distance, share) =
   let nearest = (margin -. distance, between line.a line.b share) in
-  let sampled = worst_sample side margin region walls line in
+  let sampled = worst_sample side margin region rims line in
   if margin > tolerance then worse nearest sampled else sampled
 
 (* [starts] is whether the line's beginning is inside, if that is known. The worst point of [line] if it breaks the
@@ -212,15 +189,15 @@ let against { side; margin; region; _ } ~radius ~starts line =
       | Outside -> between line.a line.b (nearest_share centre line.a line.b)
     in
     (unless_kept (excess side margin (r -. away p centre), p), None)
-  | Walls (walls, box) ->
-    if side = Outside && not (are_near box line.line_box margin) then (None, Some false)
+  | Walls rims ->
+    if side = Outside && not (are_near (Rims.box rims) line.line_box margin) then (None, Some false)
     else
-      match nearest_to_rim walls line (margin +. tolerance) with
-      | Some found -> (unless_kept (near_rim side margin region walls line found), None)
+      match nearest_to_rim rims line (margin +. tolerance) with
+      | Some found -> (unless_kept (near_rim side margin region rims line found), None)
       | None ->
-        let inside = match starts with Some inside -> inside | None -> has walls line.a in
+        let inside = match starts with Some inside -> inside | None -> Rims.has rims line.a in
         if inside = (side = Inside) then (None, Some inside)
-        else (unless_kept (worst_sample side margin region walls line), Some inside)
+        else (unless_kept (worst_sample side margin region rims line), Some inside)
 
 (* {1 Ways} *)
 
@@ -314,9 +291,10 @@ let breach groups way =
   let to_breach (stretch, rule, by, p, plane) = { rule; stretch; at = Plane.to_position plane p; by } in
   Option.map to_breach (List.fold_left of_group None groups)
 
-let is_beside margin (x, y) = function
+(* Most places keep to a rule, which takes less than their depth to know. *)
+let surely_keeps side margin p = function
   | Disc _ -> false
-  | Walls (_, box) -> not (are_near box { left = x; right = x; low = y; high = y } margin)
+  | Walls rims -> Rims.has rims p = (side = Inside) && not (is_near_rim rims p margin)
 
 let breaches_at groups p =
   let vector = Wgs84.vector p in
@@ -325,7 +303,7 @@ let breaches_at groups p =
     else
       let xy = Plane.of_position group.plane p in
       let of_rule { number; side; margin; region } =
-        if side = Outside && is_beside margin xy region then None
+        if surely_keeps side margin xy region then None
         else
           let by = excess side margin (depth region xy) in
           if by > tolerance then Some (number, by) else None

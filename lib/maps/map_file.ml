@@ -192,7 +192,8 @@ let of_drawn drawn =
   let things = named (List.filter_map one drawn) in
   (* A map of which nothing can be used is wrong as a whole. *)
   match things with
-  | (_, Error why) :: others when List.for_all (fun (_, thing) -> Result.is_error thing) others -> Drawn.wrong "" "%s" why
+  | (_, Error why) :: others when List.for_all (fun (_, thing) -> Result.is_error thing) others ->
+    Drawn.wrong "" "%s" why
   | things -> { things; notes = List.rev !notes }
 
 let read = read_by of_drawn

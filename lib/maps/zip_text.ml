@@ -27,7 +27,8 @@ let entries text =
       let name_length = short text (at + 28) in
       let entry =
         { name = part text (at + 46) name_length; flags = short text (at + 8); how = short text (at + 10);
-          check = long text (at + 16); packed = long text (at + 20); size = long text (at + 24); at = long text (at + 42) }
+          check = long text (at + 16); packed = long text (at + 20); size = long text (at + 24);
+          at = long text (at + 42) }
       in
       go (n - 1) (at + 46 + name_length + short text (at + 30) + short text (at + 32)) (entry :: found)
   in

@@ -125,7 +125,8 @@ let from_afar =
   let* bearing = float_range 0. 360. and* turn = float_range (-3.) 3. in
   let* before = float_range 0. 60_000. and* behind = float_range 0. 60_000. in
   let* radius = oneof [ return 0.; float_range 0. 120. ] in
-  let from = Wgs84.move origin ~bearing before and towards = Wgs84.move origin ~bearing:(bearing +. 180. +. turn) behind in
+  let from = Wgs84.move origin ~bearing before in
+  let towards = Wgs84.move origin ~bearing:(bearing +. 180. +. turn) behind in
   return ({ Fence.side = Outside; area; margin }, [ { Fence.from; towards; radius } ])
 
 (* The rules that a place breaks, anywhere around the area. *)

@@ -231,7 +231,7 @@ The areas of a map, or of a list, keep vehicles out, each by itself; places and 
   > }
   > EOF
   $ for fence in zones "map('zones.geojson')" "zones.values().findAll { !(it in [zones.buoy]) }" zones.a "([zones.buoy])" \
-  >     "([a: zones.a, b: 1])" "([:])"; do
+  >     "([a: zones.a, b: 1])" "([:])" "([zones.a, zones.values()[1]]), margin: 1.m"; do
   >   sed "s/FENCE/$fence/" zones.dol > fenced.dol
   >   dolphin check fenced.dol | head -1
   > done
@@ -239,7 +239,7 @@ The areas of a map, or of a list, keep vehicles out, each by itself; places and 
     7 |   goTo()
       |   ^^^^^^
   fenced.dol: 1 error
-  fenced.dol:7:3: error: plan 'p': 1.Goto breaks fence outside (map('zones.geojson'))['it\'s b'] (fenced.dol:2) by 419.5 m, at (41.185000, -8.725000)
+  fenced.dol:7:3: error: plan 'p': 1.Goto breaks fence outside map('zones.geojson')['it\'s b'] (fenced.dol:2) by 419.5 m, at (41.185000, -8.725000)
     7 |   goTo()
       |   ^^^^^^
   fenced.dol: 1 error
@@ -260,16 +260,39 @@ The areas of a map, or of a list, keep vehicles out, each by itself; places and 
     2 | fence outside ([:])
       |                ^^^
   fenced.dol: 1 error
+  fenced.dol:7:3: error: plan 'p': 1.Goto breaks fence outside(([zones.a, zones.values()[1]])[1]), margin:... (fenced.dol:2) by 420.5 m, at (41.185000, -8.725000)
+    7 |   goTo()
+      |   ^^^^^^
+  fenced.dol: 1 error
   $ cat > zones.fleet <<'EOF'
   > vehicle 'a', { type 'UUV'; at 41.17, -8.725 }
   > fence outside map 'zones.geojson'
   > EOF
   $ sed '/FENCE/d' zones.dol > fleet.dol
   $ dolphin check fleet.dol --fleet zones.fleet | head -1
-  fleet.dol:6:3: error: plan 'p': 1.Goto breaks fence outside (map('zones.geojson'))['it\'s b'] (zones.fleet:2) by 419.5 m, at (41.185000, -8.725000)
+  fleet.dol:6:3: error: plan 'p': 1.Goto breaks fence outside map('zones.geojson')['it\'s b'] (zones.fleet:2) by 419.5 m, at (41.185000, -8.725000)
     6 |   goTo()
       |   ^^^^^^
   fleet.dol: 1 error
+
+What is wrong with a map that a fleet names is shown too.
+
+  $ echo "fence outside map('some.geojson').spike" >> zones.fleet
+  $ sed -i '/goTo/d' fleet.dol
+  $ dolphin check fleet.dol --fleet zones.fleet
+  warning: zones.fleet:3:19: some.geojson: 'bow' is null: feature 1 ('bow'): a polygon does not cross itself: its sides from corner 1 and from corner 3 meet
+  warning: zones.fleet:3:19: some.geojson: feature 2 ('spike'): spikes are cut off, corners that repeat the one before are left out
+  warning: zones.fleet:3:19: some.geojson: feature 3 ('nowhere'): it is empty, and left out
+  fleet.dol: no errors, 3 warnings
+  zones.fleet: no errors
+  $ echo "fence outside map('some.geojson')" >> zones.fleet
+  $ dolphin check fleet.dol --fleet zones.fleet
+  zones.fleet:4:15: error: 'bow' cannot be part of a fence: feature 1 ('bow'): a polygon does not cross itself: its sides from corner 1 and from corner 3 meet
+    4 | fence outside map('some.geojson')
+      |               ^^^^^^^^^^^^^^^^^^^
+  zones.fleet: 1 error
+  fleet.dol: no errors
+  [2]
 
 A map of 160 areas with 86,000 corners takes no time: limits of a test allow for other load.
 

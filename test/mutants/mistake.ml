@@ -725,6 +725,12 @@ let fences =
         {|let apart = piece.radius +. other.radius in|},
         {|let apart = 0. *. (piece.radius +. other.radius) in|} );
     ]
+  @ in_file "lib/geo/rims.ml" ~noticed_by:"geo/test_fence"
+    [
+      ( "sides of rims are only in their lowest band",
+        {|to band empty w.box.high do|},
+        {|to band empty w.box.low do|} );
+    ]
   @ in_file "lib/semantics/terms/plan_room.ml" ~noticed_by:"runtime/test_runtime"
     [
       ( "nobody looks at ways to plans",
@@ -1160,12 +1166,18 @@ let maps =
   @ in_file "lib/maps/geojson_file.ml" ~noticed_by:"maps/test_maps"
     [
       ("features count from 0", {|"feature %d%s" (i + 1)|}, {|"feature %d%s" i|});
+      ("any authority's 4326 is WGS 84", {|("4326" | "4979") :: _ -> is_of_epsg|}, {|("4326" | "4979") :: _ -> true|});
     ]
   @ in_file "lib/maps/qgc_plan_file.ml" ~noticed_by:"maps/test_maps"
     [
+      ("local frames are on the globe", {|let global_frames = [ 0; 3|}, {|let global_frames = [ 0; 1; 3|});
       ("fences keep in what they keep out", {|`Bool false -> "outside"|}, {|`Bool false -> "inside"|});
       ("an item without a position is at 0, 0", {|latitude = 0. && longitude = 0.|}, {|latitude = 1. && longitude = 0.|});
     ]
+  @ in_file "lib/maps/zip_text.ml" ~noticed_by:"maps/test_maps"
+    [ ("checksums of archives are not compared", {||| checksum contents <> entry.check|}, {||}) ]
+  @ in_file "lib/geo/repair.ml" ~noticed_by:"maps/test_maps"
+    [ ("rims that cross themselves make areas", {|(0.001 *. turned)|}, {|(1000. *. Float.abs turned)|}) ]
   @ in_file "lib/maps/neptus_file.ml" ~noticed_by:"maps/test_maps"
     [
       ("west is east", {|letter = 'S' || letter = 'W'|}, {|letter = 'S'|});

@@ -5,6 +5,7 @@ type t = {
   source : string;
   (** its text, and behind it what tells apart the contents of its maps; [""] for the built-in fleet *)
   scenario : Dolphin_scenario.Scenario.t;
+  warnings : Dolphin_syntax.Diagnostic.t list;  (** of the maps that it names *)
 }
 
 val choose : program:string -> string option -> string option

@@ -42,6 +42,7 @@ let load ?(set = []) ?(may_read = Text_file.anything) path =
 
 let within (fleet : Fleet_file.t) p =
   let open Dolphin_semantics in
+  let p = { p with warnings = p.warnings @ fleet.warnings } in
   let own = Fences.list p.program.fences in
   match List.filter (fun fence -> not (List.memq fence own)) fleet.scenario.fences with
   | [] -> Ok p

@@ -21,8 +21,8 @@ val load :
     says of each file that the text names whether it may be read, by default all. *)
 
 val within : Fleet_file.t -> t -> (t, Error.t) result
-(** [within fleet p] is [p] with the fences of [fleet], besides its own; or which of its plans break one of these, as
-    far as that is known before it runs. *)
+(** [within fleet p] is [p] with the fences and warnings of [fleet], besides its own; or which of its plans break one of
+    these, as far as that is known before it runs. *)
 
 val load_recorded :
   set:(string * string) list -> recorded:(string * string) list option -> string -> (t, Error.t) result

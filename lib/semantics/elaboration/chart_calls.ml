@@ -45,24 +45,20 @@ let hint = "write map 'harbour.geojson'"
 
 let most_warnings = 10
 
-(* What is not on the map as it is in the file. *)
-let warn env at path (chart : Chart.t) =
+let warnings at path (chart : Chart.t) =
   let flaw (name, why) = Printf.sprintf "'%s' is null: %s" name why in
   let told = List.map flaw chart.flawed @ chart.notes in
-  let warning text =
-    Scope.report env.program (Diagnostic.warning Partial_map at (Printf.sprintf "%s: %s" (Filename.basename path) text))
-  in
-  List.iteri (fun i text -> if i < most_warnings then warning text) told;
-  match List.length told - most_warnings with
-  | further when further > 0 -> warning (Printf.sprintf "and %d more like these" further)
-  | _ -> ()
+  let warning text = Diagnostic.warning Partial_map at (Printf.sprintf "%s: %s" (Filename.basename path) text) in
+  let first = List.filteri (fun i _ -> i < most_warnings) told in
+  let further = List.length told - List.length first in
+  List.map warning (first @ if further > 0 then [ Printf.sprintf "and %d more like these" further ] else [])
 
 let elaborate env at arguments =
   match arguments with
   | [ Ast.Positional ({ it = String path; at = text_at } : Ast.expression) ] when path <> "" -> (
       match Scope.chart env.program (Include.beside (Dolphin_syntax.Location.file text_at) path) with
       | Ok chart ->
-        warn env text_at path chart;
+        List.iter (Scope.report env.program) (warnings text_at path chart);
         constant env at chart.value
       | Error why -> error env Bad_map text_at "the map cannot be read: %s" why; null env at)
   | [ Ast.Positional e ] ->

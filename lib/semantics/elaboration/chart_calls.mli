@@ -21,6 +21,10 @@ val assigned : Ast.program -> (string * string) list
 val note : Scope.program -> string * string -> unit
 (** Notes the names that the map of such a variable has. *)
 
+val warnings : Dolphin_syntax.Location.t -> string -> Chart.t -> Dolphin_syntax.Diagnostic.t list
+(** [warnings at path chart] is what differs between [chart] and the file [path], which is named at [at]; of many
+    differences the first and how many more there are. *)
+
 val elaborate : Checks.env -> Dolphin_syntax.Location.t -> Ast.argument list -> Core.expression
 (** A call of [map]. *)
 

@@ -80,13 +80,14 @@ let text kind e key (others : Ast.argument list) =
     | Ast.Named (_, e) -> Format.asprintf ", margin: %a" Dolphin_syntax.Print.expression e
     | Positional _ | Keyed _ -> ""
   in
+  let whole = Format.asprintf "%a" Dolphin_syntax.Print.expression e in
   let shown =
     match e.Ast.it with
-    | Ast.Variable _ -> Format.asprintf "%a" Dolphin_syntax.Print.expression e
-    | _ when key = "" -> Format.asprintf "%a" Dolphin_syntax.Print.expression e
-    | _ -> Format.asprintf "(%a)" Dolphin_syntax.Print.expression e
+    | _ when key = "" -> " " ^ whole
+    | Ast.Variable _ | Member _ | Call _ -> " " ^ whole ^ key
+    | _ -> Printf.sprintf "((%s)%s)" whole key
   in
-  Format.asprintf "%s %s %s%s%s" word kind shown key (String.concat "" (List.map margin others))
+  Format.asprintf "%s %s%s%s" word kind shown (String.concat "" (List.map margin others))
 
 let read constants at (arguments : Ast.argument list) =
   match arguments with

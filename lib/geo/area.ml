@@ -53,19 +53,24 @@ let reversed ring =
   let n = Array.length ring in
   Array.init n (fun i -> ring.(n - 1 - i))
 
+(* Corners with where they are in a plane, which takes most of the time. *)
+let projected plane corners = Array.map (fun p -> (p, Plane.of_position plane p)) corners
+
+let compare_corners (a, _) (b, _) = Position.compare a b
+
 let from_first ring =
   let n = Array.length ring in
   let first = ref 0 in
   for i = 1 to n - 1 do
-    if Position.compare ring.(i) ring.(!first) < 0 then first := i
+    if compare_corners ring.(i) ring.(!first) < 0 then first := i
   done;
   Array.init n (fun i -> ring.((i + !first) mod n))
 
-(* Of rings that turn the right way. *)
+(* Of rings of projected corners that turn the right way. *)
 let shape plane rings =
-  let corners = Array.of_list (List.map from_first rings) in
-  Array.sort (compare_arrays Position.compare) corners;
-  { corners; plane; points = Array.map (Array.map (Plane.of_position plane)) corners }
+  let rings = Array.of_list (List.map from_first rings) in
+  Array.sort (compare_arrays compare_corners) rings;
+  { corners = Array.map (Array.map fst) rings; plane; points = Array.map (Array.map snd) rings }
 
 let rings shape = Array.to_list (Array.map Array.to_list shape.corners)
 
@@ -90,14 +95,12 @@ let without_repetitions positions =
     first :: List.filteri (fun i _ -> i < List.length rest - 1) rest
   | positions -> positions
 
-let grid_ring plane corners = Array.of_list (List.map (fun p -> on_grid (Plane.of_position plane p)) corners)
-
-let simple plane corners =
-  let n = List.length corners in
+let simple corners =
+  let n = Array.length corners in
   if n < 3 then Error (Few_corners n)
   else if n > most_corners then Error (Many_corners n)
   else
-    let ring = grid_ring plane corners in
+    let ring = Array.map (fun (_, point) -> on_grid point) corners in
     let same i = ring.(i) = ring.((i + 1) mod n) in
     match List.find_opt same (List.init n Fun.id) with
     | Some i -> Error (Crossing (i + 1, ((i + 1) mod n) + 1))
@@ -108,7 +111,6 @@ let simple plane corners =
         | None -> Ok ring)
 
 let turning ~left corners ring =
-  let corners = Array.of_list corners in
   if (Arrangement.doubled_area ring > 0) = left then corners else reversed corners
 
 let left_turning ring = if Arrangement.doubled_area ring > 0 then ring else reversed ring
@@ -139,8 +141,10 @@ let polygon ?(holes = []) corners =
   else if List.length corners < 3 then Error (Few_corners (List.length corners))
   else
     let* plane = plane_of all in
-    let* ring = simple plane corners in
-    let hole i corners = Result.map_error (fun e -> Hole (i, e)) (simple plane corners) in
+    let project corners = projected plane (Array.of_list corners) in
+    let corners = project corners and holes = List.map project holes in
+    let* ring = simple corners in
+    let hole i corners = Result.map_error (fun e -> Hole (i, e)) (simple corners) in
     let* hole_rings = fold_ok hole 1 holes in
     let fits before (i, hole) =
       let* before = before in
@@ -161,14 +165,14 @@ let well_formed rings =
     united <> [] && float_of_int (abs (doubled rings - doubled united)) <= 4. *. length
 
 let of_rings rings =
-  let corners = List.map Array.of_list rings in
   let all = List.concat rings in
   if List.length all > most_corners then Error (Many_corners (List.length all))
   else if rings = [] then Error Empty
-  else if List.exists (fun ring -> Array.length ring < 3) corners then Error (Few_corners 2)
+  else if List.exists (fun ring -> List.compare_length_with ring 3 < 0) rings then Error (Few_corners 2)
   else
     let* plane = plane_of all in
-    let on_plane = List.map (Array.map (fun p -> on_grid (Plane.of_position plane p))) corners in
+    let corners = List.map (fun ring -> projected plane (Array.of_list ring)) rings in
+    let on_plane = List.map (Array.map (fun (_, point) -> on_grid point)) corners in
     if well_formed on_plane then Ok (Shape (shape plane corners)) else Error Rims
 
 (* {1 What an area is like} *)
@@ -272,7 +276,7 @@ let on_plane area =
   match regions plane area with [] -> Error Empty | rings -> Ok (plane, rings)
 
 let of_region plane rings =
-  let corners ring = Array.map (fun p -> Plane.to_position plane (off_grid p)) ring in
+  let corners ring = projected plane (Array.map (fun p -> Plane.to_position plane (off_grid p)) ring) in
   let count = List.fold_left (fun n ring -> n + Array.length ring) 0 rings in
   if rings = [] then Error Empty
   else if count > most_corners then Error (Many_corners count)

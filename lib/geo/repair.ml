@@ -56,6 +56,11 @@ let left_turning ring =
 
 let area rings = List.fold_left (fun sum ring -> sum +. float_of_int (Arrangement.doubled_area ring)) 0. rings
 
+(* Whether a polygon of the size [whole] with these rings may be meant if its size is another by [change]. *)
+let is_slight change rings ~whole =
+  let length = List.fold_left (fun sum ring -> sum +. Arrangement.length ring) 0. rings in
+  Float.abs change <= (0.001 *. whole) +. (4. *. length)
+
 (* A ring that crosses itself slightly encloses nearly what its turns say. *)
 let region changes ring =
   match Arrangement.flaw ring with
@@ -65,7 +70,7 @@ let region changes ring =
       let turned = area [ ring ] in
       match flaw, Arrangement.combine (fun a _ -> a) [ ring ] [] with
       | Crossing _, Some (_ :: _ as united)
-        when Float.abs (area united -. turned) <= (0.001 *. turned) +. (4. *. Arrangement.length ring) ->
+        when is_slight (area united -. turned) [ ring ] ~whole:turned ->
         changes := Crossings :: !changes;
         Ok united
       | (Few | Crossing _), (Some _ | None) -> Error ())
@@ -99,6 +104,7 @@ let repaired error holes corners =
   (match error with Area.Hole_outside _ -> changes := Holes :: !changes | _ -> ());
   match Arrangement.combine (fun a b -> a && not b) rim cut with
   | None -> Error Area.Intricate
+  | Some rings when not (is_slight (area rings -. (area rim -. area cut)) (rim @ cut) ~whole:(area rim)) -> Error error
   | Some rings ->
     let positions ring = List.map (fun p -> Plane.to_position plane (off_grid p)) (Array.to_list ring) in
     let* area = Area.of_rings (List.map positions rings) in

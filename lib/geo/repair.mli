@@ -6,7 +6,7 @@ type change =
   | Repetitions  (** a corner followed itself, within a millimetre or so *)
   | Crossings  (** the rim touched or crossed itself, which changes the area by less than a thousandth *)
   | Lost_holes  (** a hole had no extent *)
-  | Holes  (** holes met, or reached out of the polygon: the area is what they leave *)
+  | Holes  (** holes met, or reached out of the polygon, by less than a thousandth of the area *)
 
 val polygon : ?holes:Position.t list list -> Position.t list -> (Area.t * change list, Area.error) result
 (** [polygon ~holes corners] is {!Area.polygon} if that is an area, with no changes; else the area that was meant, with

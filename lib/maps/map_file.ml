@@ -177,16 +177,20 @@ let repaired changes = String.concat ", " (List.map (Format.asprintf "%a" Repair
 
 let of_drawn drawn =
   let notes = ref [] in
-  let note place why = notes := told place why :: !notes in
+  let note (d : Drawn.t) why =
+    let quoted = Printf.sprintf "('%s')" d.name in
+    let place = if d.name = "" || ends (String.lowercase_ascii quoted) d.place then d.place else d.place ^ " " ^ quoted in
+    notes := told place why :: !notes
+  in
   let thing (d : Drawn.t) =
     match thing d.place d.shape with
     | found, [] -> Ok found
-    | found, changes -> note d.place (repaired changes); Ok found
+    | found, changes -> note d (repaired changes); Ok found
     | exception Drawn.Wrong { place; why } -> Error (told place why)
   in
   let one (d : Drawn.t) =
     match d.shape with
-    | Note text -> note d.place text; None
+    | Note text -> note d text; None
     | Spot _ | Way _ | Ground _ | Sketch _ | Round _ | Flawed _ -> Some (d.name, kind d.shape, thing d)
   in
   let things = named (List.filter_map one drawn) in

@@ -171,12 +171,12 @@ let empty_geometries () =
   check "an empty hole" "a: 12309 m2, 4 corners; point 1: (0.000000, 1.000000)"
     (read [ feature "Polygon" (Printf.sprintf "[%s,[]]" square) ]);
   let kml inside = shown "m.kml" ("<kml><Placemark><name>a</name>" ^ inside ^ "</Placemark></kml>") in
-  let note = "note: line 1: it is empty, and left out" in
+  let note = "note: line 1 ('a'): it is empty, and left out" in
   check "KML: a point" note (kml "<Point><coordinates/></Point>");
   check "KML: a line" note (kml "<LineString><coordinates> </coordinates></LineString>");
   check "KML: a ring" note
     (kml "<Polygon><outerBoundaryIs><LinearRing><coordinates/></LinearRing></outerBoundaryIs></Polygon>");
-  check "GPX" note (shown "m.gpx" "<gpx><rte/></gpx>")
+  check "GPX" note (shown "m.gpx" "<gpx><rte><name>a</name></rte></gpx>")
 
 let bad_features () =
   let read bad = shown "m.geojson" (collection [ bad; feature ~properties:{|{"name":"b"}|} "Point" "[1,0]" ]) in
@@ -219,9 +219,16 @@ let repaired () =
   let hole x = Printf.sprintf "[[%g,0.0002],[%g,0.0002],[%g,0.0007],[%g,0.0007]]" x (x +. 0.0002) (x +. 0.0002) x in
   check "a hole that touches the rim" "a: 11078 m2, 8 corners" (read (square ^ "," ^ hole 0.));
   check "holes beside each other" "a: 9847 m2, 12 corners" (read (square ^ "," ^ hole 0.0002 ^ "," ^ hole 0.0004));
-  check "holes that overlap"
-    ("a: 10463 m2, 8 corners" ^ note ^ "holes that meet or reach out of the polygon are united and cut off")
-    (read (square ^ "," ^ hole 0.0002 ^ "," ^ hole 0.0003));
+  let cut_off = note ^ "holes that meet or reach out of the polygon are united and cut off" in
+  check "holes that overlap slightly" ("a: 9853 m2, 8 corners" ^ cut_off)
+    (read (square ^ "," ^ hole 0.0002 ^ "," ^ hole 0.000399));
+  check "a hole that reaches out slightly" ("a: 11084 m2, 8 corners" ^ cut_off)
+    (read (square ^ "," ^ hole (-0.000001)));
+  let outside i = Printf.sprintf "wrong: feature 1 ('a'): hole %d is not inside of the polygon, or meets another hole" i in
+  check "holes that overlap" (outside 2) (read (square ^ "," ^ hole 0.0002 ^ "," ^ hole 0.0003));
+  check "a hole that reaches out" (outside 1) (read (square ^ "," ^ hole (-0.0001)));
+  check "the rim and the hole are exchanged" (outside 1)
+    (read (Printf.sprintf "%s,%s" (hole 0.0002) square));
   check "a hole without extent" (a ^ note ^ "holes without extent are left out")
     (read (square ^ ",[[0.0002,0.0002],[0.0002,0.0005],[0.0002,0.0002]]"));
   let many = List.init 12_000 (fun i ->
@@ -287,9 +294,9 @@ let reading_kml () =
   check "what has no place" "" (read (placed "n" "" ^ "<Style/>"));
   let polygon = "<Polygon><outerBoundaryIs>" ^ ring ^ "</outerBoundaryIs></Polygon>" in
   check "MultiPolygon" "a: 12309 m2, 4 corners" (read (placed "a" ("<MultiPolygon>" ^ polygon ^ "</MultiPolygon>")));
-  check "a geometry that is not known" "note: line 1: Circle is not known here, and left out"
+  check "a geometry that is not known" "note: line 1 ('a'): Circle is not known here, and left out"
     (read (placed "a" "<Circle><coordinates>0,0</coordinates></Circle>"));
-  check "a link" "note: line 1: the link to 'http://example.org/a.kml' is not followed, and left out"
+  check "a link" "note: line 1 ('n'): the link to 'http://example.org/a.kml' is not followed, and left out"
     (read "<NetworkLink><name>n</name><Link><href>http://example.org/a.kml</href></Link></NetworkLink>");
   check "no number" "wrong: line 3: 'x' is no number"
     (read (placed "p\n\n" "<Point><coordinates>-8,x\n\n</coordinates></Point>"));

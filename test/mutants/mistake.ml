@@ -1177,7 +1177,7 @@ let maps =
   @ in_file "lib/maps/zip_text.ml" ~noticed_by:"maps/test_maps"
     [ ("checksums of archives are not compared", {||| checksum contents <> entry.check|}, {||}) ]
   @ in_file "lib/geo/repair.ml" ~noticed_by:"maps/test_maps"
-    [ ("rims that cross themselves make areas", {|(0.001 *. turned)|}, {|(1000. *. Float.abs turned)|}) ]
+    [ ("rims that cross themselves make areas", {|(0.001 *. whole)|}, {|(1000. *. Float.abs whole)|}) ]
   @ in_file "lib/maps/neptus_file.ml" ~noticed_by:"maps/test_maps"
     [
       ("west is east", {|letter = 'S' || letter = 'W'|}, {|letter = 'S'|});

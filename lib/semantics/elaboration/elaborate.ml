@@ -126,10 +126,19 @@ let without_unused_prelude (ast : Ast.program) =
 
 let no_chart _ = Error "no file can be read here"
 
+(* Of the maps that stand in the declarations of fences, which are no code. *)
+let map_warnings program ~chart ast =
+  let of_call (path, at) =
+    match chart path with Ok chart -> Chart_calls.warnings at path chart | Error _ -> [] in
+  let statements = List.filter Fence_declarations.is_declaration ast in
+  if Chart_calls.is_call program Chart_calls.word then
+    List.iter (Scope.report program) (List.concat_map of_call (Chart_calls.paths statements))
+
 (* Fences are known before anything runs; and so is it of some plans whether they break one. *)
 let fences program ~chart ast =
   if Fence_declarations.is_own ast then Fences.none
-  else
+  else begin
+    map_warnings program ~chart ast;
     let constants = lazy (Constants.of_program ~chart ast) in
     match Fence_declarations.of_program constants ast with
     | Error found -> List.iter (Scope.report program) found; Fences.none
@@ -139,6 +148,7 @@ let fences program ~chart ast =
       let plans = Fence_declarations.plans (Lazy.force constants) ast in
       List.iter (Scope.report program) (Fence_declarations.broken fences plans);
       fences
+  end
 
 let known_plans ~chart ast = Fence_declarations.plans (Constants.of_program ~chart ast) ast
 

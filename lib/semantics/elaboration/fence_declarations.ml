@@ -17,14 +17,14 @@ let area constants kind (e : Ast.expression) =
   | x -> error e.at "fence %s takes an area, not %s" kind (Value.kind x)
 
 (* The areas of a map or a list; [key] is how the text names each. What is neither a place nor a line, but no area
-   either, is flawed: a fence without it would let vehicles in. [only]: places and lines are not left out. *)
-let areas constants ~only (e : Ast.expression) entries =
+   either, is flawed: a fence without it would let vehicles in. *)
+let areas constants (e : Ast.expression) entries =
   let flaws = Option.fold (Constants.chart constants e) ~none:[] ~some:(fun (chart : Chart.t) -> chart.flawed) in
   let add found ((key : string), (x : Core.value)) =
     let* found = found in
     match x with
     | Area area -> Ok ((key, area) :: found)
-    | Position _ | List _ when not only -> Ok found
+    | Position _ | List _ -> Ok found
     | x -> (
         match List.assoc_opt key flaws with
         | Some why -> error e.at "'%s' cannot be part of a fence: %s" key why
@@ -41,10 +41,10 @@ let outside constants e : ((string * Fences.rule) list, Diagnostic.t list) resul
   let* x = Constants.value constants e in
   let each of_key areas = List.map (fun (key, area) -> (of_key key, Fences.Outside area)) areas in
   match (x : Core.value) with
-  | Map entries -> Result.map (each in_brackets) (areas constants ~only:false e entries)
+  | Map entries -> Result.map (each in_brackets) (areas constants e entries)
   | List xs ->
     let numbered = List.mapi (fun i x -> (string_of_int i, x)) (Vector.to_list xs) in
-    Result.map (each (Printf.sprintf "[%s]")) (areas constants ~only:true e numbered)
+    Result.map (each (Printf.sprintf "[%s]")) (areas constants e numbered)
   | _ -> Result.map (fun area -> [ ("", Fences.Outside area) ]) (area constants "outside" e)
 
 let metres constants what ~least (e : Ast.expression) =
@@ -116,6 +116,8 @@ let declaration (s : Ast.statement) =
     Some (at, arguments)
   | Expression { it = Variable name; at } when name = word -> Some (at, [])
   | _ -> None
+
+let is_declaration s = declaration s <> None
 
 let of_program constants ast =
   let add (fences, errors) (at, arguments) =

@@ -11,6 +11,9 @@ val read :
 (** [read constants at arguments] is the fences declared by [fence] with these [arguments], at [at]: one for each area
     of a map or a list, else one; or what is wrong with it, and where. *)
 
+val is_declaration : Ast.statement -> bool
+(** Whether a statement at the top of a program declares a fence. *)
+
 val of_program : Constants.t Lazy.t -> Ast.program -> (Fences.fence list, Diagnostic.t list) result
 (** The fences that stand in the script, outside of all braces; or what is wrong with any. *)
 

@@ -99,7 +99,7 @@ class Programs(unittest.TestCase):
                 env=self.environment, capture_output=True, text=True, timeout=600,
             )
         self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
-        number = len(only) or 20
+        number = len(only) or 21
         self.assertIn(f"{number} of {number} situations passed", run.stdout)
 
     def test_submarines_of_imc_and_a_plane_of_mavlink_in_one_program(self):

@@ -12,21 +12,26 @@ The stages, in order:
     mode     the mode that flies missions
     run      until the last item is reached
     stop     the mode that holds, until the vehicle confirms it
+    back     what was refused: the mode before, and the reason, which comes in a text
 
 A hand on the vehicle wins: whenever its mode is neither the one before nor the one we asked for, somebody else flies,
 and we send nothing more. No command is repeated blindly: only while the vehicle's own heartbeats show that nothing
 happened.
 """
 
+from . import hands
 from .boarding import Boarding
 from .commands import Commands
 from .landing import OPEN, Disarmed
+from .modes import parameters_of
 from .progress import Progress
+from .refusal import Refusal
 from .wire import mavlink
 
 WORDS = 1.5  # seconds in which the reason for a mode that was left may come, and another heartbeat
 AFTERWARDS = 4.0  # seconds in which word may come that the last item was reached
 GRACE = 5.0  # seconds in which a mode that was accepted shows in heartbeats, and is asked for that is refused for now
+BACK = 5.0  # seconds in which a mode is put back
 SILENT = 3  # after so many commands without an answer the autopilot may not know it
 ACCEPTED = mavlink.MAV_RESULT_ACCEPTED
 TRANSFER = {
@@ -36,12 +41,6 @@ TRANSFER = {
     "MISSION_ITEM",
     "MISSION_ITEM_INT",
     "MISSION_ACK",
-}
-_RESULTS = {
-    mavlink.MAV_RESULT_TEMPORARILY_REJECTED: "not now",
-    mavlink.MAV_RESULT_DENIED: "denied",
-    mavlink.MAV_RESULT_UNSUPPORTED: "not supported",
-    mavlink.MAV_RESULT_FAILED: "failed",
 }
 
 
@@ -58,7 +57,9 @@ class Execution:
         self._boarding, self._progress = None, Progress(vehicle, mission)
         self._next_after_note = None
         self._mode_before, self._asked_mode, self._mode_asked = None, None, False
-        self._stage_at = self._asked_at = 0.0
+        self._first_mode, self._refusal_of = None, None  # where it was while it was not armed; what was refused
+        self._end_of_back, self._is_back, self._back_at = None, False, 0.0
+        self._stage_at = self._asked_at = self._begun = 0.0
         self._beats = 0
         self._left, self._left_since, self._left_mode = None, None, None  # a mode that was left: when a verdict falls
         self._known, self._asked_for = set(), set()  # the modes that it may be in; those that we asked for
@@ -69,12 +70,12 @@ class Execution:
     # What the station calls
 
     def begin(self, now):
-        self._stage_at = self._asked_at = now
+        self._stage_at = self._asked_at = self._begun = now
         return self._try(now)
 
     def resume(self, now):
         """Finds out what became of a mission that an adapter before this one has begun, or was about to begin."""
-        self._stage_at = self._asked_at = now
+        self._stage_at = self._asked_at = self._begun = now
         self._resumes, self._mode_asked = True, True
         return self._try(now)
 
@@ -83,17 +84,14 @@ class Execution:
 
     def stop(self, now):
         """Stops the mission, if anything of it runs or may run."""
-        if self.is_over or self._stopping:
+        if self.is_over or self._stopping or self.stage == "back":
             return []
         self._stopping = True
         if self._resumes and self.stage in ("link", "verify"):
             return []  # first it must be known whether it is ours that flies
         out = self._boarding.cancel() if self._boarding is not None else []
         if not self._mode_asked:
-            if self._armed_by_us:
-                out += self._disarm()
-            self._end("stopped")
-            return out
+            return out + self._give_up(now, "stopped")
         if self._left is not None:
             return self._judge_left(now)
         return out + self._go_to_stop(now)
@@ -122,7 +120,7 @@ class Execution:
     def tick(self, now):
         if self.is_over:
             return []
-        if self._left is not None and now >= self._left:
+        if self._left is not None and (now >= self._left or self._has_restarted):
             return self._judge_left(now)
         out = []
         if self.stage == "link":
@@ -146,6 +144,7 @@ class Execution:
         if why is not None:
             return self._fail(why)
         self._mode_before, self._known = v.mode, {v.mode}
+        self._first_mode = None if v.armed else v.mode
         if v.armed and v.mode == v.modes.mission:
             self.stage = "hold"
             return self._set_mode(now, v.modes.hold)
@@ -279,12 +278,12 @@ class Execution:
         if self.stage == "stop" and self._commands.is_last_mode:
             # All that was sent before is acknowledged: this acknowledgement is the hold's. Heartbeats after it tell.
             self._stop_accepted = now
+        if self.stage == "back":
+            self._is_back = True
         return []
 
     def _denied(self, now, result):
-        said_at, text = self.vehicle.words
-        why = text if text and now - said_at < 3 else _RESULTS.get(result, f"result {result}")
-        if self.stage == "stop":
+        if self.stage in ("stop", "back"):
             self._commands.later(now)  # heartbeats decide, and it is repeated
             return []
         if self.stage == "hold" and self.vehicle.idle_mission:
@@ -293,15 +292,38 @@ class Execution:
             # An autopilot that has just started or landed changes its mode in a moment; its heartbeats tell.
             self._commands.later(now)
             return []
+        what = f"does not go into mode {self._asked_mode}"
         if self.stage == "arm":
-            self._armed_by_us = False
-            out = []
-            if self._mode_asked and self._mode_before is not None:
-                # A plane that will not arm must not take off when somebody else arms it.
-                out = self._set_mode(now, self._mode_before)
-            return out + self._fail(f"its autopilot does not arm: {why}")
+            what, self._armed_by_us = "does not arm", False
+        self._refusal_of = Refusal(now, self.vehicle, f"its autopilot {what}", result, self._asked_at)
+        return self._give_up(now, "failed")
+
+    def _give_up(self, now, *event):
+        """Ends a mission that was not begun. A vehicle that was not armed is disarmed, and goes back into the mode in
+        which it was: a plane that will not arm must not take off when somebody else arms it."""
         out = self._disarm() if self._armed_by_us else []
-        return out + self._fail(f"its autopilot does not go into mode {self._asked_mode}: {why}")
+        mode, self._boarding, self._armed_by_us = self._first_mode, None, False
+        moved = mode is not None and bool(self._asked_for) and mode not in self._asked_for
+        if self._refusal_of is None and not moved:
+            self._end(*event)
+            return out
+        self.stage, self._end_of_back, self._back_at, self._commands.waiting = "back", event, now, None
+        self._is_back = not moved or parameters_of(self.vehicle.autopilot, self.vehicle.frame, mode) is None
+        return out if self._is_back else out + self._set_mode(now, mode)
+
+    def _look_back(self, now):
+        """Whether the mode is put back, or is another's by now, and the reason has come."""
+        if not self._is_back and now - self._back_at < BACK:
+            return
+        if self._refusal_of is None:
+            self._end(*self._end_of_back)
+        elif self._refusal_of.is_ripe(now):
+            stays = "" if self._is_back else f", and stays in mode {self.vehicle.mode}"
+            self._end("failed", self._refusal_of.why + stays)
+
+    def _heartbeat_in_back(self):
+        mode = self.vehicle.mode
+        self._is_back = self._is_back or mode == self._first_mode or mode not in self._known
 
     # What the vehicle tells
 
@@ -311,6 +333,9 @@ class Execution:
             return self._heartbeat_in_stop(now)
         if self.stage == "run":
             return self._heartbeat_in_run(now)
+        if self.stage == "back":
+            self._heartbeat_in_back()
+            return []
         if self.stage == "link" or self._resumes:
             return []
         if self.stage == "hold" and v.mode in v.modes.after and v.mode not in self._known:
@@ -377,27 +402,33 @@ class Execution:
 
     def _was_disarmed(self, now):
         if now - self._stage_at >= GRACE:
-            self._disarmed, self._lands = Disarmed(now, self.vehicle), self._progress.lands
+            self._disarmed, self._lands = Disarmed(self.vehicle), self._progress.lands
         return []
 
     def _judge_disarmed(self, now):
         """Whether it has landed shows a moment later."""
         v, disarmed, progress = self.vehicle, self._disarmed, self._progress
         since = now - disarmed.since
-        if progress.was_at_its_landing or (disarmed.was_away and progress.is_where_it_lands):
+        if self._has_restarted:
+            self._fail(hands.restarted(v))
+        elif progress.was_at_its_landing or (disarmed.was_away and progress.is_where_it_lands):
             if disarmed.has_landed:
                 self._end("done")
             elif disarmed.has_landed is False and (disarmed.fell or since >= AFTERWARDS):
-                self._fail("was disarmed in flight")
+                self._fail("was disarmed in flight" + self._emergency(now))
             elif since >= OPEN and v.link(now):
                 self._tell_unknown("was disarmed, and does not say whether it has landed")
         elif since >= AFTERWARDS and v.link(now):
             if disarmed.was_in_flight(self._lands):
-                self._fail("was disarmed in flight")
+                self._fail("was disarmed in flight" + self._emergency(now))
             elif disarmed.was_away:
                 self._fail("was disarmed while it was not heard: it may have flown its mission")
             else:
                 self._fail("was disarmed")
+
+    def _emergency(self, now):
+        said_at, text = self.vehicle.distress
+        return f": {text}" if text and now - said_at <= hands.RECENT else ""
 
     def _mission_news(self, now):
         v, progress = self.vehicle, self._progress
@@ -409,14 +440,16 @@ class Execution:
             self.events.append(("progress", progress.share))
         progress.news(now)
         goes_on = v.mission_state not in (None, mavlink.MISSION_STATE_COMPLETE)
-        if goes_on and self._left is not None and now - self._left_since >= 1:
+        if goes_on and v.armed and self._left is not None and now - self._left_since >= 1:
             self._left = now  # the mission is not over
         if progress.is_replaced and self.stage == "run":
             return self._fail("its mission was replaced by another station")
         return []
 
     def _look(self, now):
-        if self.stage == "run" and not self.is_over and self._progress.is_over(now):
+        if self.stage == "back":
+            self._look_back(now)
+        elif self.stage == "run" and not self.is_over and self._progress.is_over(now):
             self._end("done")
         elif self.stage == "run" and not self.is_over and self._disarmed is not None:
             self._judge_disarmed(now)
@@ -431,7 +464,8 @@ class Execution:
             self._left_mode = v.mode
             return []
         self._left_mode = v.mode
-        may_be_over = self.stage == "run" and v.mode in v.modes.after
+        # One that is not armed may have restarted: its clock tells once it is asked for it.
+        may_be_over = (self.stage == "run" and v.mode in v.modes.after) or not v.armed
         self._left, self._left_since = now + (AFTERWARDS if may_be_over else WORDS), now
         self._commands.waiting, self._boarding = None, None
         return []
@@ -441,27 +475,31 @@ class Execution:
         if self.stage == "run" and mode in v.modes.after and self._progress.was_over():
             self._end("done")
             return []
-        said_at, text = v.distress
-        if mode in self._asked_for and self.stage == "run" and self._left_since - self._stage_at < 5:
+        if self._has_restarted:
+            return self._fail(hands.restarted(v))
+        is_ours = mode in self._asked_for and self.stage == "run" and self._left_since - self._stage_at < 5
+        if is_ours and not hands.is_emergency(now, v):
             return self._fail(f"left mode {v.modes.mission} for {mode}: by its pilot, or by a late copy of an order")
         v.pilot = mode
-        if text and now - said_at <= 10:
-            return self._fail(f"failsafe: {text}, in mode {mode}")
-        if v.status in (mavlink.MAV_STATE_CRITICAL, mavlink.MAV_STATE_EMERGENCY):
-            return self._fail(f"failsafe, in mode {mode}")
-        return self._fail(f"taken over by its pilot in mode {mode}")
+        why, v.hand = hands.named(now, v, mode)
+        return self._fail(why)
+
+    @property
+    def _has_restarted(self):
+        return self.vehicle.restarted_at >= self._begun
 
     def _silence(self, now):
         """A vehicle that does not answer while its mission is on its way."""
-        if self.stage in ("run", "stop") or self.is_over:
+        if self.stage in ("run", "stop", "back") or self.is_over:
             return []
         if now - self._asked_at <= self.timeout:
             return []
         if self._resumes:
             return []  # it says nothing until it knows
         if not self._mode_asked:
-            out = self._disarm() if self._armed_by_us else []
-            return out + self._fail(f"no answer from its autopilot for {self.timeout:g} seconds ({self.stage})")
+            return self._give_up(
+                now, "failed", f"no answer from its autopilot for {self.timeout:g} seconds ({self.stage})"
+            )
         self._tell_unknown(f"it did not say whether it went into mode {self.vehicle.modes.mission}")
         return []
 

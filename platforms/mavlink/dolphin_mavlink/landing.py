@@ -12,11 +12,11 @@ POSITION, STATE = "GLOBAL_POSITION_INT", "EXTENDED_SYS_STATE"
 class Disarmed:
     """A vehicle, from the first heartbeat on that reports it disarmed."""
 
-    def __init__(self, now, vehicle):
-        self._vehicle, self.since = vehicle, now
-        self.was_away = now - vehicle.armed_at > AWAY
+    def __init__(self, vehicle):
+        self._vehicle, self.since = vehicle, vehicle.disarmed_at
+        self.was_away = self.since - vehicle.armed_at > AWAY
         self._was_on_ground = vehicle.grounded
-        self._flew = vehicle.flew_at >= max(vehicle.armed_at - AWAY, now - 2 * AWAY)
+        self._flew = vehicle.flew_at >= max(vehicle.armed_at - AWAY, self.since - 2 * AWAY)
 
     def _heard(self, kind, seconds=0.0):
         return self._vehicle.heard.get(kind, self.since) > self.since + seconds

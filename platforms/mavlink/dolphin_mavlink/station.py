@@ -36,7 +36,13 @@ _WANTED = [
     ("EXTENDED_SYS_STATE", 245, 1.0),
     ("BATTERY_STATUS", 147, 0.5),
     ("HOME_POSITION", 242, 0.2),
+    ("FENCE_STATUS", 162, 0.5),
 ]
+_NEEDED = ("GLOBAL_POSITION_INT", "MISSION_CURRENT")  # asked for again when they are not heard
+MISSED = 2.5  # seconds after which one of these is missed
+ASKED = 10  # so many times it is asked for every 2 s, and then every 30 s
+SAID = 600.0  # seconds for which a text is not shown again
+MOST_TEXTS = 200  # so many texts of a vehicle are known to have been shown
 
 
 @dataclasses.dataclass
@@ -72,6 +78,7 @@ class Station:
         self._requests, self._over = {}, {}
         self._asked = {}  # when each vehicle was asked for what it is to send
         self._foreign = set()
+        self._texts = {}  # by systems: the texts that were shown, and when they were said last
         self._trips = {}
         self._greeted, self._closing, self._heartbeat_at = False, None, None
         self._resumes_until = 0.0
@@ -149,12 +156,21 @@ class Station:
                 vehicle,
                 command(*vehicle.target, mavlink.MAV_CMD_SET_MESSAGE_INTERVAL, 0, number, interval, 0, 0, 0, 0, 0),
             )
-        if times > 0:
+        if times > 0 and any(kind not in vehicle.heard for kind in _NEEDED):
             # Older autopilots know only this.
             self._send(
                 vehicle,
                 mavlink.MAVLink_request_data_stream_message(*vehicle.target, mavlink.MAV_DATA_STREAM_ALL, 2, 1),
             )
+
+    def _ask_again(self, now, vehicle):
+        """A request may be lost, and an autopilot that restarts forgets what it was asked for."""
+        times, at = self._asked[vehicle.system]
+        lacks = any(now - vehicle.heard.get(kind, at) > MISSED for kind in _NEEDED)
+        if not lacks:
+            self._asked[vehicle.system] = (min(times, 1), at)
+        elif vehicle.link(now) and now - at >= (2 if times < ASKED else 30):
+            self._ask_for_telemetry(now, vehicle)
 
     # From Dolphin
 
@@ -373,10 +389,8 @@ class Station:
             else:
                 self._try_to_begin(now, name)
         for vehicle in self._vehicles.values():
-            times, at = self._asked[vehicle.system]
-            lacks = vehicle.place is None or vehicle.current is None
-            if vehicle.link(now) and lacks and times < 10 and now - at >= 2:
-                self._ask_for_telemetry(now, vehicle)
+            self._ask_again(now, vehicle)
+            self._show_texts(now, vehicle)
             self._show(now, vehicle)
         self._quit_if_quiet(now)
 
@@ -399,6 +413,18 @@ class Station:
         news = self._sightings.news(now, name, vehicle, payload, has_plan, at_once)
         if news is not None:
             self._report(news)
+
+    def _show_texts(self, now, vehicle):
+        """What an autopilot says of severity 0 to 2, once. The pieces of a long text come one after another."""
+        while vehicle.to_show and now - vehicle.to_show[0].at >= 0.5:
+            words = vehicle.to_show.pop(0).words
+            shown = self._texts.setdefault(vehicle.system, {})
+            is_new = now - shown.get(words, -SAID) >= SAID
+            shown[words] = now
+            if is_new:
+                self._log(words, vehicle)
+            if len(shown) > MOST_TEXTS:
+                del shown[next(iter(shown))]
 
     def _log(self, text, vehicle=None):
         about = {} if vehicle is None else {"vehicle": self.name_of(vehicle.system)}

@@ -1,5 +1,7 @@
 """What a vehicle says of itself. Pure: `hear` takes a message and the time."""
 
+import collections
+import dataclasses
 import math
 import re
 
@@ -11,7 +13,19 @@ MOVE_SILENCE = 10.0  # seconds after which a vehicle may be heard from another a
 FALL = 3.0  # metres a second: no copter lands as fast
 _CLOCK_WRAPS = 2**32 / 1000  # seconds
 _DEVICES = {mavlink.MAV_TYPE_CAMERA: "camera", mavlink.MAV_TYPE_GIMBAL: "gimbal", mavlink.MAV_TYPE_WINCH: "winch"}
-_DISTRESS = re.compile(r"failsafe|fence breach|battery .*(low|critical)|(low|critical) battery|crash", re.IGNORECASE)
+_DISTRESS = re.compile(
+    r"failsafe|battery .*(low|critical)|(low|critical) battery|crash|thrust loss|leak detected|lost manual control"
+    r"|heartbeat lost|parachute|dead ?reckon",
+    re.IGNORECASE,
+)
+_FENCE = re.compile(r"fence.*breach|breach.*fence", re.IGNORECASE)
+_NO_DISTRESS = re.compile(r"cleared|continuing|restored|resolved|recovered|disabled|\boff$", re.IGNORECASE)
+_BREACHES = {
+    mavlink.FENCE_BREACH_MINALT: " (minimum altitude)",
+    mavlink.FENCE_BREACH_MAXALT: " (maximum altitude)",
+    mavlink.FENCE_BREACH_BOUNDARY: " (boundary)",
+}
+SHOWN = mavlink.MAV_SEVERITY_CRITICAL  # texts as grave as this are shown to people
 _UNABLE = {
     mavlink.MAV_STATE_BOOT: "is starting",
     mavlink.MAV_STATE_CALIBRATING: "is calibrating",
@@ -42,6 +56,13 @@ class Order:
         return False
 
 
+@dataclasses.dataclass
+class Text:
+    at: float
+    severity: int
+    words: str
+
+
 class Vehicle:
     """`kind` is the autopilot and the frame of one that does not tell them."""
 
@@ -62,6 +83,7 @@ class Vehicle:
         self.battery, self.speed, self.home, self.landed = None, None, None, None
         self.heard = {}  # when each kind of message was heard last
         self.armed_at = -math.inf  # when a heartbeat last reported it armed
+        self.disarmed_at = -math.inf  # when one reported it disarmed for the first time after that
         self.flew_at = -math.inf  # when it last reported that it is in the air
         self.grounded = False  # whether it was on the ground while it was armed
         self.sank_at = -math.inf  # when it last sank faster than any landing
@@ -70,9 +92,12 @@ class Vehicle:
         self._height = None  # metres above home, and when, by its clock
         self.news = 0  # how many times it told of its mission
         self.distress = (-math.inf, "")  # when it last spoke of an emergency, and how
-        self.words = (-math.inf, "")  # its last warning
+        self.texts = collections.deque(maxlen=30)  # what it said in words, oldest first
+        self.to_show = []  # of these, those that are for people
+        self._fence, self._chunk = (-math.inf, ""), None  # its last breach; where a text in pieces goes on
         self.devices = []
         self.pilot = None  # the mode in which a pilot took it over; until it is given back
+        self.hand = None  # what keeps it from the next plan then
         self.idle_mission = False  # its mission has ended, and it is still in that mode
         self._orders = {}
 
@@ -128,6 +153,8 @@ class Vehicle:
             self.idle_mission = False
         if armed:
             self.armed_at, self.grounded = now, bool(self.landed)
+        elif self.disarmed_at <= self.armed_at:
+            self.disarmed_at = now
         self.mode, self.armed, self.status = mode, armed, message.system_status
 
     def _global_position_int(self, now, message):
@@ -179,11 +206,40 @@ class Vehicle:
 
     def _statustext(self, now, message):
         text = message.text if isinstance(message.text, str) else message.text.decode("utf-8", "replace")
-        text = re.sub(r"[\x00-\x1f\x7f]+", " ", text).strip()
-        if message.severity <= mavlink.MAV_SEVERITY_WARNING and text:
-            self.words = (now, text)
-            if _DISTRESS.search(text):
-                self.distress = (now, text)
+        text = re.sub(r"[\x00-\x1f\x7f]+", " ", text)
+        before = self._chunk if message.id else None
+        if before is not None and before[:2] == (message.id, message.chunk_seq - 1):
+            said = before[2]
+            said.words = (said.words + text).rstrip()
+        else:
+            said = Text(now, message.severity, text.strip())
+            if not said.words:
+                return
+            self.texts.append(said)
+            if said.severity <= SHOWN:
+                self.to_show.append(said)
+        self._chunk = (message.id, message.chunk_seq, said) if message.id else None
+        if said.severity <= mavlink.MAV_SEVERITY_NOTICE:
+            self._judge(now, said.words)
+
+    def _judge(self, now, words):
+        """Whether `words` are about an emergency, or its end."""
+        if _FENCE.search(words):
+            self._fence = (now, self._fence[1] if now - self._fence[0] < 2 else "")
+        elif _DISTRESS.search(words):
+            if not _NO_DISTRESS.search(words):
+                self.distress = (now, words)
+            elif self.mode == self.modes.mission:
+                self.distress = (-math.inf, "")  # it is over, and the vehicle flies on
+
+    def _fence_status(self, now, message):
+        if message.breach_status == 1:
+            self._fence = (now, _BREACHES.get(message.breach_type, ""))
+
+    def breach(self, now, recent):
+        """The breach of its fence within the last `recent` seconds, in words; None: there was none."""
+        at, kind = self._fence
+        return f"fence breach{kind}" if now - at <= recent else None
 
     def unready(self, now, has_plan):
         """What keeps the vehicle from being given a plan though it has a link, as a predicate; None: nothing."""
@@ -194,6 +250,8 @@ class Vehicle:
             return _UNABLE[self.status] + (f": {text}" if text and now - said_at < 60 else "")
         if not self.armed:
             return None
+        if self.pilot is not None and self.pilot == self.mode and self.hand is not None:
+            return self.hand
         if self.pilot is not None or self.mode not in self.modes.hands_off:
             return f"is flown by its pilot in mode {self.mode}"
         if self.mode == self.modes.mission and not self.idle_mission:

@@ -162,5 +162,218 @@ class StopsAndStarts(Case):
         self.assertEqual(vehicle.mode, "BRAKE")
 
 
+ARM, SET_MODE = mavlink.MAV_CMD_COMPONENT_ARM_DISARM, mavlink.MAV_CMD_DO_SET_MODE
+FAILED, CRITICAL, WARNING, NOTICE = mavlink.MAV_RESULT_FAILED, 2, 4, 5
+
+
+class Refusals(Case):
+    def test_the_reason_comes_after_the_acknowledgement(self):
+        reasons = [
+            (ARM, CRITICAL, "Arm: GPS 1: Bad fix", "its autopilot does not arm: Arm: GPS 1: Bad fix"),
+            (
+                SET_MODE,
+                WARNING,
+                "Mode change to GUIDED failed: requires position",
+                "its autopilot does not go into mode GUIDED: Mode change to GUIDED failed: requires position",
+            ),
+            (
+                SET_MODE,
+                NOTICE,
+                "Mode change to AUTO denied, in fence recovery",
+                "its autopilot does not go into mode GUIDED: Mode change to AUTO denied, in fence recovery",
+            ),
+        ]
+        for command, severity, text, why in reasons:
+            for loss in (0.0, 0.2):
+                for seed in seeds(5):
+                    with self.subTest(text=text, loss=loss, seed=seed):
+                        vehicle, wires = one(loss=loss, seed=seed, delay=0.05)
+                        vehicle.results[command] = FAILED
+                        vehicle.reasons[command] = severity, text
+                        mode = vehicle.mode
+                        wires.start("r", "mav-1", stored())
+                        end = wires.run_to_end("r")
+                        # A text is sent once for each refusal: it may be lost.
+                        known = (why,) if loss == 0 else (why, why.split(": ")[0] + ": failed")
+                        self.assertIn(end["why"], known)
+                        self.assertEqual(vehicle.mode, mode)
+
+    def test_several_reasons(self):
+        vehicle, wires = one()
+        vehicle.results[ARM] = FAILED
+        vehicle.reasons[ARM] = CRITICAL, "Arm: GPS 1: Bad fix"
+        wires.start("r", "mav-1", stored())
+        self.assertTrue(wires.run(10, lambda: vehicle._soon))
+        wires.say(vehicle, [mavlink.MAVLink_statustext_message(4, b"EKF3 IMU0 is using GPS")])
+        wires.say(vehicle, [mavlink.MAVLink_statustext_message(2, b"Arm: Compass not calibrated")])
+        why = "its autopilot does not arm: Arm: Compass not calibrated; Arm: GPS 1: Bad fix"
+        self.ends(wires, "r", "failed", why)
+
+    def test_a_copter_that_does_not_arm_goes_back_into_its_mode(self):
+        for loss in (0.0, 0.3):
+            for seed in seeds(20):
+                with self.subTest(loss=loss, seed=seed):
+                    vehicle, wires = one(loss=loss, seed=seed, delay=0.05)
+                    vehicle.results[ARM] = FAILED
+                    wires.start("r", "mav-1", stored())
+                    self.ends(wires, "r", "failed", "its autopilot does not arm: failed")
+                    self.assertEqual(vehicle.mode, "STABILIZE")
+
+    def test_a_copter_that_is_stopped_before_it_is_armed_goes_back_too(self):
+        for tenths in range(0, 30):
+            with self.subTest(tenths=tenths):
+                vehicle, wires = one(delay=0.1)
+                vehicle.deaf_to.add(ARM)
+                wires.start("r", "mav-1", stored())
+                wires.run(tenths / 10)
+                wires.stop("r")
+                self.ends(wires, "r", "stopped")
+                wires.run(2)
+                self.assertEqual(vehicle.mode, "STABILIZE")
+
+    def test_a_mode_that_cannot_be_put_back(self):
+        vehicle, wires = one(delay=0.2)
+        vehicle.results[ARM] = FAILED
+        wires.start("r", "mav-1", stored())
+        self.assertTrue(wires.run(10, lambda: vehicle.mode == "GUIDED"))
+        vehicle.deaf_to.add(SET_MODE)
+        self.ends(wires, "r", "failed", "its autopilot does not arm: failed, and stays in mode GUIDED")
+
+    def test_a_hand_while_the_mode_is_put_back(self):
+        vehicle, wires = one(delay=0.2)
+        vehicle.results[ARM] = FAILED
+        wires.start("r", "mav-1", stored())
+        self.assertTrue(wires.run(10, lambda: vehicle.mode == "GUIDED"))
+        vehicle.deaf_to.add(SET_MODE)
+        wires.run(0.5)
+        wires.say(vehicle, vehicle.pilot(wires.now, "LOITER"))
+        wires.run(1)
+        vehicle.deaf_to.clear()
+        self.ends(wires, "r", "failed", "its autopilot does not arm: failed")
+        self.assertEqual(vehicle.mode, "LOITER")
+
+
+class Departures(Case):
+    """What took a vehicle out of its mission is named."""
+
+    def flying(self, kind="copter", px4=False, **more):
+        vehicle, wires = one(kind, px4, items=way(40), **more)
+        wires.start("r", "mav-1", stored())
+        self.assertTrue(wires.run(30, lambda: wires.said("taken")))
+        wires.run(6)
+        return vehicle, wires
+
+    def text(self, wires, vehicle, severity, words, **more):
+        wires.say(vehicle, [mavlink.MAVLink_statustext_message(severity, words.encode(), **more)])
+
+    def test_a_breach_of_its_fence(self):
+        breaches = [
+            (mavlink.FENCE_BREACH_BOUNDARY, "Fence Breached", "fence breach (boundary), in mode RTL"),
+            (mavlink.FENCE_BREACH_MAXALT, None, "fence breach (maximum altitude), in mode RTL"),
+            (mavlink.FENCE_BREACH_MINALT, None, "fence breach (minimum altitude), in mode RTL"),
+        ]
+        for kind in ("copter", "plane", "rover"):
+            for breach, text, why in breaches:
+                vehicle, wires = self.flying(kind)
+                wires.say(vehicle, vehicle.breach(wires.now, "RTL", breach, text))
+                self.ends(wires, "r", "failed", why)
+                self.assertEqual(wires.vehicle_said("mav-1")["unready"], "is in mode RTL after a fence breach")
+        vehicle, wires = self.flying()
+        self.text(wires, vehicle, NOTICE, "Fence Breached")
+        wires.say(vehicle, vehicle.pilot(wires.now, "LAND"))
+        self.ends(wires, "r", "failed", "fence breach, in mode LAND")
+
+    def test_a_fence_that_is_not_breached(self):
+        vehicle, wires = self.flying()
+        wires.say(vehicle, [mavlink.MAVLink_fence_status_message(0, 0, 0, 0)])
+        wires.say(vehicle, vehicle.pilot(wires.now, "LOITER"))
+        self.ends(wires, "r", "failed", "taken over by its pilot in mode LOITER")
+
+    def test_a_failsafe_that_is_over_is_not_the_reason(self):
+        for end in ("GCS Failsafe Cleared", "Radio Failsafe Cleared", "EKF Failsafe Cleared", "GCS Failsafe Off"):
+            for before in (None, end.rpartition(" ")[0]):
+                vehicle, wires = self.flying()
+                if before is not None:
+                    self.text(wires, vehicle, WARNING, before)
+                    wires.run(1)
+                self.text(wires, vehicle, WARNING, end)
+                wires.run(1)
+                wires.say(vehicle, vehicle.pilot(wires.now, "LOITER"))
+                self.ends(wires, "r", "failed", "taken over by its pilot in mode LOITER")
+
+    def test_a_failsafe_that_is_over_after_it_took_the_vehicle_home(self):
+        vehicle, wires = self.flying()
+        self.text(wires, vehicle, WARNING, "Radio Failsafe")
+        wires.say(vehicle, vehicle.pilot(wires.now, "RTL"))
+        wires.run(1)
+        self.text(wires, vehicle, WARNING, "Radio Failsafe Cleared")
+        self.ends(wires, "r", "failed", "failsafe: Radio Failsafe, in mode RTL")
+
+    def test_a_return_that_another_station_orders(self):
+        for kind, px4, mode in (
+            ("copter", False, "RTL"),
+            ("copter", False, "SMART_RTL"),
+            ("plane", False, "RTL"),
+            ("rover", False, "RTL"),
+            ("copter", True, "RTL"),
+        ):
+            vehicle, wires = self.flying(kind, px4)
+            wires.say(vehicle, vehicle.pilot(wires.now, mode))
+            why = f"returns home in mode {mode}, set by its pilot or another station"
+            self.ends(wires, "r", "failed", why)
+            self.assertEqual(wires.vehicle_said("mav-1")["unready"], f"returns home in mode {mode}")
+        vehicle, wires = self.flying()
+        wires.say(vehicle, vehicle.pilot(wires.now, "LAND"))
+        self.ends(wires, "r", "failed", "lands in mode LAND, set by its pilot or another station")
+
+    def test_an_autopilot_that_restarts_in_flight(self):
+        for kind in ("copter", "plane"):
+            for away in (0.5, 2.0, 6.0):
+                for seed in seeds(5):
+                    with self.subTest(kind=kind, away=away, seed=seed):
+                        vehicle, wires = self.flying(kind, seed=seed, delay=0.05)
+                        wires.run(0.2 * seed)
+                        vehicle.restart(wires.now, away)
+                        self.ends(wires, "r", "failed", "its autopilot restarted in flight")
+
+    def test_a_crash_is_named(self):
+        vehicle, wires = self.flying()
+        self.text(wires, vehicle, 0, "Crash: Disarming: AngErr=163>30, Accel=1.2<3.0")
+        wires.say(vehicle, vehicle.kill(wires.now))
+        why = "was disarmed in flight: Crash: Disarming: AngErr=163>30, Accel=1.2<3.0"
+        self.ends(wires, "r", "failed", why)
+
+    def test_grave_texts_are_shown(self):
+        vehicle, wires = self.flying()
+        for severity in range(8):
+            self.text(wires, vehicle, severity, f"text {severity}")
+        self.text(wires, vehicle, 0, "Potential Thrust Loss (2)")
+        wires.run(2)
+        shown = ["text 0", "text 1", "text 2", "Potential Thrust Loss (2)"]
+        self.assertEqual([(r["vehicle"], r["text"]) for r in wires.said("log")], [("mav-1", t) for t in shown])
+        for _ in range(20):
+            self.text(wires, vehicle, 0, "Potential Thrust Loss (2)")
+            wires.run(10)
+        self.assertEqual(len(wires.said("log")), 4)
+
+    def test_a_long_text_comes_in_pieces(self):
+        vehicle, wires = self.flying()
+        long = "PreArm: " + "a reason that is much longer than one message can hold " * 2
+        pieces = [long[i : i + 50] for i in range(0, len(long), 50)]
+        for n, piece in enumerate(pieces):
+            self.text(wires, vehicle, 2, piece, id=7, chunk_seq=n)
+        self.text(wires, vehicle, 2, "another one")
+        wires.run(2)
+        self.assertEqual([r["text"] for r in wires.said("log")], [long.strip(), "another one"])
+
+    def test_telemetry_that_was_not_granted_is_asked_for_again(self):
+        vehicle, wires = self.flying()
+        vehicle._streams = False
+        place = vehicle.place
+        wires.run(6)
+        self.assertTrue(vehicle._streams)
+        self.assertNotEqual(wires.station._vehicles[1].place, place)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -162,8 +162,7 @@ class Refusals(Case):
             wires.start("r", "mav-1", stored())
             self.ends(wires, "r", "failed", "its autopilot does not arm: failed")
             self.assertEqual(vehicle.began, [])
-            if kind == "plane" and not px4:
-                self.assertEqual(vehicle.mode, mode, "a plane must not take off when somebody arms it later")
+            self.assertEqual(vehicle.mode, mode, "a plane must not take off when somebody arms it later")
 
     def test_its_autopilot_does_not_go_into_the_mode(self):
         vehicle, wires = one(armed=True)
@@ -241,7 +240,6 @@ class Hands(Case):
         for kind, px4, mode in (
             ("copter", False, "LOITER"),
             ("plane", False, "LOITER"),
-            ("plane", False, "RTL"),
             ("rover", False, "MANUAL"),
             ("copter", True, "POSCTL"),
             ("copter", True, "HOLD"),

@@ -109,7 +109,7 @@ class Motors(Case):
                 with self.subTest(height=height, seed=seed):
                     vehicle, wires = begun((*way(3), LANDINGS["a landing"]), seed=seed, delay=0.05)
                     self.assertTrue(wires.run(200, at_its_landing(vehicle, height)))
-                    wires.run(0.1 * seed)
+                    wires.run(0.1 * (seed % 10))
                     wires.say(vehicle, vehicle.kill(wires.now))
                     self.ends(wires, "r", "failed", "was disarmed in flight")
 
@@ -134,7 +134,7 @@ class StopsAndStarts(Case):
                             vehicle, wires = one(px4=px4, items=way(12), delay=0.1, loss=loss, seed=seed)
                             vehicle.lag = lag
                             wires.start("a", "mav-1", stored())
-                            wires.run(6 + 0.1 * seed)
+                            wires.run(6 + 0.1 * (seed % 10))
                             act, begun = wires._act, []
 
                             def at_once():
@@ -245,7 +245,7 @@ class Refusals(Case):
         wires.start("r", "mav-1", stored())
         self.assertTrue(wires.run(10, lambda: vehicle.mode == "GUIDED"))
         vehicle.deaf_to.add(SET_MODE)
-        wires.run(0.5)
+        wires.run(1.5)
         wires.say(vehicle, vehicle.pilot(wires.now, "LOITER"))
         wires.run(1)
         vehicle.deaf_to.clear()
@@ -332,7 +332,7 @@ class Departures(Case):
                 for seed in seeds(5):
                     with self.subTest(kind=kind, away=away, seed=seed):
                         vehicle, wires = self.flying(kind, seed=seed, delay=0.05)
-                        wires.run(0.2 * seed)
+                        wires.run(0.2 * (seed % 5))
                         vehicle.restart(wires.now, away)
                         self.ends(wires, "r", "failed", "its autopilot restarted in flight")
 

@@ -102,25 +102,34 @@ let discovery_ports =
   in
   Arg.(value & opt (some ports) None & info [ "imc-discovery-ports" ] ~docs:s_network ~docv:"FIRST-LAST" ~doc)
 
-let make loopback interfaces port discovery id payload types =
+let abort =
+  let doc =
+    "Send an Abort to a vehicle that still reports MANEUVER 3 s after it was told to stop, and once a second from then \
+     on: the last means if its plan engine has lost the plan. An Abort also ends what others run on it. Implies \
+     $(b,--imc)."
+  in
+  Arg.(value & flag & info [ "imc-abort" ] ~docs:s_network ~doc)
+
+let make loopback interfaces port discovery id payload types abort =
   let options = Udp_platform.default in
   { options with
-    loopback; interfaces; id; payload; types;
+    loopback; interfaces; id; payload; types; abort;
     data_port = Option.value port ~default:options.data_port;
     announce_ports = Option.value discovery ~default:options.announce_ports }
 
-let options = Term.(const make $ loopback $ interfaces $ port $ discovery_ports $ id $ payload $ types)
+let options = Term.(const make $ loopback $ interfaces $ port $ discovery_ports $ id $ payload $ types $ const false)
 
 let chosen =
-  let choose imc definition loopback interfaces port discovery id payload types =
+  let choose imc definition loopback interfaces port discovery id payload types abort =
     let implied =
       definition <> None || loopback || interfaces <> [] || port <> None || discovery <> None || id <> None
-      || payload <> [] || types <> []
+      || payload <> [] || types <> [] || abort
     in
-    if imc || implied then Some (make loopback interfaces port discovery id payload types) else None
+    if imc || implied then Some (make loopback interfaces port discovery id payload types abort) else None
   in
   Term.(
-    const choose $ imc $ definition $ loopback $ interfaces $ port $ discovery_ports $ id $ payload $ types)
+    const choose $ imc $ definition $ loopback $ interfaces $ port $ discovery_ports $ id $ payload $ types
+    $ abort)
 
 let with_names definition options =
   match definition with

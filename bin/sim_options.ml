@@ -132,6 +132,15 @@ let blocks =
   in
   Arg.(value & opt_all block [] & info [ "block" ] ~docs:faults_section ~docv:"VEHICLE=FROM,LASTING" ~doc)
 
+let stalls =
+  let doc =
+    "Let the vehicle's computer stall $(i,FROM) seconds after the start, by the mission's clock, for $(i,LASTING) \
+     seconds. Nothing is heard of it meanwhile. Then its plan engine has lost the plan that runs: it is BLOCKED and \
+     answers STOP by $(b,no plan is running), while the vehicle reports MANEUVER and goes on to the end of its \
+     maneuver, or until an Abort. May be repeated."
+  in
+  Arg.(value & opt_all block [] & info [ "stall" ] ~docs:faults_section ~docv:"VEHICLE=FROM,LASTING" ~doc)
+
 let vanishes =
   let doc =
     "Let the vehicle vanish from the network $(i,FROM) seconds after the start, by the mission's clock, and return \
@@ -167,11 +176,11 @@ let address =
   Arg.(value & opt (some host) None & info [ "address" ] ~docs:network_section ~docv:"ADDRESS" ~doc)
 
 let settings =
-  let make speed seed strict flood faults refuses blocks vanishes announce_period contact_period first_port first_id
-      discovery_ports address scenario : Network.settings =
-    { scenario; seed; speed; strict; flood; faults; refuses; blocks; vanishes; announce_period; contact_period;
-      first_port; first_id; discovery_ports; address }
+  let make speed seed strict flood faults refuses blocks stalls vanishes announce_period contact_period first_port
+      first_id discovery_ports address scenario : Network.settings =
+    { scenario; seed; speed; strict; flood; faults; refuses; blocks; stalls; vanishes; announce_period;
+      contact_period; first_port; first_id; discovery_ports; address }
   in
   Term.(
-    const make $ speed $ seed $ strict $ flood $ faults $ refuses $ blocks $ vanishes $ announce_period $ contact_period
-    $ first_port $ first_id $ discovery_ports $ address)
+    const make $ speed $ seed $ strict $ flood $ faults $ refuses $ blocks $ stalls $ vanishes $ announce_period
+    $ contact_period $ first_port $ first_id $ discovery_ports $ address)

@@ -34,6 +34,14 @@ let patience = Attempt.patience
 let grace = grace
 let stop_interval = 0.5
 let stop_patience = 60.
+let warning = 5.
+let abort_interval = 1.
+
+(* The interval of stops that were in vain for [stop_patience]. *)
+let late_stop_interval = 5.
+
+(* Longer than it takes from the end of a plan to the VehicleState that follows. *)
+let rest_patience = 1.
 
 (* For so long a plan that we gave up is stopped when the vehicle is heard again. *)
 let given_up_watch = 600.
@@ -94,15 +102,35 @@ let stopped ~now ~clock ~ended attempt next x =
   | Some order -> begin_attempt ~now ~clock order x
   | None -> (x, [])
 
-(* Whether [r] shows that the plan of [a] does not run and, if the request may still be on its way, will not. *)
-let confirms_stop ~now (a : Attempt.t) ~took_effect ~after (r : Plan_report.t) =
-  let over =
-    match r.state.state with
-    | Ready | Blocked -> true
-    | Executing -> not (Plan_report.names a.order.plan r)
-    | Initializing | Other _ -> false
-  in
-  over && r.sent > after && (took_effect || Attempt.is_past ~now r a)
+(* The stop is confirmed once the plan engine does not run the plan and VehicleState, sent later, shows rest: an engine
+   that has lost the plan is BLOCKED while the maneuver goes on. Of a vehicle that has never sent a VehicleState READY
+   has to do. *)
+let settle_stop ~now ~clock x =
+  match x.phase with
+  | Stopping { attempt; over = Some since; next; _ } ->
+    let is_blocked = match x.latest with Some r -> r.state.state = Blocked | None -> false in
+    let rests = match x.mode with Some _ -> rests ~since x | None -> not is_blocked in
+    if rests then
+      let ended = match x.mode with Some (sent, _) -> sent | None -> since in
+      stopped ~now ~clock ~ended attempt next x
+    else (x, [])
+  | Stopping { over = None; _ } | Idle | Starting _ | Running _ | Ending _ -> (x, [])
+
+(* The report [r] while a stop waits for its confirmation. *)
+let judge_stop ~now ~clock (r : Plan_report.t) x =
+  match x.phase with
+  | Stopping s when r.sent > s.after -> (
+      let own = Plan_report.names s.attempt.order.plan r in
+      (* If the request may still be on its way, nothing is over. *)
+      let is_final = s.took_effect || Attempt.is_past ~now r s.attempt in
+      match r.state.state with
+      | Executing when own -> ({ x with phase = Stopping { s with took_effect = true; over = None } }, [])
+      | Executing when is_final -> stopped ~now ~clock ~ended:r.sent s.attempt s.next x
+      | (Ready | Blocked) when is_final ->
+        let over = Option.fold s.over ~none:r.sent ~some:(Float.min r.sent) in
+        settle_stop ~now ~clock { x with phase = Stopping { s with over = Some over } }
+      | Executing | Ready | Blocked | Initializing | Other _ -> (x, []))
+  | Stopping _ | Idle | Starting _ | Running _ | Ending _ -> (x, [])
 
 (* A plan that is over runs again. *)
 let judge_idle ~now ~clock (r : Plan_report.t) x =
@@ -125,12 +153,40 @@ let judge ~now ~clock (r : Plan_report.t) x =
     when Attempt.is_open attempt && r.state.state = Executing && Plan_report.names attempt.order.plan r ->
     ({ x with phase = Running { attempt; since = r.sent } }, [])
   | Ending _ -> (x, [])
-  | Stopping p ->
-    let runs = Plan_report.names p.attempt.order.plan r && r.state.state = Executing && r.sent > p.after in
-    let took_effect = p.took_effect || runs in
-    if confirms_stop ~now p.attempt ~took_effect ~after:p.after r then
-      stopped ~now ~clock ~ended:r.sent p.attempt p.next x
-    else ({ x with phase = Stopping { p with took_effect } }, [])
+  | Stopping _ -> judge_stop ~now ~clock r x
+
+(* {1 A vehicle that goes on} *)
+
+let is_blocked x = match x.latest with Some r -> r.state.state = Blocked | None -> false
+let is_busy x = match x.latest with Some r -> Plan_report.is_busy r | None -> false
+
+(* The plan failed, and no better reason came. A vehicle that goes on, or may, is told to stop. *)
+let end_badly ~now ~clock (a : Attempt.t) ~since ~why x =
+  let ended = match x.latest with Some r -> r.sent | None -> since in
+  let failed = Failed (words x ~since ~why) in
+  if maneuvers ~since:ended x || (is_blocked x && not (rests ~since x)) then
+    let x, outputs = begin_stop ~now ~clock ~took_effect:true a x in
+    (x, failed :: outputs)
+  else (close ~now ~ended:(Vehicle_clock.latest clock) a x, [ failed ])
+
+(* VehicleState has come. *)
+let judge_mode ~now ~clock x =
+  match x.phase, x.former with
+  | Stopping _, _ -> settle_stop ~now ~clock x
+  | Ending { attempt; since; why; _ }, _ when is_blocked x ->
+    let ended = match x.latest with Some r -> r.sent | None -> since in
+    if maneuvers ~since:ended x then end_badly ~now ~clock attempt ~since ~why x else (x, [])
+  | Idle, Some f when now < f.unrested_until && maneuvers ~since:(f.ended +. rest_patience) x && not (is_busy x) ->
+    let x, outputs = begin_stop ~now ~clock ~took_effect:true f.attempt x in
+    let plan = f.attempt.order.plan in
+    (x, Remark (Printf.sprintf "the vehicle goes on though plan %s was over; it is told to stop" plan) :: outputs)
+  | (Idle | Starting _ | Running _ | Ending _), _ -> (x, [])
+
+(* The plan before is over for good once the vehicle was seen to rest. *)
+let rested x =
+  match x.former with
+  | Some f when rests ~since:f.ended x -> { x with former = Some { f with unrested_until = neg_infinity } }
+  | Some _ | None -> x
 
 (* {1 Inputs} *)
 
@@ -166,7 +222,8 @@ let stop_reply ~now ~clock ~sent (reply : Message.t Control.t) x =
   match x.phase with
   (* The request that is to be undone by a stop may come after it. *)
   | Stopping s when reply.request_id = s.stop && (s.took_effect || not (Attempt.may_arrive ~now s.attempt)) ->
-    stopped ~now ~clock ~ended:sent s.attempt s.next x
+    let over = Option.fold s.over ~none:sent ~some:(Float.min sent) in
+    settle_stop ~now ~clock { x with phase = Stopping { s with over = Some over } }
   | Idle | Starting _ | Running _ | Ending _ | Stopping _ -> (
       if x.last_stop <> Some reply.request_id then (x, [])
       else
@@ -188,11 +245,12 @@ let state ~now ~clock sent state x =
     let r = { Plan_report.sent; state } in
     judge ~now ~clock r { x with latest = Some r }
 
-let vehicle ~sent (state : Message.Vehicle_state.t) x =
-  let newer = match x.error with Some (at, _) -> sent > at | None -> true in
-  if state.op_mode = Error && state.last_error <> "" && newer then
-    ({ x with error = Some (sent, state.last_error) }, [])
-  else (x, [])
+let newer sent = function Some (at, _) -> sent > at | None -> true
+
+let vehicle ~now ~clock ~sent (state : Message.Vehicle_state.t) x =
+  let is_error = state.op_mode = Error && state.last_error <> "" && newer sent x.error in
+  let x = if is_error then { x with error = Some (sent, state.last_error) } else x in
+  if newer sent x.mode then judge_mode ~now ~clock (rested { x with mode = Some (sent, state.op_mode) }) else (x, [])
 
 (* Errors that come with the plan, and are not its end. *)
 let log entry x =
@@ -237,23 +295,54 @@ let lost ~now ~clock why x =
     fail ~watch:given_up_watch ~now ~ended:(Vehicle_clock.latest clock) attempt why x
   | Stopping s -> ({ x with phase = Stopping { s with next = None } }, [ Failed why ])
 
+(* Nothing was heard that confirms the stop of [attempt], nor that the vehicle goes on. *)
+let give_stop_up ~now ~clock (attempt : Attempt.t) next x =
+  let x = close ~watch:given_up_watch ~now ~ended:(Vehicle_clock.latest clock) attempt x in
+  let remark = Remark (Printf.sprintf "the stop of plan %s was not confirmed" attempt.order.plan) in
+  match next with
+  | Some order ->
+    let x, outputs = begin_attempt ~now ~clock order x in
+    (x, remark :: outputs)
+  | None -> (x, [ remark ])
+
+let goes_on plan seconds =
+  Printf.sprintf "may still run plan %s: it still maneuvers %.0f s after it was told to stop" plan seconds
+
+let is_abort_due ~now ~first_sent ~aborted x =
+  now >= first_sent +. x.abort_after && Option.fold aborted ~none:true ~some:(fun at -> now >= at +. abort_interval)
+
+let stop_interval_after ~last_sent ~first_sent =
+  if last_sent >= first_sent +. stop_patience then late_stop_interval else stop_interval
+
+(* A stop without confirmation, each time that something is to be done about it. *)
+let tick_stop ~now ~clock x =
+  match x.phase with
+  | Stopping ({ attempt; first_sent; after; _ } as s) ->
+    let plan = attempt.order.plan and moves = maneuvers ~since:after x in
+    if now >= first_sent +. stop_patience && not moves then give_stop_up ~now ~clock attempt s.next x
+    else if moves && is_abort_due ~now ~first_sent ~aborted:s.aborted x then
+      let told = Printf.sprintf "%s; it is told to abort" (goes_on plan (now -. first_sent)) in
+      let remark = if s.aborted = None then [ Remark told ] else [] in
+      ({ x with phase = Stopping { s with aborted = Some now; warned = true } }, Send Message.Abort :: remark)
+    else if moves && now >= first_sent +. warning && not s.warned then
+      ({ x with phase = Stopping { s with warned = true } }, [ Remark (goes_on plan (now -. first_sent)) ])
+    else if moves && now >= first_sent +. stop_patience && s.next <> None then
+      ({ x with phase = Stopping { s with next = None } }, [ Failed (goes_on plan (now -. first_sent)) ])
+    else if now >= s.last_sent +. stop_interval_after ~last_sent:s.last_sent ~first_sent then
+      ({ x with phase = Stopping { s with last_sent = now } }, [ Send (Attempt.stop ~request:s.stop attempt) ])
+    else (x, [])
+  | Idle | Starting _ | Running _ | Ending _ -> (x, [])
+
 let tick ~now ~clock x =
   match x.phase with
-  | Ending e when now >= e.deadline ->
-    fail ~now ~ended:(Vehicle_clock.latest clock) e.attempt (words x ~since:e.since ~why:e.why) x
-  | Stopping s when now >= s.first_sent +. stop_patience ->
-    let x = close ~watch:given_up_watch ~now ~ended:(Vehicle_clock.latest clock) s.attempt x in
-    let remark = Remark (Printf.sprintf "the stop of plan %s was not confirmed" s.attempt.order.plan) in
-    (match s.next with
-     | Some order ->
-       let x, outputs = begin_attempt ~now ~clock order x in
-       (x, remark :: outputs)
-     | None -> (x, [ remark ]))
-  | Stopping s when now >= s.last_sent +. stop_interval ->
-    ({ x with phase = Stopping { s with last_sent = now } }, [ Send (Attempt.stop ~request:s.stop s.attempt) ])
-  | Idle | Starting _ | Running _ | Ending _ | Stopping _ -> (x, [])
+  | Ending e when now >= e.deadline -> end_badly ~now ~clock e.attempt ~since:e.since ~why:e.why x
+  | Stopping _ -> tick_stop ~now ~clock x
+  | Idle | Starting _ | Running _ | Ending _ -> (x, [])
 
 (* {1 What a console before this one has begun} *)
+
+(* It maneuvers, and not for a plan. *)
+let maneuvers_idly x = maneuvers ~since:neg_infinity x && not (is_busy x)
 
 let adopt ~now ~clock (order : order) ~stopped notes x =
   let is_at_work (r : Plan_report.t) = Plan_report.is_busy r && Plan_report.names order.plan r in
@@ -262,8 +351,12 @@ let adopt ~now ~clock (order : order) ~stopped notes x =
   | Some { over = true; _ }, _ when stopped -> (x, [])
   | Some k, Some r when stopped ->
     let attempt = Attempt.adopted ~now ~clock order k in
-    if is_at_work r then begin_stop ~now ~clock ~took_effect:true attempt x
-    else (close ~now ~ended:r.sent attempt x, [ Keep (Over { request = k.request }) ])
+    (* A plan engine that has lost the plan, while the vehicle goes on, is BLOCKED. *)
+    if is_at_work r || (r.state.state = Blocked && not (rests ~since:neg_infinity x)) || maneuvers_idly x then
+      begin_stop ~now ~clock ~took_effect:true attempt x
+    else
+      let ours = not (Plan_report.is_busy r) in
+      (close ~ours ~now ~ended:r.sent attempt x, [ Keep (Over { request = k.request }) ])
   | Some k, latest ->
     let attempt = Attempt.adopted ~now ~clock order k in
     let phase = if k.runs then Running { attempt; since = neg_infinity } else Starting attempt in
@@ -293,7 +386,7 @@ let handle ~now ~clock input x =
   | Stop -> stop ~now ~clock x
   | Reply { sent; reply = r } -> reply ~now ~clock ~sent r x
   | State { sent; state = s } -> state ~now ~clock sent s x
-  | Vehicle { sent; state } -> vehicle ~sent state x
+  | Vehicle { sent; state } -> vehicle ~now ~clock ~sent state x
   | Log { entry; _ } -> log entry x
   | Abort by -> ({ x with intervention = Some ("aborted by " ^ by) }, [])
   | Stopped_by by -> (stopped_by by x, [])
@@ -315,7 +408,14 @@ let due x =
   match x.phase with
   | Idle | Starting _ | Running _ -> infinity
   | Ending e -> e.deadline
-  | Stopping s -> Float.min (s.last_sent +. stop_interval) (s.first_sent +. stop_patience)
+  | Stopping s ->
+    let again = s.last_sent +. stop_interval_after ~last_sent:s.last_sent ~first_sent:s.first_sent in
+    if not (maneuvers ~since:s.after x) then Float.min again (s.first_sent +. stop_patience)
+    else
+      let warned = if s.warned then infinity else s.first_sent +. warning in
+      let abort = Option.fold s.aborted ~none:neg_infinity ~some:(fun at -> at +. abort_interval) in
+      let next = if s.next = None then infinity else s.first_sent +. stop_patience in
+      List.fold_left Float.min again [ warned; next; Float.max abort (s.first_sent +. x.abort_after) ]
 
 let idle x = match x.phase with Idle -> true | Starting _ | Running _ | Ending _ | Stopping _ -> false
 
@@ -329,9 +429,12 @@ let may_still_begin ~now x (f : former) =
   let is_past = match x.latest with Some r -> Attempt.is_past ~now r f.attempt | None -> false in
   Attempt.is_open f.attempt && now < f.attempt.last_sent +. late_copies && not is_past
 
+(* VehicleState said so after the plan's end. *)
+let may_go_on ~now x (f : former) = now < f.unrested_until && maneuvers ~since:f.ended x && not (is_busy x)
+
 let is_settled ~now x =
   match x.phase, x.former with
-  | Idle, Some f -> not (may_still_begin ~now x f)
+  | Idle, Some f -> not (may_still_begin ~now x f || may_go_on ~now x f)
   | Idle, None -> true
   | (Starting _ | Running _ | Ending _ | Stopping _), _ -> false
 
@@ -340,7 +443,7 @@ let unsettled ~now x =
   match x.phase, x.former with
   | Stopping { attempt; next = None; _ }, _ -> Some attempt.order.plan
   | Idle, Some { attempt; ended; given_up = true; _ } when unheard_since ended -> Some attempt.order.plan
-  | Idle, Some f when may_still_begin ~now x f -> Some f.attempt.order.plan
+  | Idle, Some f when may_still_begin ~now x f || may_go_on ~now x f -> Some f.attempt.order.plan
   | (Idle | Starting _ | Running _ | Ending _ | Stopping _), _ -> None
 
 let report x = x.latest

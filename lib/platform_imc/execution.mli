@@ -15,16 +15,24 @@
     - It is {e done} when READY with its name and outcome SUCCESS was sent after EXECUTING was, or after a positive
       reply to our request, or, both being lost, where the vehicle had another plan's name before.
     - It {e failed} when a FAILURE replies to our request, in the words of that reply; when READY has another outcome
-      than SUCCESS; when the vehicle went from INITIALIZING to READY without taking the plan; when it is BLOCKED; when
+      than SUCCESS; when the vehicle went from INITIALIZING to READY without taking the plan; when it is BLOCKED, and
+      then it is told to stop unless VehicleState shows rest; when
       it executes another plan, or has executed one. Where the words are missing they are waited for, {!grace} long; an
       error that the vehicle reports stands in for them. None of this counts while the request is unanswered and may
       still take effect: another console may have been quicker, and our request takes the vehicle from that one.
     - A request waits until its note is durable ([Leaves]). Until it has left, nothing follows from silence.
     - A request is {e sent again} only after a look: no reply came within {!patience}, and a state that the vehicle sent
       so long after the request shows that it was without effect. After {!most_copies} the plan has failed.
-    - A stop is sent again every {!stop_interval} until a reply or a later state confirms it; if it is not known whether
-      the vehicle took the plan, one {!patience} after the request, which may have been overtaken. Only then is the next
-      start sent. After {!stop_patience} the stop is given up.
+    - A stop is sent again every {!stop_interval} until it is {e confirmed}: a reply, READY or BLOCKED shows that the plan
+      engine does not run the plan, and a VehicleState sent later that no maneuver runs. Measured: after a stall the
+      engine has lost the plan, is BLOCKED and answers ["no plan is running"], while VehicleState stays MANEUVER and the
+      vehicle goes on. Another plan in EXECUTING confirms it too, and of a vehicle that never sends VehicleState READY
+      does. If it is not known whether the vehicle took the plan, all this counts one {!patience} after the request,
+      which may have been overtaken. Only then is the next start sent.
+    - While the vehicle reports MANEUVER a stop is never given up: {!warning} after the first one people are told, after
+      [abort_after] ({!create}) it is told to abort, and after {!stop_patience} the next order fails. If nothing is
+      heard for {!stop_patience}, the stop is given up.
+    - A vehicle that reports MANEUVER, and no plan, a second after our plan was over is told to stop.
     - Late copies of our own datagrams are recognised by their replies: a stop that hits the next plan makes it start
       again; a start that comes after its plan was over is stopped; one that comes while the plan runs makes the vehicle
       begin it anew, which nobody can prevent ({!Duplicates} finds out). All this is told as a [Remark].
@@ -73,8 +81,9 @@ type output =
   | Failed of string  (** Why; without a full stop. *)
   | Remark of string  (** For people: a request that may take effect twice, a stop given up. *)
 
-val create : request:int -> t
-(** Nothing to do; requests are numbered from [request], modulo 65536. *)
+val create : ?abort_after:float -> request:int -> unit -> t
+(** Nothing to do; requests are numbered from [request], modulo 65536. A vehicle that still maneuvers [abort_after]
+    seconds after it was told to stop is told to abort, once a second; by default never. *)
 
 val step : now:float -> clock:Vehicle_clock.t -> input -> t -> t * output list
 (** [step ~now ~clock i x] is what becomes of [x] when [i] happens at [now] (s, our clock). After each [Start], and
@@ -134,3 +143,6 @@ val stop_interval : float
 
 val stop_patience : float
 (** 60 s. *)
+
+val warning : float
+(** 5 s. *)

@@ -17,8 +17,12 @@ type phase =
       took_effect : bool;  (** the plan was seen to be taken *)
       stop : int;
       after : float;
+      over : float option;
+      (** since when, by its clock, the vehicle's plan engine is known not to run the plan; the vehicle itself may *)
       first_sent : float;
       last_sent : float;
+      aborted : float option;  (** when it was last told to abort, by our clock *)
+      warned : bool;  (** people were told that it goes on *)
       next : Attempt.order option;
     }
 
@@ -29,11 +33,14 @@ type former = {
   ended : float;
   watched_until : float;
   given_up : bool;  (** it was not heard to be over: its link, or its stop's confirmation, was waited for in vain *)
+  unrested_until : float;
+  (** until then, by our clock, a vehicle that still maneuvers does so for this plan; [neg_infinity] once it rested *)
 }
 
 type t = {
   next_request : int;
   latest : Plan_report.t option;
+  mode : (float * Message.Vehicle_state.Op_mode.t) option;  (** of the latest VehicleState, and when it was sent *)
   error : (float * string) option;  (** the last error that the vehicle reported, and when *)
   log_errors : Log_errors.t;
   intervention : string option;  (** what another console did to the plan, in words *)
@@ -41,10 +48,11 @@ type t = {
   stop_echo : float;  (** when the vehicle last answered a stop of ours *)
   former : former option;
   duplicates : Duplicates.t;  (** of the last request *)
+  abort_after : float;  (** so long after a first STOP a vehicle that still maneuvers is told to abort *)
   phase : phase;
 }
 
-val create : request:int -> t
+val create : ?abort_after:float -> request:int -> unit -> t
 (** {!Execution.create}. *)
 
 val attempt : t -> (Attempt.t * Attempt.stage) option
@@ -70,14 +78,24 @@ val begin_stop :
   now:float -> clock:Vehicle_clock.t -> took_effect:bool -> ?next:Attempt.order -> Attempt.t -> t -> t * output list
 (** Tells the vehicle to stop it; [next] is to be requested then. *)
 
-val close : ?watch:float -> now:float -> ended:float -> Attempt.t -> t -> t
-(** [close ~watch ~now ~ended a x]: [a] is over since [ended]. The vehicle is watched for late copies of the request, or
-    [watch] seconds from now. *)
+val close : ?watch:float -> ?ours:bool -> now:float -> ended:float -> Attempt.t -> t -> t
+(** [close ~watch ~ours ~now ~ended a x]: [a] is over since [ended]. The vehicle is watched for late copies of the
+    request, or [watch] seconds from now. [ours]: if it still maneuvers, it does so for [a]; by default if the plan was
+    seen to be taken. *)
 
-val fail : ?watch:float -> now:float -> ended:float -> Attempt.t -> string -> t -> t * output list
+val fail : ?watch:float -> ?ours:bool -> now:float -> ended:float -> Attempt.t -> string -> t -> t * output list
 (** {!close}, and tells why it failed. *)
 
 val succeed : now:float -> ended:float -> Attempt.t -> t -> t * output list
+
+(** {2 What VehicleState shows} *)
+
+val maneuvers : since:float -> t -> bool
+(** [maneuvers ~since x]: the latest VehicleState was sent after [since] and says that the vehicle maneuvers, or is about
+    to. *)
+
+val rests : since:float -> t -> bool
+(** [rests ~since x]: the latest VehicleState was sent at [since] or later and says that no maneuver runs. *)
 
 (** {2 Where something else may have ended it} *)
 

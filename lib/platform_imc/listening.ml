@@ -46,7 +46,7 @@ let announced ~now ~from (p : Packet.t) (a : Message.Announce.t) s =
     match Systems.find_id p.src s.systems with
     | None when Systems.cardinal s.systems >= most_nodes -> drop "too many systems" s
     | None ->
-      let n = Node.make ~now ~from ~request:(request_of ~id:p.src s) p a in
+      let n = Node.make ~now ~from ?abort_after:s.settings.abort_after ~request:(request_of ~id:p.src s) p a in
       if n.address = None then (accept n s, []) else introduce ~now n (accept n s)
     | Some before -> (
         match Node.announce ~now ~from p a before with

@@ -70,10 +70,10 @@ let described ~now ~from (p : Packet.t) (a : Message.Announce.t) n =
 let most_hosts = 32
 let named id name = if String.trim name = "" then Printf.sprintf "imc-%04x" id else name
 
-let make ~now ~from ~request (p : Packet.t) (a : Message.Announce.t) =
+let make ~now ~from ?abort_after ~request (p : Packet.t) (a : Message.Announce.t) =
   described ~now ~from p a
     { id = p.src; name = named p.src a.sys_name; kind = a.sys_type; hosts = []; address = None;
-      clock = Vehicle_clock.unknown; execution = Execution.create ~request; first_announced = now;
+      clock = Vehicle_clock.unknown; execution = Execution.create ?abort_after ~request (); first_announced = now;
       last_announced = now; last_heard = neg_infinity; position = None; depth = None; altitude = None;
       announced_position = None; mode = None;
       error = ""; battery = None; speed = None; readings = []; entities = None;
@@ -197,18 +197,19 @@ let unknown_position = { Position.latitude = 0.; longitude = 0.; height = 0. }
 
 (* Between two plans of another program a vehicle is ready for a millisecond. *)
 let unready ~now ~held n =
-  match held, obstacle n with
-  | Some why, _ | None, Some why -> Some why
-  | None, None -> if is_resting ~now n then Some "was busy a moment ago" else None
+  match Execution.unsettled ~now n.execution, held, obstacle n with
+  | Some plan, _, _ when not (Execution.idle n.execution) -> Some ("may still run plan " ^ plan)
+  | _, Some why, _ | _, None, Some why -> Some why
+  | _, None, None -> if is_resting ~now n then Some "was busy a moment ago" else None
 
-let state ~now ~timeout ~kind ~payload ~held n : World.vehicle_state =
+let state ~now ~timeout ~kind ~payload ~held ~bound n : World.vehicle_state =
   let position =
     match n.position, n.announced_position with
     | Some (_, p), _ | None, Some p -> p
     | None, None -> unknown_position
   in
   let connected = is_vehicle n && not (silent ~now ~timeout n) in
-  let is_idle = Execution.idle n.execution in
+  let is_free = Execution.idle n.execution || not (bound || Execution.owes n.execution) in
   { id = n.name;
     kind;
     payload = (match payload with Some devices -> devices | None -> Option.value n.entities ~default:[]);
@@ -219,7 +220,7 @@ let state ~now ~timeout ~kind ~payload ~held n : World.vehicle_state =
     speed = Option.map snd n.speed;
     readings = List.map (fun (name, (_, value)) -> (name, value)) n.readings;
     connected;
-    unready = (if connected && is_idle then unready ~now ~held n else None);
+    unready = (if connected && is_free then unready ~now ~held n else None);
     cruise = None; drain = None }
 
 let mode ~names n =

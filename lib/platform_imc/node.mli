@@ -32,9 +32,10 @@ type t = private {
 
 (** {1:discovery Discovery} *)
 
-val make : now:float -> from:Unix.inet_addr -> request:int -> Packet.t -> Message.Announce.t -> t
+val make :
+  now:float -> from:Unix.inet_addr -> ?abort_after:float -> request:int -> Packet.t -> Message.Announce.t -> t
 (** [make ~now ~from ~request p a] is the system that announced itself for the first time, by the packet [p] with [a].
-    Its requests will be numbered from [request]. *)
+    Its requests will be numbered from [request]; [abort_after]: see {!Execution.create}. *)
 
 val announce : now:float -> from:Unix.inet_addr -> Packet.t -> Message.Announce.t -> t -> t option
 (** [announce ~now ~from p a n] is [n] that announced itself again; [None] if that cannot be [n]: [from] is none of
@@ -81,11 +82,12 @@ val silent : now:float -> timeout:float -> t -> bool
 (** [silent ~now ~timeout n] is whether nothing but announcements was heard of [n] for [timeout] seconds. *)
 
 val state :
-  now:float -> timeout:float -> kind:string -> payload:string list option -> held:string option -> t ->
+  now:float -> timeout:float -> kind:string -> payload:string list option -> held:string option -> bound:bool -> t ->
   World.vehicle_state
-(** [state ~now ~timeout ~kind ~payload ~held n] is [n] for programs, as a vehicle of type [kind]. It is connected if it
+(** [state ~now ~timeout ~kind ~payload ~held ~bound n] is [n] for programs, as a vehicle of type [kind]. It is connected if it
     is a vehicle and not silent, and ready if it has a plan of ours or {!Readiness} says so, {!rest} is over, and no
-    other console holds it ([held]: which one). It carries [payload], or else the entities of its list. Until it says
+    other console holds it ([held]: which one). Unless it is [bound], it
+    must be heard to have stopped a plan of ours. It carries [payload], or else the entities of its list. Until it says
     otherwise its battery is unknown, and it is where it announced to be. *)
 
 val mode : names:(int * string) list -> t -> string

@@ -20,6 +20,7 @@ type settings = {
   types : (Core.vehicle * string) list;  (** Types of vehicles, in place of what they announce. *)
   type_names : (int * string) list;  (** Of types for which IMC 5.4 has no names. *)
   records : bool;  (** Whether {!received} is kept. *)
+  abort_after : float option;  (** See {!Execution.create}. *)
 }
 
 val create : settings -> t
@@ -64,6 +65,9 @@ val start : now:float -> Core.vehicle -> Core.platform_task -> t -> t * output l
 val stop : now:float -> Core.vehicle -> t -> t * output list
 val bind : now:float -> Core.vehicle list -> t -> t * output list
 (** Other consoles are told ({!Claim}). *)
+
+val claims : now:float -> t -> output list
+(** Tells other consoles what this one holds: what is bound, and what may still run a plan of its own. *)
 
 val release : now:float -> Core.vehicle list -> t -> t * output list
 val set_timer : now:float -> Residual.timer -> float -> t -> t

@@ -15,12 +15,14 @@ type settings = {
   types : (Core.vehicle * string) list;
   type_names : (int * string) list;
   records : bool;
+  abort_after : float option;
 }
 
 type t = {
   settings : settings;
   systems : Systems.t;
   bound : Name_set.t;
+  claimed : Name_set.t;  (* what other consoles were told last, each second *)
   held : string Names.t;  (* by other consoles, and by which, in words *)
   telemetry : bool;
   timeouts : float Names.t;
@@ -43,7 +45,8 @@ type output =
   | Remark of Core.vehicle * string
 
 let create settings =
-  { settings; systems = Systems.none; bound = Name_set.empty; held = Names.empty; telemetry = false;
+  { settings; systems = Systems.none; bound = Name_set.empty; claimed = Name_set.empty; held = Names.empty;
+    telemetry = false;
     timeouts = Names.empty; timeout = 60.;
     timers = Timers.none; expected = Expected.none; outbox = Outbox.empty; presence = Presence.start;
     dropped = Names.empty; skipped = 0; accepted = 0; received = Received.nothing }
@@ -79,8 +82,9 @@ let state_of ~now (n : Node.t) s =
     | None -> Service.kind ~names:s.settings.type_names n.kind
   in
   let payload = List.assoc_opt n.name s.settings.payload in
-  let held = if Name_set.mem n.name s.bound then None else Names.find_opt n.name s.held in
-  Node.state ~now ~timeout:(timeout_of n.name s) ~kind ~payload ~held n
+  let bound = Name_set.mem n.name s.bound in
+  let held = if bound then None else Names.find_opt n.name s.held in
+  Node.state ~now ~timeout:(timeout_of n.name s) ~kind ~payload ~held ~bound n
 
 (* {1 Sending} *)
 
@@ -109,8 +113,14 @@ let query ~now (n : Node.t) s =
 
 let is_console (n : Node.t) = n.kind = Ccu && n.address <> None
 
+(* A vehicle that may still run a plan of ours is not free for others. *)
+let holds ~now s =
+  let add held (n : Node.t) = if Execution.unsettled ~now n.execution = None then held else Name_set.add n.name held in
+  List.fold_left add s.bound (Systems.to_list s.systems)
+
 let claims ~now s =
-  let claim = Claim.to_message { program = s.settings.program; vehicles = Name_set.elements s.bound } in
+  let vehicles = Name_set.elements (holds ~now s) in
+  let claim = Claim.to_message { program = s.settings.program; vehicles } in
   let to_console n = if is_console n then to_node ~now n claim s else [] in
   List.concat_map to_console (Systems.to_list s.systems)
 

@@ -19,12 +19,14 @@ type settings = {
   types : (Core.vehicle * string) list;
   type_names : (int * string) list;
   records : bool;
+  abort_after : float option;
 }
 
 type t = {
   settings : settings;
   systems : Systems.t;
   bound : Name_set.t;
+  claimed : Name_set.t;  (** what other consoles were told last, each second *)
   held : string Names.t;  (** by other consoles, and by which, in words *)
   telemetry : bool;
   timeouts : float Names.t;
@@ -80,6 +82,9 @@ val to_node : now:float -> Node.t -> Message.t -> t -> output list
 val announcement : now:float -> t -> string
 val query : now:float -> Node.t -> t -> t * output list
 (** Asks for its list of entities. *)
+
+val holds : now:float -> t -> Name_set.t
+(** What is bound, and vehicles that may still run a plan of this console. *)
 
 val claims : now:float -> t -> output list
 (** Tells all other consoles what this one holds. *)

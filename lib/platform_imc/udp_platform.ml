@@ -15,6 +15,7 @@ type options = {
   types : (Core.vehicle * string) list;
   type_names : (int * string) list;
   records : bool;
+  abort : bool;
   close_patience : float;
   note : Core.vehicle -> string -> unit;
   keep : time:float -> Core.vehicle -> Yojson.Safe.t -> unit;
@@ -26,7 +27,8 @@ let default =
   { id = None; name = None; program = ""; loopback = false; interfaces = []; data_port = 0;
     announce_ports = [ 30100; 30101; 30102; 30103; 30104 ];
     group = Unix.inet_addr_of_string "224.0.75.69";
-    payload = []; types = []; type_names = []; records = false; close_patience = 5.; note = (fun _ _ -> ());
+    payload = []; types = []; type_names = []; records = false; abort = false; close_patience = 5.;
+    note = (fun _ _ -> ());
     keep = (fun ~time:_ _ _ -> ()); sync = None; clock = Clock.system }
 
 type t = {
@@ -178,6 +180,9 @@ let watch p =
 
 (* {1 Opening} *)
 
+(* Within [close_patience]. *)
+let abort_after = 3.
+
 let settings options ~port ~hosts ~time : Station.settings =
   let random = Random.State.make_self_init () in
   let id = match options.id with Some id -> id | None -> 0x4000 + Random.State.int random 0x2000 in
@@ -187,7 +192,8 @@ let settings options ~port ~hosts ~time : Station.settings =
     addresses = List.map (fun host -> { Service.host; port }) hosts;
     epoch = options.clock.date () -. time;
     first_request = Random.State.int random 0x10000;
-    payload = options.payload; types = options.types; type_names = options.type_names; records = options.records }
+    payload = options.payload; types = options.types; type_names = options.type_names; records = options.records;
+    abort_after = (if options.abort then Some abort_after else None) }
 
 let guard p thread = Lwt.async (fun () -> Lwt.catch thread (fun error -> Shell.fail p.shell error; Lwt.return_unit))
 
@@ -301,6 +307,7 @@ let close p =
   else begin
     command p (Station.stop_all ~now:(now p));
     wait_for_stops p >>= fun () ->
+    command p (fun s -> (s, Station.claims ~now:(now p) s));
     tell_unsettled p (Printf.sprintf "may still run plan %s: it was not heard to have stopped");
     release_sockets p
   end

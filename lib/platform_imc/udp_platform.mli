@@ -20,6 +20,7 @@ type options = {
   types : (Core.vehicle * string) list;  (** Types of vehicles, in place of what they announce. *)
   type_names : (int * string) list;  (** Of types for which IMC 5.4 has no names. *)
   records : bool;  (** Whether {!received} is kept. *)
+  abort : bool;  (** Whether a vehicle that still maneuvers 3 s after it was told to stop is told to abort. *)
   close_patience : float;  (** So many seconds [close] waits for stops to be confirmed; for vehicles
                                that are not heard again yet, {!announce_period} at least. *)
   note : Core.vehicle -> string -> unit;  (** Is told what is unusual, for people. *)

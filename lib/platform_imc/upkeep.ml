@@ -35,8 +35,11 @@ let beat ~now s =
   if heartbeats = Nobody then (s, [])
   else
     let s, queried = for_each (fun n s -> if lacks_entities ~now n then query ~now n s else (s, [])) s in
-    let claims = if heartbeats = All && not (Name_set.is_empty s.bound) then claims ~now s else [] in
-    (s, claims @ beaten @ queried)
+    let held = holds ~now s in
+    (* The last one says that nothing is held. *)
+    let is_due = heartbeats = All && not (Name_set.is_empty held && Name_set.is_empty s.claimed) in
+    let claims = if is_due then claims ~now s else [] in
+    ({ s with claimed = held }, claims @ beaten @ queried)
 
 let announce ~now s =
   let presence, is_due = Presence.announce ~now ~awaited:(Systems.exists (is_awaited ~now) s.systems) s.presence in

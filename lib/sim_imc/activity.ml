@@ -10,6 +10,7 @@ type t =
   | Aborted of { by : int; plan : string option }
   | Blocked of { plan : string option }
   | Unblocked
+  | Lost of { request : request }
 
 let text s = `String s
 let maybe key = function Some s -> [ (key, text s) ] | None -> []
@@ -28,6 +29,7 @@ let fields = function
   | Aborted { by; plan } -> "aborted", ("by", `Int by) :: maybe "plan" plan
   | Blocked { plan } -> "blocked", maybe "plan" plan
   | Unblocked -> "unblocked", []
+  | Lost { request } -> "lost", of_request request
 
 let to_json ~time ~vehicle a =
   let did, fields = fields a in

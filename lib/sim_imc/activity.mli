@@ -24,6 +24,7 @@ type t =
   | Aborted of { by : int; plan : string option }
   | Blocked of { plan : string option }  (** It cannot run plans for a while. *)
   | Unblocked
+  | Lost of { request : request }  (** Its plan engine has lost the plan that was requested; the maneuver goes on. *)
 
 val to_json : time:float -> vehicle:string -> t -> Yojson.Safe.t
 (** [to_json ~time ~vehicle a] is an object of [time] (s), [vehicle], and [did], the name of the constructor in small

@@ -12,6 +12,7 @@ type settings = {
   strict : bool;
   refuses : string option;
   blocks : (float * float) list;
+  losses : float list;
 }
 
 type party = { system : int; entity : int }
@@ -32,6 +33,7 @@ type mode =
   | Blocked of { until : float; operation : Message.Vehicle_state.Op_mode.t }
   | Calibrating of { run : run; until : float }
   | Executing of { run : run; since : float; maneuver : Flight.maneuver; ends : float; outcome : (unit, string) result }
+  | Lost of { since : float; maneuver : Flight.maneuver; ends : float }  (* the plan; the maneuver goes on *)
 
 type t = {
   settings : settings;
@@ -42,6 +44,7 @@ type t = {
   last_outcome : Message.Plan_control_state.Last_outcome.t;
   last_error : (string * float) option;
   blocks : (float * float) list;                (* still to come *)
+  losses : float list;                          (* still to come *)
   known : (Specification.t, string) result String_map.t;  (* that came with a START, or why they cannot be flown *)
   stores : int;                                 (* so many came *)
   starts : int;
@@ -59,14 +62,14 @@ let most_known = 256
 
 let create (settings : settings) =
   { settings; body = Vehicle.make settings.vehicle; mode = Ready; loaded = ""; statistics = None;
-    last_outcome = None; last_error = None; blocks = List.sort compare settings.blocks; known = String_map.empty;
-    stores = 0; starts = 0 }
+    last_outcome = None; last_error = None; blocks = List.sort compare settings.blocks;
+    losses = List.sort compare settings.losses; known = String_map.empty; stores = 0; starts = 0 }
 
 (* {1 State} *)
 
 let position ~at e = Vehicle.position e.body ~at
 let battery ~at e = Vehicle.battery e.body ~at
-let is_under_way e = match e.mode with Executing _ -> true | Ready | Blocked _ | Calibrating _ -> false
+let is_under_way e = match e.mode with Executing _ | Lost _ -> true | Ready | Blocked _ | Calibrating _ -> false
 let no_maneuver = 65535
 
 let whole seconds =
@@ -79,7 +82,7 @@ let plan_control_state ~at e : Message.Plan_control_state.t =
   in
   match e.mode with
   | Ready -> idle Ready
-  | Blocked _ -> idle Blocked
+  | Blocked _ | Lost _ -> idle Blocked
   | Calibrating _ -> idle Initializing
   | Executing { run; since; maneuver; ends = _; outcome = _ } ->
     let elapsed = at -. since and total = run.flight.execution.duration in
@@ -106,7 +109,7 @@ let vehicle_state e : Message.Vehicle_state.t =
   | Ready -> at_rest Service
   | Blocked { operation; until = _ } -> at_rest operation
   | Calibrating _ -> at_rest Calibration
-  | Executing { maneuver; since; run = _; ends = _; outcome = _ } ->
+  | Executing { maneuver; since; run = _; ends = _; outcome = _ } | Lost { maneuver; since; ends = _ } ->
     { (at_rest Maneuver) with maneuver_type = maneuver.kind; maneuver_stime = e.settings.epoch +. since }
 
 (* {1 Messages} *)
@@ -148,7 +151,7 @@ let requested (r : run) : Activity.request = { plan = r.plan; number = r.request
 let running e =
   match e.mode with
   | Executing { run; _ } | Calibrating { run; until = _ } -> Some run
-  | Ready | Blocked _ -> None
+  | Ready | Blocked _ | Lost _ -> None
 
 let rest ~at mode e = { e with mode; body = Vehicle.rest e.body ~at }
 
@@ -259,7 +262,7 @@ let start_found ~at ~by ~(request : Activity.request) ~instead ~inline (c : Mess
 let start ~at ~by ~(request : Activity.request) (c : Message.t Message.Plan_control.t) e =
   let name = c.plan_id in
   match e.mode with
-  | Blocked _ ->
+  | Blocked _ | Lost _ ->
     let why = "vehicle is blocked" in
     [ reply e ~by ~op:Start ~request:c.request_id ~plan:name Failure why ],
     [ Activity.Refused { request; why; instead = None } ], e
@@ -319,7 +322,7 @@ let abort ~at ~by ~name e =
   let mode =
     match e.mode with
     | Blocked b when b.until > at +. recovery -> Blocked b
-    | Ready | Blocked _ | Calibrating _ | Executing _ -> Blocked { until = at +. recovery; operation = Error }
+    | Ready | Blocked _ | Calibrating _ | Executing _ | Lost _ -> Blocked { until = at +. recovery; operation = Error }
   in
   let said, run, after = give_up ~at ~why mode e in
   let aborted = Activity.Aborted { by = by.system; plan = Option.map (fun (r : run) -> r.plan) run } in
@@ -329,16 +332,18 @@ let abort ~at ~by ~name e =
 
 let block_due e = match e.blocks with (from, _) :: _ -> from | [] -> infinity
 
+let loss_due e = match e.losses with at :: _ -> at | [] -> infinity
+
 let mode_due e =
   match e.mode with
   | Ready -> infinity
   | Blocked { until; _ } | Calibrating { until; _ } -> until
   | Executing { run; since; maneuver; ends; _ } when not (Flight.is_last run.flight maneuver) ->
     Float.min (since +. maneuver.ends) ends
-  | Executing { ends; _ } -> ends
+  | Executing { ends; _ } | Lost { ends; _ } -> ends
 
 let due e =
-  let time = Float.min (block_due e) (mode_due e) in
+  let time = Float.min (loss_due e) (Float.min (block_due e) (mode_due e)) in
   if time = infinity then None else Some time
 
 let block ~at e =
@@ -348,6 +353,16 @@ let block ~at e =
     let why = "vehicle is under external control" in
     let said, run, e = give_up ~at ~why (Blocked { until = from +. lasts; operation = External }) { e with blocks } in
     said, [ Activity.Blocked { plan = Option.map (fun (r : run) -> r.plan) run } ], e
+
+(* After a stall the plan engine does not know its plan any more. *)
+let lose_plan ~at e =
+  let e = { e with losses = (match e.losses with _ :: later -> later | [] -> []) } in
+  match e.mode with
+  | Executing { run; since; maneuver; ends; outcome = _ } ->
+    let ends = Float.min ends (since +. maneuver.ends) in
+    let e = { e with mode = Lost { since; maneuver; ends }; last_outcome = Failure } in
+    [ say_control ~at e; say_vehicle e ], [ Activity.Lost { request = requested run } ], e
+  | Ready | Blocked _ | Calibrating _ | Lost _ -> [], [], e
 
 let ended ~at (run : run) outcome e =
   match outcome with
@@ -364,8 +379,8 @@ let ended ~at (run : run) outcome e =
 let mode_changes ~at e =
   match e.mode with
   | Ready -> [], [], e
-  | Blocked _ ->
-    let e = { e with mode = Ready } in
+  | Blocked _ | Lost _ ->
+    let e = { (rest ~at Ready e) with mode = Ready } in
     [ say_vehicle e; log ~at e Log_book.ready; say_control ~at e ], [ Activity.Unblocked ], e
   | Calibrating { run; until = _ } -> take_off ~at run e
   | Executing x when x.ends <= at -> ended ~at x.run x.outcome e
@@ -380,7 +395,9 @@ let rec advance ~at e =
   | None -> [], [], e
   | Some time when time > at -> [], [], e
   | Some time ->
-    let change = if block_due e <= mode_due e then block else mode_changes in
+    let change =
+      if loss_due e <= time then lose_plan else if block_due e <= mode_due e then block else mode_changes
+    in
     let said, activities, e = with_mode ~at:time e (change ~at:time e) in
     let more_said, more_activities, e = advance ~at e in
     said @ more_said, activities @ more_activities, e

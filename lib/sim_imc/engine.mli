@@ -14,6 +14,8 @@
     - STOP: a SUCCESS reply, READY, outcome FAILURE; without a plan a FAILURE reply.
     - Abort: a FAILURE reply to the START of the plan that was running, VehicleState ERROR, BLOCKED; after 0.9 s SERVICE
       and READY.
+    - An engine that has stalled loses its plan: BLOCKED, and STOP is answered by FAILURE ["no plan is running, request
+      ignored"], while VehicleState stays MANEUVER and the vehicle goes on to the end of its maneuver. Abort ends that.
     - The last outcome stays until the next. The statistics in a reply are those of the last plan that was loaded.
     - A START of the plan [dislodge] is ignored.
 
@@ -35,6 +37,7 @@ type settings = {
   strict : bool;  (** whether plans that the scenario does not have are unknown *)
   refuses : string option;  (** why it refuses every START, if it does *)
   blocks : (float * float) list;  (** since when and for how long it is under external control and BLOCKED *)
+  losses : float list;  (** when its plan engine loses the plan that it runs *)
 }
 
 type t

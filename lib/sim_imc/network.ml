@@ -10,6 +10,7 @@ type settings = {
   strict : bool;
   refuses : (string * string) list;
   blocks : (string * (float * float)) list;
+  stalls : (string * (float * float)) list;
   vanishes : (string * (float * float)) list;
   announce_period : float;
   contact_period : float;
@@ -21,7 +22,8 @@ type settings = {
 }
 
 let default scenario =
-  { scenario; seed = 0; speed = 1.; faults = Faults.none; strict = false; refuses = []; blocks = []; vanishes = [];
+  { scenario; seed = 0; speed = 1.; faults = Faults.none; strict = false; refuses = []; blocks = []; stalls = [];
+    vanishes = [];
     announce_period = 10.; contact_period = 5.; first_id = 0x3001; first_port = 6002;
     discovery_ports = 30100, 30104; address = None; flood = 0. }
 
@@ -128,12 +130,13 @@ let radio n ~epoch (c : craft) =
   let address host : Address.t = { host; port = c.socket.port } in
   let others = match s.address with Some host -> [ address host ] | None -> [] in
   let own (name, x) = if name = c.vehicle.id then Some x else None in
-  let drops = List.map (fun (from, lasts) -> { Scenario.from; lasts }) (List.filter_map own s.vanishes) in
+  let drops = List.map (fun (from, lasts) -> { Scenario.from; lasts }) (List.filter_map own (s.vanishes @ s.stalls)) in
   let vehicle = { c.vehicle with drops = c.vehicle.drops @ drops } in
   Radio.create ~faults:s.faults ~seed:s.seed
     { engine =
         { vehicle; plans = s.scenario.plans; samples = s.scenario.samples; seed = s.seed; epoch; strict = s.strict;
-          refuses = List.assoc_opt c.vehicle.id s.refuses; blocks = List.filter_map own s.blocks };
+          refuses = List.assoc_opt c.vehicle.id s.refuses; blocks = List.filter_map own s.blocks;
+          losses = List.map (fun (from, lasts) -> from +. lasts) (List.filter_map own s.stalls) };
       id = c.id; addresses = address loopback :: others; speed = s.speed; announce_period = s.announce_period;
       contact_period = s.contact_period }
 

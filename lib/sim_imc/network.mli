@@ -14,6 +14,8 @@ type settings = {
   refuses : (string * string) list;  (** vehicles and why they refuse every START *)
   blocks : (string * (float * float)) list;
   (** vehicles, since when and for how long they are BLOCKED, by the clock of the mission *)
+  stalls : (string * (float * float)) list;
+  (** vehicles, since when and for how long they stall: nothing is heard of them, and then their plan is lost *)
   vanishes : (string * (float * float)) list;
   (** vehicles, since when and for how long nothing is heard of them, nor by them; perhaps for ever: [infinity] *)
   announce_period : float;

@@ -78,7 +78,7 @@ let vehicle = "lauv-noptilus-1"
 
 let settings : Station.settings =
   { id = 0x4ABC; name = "ccu-dolphin"; program = ""; addresses = [ { host = loopback; port = 6001 } ]; epoch = 1.79e9;
-    first_request = 101; payload = []; types = []; type_names = []; records = true }
+    first_request = 101; payload = []; types = []; type_names = []; records = true; abort_after = None }
 
 let hear ~now bytes s = fst (Station.datagram ~now ~from:loopback bytes s)
 

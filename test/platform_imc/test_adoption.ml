@@ -12,7 +12,7 @@ let ready = says Ready and executing = says Executing
 (* A vehicle that says [first] and later [rest], half a second apart, to a console that has nothing yet but notes. *)
 let outputs ?(stopped = false) notes first rest =
   let time = ref 0. and clock = ref Vehicle_clock.unknown in
-  let x = ref (Execution.create ~request:500) in
+  let x = ref (Execution.create ~request:500 ()) in
   let input i =
     let y, outputs = Execution.step ~now:!time ~clock:!clock i !x in
     x := y;

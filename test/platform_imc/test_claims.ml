@@ -9,7 +9,7 @@ let theirs = 0x4002
 
 let settings id name program port : Station.settings =
   { id; name; program; addresses = [ { host = loopback; port } ]; epoch = 0.; first_request = 0; payload = [];
-    types = []; type_names = []; records = false }
+    types = []; type_names = []; records = false; abort_after = None }
 
 let hear_bytes ~now bytes s = Station.datagram ~now ~from:loopback bytes s
 

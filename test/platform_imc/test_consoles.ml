@@ -19,7 +19,7 @@ let close_patience = 5.
 let instant = 0.01
 
 let console ~random ~quality ~first_request ~waits plans =
-  { first_request; execution = Execution.create ~request:first_request; clock = Vehicle_clock.unknown; plans; waits;
+  { first_request; execution = Execution.create ~request:first_request (); clock = Vehicle_clock.unknown; plans; waits;
     is_ready = false; phase = `Waits; failure = None; out = Network.create random quality;
     back = Network.create random quality }
 

@@ -33,6 +33,9 @@ type world = {
   mutable verdicts : verdict list;
   mutable notes : string list;
   mutable told : string list;  (* all notes *)
+  mutable aborts : int;
+  mutable escaped : float;  (* how long the vehicle moved while nothing was ordered, at most, in a row *)
+  mutable at_large : float;  (* how long it has, now *)
   mutable copies : (int * int) list;  (* of each request for this order, how many were sent *)
   vehicle : Vehicle_model.t;
   out : (int * Message.t Message.Plan_control.t) Network.t;
@@ -52,6 +55,10 @@ let carry_out w : Execution.output -> unit = function
     w.copies <- (c.request_id, sent) :: List.remove_assoc c.request_id w.copies;
     Network.send ~now:w.now (sent, c) w.out
   | Keep _ -> ()
+  | Send Abort ->
+    w.aborts <- w.aborts + 1;
+    let stamp i = w.now +. (1e-5 *. float_of_int i) in
+    List.iteri (fun i m -> Network.send ~now:w.now (stamp i, m) w.back) (Vehicle_model.abort w.vehicle)
   | Send _ -> failwith "sent something else"
 
 let input w i =
@@ -83,7 +90,10 @@ let advance (s : script) w =
   in
   say s w (answered @ Vehicle_model.tick ~now:w.now w.vehicle);
   List.iter (hear w) (Network.arrived ~now:w.now w.back);
-  if Execution.due w.execution <= w.now then input w Tick
+  if Execution.due w.execution <= w.now then input w Tick;
+  let is_at_large = Vehicle_model.maneuvers w.vehicle && Execution.idle w.execution in
+  w.at_large <- (if is_at_large then w.at_large +. instant else 0.);
+  w.escaped <- Float.max w.escaped w.at_large
 
 let patience = 120.
 
@@ -110,11 +120,12 @@ let run_order (s : script) w (o : order) =
     meanwhile = List.filteri (fun i _ -> i < List.length all - ended_before) all;
     notes = w.notes }
 
-let world (s : script) =
+let world ?abort_after (s : script) =
   let random = Random.State.make [| s.seed |] in
   let fate plan = List.assoc plan s.fates in
-  { now = 0.; execution = Execution.create ~request:65530;
+  { now = 0.; execution = Execution.create ?abort_after ~request:65530 ();
     clock = Vehicle_clock.unknown; verdicts = []; notes = []; told = [];
+    aborts = 0; escaped = 0.; at_large = 0.;
     copies = []; vehicle = Vehicle_model.create ~fate ~before:s.before; out = Network.create random s.outward;
     back = Network.create random s.inward }
 
@@ -123,8 +134,8 @@ let pass (s : script) w seconds =
   while w.now < until do advance s w done
 
 (* The orders one after another, and then some quiet time. *)
-let play (s : script) =
-  let w = world s in
+let play ?abort_after (s : script) =
+  let w = world ?abort_after s in
   pass s w 2.;
   let logs = List.map (run_order s w) s.orders in
   pass s w 15.;
@@ -172,6 +183,7 @@ let print (s : script) =
     | Succeeds t -> Printf.sprintf "succeeds after %.2f" t
     | Fails t -> Printf.sprintf "fails after %.2f" t
     | Is_refused why -> "refused: " ^ why
+    | Is_lost (t, lasts) -> Printf.sprintf "is lost after %.2f for %.2f" t lasts
   in
   let order o =
     match o.stop_after with None -> o.plan | Some t -> Printf.sprintf "%s, stopped after %.2f" o.plan t
@@ -221,6 +233,7 @@ let verdict_is_fate (s : script) (l : log) =
   | Failed why, Fails _ -> why = "depth beyond limits" || complain "failed: %s" why
   | Failed why, Is_refused words -> why = words || complain "refused: %s" why
   | Failed why, Succeeds _ -> complain "%s failed: %s" l.script_order.plan why
+  | Failed why, Is_lost _ -> why = "the vehicle is blocked: it cannot run plans now" || complain "lost: %s" why
   | (Done | Nothing), _ -> complain "another verdict"
 
 let different_copies (l : log) =
@@ -255,6 +268,24 @@ let property name ?(count = 300) ~outward ~inward ?(fates = true) check =
       let logs, w = play s in
       check s logs w)
 
+(* {1 Plans that get lost} *)
+
+let any_script = generate ~outward:reordering ~inward:reordering ~fates:true
+
+let lossy_script =
+  let open QCheck2.Gen in
+  let* s = any_script in
+  let* after = float_range 0.5 5. and* lasts = oneof [ float_range 0.5 30.; float_range 60. 90. ] in
+  return { s with fates = ("a", Vehicle_model.Is_lost (after, lasts)) :: List.remove_assoc "a" s.fates; clock = (0., 1.) }
+
+(* A second of rest is allowed to VehicleState, and what a datagram takes. *)
+let is_never_at_large (w : world) = w.escaped <= 2. || complain "it moved for %.2f s while nothing was ordered" w.escaped
+
+let lost_plan name ?abort_after check =
+  Test_support.Property.case ~count:(300 * longer) name ~print lossy_script (fun s ->
+      let logs, w = play ?abort_after s in
+      is_never_at_large w && check s logs w)
+
 let each_copy_is_told =
   Alcotest.test_case "three copies of a request" `Quick (fun () ->
       let perfect = { Network.loss = 0.; duplication = 0.; delay = 0. } in
@@ -279,6 +310,10 @@ let each_copy_is_told =
 let tests =
   ( "execution",
     [ each_copy_is_told;
+      lost_plan "a plan engine loses its plan: the vehicle is not idle while it maneuvers" (fun _ _ w ->
+          w.aborts = 0 || complain "it was aborted");
+      lost_plan "a plan engine loses its plan: the vehicle is aborted if that is wanted" ~abort_after:3. (fun _ _ w ->
+          (not (Vehicle_model.maneuvers w.vehicle)) || complain "it goes on");
       property "a perfect network: the vehicle's own verdict, each plan once" ~outward:perfect ~inward:perfect
         (fun s logs w ->
            List.for_all (fun l -> verdict_is_fate s l && is_sound l && ran_once_or_says_so l && l.notes = []) logs

@@ -11,7 +11,7 @@ let station () =
   Station.create
     { id = console; name = "ccu-dolphin-5a0e"; program = "rendezvous.dol";
       addresses = [ { host = loopback; port = 34433 } ]; epoch = 1.795e9; first_request; payload = []; types = [];
-      type_names = []; records = false }
+      type_names = []; records = false; abort_after = None }
 
 type run = { station : Station.t; told : string list }  (* latest first *)
 

@@ -6,7 +6,7 @@ let elsewhere = Unix.inet_addr_of_string "203.0.113.9"
 
 let settings : Station.settings =
   { id = Recording.console; name = "ccu-test"; program = ""; addresses = [ { host = loopback; port = 6001 } ]; epoch = 1.79e9;
-    first_request = 0; payload = []; types = []; type_names = []; records = false }
+    first_request = 0; payload = []; types = []; type_names = []; records = false; abort_after = None }
 
 let station () = Station.create settings
 

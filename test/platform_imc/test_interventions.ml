@@ -9,7 +9,7 @@ let loopback = Unix.inet_addr_loopback
 
 let settings : Station.settings =
   { id = own; name = "ccu-test"; program = ""; addresses = [ { host = loopback; port = 6001 } ]; epoch = 0.; first_request = 0;
-    payload = []; types = []; type_names = []; records = false }
+    payload = []; types = []; type_names = []; records = false; abort_after = None }
 
 let announce name sys_type port =
   Message.Announce

@@ -11,7 +11,8 @@ let first_request request = (request - (0x1A * 257)) land 0xFFFF
 let station ~request =
   Station.create
     { id = Recording.console; name = "ccu-test"; program = ""; addresses = [ { host = loopback; port = 6001 } ]; epoch = 1.79e9;
-      first_request = first_request request; payload = []; types = []; type_names = []; records = false }
+      first_request = first_request request; payload = []; types = []; type_names = []; records = false;
+      abort_after = None }
 
 type run = { station : Station.t; events : (float * Platform.event) list; sent : (float * Message.t) list }
 

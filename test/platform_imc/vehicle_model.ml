@@ -2,20 +2,21 @@ open Dolphin_imc
 module Control = Message.Plan_control
 module Control_state = Message.Plan_control_state
 
-type fate = Succeeds of float | Fails of float | Is_refused of string
+type fate = Succeeds of float | Fails of float | Is_refused of string | Is_lost of float * float
 type execution = { plan : string; request : int; copy : int; mutable succeeded : bool }
 
 type t = {
   fate : string -> fate;
   mutable state : Control_state.t;
-  mutable running : (execution * float * bool) option;  (* until when, and whether it will succeed *)
+  mutable running : (execution * float * fate) option;  (* until when *)
+  mutable lost_until : float;  (* it maneuvers on without a plan *)
   mutable executions : execution list;
   mutable next_state : float;
   mutable next_mode : float;
 }
 
 let create ~fate ~before =
-  { fate; state = before; running = None; executions = []; next_state = 0.; next_mode = 0. }
+  { fate; state = before; running = None; lost_until = neg_infinity; executions = []; next_state = 0.; next_mode = 0. }
 
 let state v = v.state
 let executions v = v.executions
@@ -26,7 +27,10 @@ let reply (request : Message.t Control.t) type_ info =
 
 let mode v =
   let op_mode : Message.Vehicle_state.Op_mode.t =
-    match v.state.state with Executing -> Maneuver | Blocked -> Error | Ready | Initializing | Other _ -> Service
+    match v.state.state with
+    | Executing -> Maneuver
+    | Blocked -> if v.lost_until > neg_infinity then Maneuver else Error
+    | Ready | Initializing | Other _ -> Service
   in
   Message.Vehicle_state { Message.Vehicle_state.default with op_mode }
 
@@ -37,6 +41,7 @@ let set v state = v.state <- state; said v
 
 let request ~now ~copy (r : Message.t Control.t) v =
   match r.op with
+  | Start when v.lost_until > neg_infinity -> [ reply r Failure "vehicle is blocked" ]
   | Start -> (
       v.running <- None;
       let request = log (Printf.sprintf "request -- Start Plan (%s)" r.plan_id) in
@@ -48,11 +53,10 @@ let request ~now ~copy (r : Message.t Control.t) v =
         let refused = reply r Failure why in
         let ready = set v { v.state with state = Ready; last_outcome = Failure } in
         [ request; initialising; begins; refused; answer why; ready ]
-      | (Succeeds after | Fails after) as fate ->
+      | (Succeeds after | Fails after | Is_lost (after, _)) as fate ->
         let e = { plan = r.plan_id; request = r.request_id; copy; succeeded = false } in
         v.executions <- e :: v.executions;
-        let succeeds = match fate with Succeeds _ -> true | Fails _ | Is_refused _ -> false in
-        v.running <- Some (e, now +. after, succeeds);
+        v.running <- Some (e, now +. after, fate);
         let loaded = reply r Success "plan loaded" in
         let executing = set v { v.state with state = Executing; plan_id = r.plan_id } in
         let words = "1: executing maneuver" in
@@ -68,7 +72,12 @@ let request ~now ~copy (r : Message.t Control.t) v =
 
 let finish ~now v =
   match v.running with
-  | Some (e, until, succeeds) when now >= until ->
+  | Some (_, until, Is_lost (_, lasts)) when now >= until ->
+    v.running <- None;
+    v.lost_until <- until +. lasts;
+    [ set v { v.state with state = Blocked; last_outcome = Failure }; mode v ]
+  | Some (e, until, fate) when now >= until ->
+    let succeeds = match fate with Succeeds _ -> true | Fails _ | Is_refused _ | Is_lost _ -> false in
     v.running <- None;
     e.succeeded <- succeeds;
     let request = { Control.default with op = Start; request_id = e.request; plan_id = e.plan } in
@@ -76,7 +85,19 @@ let finish ~now v =
       if succeeds then reply request Success "plan completed" else reply request Failure "depth beyond limits"
     in
     [ verdict; set v { v.state with state = Ready; last_outcome = (if succeeds then Success else Failure) }; mode v ]
+  | None when v.lost_until > neg_infinity && now >= v.lost_until ->
+    v.lost_until <- neg_infinity;
+    [ mode { v with state = { v.state with state = Ready } }; set v { v.state with state = Ready } ]
   | Some _ | None -> []
+
+let abort v =
+  v.running <- None;
+  v.lost_until <- neg_infinity;
+  let blocked = set v { v.state with state = Blocked; last_outcome = Failure } in
+  let error = mode v in
+  [ error; blocked; set v { v.state with state = Ready }; mode v ]
+
+let maneuvers v = v.running <> None || v.lost_until > neg_infinity
 
 let tick ~now v =
   let finished = finish ~now v in

@@ -19,10 +19,11 @@ let scenario source =
   | Ok s -> s
   | Error faults -> Alcotest.failf "%a" (Fmt.list (Dolphin_syntax.Diagnostic.pp ~source)) faults
 
-let settings ?(speed = 1.) ?(contact_period = 0.) ?(strict = false) ?refuses ?(blocks = []) ?(seed = 0) source :
+let settings ?(speed = 1.) ?(contact_period = 0.) ?(strict = false) ?refuses ?(blocks = []) ?(losses = [])
+    ?(seed = 0) source :
   Vehicle_node.settings =
   let { Dolphin_scenario.Scenario.vehicles; plans; _ } = scenario source in
-  { engine = { vehicle = List.hd vehicles; plans; samples = []; seed; epoch; strict; refuses; blocks };
+  { engine = { vehicle = List.hd vehicles; plans; samples = []; seed; epoch; strict; refuses; blocks; losses };
     id = vehicle; addresses = [ { host = "127.0.0.1"; port = 6002 } ]; speed; announce_period = 10.; contact_period }
 
 let make settings = { node = Vehicle_node.create settings; now = 0.; heard = []; activities = [] }

@@ -17,6 +17,7 @@ val settings :
   ?strict:bool ->
   ?refuses:string ->
   ?blocks:(float * float) list ->
+  ?losses:float list ->
   ?seed:int ->
   string ->
   Vehicle_node.settings

@@ -178,10 +178,11 @@ let rec is_well_formed running : Activity.t list -> bool = function
   | (Completed { plan; _ } | Failed { request = { plan; _ }; _ }) :: rest ->
     running = Some plan && is_well_formed None rest
   | (Stopped { plan; _ } | Aborted { plan; _ } | Blocked { plan }) :: rest -> plan = running && is_well_formed None rest
+  | Lost { request = { plan; _ } } :: rest -> running = Some plan && is_well_formed None rest
   | (Ignored _ | Unblocked) :: rest -> is_well_formed running rest
 
 let any_requests (speed, actions) =
-  let s = Harness.make (Harness.settings ~speed ~blocks:[ 30., 10.; 200., 5. ] fleet) in
+  let s = Harness.make (Harness.settings ~speed ~blocks:[ 30., 10.; 200., 5. ] ~losses:[ 20.; 90.; 205. ] fleet) in
   Harness.join s;
   List.iteri (act s) actions;
   is_well_formed None (Harness.activities s)

@@ -4,8 +4,8 @@ open Dolphin_sim_imc
 let case name run = Alcotest.test_case name `Quick run
 let vehicle = "vehicle 'a', { type 'UUV'; at 41.1850, -8.7060; speed 2 }\n"
 
-let scene ?speed ?strict ?refuses ?blocks plans =
-  let s = Harness.make (Harness.settings ?speed ?strict ?refuses ?blocks (vehicle ^ plans)) in
+let scene ?speed ?strict ?refuses ?blocks ?losses plans =
+  let s = Harness.make (Harness.settings ?speed ?strict ?refuses ?blocks ?losses (vehicle ^ plans)) in
   Harness.join s;
   Harness.until s 0.;
   Harness.forget s;
@@ -138,6 +138,26 @@ let blocked () =
     (from_block (Harness.summary s));
   Alcotest.(check (list string)) "activities" [ "started"; "blocked"; "refused"; "unblocked" ] (did s)
 
+let lost () =
+  let s = scene ~losses:[ 5. ] "plan 'p', { duration 60 }" in
+  Harness.start s 7 "p";
+  Harness.until s 4.;
+  Harness.forget s;
+  Harness.until s 6.;
+  Harness.stop s 8;
+  Harness.start s 9 "p";
+  Harness.until s 7.;
+  Harness.send s Abort;
+  Harness.until s 9.;
+  let from_loss =
+    List.filter (fun line -> line <> "vehicle MANEUVER" && line <> "state EXECUTING 'p' 1 NONE") (Harness.summary s)
+  in
+  summary
+    [ "state BLOCKED 'p' - FAILURE"; "reply FAILURE STOP 8 '' no plan is running, request ignored";
+      "reply FAILURE START 9 'p' vehicle is blocked"; "vehicle ERROR"; "vehicle SERVICE"; "state READY 'p' - FAILURE" ]
+    from_loss;
+  Alcotest.(check (list string)) "activities" [ "lost"; "stopped"; "refused"; "aborted"; "unblocked" ] (did s)
+
 let aborted_at_rest () =
   let s = scene "" in
   Harness.send s Abort;
@@ -218,6 +238,7 @@ let tests =
     case "cannot stop what is not running" stops;
     case "calibrates first" calibrates;
     case "is blocked for a while" blocked;
+    case "loses its plan and goes on" lost;
     case "is aborted at rest" aborted_at_rest;
     case "flies the maneuvers of an inline plan" inline;
     case "flies one maneuver" one_maneuver;

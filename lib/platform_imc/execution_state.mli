@@ -91,8 +91,8 @@ val succeed : now:float -> ended:float -> Attempt.t -> t -> t * output list
 (** {2 What VehicleState shows} *)
 
 val maneuvers : since:float -> t -> bool
-(** [maneuvers ~since x]: the latest VehicleState was sent after [since] and says that the vehicle maneuvers, or is about
-    to. *)
+(** [maneuvers ~since x]: the latest VehicleState was sent after [since] and says that the vehicle maneuvers, or is
+    about to. *)
 
 val rests : since:float -> t -> bool
 (** [rests ~since x]: the latest VehicleState was sent at [since] or later and says that no maneuver runs. *)

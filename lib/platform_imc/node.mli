@@ -84,11 +84,11 @@ val silent : now:float -> timeout:float -> t -> bool
 val state :
   now:float -> timeout:float -> kind:string -> payload:string list option -> held:string option -> bound:bool -> t ->
   World.vehicle_state
-(** [state ~now ~timeout ~kind ~payload ~held ~bound n] is [n] for programs, as a vehicle of type [kind]. It is connected if it
-    is a vehicle and not silent, and ready if it has a plan of ours or {!Readiness} says so, {!rest} is over, and no
-    other console holds it ([held]: which one). Unless it is [bound], it
-    must be heard to have stopped a plan of ours. It carries [payload], or else the entities of its list. Until it says
-    otherwise its battery is unknown, and it is where it announced to be. *)
+(** [state ~now ~timeout ~kind ~payload ~held ~bound n] is [n] for programs, as a vehicle of type [kind]. It is
+    connected if it is a vehicle and not silent, and ready if it has a plan of ours or {!Readiness} says so, {!rest}
+    is over, and no other console holds it ([held]: which one). Unless it is [bound], it must be heard to have
+    stopped a plan of ours. It carries [payload], or else the entities of its list. Until it says otherwise its
+    battery is unknown, and it is where it announced to be. *)
 
 val mode : names:(int * string) list -> t -> string
 (** ["SERVICE"], ["MANEUVER"] ..., by [names] first; ["-"] if not known. *)

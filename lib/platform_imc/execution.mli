@@ -24,8 +24,8 @@
     - A request is {e sent again} only after a look: no reply came within {!patience}, and a state that the vehicle sent
       so long after the request shows that it was without effect. After {!most_copies} the plan has failed.
     - A stop is sent again every {!stop_interval} until it is {e confirmed}: a reply, READY or BLOCKED shows that the
-      plan engine does not run the plan, and a VehicleState sent later that no maneuver runs. Measured: after a stall the
-      engine has lost the plan, is BLOCKED and answers ["no plan is running"], while VehicleState stays MANEUVER and the
+      plan engine does not run the plan, and a VehicleState sent later that no maneuver runs. Measured: after a stall
+      the engine has lost the plan, is BLOCKED, answers ["no plan is running"], while VehicleState stays MANEUVER and the
       vehicle goes on. Another plan in EXECUTING confirms it too, and of a vehicle that never sends VehicleState READY
       does. If it is not known whether the vehicle took the plan, all this counts one {!patience} after the request,
       which may have been overtaken. Only then is the next start sent.

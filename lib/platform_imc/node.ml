@@ -184,9 +184,17 @@ let hear_message ~now ~own (p : Packet.t) n =
       | None -> (n, []))
   | Unknown _ -> (n, [])
 
+(* Told once: it may come with each datagram. *)
+let remark_on_stamp (p : Packet.t) before n : Execution.output list =
+  if Vehicle_clock.strays before.clock = 0 && Vehicle_clock.strays n.clock > 0 then
+    [ Remark
+        (Printf.sprintf "a datagram has the time stamp %.12g, which is far from the vehicle's clock: it is not used"
+           p.timestamp) ]
+  else []
+
 let hear ~now ~own p n =
   let heard, outputs = hear_message ~now ~own p n in
-  (freed ~now n heard, outputs)
+  (freed ~now n heard, remark_on_stamp p n heard @ outputs)
 
 let queried n = { n with queries = n.queries + 1 }
 

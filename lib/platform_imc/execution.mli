@@ -25,10 +25,10 @@
       so long after the request shows that it was without effect. After {!most_copies} the plan has failed.
     - A stop is sent again every {!stop_interval} until it is {e confirmed}: a reply, READY or BLOCKED shows that the
       plan engine does not run the plan, and a VehicleState sent later that no maneuver runs. Measured: after a stall
-      the engine has lost the plan, is BLOCKED, answers ["no plan is running"], while VehicleState stays MANEUVER and the
-      vehicle goes on. Another plan in EXECUTING confirms it too, and of a vehicle that never sends VehicleState READY
-      does. If it is not known whether the vehicle took the plan, all this counts one {!patience} after the request,
-      which may have been overtaken. Only then is the next start sent.
+      the engine has lost the plan, is BLOCKED, answers ["no plan is running"], while VehicleState stays MANEUVER and
+      the vehicle goes on. Another plan in EXECUTING confirms it too, and of a vehicle that never sends VehicleState
+      READY does. If it is not known whether the vehicle took the plan, all this counts one {!patience} after the
+      request, which may have been overtaken. Only then is the next start sent.
     - While the vehicle reports MANEUVER a stop is never given up: {!warning} after the first one people are told, after
       [abort_after] ({!create}) it is told to abort, and after {!stop_patience} the next order fails. If nothing is
       heard for {!stop_patience}, the stop is given up.

@@ -55,7 +55,10 @@ let doubt ~now ~sent c =
     | Some _ | None -> 1
   in
   if count >= persistence then take ~now ~sent { c with correction = expected ~now c -. sent }
-  else ({ c with stray = Some { stamp = sent; at = now; count }; strays = c.strays + 1 }, c.latest)
+  else
+    let is_stray = Float.abs (sent +. c.correction -. expected ~now c) > farthest in
+    let strays = if is_stray then c.strays + 1 else c.strays in
+    ({ c with stray = Some { stamp = sent; at = now; count }; strays }, c.latest)
 
 let observe ~now ~sent c =
   let ahead = sent +. c.correction -. expected ~now c in

@@ -9,15 +9,16 @@ val unknown : t
 (** Nothing came of the vehicle so far. *)
 
 val observe : now:float -> sent:float -> t -> t * float
-(** [observe ~now ~sent c] is what is known after a datagram that is stamped [sent] came at our time [now] (s), and the
-    stamp as the clock would have made it had it never been set back: of two datagrams the one with the greater stamp
-    was sent later. A stamp more than {!tolerance} older than the latest is taken for that of a clock which was set
-    back; an older one within the tolerance for that of a datagram which was overtaken. A stamp that is not a number
-    up to {!greatest}, or more than {!farthest} behind or {!leap} ahead of what the clock should show by now, is not
-    taken: its datagram counts as sent with the latest. But if {!persistence} such stamps in a row fit one clock, the vehicle's was set. *)
+(** [observe ~now ~sent c] is what is known after a datagram that is stamped [sent] came at our time [now] (s), and
+    the stamp as the clock would have made it had it never been set back: of two datagrams the one with the greater
+    stamp was sent later. A stamp more than {!tolerance} older than the latest is taken for that of a clock which was
+    set back; an older one within the tolerance for that of a datagram which was overtaken. A stamp that is not a
+    number up to {!greatest}, or more than {!farthest} behind or {!leap} ahead of what the clock should show by now,
+    is not taken: its datagram counts as sent with the latest. But if {!persistence} such stamps in a row fit one
+    clock, the vehicle's was set. *)
 
 val strays : t -> int
-(** How many stamps were not taken. *)
+(** How many stamps were not taken that are more than {!farthest} away, or not numbers up to {!greatest}. *)
 
 val latest : t -> float
 (** The greatest stamp so far; [neg_infinity] before the first. *)

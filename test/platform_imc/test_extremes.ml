@@ -149,7 +149,8 @@ let fields =
           incr tried;
           check (Printf.sprintf "%s.%s = %S" definition.name name pattern) [ seal (Bytes.to_string b) ]
         in
-        List.iter (fun ((_, _, scalar) as field) -> List.iter (put field) (patterns scalar)) (numbers definition payload)
+        let put_all ((_, _, scalar) as field) = List.iter (put field) (patterns scalar) in
+        List.iter put_all (numbers definition payload)
       in
       List.iter vary said;
       Alcotest.(check bool) "many were tried" true (!tried > 300))

@@ -116,12 +116,16 @@ let measurements =
         | Ok bytes -> hear bytes s
         | Error _ -> Alcotest.fail "no packet"
       in
+      let stamp (l : Recording.line) =
+        match Packet.decode l.bytes with Ok p when p.src = 0x1A -> p.timestamp | Ok _ | Error _ -> 0.
+      in
+      let base = 0.1 +. List.fold_left (fun t l -> Float.max t (stamp l)) 0. (Lazy.force inward) in
       let moving = { Message.Estimated_state.default with lat = 0.7; vx = 3.; vy = 4.; vz = 5. } in
       let told : (float * Message.t) list =
-        [ (3e9, Temperature { value = 14.5 }); (3e9 +. 1., Salinity { value = 35. });
-          (3e9 +. 2., Estimated_state moving);
-          (3e9 +. 3., Temperature { value = 13.5 }); (3e9 +. 4., Temperature { value = nan });
-          (3e9 +. 2.5, Salinity { value = 34. }); (3e9 +. 2.2, Salinity { value = 33. }) ]
+        [ (base, Temperature { value = 14.5 }); (base +. 1., Salinity { value = 35. });
+          (base +. 2., Estimated_state moving);
+          (base +. 3., Temperature { value = 13.5 }); (base +. 4., Temperature { value = nan });
+          (base +. 2.5, Salinity { value = 34. }); (base +. 2.2, Salinity { value = 33. }) ]
       in
       let s = List.fold_left tell (Lazy.force informed) told in
       match Station.systems ~now:100. s with

@@ -30,7 +30,9 @@ let number (value : value) =
 
 let time (value : value) =
   match value.it with
-  | Number (n, (None | Some Time)) when n >= 0. -> Ok n
+  | Number (n, (None | Some Time)) when Dolphin_semantics.Time.is_one n -> Ok n
+  | Number (n, (None | Some Time)) when n >= 0. ->
+    error value.at "a time is less than %g seconds, not %g" Dolphin_semantics.Time.longest n
   | Number (n, (None | Some Time)) -> error value.at "a time is at least 0 seconds, not %g" n
   | Number (_, Some (Length | Speed | Angle | Share)) | Text _ | Position _ | Unknown ->
     expected "a time, as in 30.seconds" value

@@ -892,3 +892,29 @@ A list in a program may be as long as the program: the machine stops in the mids
   assertions: holds
   vehicles for all tasks: holds
   27 states, 26 transitions, depth 26
+
+Values that hold their parts many times over are compared part by part once:
+
+  $ cat > shared.dol << 'END'
+  > xs = [1]
+  > for (i in 1..60) { xs = [xs, xs] }
+  > t = task('p')
+  > for (i in 1..60) { t = t >> t }
+  > m = [a: 1]
+  > for (i in 1..60) { m = [a: m, b: m] }
+  > c = [t, m]
+  > for (i in 1..60) { c = [c, c] }
+  > execute action { xs = [xs, xs, c] } >> action { xs = [xs, xs] }
+  > message xs
+  > END
+  $ dolphin explore shared.dol --timeout 10 | grep -e deadlock -e error:
+  no deadlock: holds
+  no unhandled error: violated after 4 steps: an error that nobody handles ends the program
+  no unhandled error: a shortest run in which an error that nobody handles ends the program
+  $ dolphin explore shared.dol --timeout 10 --reduction none --invariant 'xs == xs' | grep -e deadlock -e error: -e invariant
+  no deadlock: holds
+  no unhandled error: violated after 4 steps: an error that nobody handles ends the program
+  invariant xs == xs: holds
+  no unhandled error: a shortest run in which an error that nobody handles ends the program
+  $ dolphin lts shared.dol --timeout 10 | tail -n 1
+  (3,"fault(a value of more than 1000000 parts, each counted as often as it stands there, is too large for this)",4)

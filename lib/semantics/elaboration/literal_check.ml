@@ -44,8 +44,7 @@ let fault operation values =
 
 let fault_of_time what e =
   match Option.bind (value e) Value.to_number with
-  | Some seconds when not (seconds >= 0. && seconds < infinity) ->
-    Some (Printf.sprintf "%s takes a time of 0 seconds or more, not %g" what seconds)
+  | Some seconds when not (Time.is_one seconds) -> Some (Time.none what seconds)
   | Some _ | None -> None
 
 let fault_of_rounds e =

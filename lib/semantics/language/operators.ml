@@ -219,7 +219,7 @@ let element x i =
   | (Task _ | Closure _), i -> expected "a vehicle set between [ and ] after a task" i
   | Map entries, k -> Ok (Option.value (List.assoc_opt (Value.to_string k) entries) ~default:Null)
   | Range (first, last), Integer i -> (
-      let length = abs (last - first) + 1 in
+      let length = Value.range_length first last in
       match index_of length i with
       | Some i -> Ok (Integer (if first <= last then first + i else first - i))
       | None -> Error (Printf.sprintf "index %d is out of range: a range has %d elements" i length))
@@ -243,9 +243,12 @@ let replace_element x i y =
 
 let range ~inclusive first last =
   match Value.canonical first, Value.canonical last with
-  | Integer a, Integer b when inclusive -> Ok (Range (a, b))
-  | Integer a, Integer b ->
-    if a = b then Ok (List Vector.empty) else Ok (Range (a, if a < b then b - 1 else b + 1))
+  | Integer a, Integer b when (not inclusive) && a = b -> Ok (List Vector.empty)
+  | Integer a, Integer b -> (
+      let b = if inclusive then b else if a < b then b - 1 else b + 1 in
+      match subtract b a with
+      | Integer n when abs n < max_int && n <> min_int -> Ok (Range (a, b))
+      | _ -> Error (Printf.sprintf "a range has at most %d elements" max_int))
   | Integer _, x | x, _ -> expected "a whole number as end of a range" x
 
 let knot = 1852. /. 3600.

@@ -64,8 +64,8 @@ let make_task context at = function
     Value (Vehicles (List.filter is_idle vs))
   | Make_idle, [ x ] -> (
       match Value.to_number x with
-      | Some seconds when seconds >= 0. && seconds < infinity -> Value (Task (Idle seconds))
-      | Some seconds -> Wrong (Printf.sprintf "idle takes a time of 0 seconds or more, not %g" seconds)
+      | Some seconds when Time.is_one seconds -> Value (Task (Idle seconds))
+      | Some seconds -> Wrong (Time.none "idle" seconds)
       | None -> expected "a time after idle, as in idle(10.seconds)" x)
   | Make_confirm, [ x ] -> Value (Task (Confirm { prompt = Value.to_string x; site = at }))
   | Make_during e, [ Closure c; Task t ] -> Value (Task (During (on_cut at e, Given_by c, t)))
@@ -73,8 +73,8 @@ let make_task context at = function
       let e = on_cut at e in
       let during = Value.during e in
       match Value.to_number x with
-      | Some seconds when seconds >= 0. && seconds < infinity -> Value (Task (During (e, Seconds seconds, t)))
-      | Some seconds -> Wrong (Printf.sprintf "%s takes a time of 0 seconds or more, not %g" during seconds)
+      | Some seconds when Time.is_one seconds -> Value (Task (During (e, Seconds seconds, t)))
+      | Some seconds -> Wrong (Time.none during seconds)
       | None -> expected (Printf.sprintf "a time after %s, as in %s 10.minutes run T" during during) x)
   | Make_during _, [ _; x ] -> expected "a task" x
   | _, _ -> Wrong "this construct has the wrong number of parts"
@@ -277,8 +277,8 @@ let apply context at operation arguments =
   | Message, [ x ] -> Done (Said (Value.to_string x), context, Null)
   | Pause, [ x ] -> (
       match Value.to_number x with
-      | Some seconds when seconds >= 0. && seconds < infinity -> blocking context "pause" (Pause seconds)
-      | Some seconds -> Wrong (Printf.sprintf "pause takes a time of 0 seconds or more, not %g" seconds)
+      | Some seconds when Time.is_one seconds -> blocking context "pause" (Pause seconds)
+      | Some seconds -> Wrong (Time.none "pause" seconds)
       | None -> expected "a time after pause, as in pause 12.seconds" x)
   | Halt, [] -> Stop ""
   | Halt, [ x ] -> Stop (Value.to_string x)

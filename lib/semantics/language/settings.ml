@@ -97,7 +97,8 @@ let add_to_pick pick s =
   | "count", _ -> wrong s "a whole number, or _ for all"
   | "timeout", _ -> (
       match number s with
-      | Some seconds when seconds >= 0. -> Ok { pick with timeout = Some seconds }
+      | Some seconds when Time.is_one seconds -> Ok { pick with timeout = Some seconds }
+      | Some seconds when seconds >= 0. -> fault s (Time.none "timeout" seconds)
       | Some seconds -> fault s (Printf.sprintf "a timeout is 0 seconds or more, not %g" seconds)
       | None -> wrong s "a time, as in timeout 10.seconds")
   | other, _ -> fault s (Printf.sprintf "pick has no setting '%s'" other)

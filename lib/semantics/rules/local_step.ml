@@ -150,7 +150,8 @@ let kept program world local = { local with after = Run_code.kept program world 
 (* The time that the value [x] of the code of a [during] or [within] is; [label] says which. *)
 let seconds_of (code : closure) x =
   match Value.to_number x with
-  | Some seconds when seconds >= 0. && seconds < infinity -> Ok seconds
+  | Some seconds when Time.is_one seconds -> Ok seconds
+  | Some seconds when seconds >= 0. -> Error (Fault.make code.lambda.lambda_site (Time.none code.lambda.label seconds))
   | Some _ | None ->
     let message =
       Printf.sprintf "%s takes a time of 0 seconds or more, this code gives %s" code.lambda.label (Value.to_string x)

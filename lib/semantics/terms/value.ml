@@ -16,7 +16,37 @@ let rank_task = function
   | All_of _ -> 6 | One_of _ -> 7 | Until _ -> 8 | Idle _ -> 9 | During _ -> 10 | Watch _ -> 11
   | Repeat _ -> 12 | Made _ -> 13 | Confirm _ -> 14 | Recruit _ -> 15
 
-let rec compare x y =
+(* Two values may hold their parts many times over. Pairs of parts that took long to compare, and are equal, are
+   remembered: so many of the latest. *)
+let long = 1_000
+let remembered = 16
+
+type memory = { mutable steps : int; mutable values : (value * value) list; mutable tasks : (task * task) list }
+
+let memory () = { steps = 0; values = []; tasks = [] }
+
+let once m known x y remember compared =
+  if List.exists (fun (x', y') -> x == x' && y == y') known then 0
+  else
+    let before = m.steps in
+    let found = compared () in
+    if found = 0 && m.steps - before > long then remember (x, y);
+    found
+
+let latest pair known = pair :: List.filteri (fun i _ -> i < remembered - 1) known
+
+let keep_value m pair = m.values <- latest pair m.values
+let keep_task m pair = m.tasks <- latest pair m.tasks
+
+let compare_on_cut e e' =
+  match e, e' with
+  | Completes, Completes -> 0
+  | Fails site, Fails site' -> Int.compare site site'
+  | Completes, Fails _ -> -1
+  | Fails _, Completes -> 1
+
+let rec order m x y =
+  m.steps <- m.steps + 1;
   if x == y then 0
   else
     match x, y with
@@ -24,15 +54,16 @@ let rec compare x y =
     | Integer a, Integer b -> Int.compare a b
     | Number a, Number b -> Float.compare a b
     | String a, String b | Symbol a, Symbol b | Host a, Host b -> String.compare a b
-    | List a, List b -> Vector.compare compare a b
-    | Map a, Map b -> Order.list compare_entry a b
+    | List a, List b -> once m m.values x y (keep_value m) (fun () -> Vector.compare (order m) a b)
+    | Map a, Map b ->
+      once m m.values x y (keep_value m) (fun () -> Order.list (order_entry m) a b)
     | Range (a, b), Range (a', b') -> Order.both (Int.compare a a') (fun () -> Int.compare b b')
     | Position a, Position b -> Position.compare a b
     | Area a, Area b -> Area.compare a b
     | Vehicles a, Vehicles b -> List.compare String.compare a b
-    | Task a, Task b -> compare_task a b
-    | Closure a, Closure b -> compare_closure a b
-    | Settings a, Settings b -> List.compare compare_setting a b
+    | Task a, Task b -> order_task m a b
+    | Closure a, Closure b -> order_closure m a b
+    | Settings a, Settings b -> List.compare (order_setting m) a b
     | Unknown a, Unknown b ->
       Order.both (String.compare a.sensor b.sensor) (fun () -> String.compare a.of_vehicle b.of_vehicle)
     | Reading a, Reading b -> Order.both (Stdlib.compare a.quantity b.quantity) (fun () -> String.compare a.text b.text)
@@ -40,64 +71,64 @@ let rec compare x y =
         | Position _ | Area _ | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ ),
         _ ) -> Int.compare (rank x) (rank y)
 
-and compare_entry (k, x) (k', x') = Order.both (String.compare k k') (fun () -> compare x x')
+and order_entry m (k, x) (k', x') = Order.both (String.compare k k') (fun () -> order m x x')
 
-and compare_setting s s' =
+and order_setting m s s' =
   Order.both (Int.compare s.setting_site s'.setting_site) (fun () ->
-      Order.both (List.compare compare s.positional s'.positional) (fun () ->
-          List.compare compare_entry s.named s'.named))
+      Order.both (List.compare (order m) s.positional s'.positional) (fun () ->
+          List.compare (order_entry m) s.named s'.named))
 
-and compare_closure c c' =
-  Order.both (Int.compare c.lambda.id c'.lambda.id) (fun () -> Order.array compare c.captured c'.captured)
+and order_closure m c c' =
+  Order.both (Int.compare c.lambda.id c'.lambda.id) (fun () -> Order.array (order m) c.captured c'.captured)
 
-and compare_task t t' =
+and order_task m t t' =
+  m.steps <- m.steps + 1;
   if t == t' then 0
-  else
-    match t, t' with
-    | Platform p, Platform p' ->
-      Order.both (String.compare p.name p'.name) (fun () ->
-          Order.both (Int.compare p.task_site p'.task_site) (fun () ->
-              Option.compare Inline_plan.compare p.plan p'.plan))
-    | Action c, Action c' | Condition c, Condition c' | Made c, Made c' -> compare_closure c c'
-    | Sequence (a, b), Sequence (a', b') | Parallel (a, b), Parallel (a', b') ->
-      Order.both (compare_task a a') (fun () -> compare_task b b')
-    | Allocated (a, vs), Allocated (a', vs') ->
-      Order.both (List.compare String.compare vs vs') (fun () -> compare_task a a')
-    | All_of bs, All_of bs' | One_of bs, One_of bs' -> Order.list compare_branch bs bs'
-    | Until (e, c, a), Until (e', c', a') ->
-      Order.both (compare_on_cut e e') (fun () -> Order.both (compare_closure c c') (fun () -> compare_task a a'))
-    | Watch (a, c), Watch (a', c') -> Order.both (compare_closure c c') (fun () -> compare_task a a')
-    | Idle d, Idle d' -> Float.compare d d'
-    | Confirm a, Confirm b -> Order.both (Int.compare a.site b.site) (fun () -> String.compare a.prompt b.prompt)
-    | During (e, d, a), During (e', d', a') ->
-      Order.both (compare_on_cut e e') (fun () -> Order.both (compare_duration d d') (fun () -> compare_task a a'))
-    | Repeat a, Repeat b ->
-      Order.both (Option.compare Int.compare a.rounds b.rounds) (fun () ->
-          Order.both (Option.compare compare_closure a.until b.until) (fun () ->
-              Order.both (Int.compare a.site b.site) (fun () -> compare_task a.body b.body)))
-    | Recruit a, Recruit b ->
-      Order.both (compare_closure a.code b.code) (fun () ->
-          Order.both (Int.compare a.site b.site) (fun () -> Vehicle_filter.compare a.asked b.asked))
-    | ( ( Platform _ | Action _ | Condition _ | Sequence _ | Parallel _ | Allocated _ | All_of _ | One_of _
-        | Until _ | Idle _ | Confirm _ | During _ | Watch _ | Repeat _ | Made _ | Recruit _ ),
-        _ ) -> Int.compare (rank_task t) (rank_task t')
+  else once m m.tasks t t' (keep_task m) (fun () -> order_parts m t t')
 
-and compare_branch b b' =
-  Order.both (compare_closure b.guard b'.guard) (fun () -> compare_task b.body b'.body)
+and order_parts m t t' =
+  match t, t' with
+  | Platform p, Platform p' ->
+    Order.both (String.compare p.name p'.name) (fun () ->
+        Order.both (Int.compare p.task_site p'.task_site) (fun () ->
+            Option.compare Inline_plan.compare p.plan p'.plan))
+  | Action c, Action c' | Condition c, Condition c' | Made c, Made c' -> order_closure m c c'
+  | Sequence (a, b), Sequence (a', b') | Parallel (a, b), Parallel (a', b') ->
+    Order.both (order_task m a a') (fun () -> order_task m b b')
+  | Allocated (a, vs), Allocated (a', vs') ->
+    Order.both (List.compare String.compare vs vs') (fun () -> order_task m a a')
+  | All_of bs, All_of bs' | One_of bs, One_of bs' -> Order.list (order_branch m) bs bs'
+  | Until (e, c, a), Until (e', c', a') ->
+    Order.both (compare_on_cut e e') (fun () -> Order.both (order_closure m c c') (fun () -> order_task m a a'))
+  | Watch (a, c), Watch (a', c') -> Order.both (order_closure m c c') (fun () -> order_task m a a')
+  | Idle d, Idle d' -> Float.compare d d'
+  | Confirm a, Confirm b -> Order.both (Int.compare a.site b.site) (fun () -> String.compare a.prompt b.prompt)
+  | During (e, d, a), During (e', d', a') ->
+    Order.both (compare_on_cut e e') (fun () -> Order.both (order_duration m d d') (fun () -> order_task m a a'))
+  | Repeat a, Repeat b ->
+    Order.both (Option.compare Int.compare a.rounds b.rounds) (fun () ->
+        Order.both (Option.compare (order_closure m) a.until b.until) (fun () ->
+            Order.both (Int.compare a.site b.site) (fun () -> order_task m a.body b.body)))
+  | Recruit a, Recruit b ->
+    Order.both (order_closure m a.code b.code) (fun () ->
+        Order.both (Int.compare a.site b.site) (fun () -> Vehicle_filter.compare a.asked b.asked))
+  | ( ( Platform _ | Action _ | Condition _ | Sequence _ | Parallel _ | Allocated _ | All_of _ | One_of _
+      | Until _ | Idle _ | Confirm _ | During _ | Watch _ | Repeat _ | Made _ | Recruit _ ),
+      _ ) -> Int.compare (rank_task t) (rank_task t')
 
-and compare_on_cut e e' =
-  match e, e' with
-  | Completes, Completes -> 0
-  | Fails site, Fails site' -> Int.compare site site'
-  | Completes, Fails _ -> -1
-  | Fails _, Completes -> 1
+and order_branch m b b' =
+  Order.both (order_closure m b.guard b'.guard) (fun () -> order_task m b.body b'.body)
 
-and compare_duration d d' =
+and order_duration m d d' =
   match d, d' with
   | Seconds s, Seconds s' -> Float.compare s s'
-  | Given_by c, Given_by c' -> compare_closure c c'
+  | Given_by c, Given_by c' -> order_closure m c c'
   | Seconds _, Given_by _ -> -1
   | Given_by _, Seconds _ -> 1
+
+let compare x y = if x == y then 0 else order (memory ()) x y
+let compare_task t t' = if t == t' then 0 else order_task (memory ()) t t'
+let compare_closure c c' = if c == c' then 0 else order_closure (memory ()) c c'
 
 (* So many parts of a value are hashed: it may share its parts with itself many times over. *)
 let hashed_parts = 10_000
@@ -188,26 +219,12 @@ let rec is_alone x =
   | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Range _ | Position _ | Area _
   | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ -> true
 
-(* Two lists may hold their parts many times over. Pairs of parts that took long to compare, and are equal, are
-   remembered: so many of the latest. *)
-let long = 1_000
-let remembered = 16
-
 (* As [compare (normal x) (normal y) = 0], but what both share is not gone through. *)
 let equals x y =
-  let steps = ref 0 and known = ref [] in
-  let once x y compared =
-    List.exists (fun (x', y') -> x == x' && y == y') !known
-    ||
-    let before = !steps in
-    compared ()
-    && begin
-      if !steps - before > long then known := (x, y) :: List.filteri (fun i _ -> i < remembered - 1) !known;
-      true
-    end
-  in
+  let m = memory () in
+  let once x y compared = once m m.values x y (keep_value m) (fun () -> Bool.to_int (not (compared ()))) = 0 in
   let rec same x y =
-    incr steps;
+    m.steps <- m.steps + 1;
     x == y
     ||
     match x, y with
@@ -288,6 +305,7 @@ let to_number = function
   | Task _ | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ -> None
 
 
+(* As [Operators.range] makes them. *)
 let range_length first last = abs (last - first) + 1
 let range_item first last i = if first <= last then first + i else first - i
 

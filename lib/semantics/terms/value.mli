@@ -21,6 +21,9 @@ val hash_closure : Core.closure -> int
 
 (** {1:language As the language has it} *)
 
+val range_length : int -> int -> int
+(** [range_length a b] is how many numbers the range from [a] to [b] has. *)
+
 val equals : t -> t -> bool
 (** [equals x y] is [x == y] in a program: numbers by their value, so that [1 == 1.0]; vehicle sets without regard to
     the order of picks, maps to that of keys. What [x] and [y] share takes no time, and what each of them holds many

@@ -95,7 +95,6 @@ let tuple_changes (before : Configuration.t) (t : Transition.t) =
   in
   if before.shared.tuples == t.next.shared.tuples then ([], [])
   else
-    let all tuples = List.concat_map (fun (k, xs) -> List.map (fun x -> (k, x)) xs) (Tuples.bindings tuples) in
     let of_deeds deeds =
       let posted = List.concat_map (function Code.Posted pairs -> pairs | _ -> []) deeds in
       let consumed = List.concat_map (function Code.Consumed pairs -> pairs | _ -> []) deeds in
@@ -109,7 +108,11 @@ let tuple_changes (before : Configuration.t) (t : Transition.t) =
     match t.label with
     | Did deed when not is_handled -> of_deeds [ deed ]
     | (Check deeds | Act deeds | Cut deeds) when not is_handled -> of_deeds deeds
-    | _ -> balance (all t.next.shared.tuples) (all before.shared.tuples)
+    | Input (k, x) -> ([ show_pair (k, Tuples.kept k x t.next.shared.tuples) ], [])
+    | _ ->
+      let all = List.concat_map (fun (k, xs) -> List.map (fun x -> (k, x)) xs) in
+      let gone, come = Tuples.changed ~before:before.shared.tuples ~after:t.next.shared.tuples in
+      balance (all come) (all gone)
 
 let of_transition program (before : Configuration.t) (t : Transition.t) =
   let posted, consumed = tuple_changes before t in

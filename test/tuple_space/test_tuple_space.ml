@@ -147,6 +147,34 @@ let equal_as_the_model (first, second) =
     && Int.compare 0 (Space.compare n n') = Space.compare n' n
   | None, _ | _, None -> false
 
+(* What [changed] leaves out is in both, and a posted value is kept as [kept] has it. *)
+let changed_keeps_the_balance (first, second) =
+  match run first with
+  | None -> false
+  | Some (_, before) ->
+    let post n operation =
+      match operation with Post (k, x) -> Space.post k x n | Consume _ | Oldest _ -> n
+    in
+    let consume n = function
+      | Post _ -> n
+      | Consume (k, x) -> Option.value (Space.consume k x n) ~default:n
+      | Oldest k -> Option.fold (Space.consume_oldest k n) ~none:n ~some:snd
+    in
+    let after = List.fold_left consume (List.fold_left post before second) second in
+    let gone, come = Space.changed ~before ~after in
+    let values k all = Option.value (List.assoc_opt k all) ~default:[] in
+    let is_right k =
+      let old_values = Space.values k before and new_values = Space.values k after in
+      if List.mem_assoc k gone || List.mem_assoc k come then values k gone = old_values && values k come = new_values
+      else old_values = new_values
+    in
+    let is_kept = function
+      | Post (k, x) -> List.mem (Space.kept k x before) (Space.values k (Space.post k x before))
+      | Consume _ | Oldest _ -> true
+    in
+    let untouched = Space.changed ~before ~after:(Space.post "new" 1 before) in
+    List.for_all is_right [ "a"; "b"; "c" ] && List.for_all is_kept second && untouched = ([ ("new", []) ], [ ("new", [ 1 ]) ])
+
 let case name run = Alcotest.test_case name `Quick run
 
 let law name = Test_support.Property.case ~count:2000 name
@@ -168,5 +196,7 @@ let () =
         [
           law "behaves like a list" operations ~print behaves_like_the_model;
           law "equality is that of the model" (QCheck2.Gen.pair few few) ~print:print_both equal_as_the_model;
+          law "changed and kept agree with bindings" (QCheck2.Gen.pair operations few) ~print:print_both
+            changed_keeps_the_balance;
         ] );
     ]

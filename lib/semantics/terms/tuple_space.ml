@@ -39,6 +39,10 @@ module type S = sig
 
   val bindings : t -> (string * value list) list
 
+  val kept : string -> value -> t -> value
+
+  val changed : before:t -> after:t -> (string * value list) list * (string * value list) list
+
   val equal : t -> t -> bool
 
   val compare : t -> t -> int
@@ -146,6 +150,17 @@ module Make (Value : VALUE) = struct
     | Queued queue -> List.map snd (By_arrival.bindings queue)
 
   let bindings n = List.map (fun (k, pairs) -> (k, values pairs)) (By_key.bindings n.pairs)
+
+  let kept k x n = if is_ordered k n then x else Value.normal x
+
+  let changed ~before ~after =
+    let change _ old_pairs new_pairs =
+      match old_pairs, new_pairs with
+      | Some pairs, Some pairs' when pairs == pairs' -> None
+      | pairs, pairs' -> Some (Option.fold ~none:[] ~some:values pairs, Option.fold ~none:[] ~some:values pairs')
+    in
+    let keys = By_key.bindings (By_key.merge change before.pairs after.pairs) in
+    (List.map (fun (k, (old_values, _)) -> (k, old_values)) keys, List.map (fun (k, (_, new_values)) -> (k, new_values)) keys)
 
   let values k n = match By_key.find_opt k n.pairs with Some pairs -> values pairs | None -> []
 

@@ -73,6 +73,13 @@ module type S = sig
   (** The keys that have pairs, ascending, each with its values, as often as they are there: the oldest first, as
       they were posted, if the key is ordered; ascending and normal if not. *)
 
+  val kept : string -> value -> t -> value
+  (** [kept k x n] is [x] as {!bindings} of [post k x n] has it: normal, unless [k] is ordered. *)
+
+  val changed : before:t -> after:t -> (string * value list) list * (string * value list) list
+  (** [changed ~before ~after] is the {!bindings} of [before] and of [after] for the keys whose pairs are not physically
+      the same in both, with [[]] for a key without pairs: fast if [after] was made from [before] by few changes. *)
+
   val equal : t -> t -> bool
   (** [equal n n'] is whether [n] and [n'] order the same keys and have the same {!bindings}. *)
 

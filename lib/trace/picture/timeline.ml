@@ -140,18 +140,26 @@ let lane_height = 12.
 let legible_height = 12.
 let size_below = 10.
 
-(* From the left; where two would overlap they are one group. *)
+(* [x] is where the first bar begins, [width] that of the names with ", " between them; the names are reversed. *)
+type group = { x : float; width : float; names : string list }
+
+let width_below = Svg.width ~size:size_below
+
+(* From the left; groups that would overlap are one. *)
 let groups f drawn =
-  let text (_, names) = String.concat ", " names in
-  let wide group = Svg.width ~size:size_below (text group) +. 10. in
-  let rec add groups ((x, names) as group) =
-    let x = Float.max f.left (Float.min x (f.right +. 10. -. wide group)) in
+  let rec add groups group =
+    let x = Float.max f.left (Float.min group.x (f.right -. group.width)) in
     match groups with
-    | ((before, earlier) as last) :: others when before +. wide last > x -> add others (before, earlier @ names)
-    | _ -> (x, names) :: groups
+    | last :: others when last.x +. last.width +. 10. > x ->
+      add others
+        { x = last.x; width = last.width +. width_below ", " +. group.width; names = group.names @ last.names }
+    | _ -> { group with x } :: groups
   in
-  let narrow = List.filter_map (fun d -> if d.name = [] then Some (d.from, [ d.task.plan ]) else None) drawn in
-  List.rev_map (fun group -> (fst group, text group)) (List.fold_left add [] narrow)
+  let alone d =
+    if d.name = [] then Some { x = d.from; width = width_below d.task.plan; names = [ d.task.plan ] } else None
+  in
+  let text group = String.concat ", " (List.rev group.names) in
+  List.rev_map (fun group -> (group.x, text group)) (List.fold_left add [] (List.filter_map alone drawn))
 
 let names_below f i ~y drawn =
   let label (x, names) =

@@ -8,6 +8,7 @@ type t = {
   bound : Core.vehicle list;
   members : Vehicle_set.t;  (* of [bound] *)
   column : int;  (* width of the column of actors *)
+  stuck : bool;  (* the program was interrupted because it was stuck *)
 }
 
 (* {1 Lines} *)
@@ -20,7 +21,7 @@ let widest = 24
 let program = "program"
 let start =
   { before = Vehicle_map.empty; unheard = []; unready = []; bound = []; members = Vehicle_set.empty;
-    column = narrowest }
+    column = narrowest; stuck = false }
 
 (* Further lines of a text stand below its first one. *)
 let text_of l ~time actor text =
@@ -147,7 +148,8 @@ let transition ?(stuck = false) l ~time (s : Transition.t) =
   let bound = s.next.shared.bound in
   let wider column v = max column (min widest (Phrase.width v)) in
   let column = if bound == l.bound then l.column else List.fold_left wider l.column bound in
-  let l = { l with column } in
+  let stuck = l.stuck || (stuck && s.label = Interrupt) in
+  let l = { l with column; stuck } in
   let further = List.filteri (fun i _ -> i >= told_by_label s.label) s.effects in
   let happenings = of_label ~stuck s @ List.concat_map (of_effect ~stuck l) further in
   let lines = List.map (line l ~time) happenings in

@@ -400,11 +400,13 @@ module Make (P : Platform.S) = struct
             | Some (event, t) -> take s ~cause:(Some event) t; continue s advance
             | None -> pass s))
 
-  (* The program cannot go on; what it executes when it is interrupted, it does. *)
+  (* The program cannot go on; it executes what it declares by onInterrupt, which may fail in its own way. *)
   and give_up s outcome =
     interrupt s;
     s.rounds <- 0;
-    advance s >|= fun _ -> outcome
+    advance s >|= function
+    | Ended Interrupted -> outcome
+    | (Ended (Completed | Halted _ | Failed _) | Stuck _ | Spins _) as ended -> ended
 
   (* No internal transition is left. That something runs in A is the usual case, and quicker to see than all of what is
      awaited. *)

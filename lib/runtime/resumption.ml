@@ -7,6 +7,7 @@ type t = {
   replay : Replay.t;
   history : History.t;
   pending : Transition.event option;
+  interrupted : bool;
   clock : float * string;
   kept : int;
 }
@@ -50,6 +51,10 @@ let take tell reader r (entry : Entry.t) after =
      | Resumed { time; at; program } -> { r' with its_clock = (time, at); ran = program.hash }
      | Header _ | Partial _ | Label _ | Vehicle _ | Event _ | Transition _ | Note _ | End _ -> r')
 
+(* The last event is a request to end, whose transition was not written. *)
+let is_interrupted r =
+  match r.held with Some (Event { event = Interruption { stuck = false }; _ }, _) -> true | Some _ | None -> false
+
 let finish r =
   match Replay.ending r.after with
   | Some ending -> Error (Over ending)
@@ -59,6 +64,7 @@ let finish r =
         replay = (match r.held with Some (_, before) -> before | None -> r.after);
         history = List.rev r.reversed;
         pending = Replay.event r.after;
+        interrupted = is_interrupted r;
         clock = r.its_clock;
         kept = r.whole }
 

@@ -10,6 +10,7 @@ type t = {
   pending : Transition.event option;
   (** The journal has this event, and not the transition that it causes: the event is to be handled again, and its line
       does not count. *)
+  interrupted : bool;  (** [pending] is an interruption that was asked for, not that of a program that is stuck *)
   clock : float * string;  (** a time of the run, and when that was, in UTC: when it began, or was resumed last *)
   kept : int;  (** so many bytes of the journal count; what follows is torn, or [pending]'s line *)
 }

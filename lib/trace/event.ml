@@ -14,12 +14,12 @@ type t =
   | Reply of Yojson.Safe.t
   | No_reply of string
   | Input of { key : string; value : Yojson.Safe.t }
-  | Interruption
+  | Interruption of { stuck : bool }
 
 let json_of x =
   match Host_value.to_json x with Ok json -> json | Error why -> invalid_arg ("Event.of_event: " ^ why)
 
-let of_event : Transition.event -> t = function
+let of_event ?(stuck = false) : Transition.event -> t = function
   | Vehicle_done v -> Done v
   | Vehicle_failed (vehicle, why) -> Failed { vehicle; why }
   | Timer_expired timer -> Timer timer
@@ -31,7 +31,7 @@ let of_event : Transition.event -> t = function
   | Replied x -> Reply (json_of x)
   | Host_failed why -> No_reply why
   | Input (key, x) -> Input { key; value = json_of x }
-  | Interruption -> Interruption
+  | Interruption -> Interruption { stuck }
 
 type fault = No_value of string | Refused of Transition.refusal
 
@@ -59,7 +59,7 @@ let to_event program c : t -> (Transition.event, fault) result = function
       match Host_value.data_of_json value with
       | Ok x -> Ok (Input (key, x))
       | Error why -> Error (No_value why))
-  | Interruption -> Ok Interruption
+  | Interruption _ -> Ok Interruption
 
 let members h : members =
   let event name rest = ("event", `String name) :: rest in
@@ -76,7 +76,7 @@ let members h : members =
   | Reply json -> event "reply" [ ("value", json) ]
   | No_reply why -> event "no-reply" [ ("why", `String why) ]
   | Input { key; value } -> event "input" [ ("key", `String key); ("value", value) ]
-  | Interruption -> event "interruption" []
+  | Interruption { stuck } -> event "interruption" (if stuck then [ ("stuck", `Bool true) ] else [])
 
 let of_members found =
   let* event = get text "event" found in
@@ -104,7 +104,7 @@ let of_members found =
     let* key = get text "key" found in
     let* value = get any "value" found in
     Ok (Input { key; value })
-  | "interruption" -> Ok Interruption
+  | "interruption" -> Result.map (fun stuck -> Interruption { stuck }) (optional truth ~default:false "stuck" found)
   | other -> Error (Printf.sprintf "there are no events of kind %S" other)
 
 let pp ppf h =
@@ -122,4 +122,5 @@ let pp ppf h =
   | Reply json -> print "the host's reply %s" (Canonical.to_string json)
   | No_reply _ -> print "no reply of the host"
   | Input { key; value } -> print "the input %s: %s" key (Canonical.to_string value)
-  | Interruption -> print "an interruption"
+  | Interruption { stuck = false } -> print "an interruption"
+  | Interruption { stuck = true } -> print "the interruption of a program that is stuck"

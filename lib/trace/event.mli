@@ -14,10 +14,12 @@ type t =
   | Reply of Yojson.Safe.t  (** a value as {!Dolphin_json.Host_value} writes it *)
   | No_reply of string
   | Input of { key : string; value : Yojson.Safe.t }
-  | Interruption
+  | Interruption of { stuck : bool }  (** [stuck]: by the driver, as the program could not go on *)
 
-val of_event : Transition.event -> t
-(** @raise Invalid_argument for a reply that no host process can give: a closure, for example. *)
+val of_event : ?stuck:bool -> Transition.event -> t
+(** [of_event ~stuck e] is [e]; an interruption is [stuck], by default not.
+
+     @raise Invalid_argument for a reply that no host process can give: a closure, for example. *)
 
 (** Why one is no event for the transition function. *)
 type fault =

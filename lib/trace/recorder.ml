@@ -110,10 +110,11 @@ let ways r (t : Transition.t) : (Core.vehicle * Entry.way) list =
   in
   List.filter_map of_effect t.effects
 
-let transition r ~time ~cause (t : Transition.t) =
+let transition ?(unasked = fun _ -> false) r ~time ~cause (t : Transition.t) =
   pass r time;
   if r.behind <> [] && may_depend_on_vehicles r t then catch_up r;
-  let event event = r.write (Event { time = r.time; event = Event.of_event event }) in
+  let stuck = t.label = Interrupt && unasked r.configuration in
+  let event event = r.write (Event { time = r.time; event = Event.of_event ~stuck event }) in
   Option.iter event cause;
   let step = Step.of_transition r.program r.configuration t in
   r.write (Transition { time = r.time; index = r.transitions; step; ways = ways r t });

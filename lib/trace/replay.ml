@@ -10,14 +10,15 @@ type t = {
   transitions : int;
   time : float;
   event : Event.t option;  (* whose transition comes next *)
-  stuck : bool;  (* the run was interrupted when nothing was left to do *)
+  stuck : Residual.t option;  (* what the run was stuck in, if it was interrupted for that *)
+  idle : bool;  (* the run was interrupted when it could do nothing by itself *)
   latest : (Transition.event option * Transition.t) option;  (* of the latest line, if that was a transition *)
   ending : Request.ending option;
 }
 
 let start ~hash program =
   { program; hash; places = true; configuration = Configuration.initial program; world = World.empty; transitions = 0;
-    time = 0.; event = None; stuck = false; latest = None; ending = None }
+    time = 0.; event = None; stuck = None; idle = false; latest = None; ending = None }
 
 let configuration r = r.configuration
 let world r = r.world
@@ -25,7 +26,8 @@ let transitions r = r.transitions
 let time r = r.time
 let ending r = r.ending
 let latest r = r.latest
-let was_stuck r = r.stuck
+let stuck_in r = r.stuck
+let was_stuck r = r.stuck <> None
 
 let event r =
   let event event = Result.to_option (Event.to_event r.program r.configuration event) in
@@ -179,12 +181,21 @@ let caused r (step : Step.t) event =
             mismatch r (Printf.sprintf "%s makes one transition, so there is no choice %d" by step.choice)
           | None ->
             let is_left () = Transition.internal r.program r.world r.configuration () <> Seq.Nil in
-            let stuck = r.stuck || (event = Interruption && not (is_left ())) in
-            Ok { (moved r (Some e) t) with stuck }))
+            let idle = match event with Interruption _ -> r.idle || not (is_left ()) | _ -> r.idle in
+            let stuck =
+              match event, r.configuration.control with
+              | Interruption { stuck = true }, Executing (_, residual) -> Some residual
+              | _, _ -> r.stuck
+            in
+            Ok { (moved r (Some e) t) with stuck; idle }))
 
 (* {1 Lines} *)
 
 let has_ended r = match r.configuration.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false
+
+(* Of rounds without end it is not known whether there were as many as make a program stuck. *)
+let ended_stuck r (ending : Configuration.ending) =
+  ending = Interrupted && (r.idle || (r.stuck <> None && r.program.goes_round))
 
 let finish r transitions (ending : Request.ending) =
   match r.configuration.control with
@@ -193,7 +204,7 @@ let finish r transitions (ending : Request.ending) =
     let expected = Request.ending its_ending in
     if transitions <> r.transitions then
       mismatch r (Printf.sprintf "there were %d transitions, not %d" r.transitions transitions)
-    else if ending = expected || (ending.how = "stuck" && r.stuck) then Ok { r with ending = Some ending }
+    else if ending = expected || (ending.how = "stuck" && ended_stuck r its_ending) then Ok { r with ending = Some ending }
     else mismatch r (Printf.sprintf "the run ended %s, not %s" expected.how ending.how)
 
 let feed r (entry : Entry.t) =

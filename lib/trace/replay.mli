@@ -42,7 +42,10 @@ val time : t -> float
 (** Of the latest line. *)
 
 val was_stuck : t -> bool
-(** An interruption came when nothing could happen any more. *)
+(** The program was interrupted because it was stuck. *)
+
+val stuck_in : t -> Residual.t option
+(** What it was stuck in, if so. *)
 
 val ending : t -> Request.ending option
 (** How the run ended, if its last line was there. *)

@@ -67,7 +67,7 @@ let of_cause : Event.t option -> _ = function
   | Some (No_reply why) -> [ (Program, "gets no reply: " ^ why) ]
   | Some (Input { key; value }) ->
     [ (Program, Printf.sprintf "gets %s: %s" key (Dolphin_json.Canonical.to_string value)) ]
-  | Some Interruption -> [ (Program, "is interrupted") ]
+  | Some (Interruption { stuck }) -> [ (Program, if stuck then "is stuck" else "is interrupted") ]
   | Some (Recruited { vehicle; _ }) -> [ (Program, "recruits " ^ vehicle) ]
   | Some (Timer _) | None -> []
 

@@ -1,6 +1,6 @@
 A console that dies, and another one that goes on, on the simulated fleet.
 
-The system kills a process that writes more than it may into a file: here, the console as it writes its journal.
+The console ends while it writes its journal, at a limit on file sizes.
 
   $ die_at() { prlimit --fsize=$1 --core=0 dolphin exec ../../examples/rendezvous.dol --journal $2 > $3 2> /dev/null; }
   $ dolphin exec ../../examples/rendezvous.dol --journal whole.run > whole.log

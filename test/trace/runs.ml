@@ -68,7 +68,7 @@ let drive r recorder platform ?beginning ?fenced ~answered host =
   in
   let outcome = Lwt_main.run run in
   Option.iter (fun host -> Lwt_main.run (Host.close host)) host;
-  let stuck = match outcome with Stuck _ -> true | Ended _ | Spins _ -> false in
+  let stuck = match outcome with Stuck _ | Spins _ -> true | Ended _ -> false in
   Recorder.finish recorder ~time:(Simulator.Virtual.now platform) ~stuck
 
 let write_to journal entry = Buffer.add_string journal (Entry.to_string entry ^ "\n")

@@ -24,7 +24,8 @@ let header (program : Program_file.t) fleet ~speed : Header.t =
     fences = Dolphin_semantics.Fences.list program.program.fences }
 
 let enact (front : Run.front) recording ~interruption ~speed (program : Program_file.t) (fleet : Fleet_file.t) steps =
-  let observer = Observer.both (Recording.observer recording) front.observer in
+  let observer = 
+    Observer.both (Recording.observer recording ~unasked:(Interruption.is_unasked interruption)) front.observer in
   let on (type p) (module P : Platform.S with type t = p) (platform : p) =
     front.opened
       { now = (fun () -> P.now platform); estimates = (fun () -> []); post = (fun _ _ -> Lwt.return_false);
@@ -52,7 +53,7 @@ let start (front : Run.front) ~interruption ~speed ~follower program (fleet : Fl
     let*? () = Recording.begin_ recording in
     enact front recording ~interruption ~speed program fleet (steps core witness (taken @ cycle))
     >|= fun (time, outcome) ->
-    let stuck = match outcome with Driver.Stuck _ -> true | Spins _ | Ended _ -> false in
+    let stuck = match outcome with Driver.Stuck _ | Spins _ -> true | Ended _ -> false in
     if cycle <> [] then front.remark "from here it goes round for ever";
     Result.map (fun () -> outcome) (Recording.finish recording ~time ~stuck)
   in

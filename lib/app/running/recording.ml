@@ -181,10 +181,10 @@ let sync r =
 
 let journal r = Option.map (fun file -> file.path) r.file
 
-let observer r : Dolphin_runtime.Observer.t =
+let observer ?unasked r : Dolphin_runtime.Observer.t =
   match Lazy.force r.recorder with
   | None -> Dolphin_runtime.Observer.nobody
-  | Some recorder -> { transition = Recorder.transition recorder; news = Recorder.news recorder;
+  | Some recorder -> { transition = Recorder.transition ?unasked recorder; news = Recorder.news recorder;
                        unknown = Dolphin_runtime.Observer.nobody.unknown }
 
 let close r =

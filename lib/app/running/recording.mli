@@ -44,8 +44,9 @@ val sync : t -> (unit -> unit Lwt.t) option
 val journal : t -> string option
 (** The path of the journal, if there is one. *)
 
-val observer : t -> Dolphin_runtime.Observer.t
-(** To be told of the run before anybody else. It may raise {!Broken}. *)
+val observer : ?unasked:(Dolphin_semantics.Configuration.t -> bool) -> t -> Dolphin_runtime.Observer.t
+(** The observer that writes the journal; it comes before others and may raise {!Broken}. [unasked] is as of
+    {!Recorder.transition}. *)
 
 val close : t -> unit
 (** [close r] gives the journal's file up, as it is; where it was not there before and the journal was not begun, it is

@@ -240,17 +240,19 @@ let telling_followers socket : Observer.t =
 let beginning resumed news : Driver.beginning option =
   let of_past ({ past; _ } : Resumed.t) : Driver.beginning =
     let replay = past.replay in
-    { configuration = Replay.configuration replay; world = Replay.world replay; news; pending = past.pending;
+    { configuration = Replay.configuration replay; world = Replay.world replay; news;
+      (* That a program is stuck is found out again; a request to end is made again. *)
+      pending = (match past.pending with Some Interruption -> None | pending -> pending);
       time = Replay.time replay }
   in
   Option.map of_past resumed
 
-(* What the run did after that it has ended as any other. *)
-let was_stuck (resumed : Resumed.t) =
-  let replay = resumed.past.replay in
-  match (Replay.configuration replay).control with
-  | Ended _ -> Replay.was_stuck replay
-  | Script _ | Waiting _ | Executing _ -> false
+(* A run that was stuck when its console died ends as one that is stuck, whichever console sees its end. *)
+let as_it_began r : Driver.outcome -> Driver.outcome = function
+  | Ended Interrupted as ended ->
+    let stuck_in (resumed : Resumed.t) = Replay.stuck_in resumed.past.replay in
+    Option.fold (Option.bind r.resumed stuck_in) ~none:ended ~some:(fun residual -> Driver.Stuck residual)
+  | (Ended (Completed | Halted _ | Failed _) | Stuck _ | Spins _) as outcome -> outcome
 
 let drive r recording host ~interruption (Platform ((module P), { platform; estimates; news; leave = _ })) =
   let now () = P.now platform in
@@ -264,13 +266,17 @@ let drive r recording host ~interruption (Platform ((module P), { platform; esti
   in
   let unmet = ref None in
   let observer =
-    List.fold_left Observer.both (Recording.observer recording)
+    List.fold_left Observer.both (Recording.observer recording ~unasked:(Interruption.is_unasked interruption))
       [ telling_followers socket; r.front.observer; watching_picks r unmet ]
   in
   let run () =
+    (* A request to end that the console which died had not carried out. *)
+    if Option.fold r.resumed ~none:false ~some:(fun (resumed : Resumed.t) -> resumed.past.interrupted) then
+      Interruption.interrupt interruption;
     Driver.run (module P) platform
       ~always_telemetry:
-        ((not P.virtual_time) || r.front.wants_telemetry || Recording.is_wanted r.settings.recording)
+        ((not P.virtual_time) || r.front.wants_telemetry || r.resumed <> None
+         || Recording.is_wanted r.settings.recording)
       ~observer
       ~host:(match host with Some host -> Host.call host | None -> Replies.call ~past:(history r) r.scenario)
       ~inputs ?beginning:(beginning r.resumed news) ?fenced:r.fenced
@@ -278,8 +284,8 @@ let drive r recording host ~interruption (Platform ((module P), { platform; esti
       ~again:(Interruption.again interruption) r.program.program
   in
   let finish (outcome : Driver.outcome) =
-    let stuck =
-      match outcome with Stuck _ -> true | Spins _ | Ended _ -> Option.fold r.resumed ~none:false ~some:was_stuck in
+    let outcome = as_it_began r outcome in
+    let stuck = match outcome with Stuck _ | Spins _ -> true | Ended _ -> false in
     Option.iter r.front.notice !unmet;
     Result.map (fun () -> outcome) (Recording.finish recording ~time:(now ()) ~stuck)
   in

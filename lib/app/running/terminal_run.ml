@@ -83,7 +83,7 @@ let replayed t (entry : Entry.t) replay =
     t.log <- fst (Log.news t.log ~time state);
     see_vehicle t state
   | Transition { time; _ }, Some (_, transition) ->
-    t.log <- fst (Log.transition t.log ~time transition);
+    t.log <- fst (Log.transition ~stuck:(Replay.was_stuck replay) t.log ~time transition);
     see_transition t ~time transition
   | (Header _ | Partial _ | Label _ | Event _ | Transition _ | Note _ | Resumed _ | End _), _ -> ()
 

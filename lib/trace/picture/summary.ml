@@ -138,7 +138,7 @@ let errors (s : Step.t) (cause : Event.t option) =
   | Some
       ( Done _ | Timer _ | Confirmation _ | No_confirmation _ | Recruited _ | Answer _ | No_answer _ | Reply _
       | No_reply _ | Input _
-      | Interruption )
+      | Interruption _ )
   | None ->
     let is_broken = String.length s.label > 7 && String.sub s.label 0 7 = "broken(" in
     if is_broken then [ String.sub s.label 7 (String.length s.label - 8) ] else []
@@ -151,7 +151,7 @@ let take b (s : Step.t) ways =
    | Some
        ( Timer _ | Confirmation _ | No_confirmation _ | Recruited _ | Answer _ | No_answer _ | Reply _ | No_reply _
        | Input _
-       | Interruption )
+       | Interruption _ )
    | None -> ());
   List.iter (fun text -> note (Erred text)) (errors s b.cause);
   b.cause <- None;

@@ -307,7 +307,8 @@ module Make (P : Platform.S) = struct
       P.telemetry s.platform how
     end
 
-  let look s = List.iter (see s) (P.look s.platform)
+  (* Sensors that a program reads keep their values between two events; its telemetry is the same in all its runs. *)
+  let look s = if not s.program.reads_sensors then List.iter (see s) (P.look s.platform)
 
   (* What a long script does not wait for all the same happens: on a platform whose time passes by itself, news of
      vehicles that came meanwhile reach the program. *)

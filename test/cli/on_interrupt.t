@@ -195,7 +195,7 @@ A program that is stuck goes home.
      0:00  noptilus-1  starts home
      2:00  noptilus-1  ends home
      2:00  program     releases noptilus-1
-     2:00  program     is interrupted
+     2:00  program     is stuck
   stuck.dol:3:9: error: the program is stuck: nothing can make this condition true any more
     3 | execute waitFor { consume never: 1 } then task('survey')
       |         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^

@@ -132,7 +132,7 @@ let rest_of_statement place i = rest place i
 (* What is given to a call without parentheses within a task: operators of tasks and their words go on after it. *)
 let arguments place i =
   let ends = function
-    | SHIFT_RIGHT | BAR | THEN | RUN | ON_ERROR | AFTER_UNTIL _ | AFTER_DURING _ -> true
+    | SHIFT_RIGHT | BAR | THEN | RUN | ON_ERROR | AFTER_UNTIL | AFTER_ASSURE | AFTER_DURING _ -> true
     | _ -> false in
   rest ~ends place i
 
@@ -142,7 +142,7 @@ let arguments place i =
 
 let is_word = function
   | DEF | IF | ELSE | OTHERWISE | WHILE | FOR | IN | RETURN | BREAK | CONTINUE | WHEN | WATCH | WAIT_FOR | REPEAT
-  | UNTIL _ | DURING _ | AFTER_UNTIL _ | AFTER_DURING _ | THEN | RUN | ON_ERROR | TRUE | FALSE | NULL -> true
+  | UNTIL _ | DURING _ | AFTER_UNTIL | AFTER_ASSURE | AFTER_DURING _ | THEN | RUN | ON_ERROR | TRUE | FALSE | NULL -> true
   | _ -> false
 
 (* Whether the place is among the parameters of a function or of a closure. *)
@@ -189,9 +189,11 @@ let assignment place =
 let construct = function
   | WHEN -> Some ("when", "when { condition } then task")
   | WAIT_FOR -> Some ("waitFor", "waitFor { condition } then task")
-  | UNTIL on_cut | AFTER_UNTIL on_cut ->
+  | UNTIL on_cut ->
     let word = Spelling.until on_cut in
     Some (word, word ^ " { condition } run task")
+  | AFTER_UNTIL -> Some ("until", "task until { condition }")
+  | AFTER_ASSURE -> Some ("assure", "task assure { condition }")
   | ON_ERROR -> Some ("onError", "watch task onError { error -> ... }")
   | _ -> None
 
@@ -208,8 +210,8 @@ let missing_word place =
   | (WHEN | WAIT_FOR), Some (_, form) -> missing "then" form
   | RECRUIT, _ -> missing "then" recruit
   | UNTIL _, Some (_, form) -> missing "run" form
-  | AFTER_UNTIL _, Some (word, form) when not (is_closer (this place) || this place = SEPARATOR) ->
-    missing "run" (Printf.sprintf "%s, or task %s { condition }" form word)
+  | (AFTER_UNTIL | AFTER_ASSURE), Some (word, form) when not (is_closer (this place) || this place = SEPARATOR) ->
+    missing "run" (Printf.sprintf "%s { condition } run task, or %s" word form)
   | _ ->
     let is_during = function DURING _ | AFTER_DURING _ | SEPARATOR | COMMA -> true | _ -> false in
     let during = kind place (back place place.index is_during) in
@@ -369,8 +371,17 @@ let stray place =
     Some (Printf.sprintf "unexpected %s" (spelt place place.index), "an operator or a ',' is missing before it")
   | _ -> None
 
+(* [repeat a until { C } >> b]. *)
+let after_rounds place =
+  if place.acceptable NEVER then
+    let operator = text_of place (place.index - 1) in
+    Some (Printf.sprintf "what the 'until' before this '%s' ends is not clear" operator,
+          Printf.sprintf "write (repeat task until { condition }) %s other, or repeat (task until { condition }) %s other"
+            operator operator)
+  else None
+
 let rules = [
-  missing_parenthesis; missing_block; assigned_word; missing_brace; missing_parameters; negative_argument;
+  after_rounds; missing_parenthesis; missing_block; assigned_word; missing_brace; missing_parameters; negative_argument;
   greedy_bracket; assignment; missing_word; misplaced_word; command; unit_without_point; percent_sign;
   described_parameter; stray;
 ]
@@ -389,6 +400,7 @@ let fault ~source ~tokens ~index ~acceptable =
     | EOF when index > 0 ->
       let last = tokens.(index - 1).stop in
       Location.make (last, last)
+    | _ when index > 0 && acceptable NEVER -> Token.at tokens.(index - 1)
     | _ -> Token.at tokens.(index)
   in
   Diagnostic.error ?hint at message

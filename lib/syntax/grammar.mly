@@ -23,7 +23,8 @@ let expression place it = located place it
 %token DEF IF ELSE WHILE FOR IN RETURN BREAK CONTINUE
 %token WHEN WATCH WAIT_FOR REPEAT THEN RUN ON_ERROR
 %token <Ast.on_cut> UNTIL DURING         (* [until] and [during] complete; [assure] and [within] fail *)
-%token <Ast.on_cut> AFTER_UNTIL AFTER_DURING    (* after a task: [T until { C }], [T during D] *)
+%token AFTER_UNTIL AFTER_ASSURE          (* after a task: [T until { C }], [T assure { C }] *)
+%token <Ast.on_cut> AFTER_DURING         (* likewise: [T during D], [T within D] *)
 %token LPAREN RPAREN LBRACKET RBRACKET RBRACE
 %token LBRACE                            (* opens a closure *)
 %token TRAILING                          (* opens a closure after a call: [f(x) {] *)
@@ -36,6 +37,7 @@ let expression place it = located place it
 %token POWER STAR SLASH PERCENT PLUS MINUS SHIFT_LEFT SHIFT_RIGHT
 %token LESS LESS_EQUAL GREATER GREATER_EQUAL EQUAL NOT_EQUAL
 %token AMPERSAND CARET BAR AND OR NOT
+%token NEVER                             (* in no text: see [rounds] *)
 %token EOF
 
 (* From loosest to tightest. A comma behind [repeat N] is its own. *)
@@ -44,7 +46,7 @@ let expression place it = located place it
 %nonassoc no_else
 %nonassoc ELSE
 %nonassoc whole_expression
-%nonassoc AFTER_UNTIL AFTER_DURING
+%nonassoc AFTER_UNTIL
 %right QUESTION ELVIS
 %left OR
 %left AND
@@ -97,7 +99,7 @@ simple_statement:
     { located $loc (Define (x, Some value)) }
   | DEF; name = name; LPAREN; parameters = parameters; RPAREN; BLOCK; body = statements; RBRACE
     { located $loc (Function { name; parameters; body }) }
-  | PARAMETER; name = name; ASSIGN; value = item; description = option(description)
+  | PARAMETER; name = name; ASSIGN; value = item(any_limit); description = option(description)
     { located $loc (Parameter { name; value = settle value; description }) }
   | IF; LPAREN; condition = chain; RPAREN; body = body                       %prec no_else
     { located $loc (If (condition, body, [])) }
@@ -137,20 +139,24 @@ some_parameters:
   | x = name { [ x ] }
   | rest = some_parameters; COMMA; x = name { x :: rest }
 
-(* Whole expressions: a command takes all its arguments in a chain, one in an item. *)
+(* Whole expressions: a command takes all its arguments in a chain, one in an item. [limit] is what may stand behind a
+   task: [inner_limit] in the rounds of a [repeat], where an [until] is the repeat's, [any_limit] elsewhere. *)
 
 chain:
-  | e = plain { settle e }
+  | e = expression(any_limit) { settle e }
   | e = command { settle e }
 
-item:
-  | e = plain                                                                %prec whole_expression { e }
-  | callee = commanded; a = argument_item { command $loc callee [ a ] }
+item(limit):
+  | e = expression(limit)                                                    %prec whole_expression { e }
+  | callee = commanded; a = argument_item(limit) { command $loc callee [ a ] }
 
-plain:
-  | e = expression                                                           %prec whole_expression { item e }
-  | e = plain; on_cut = AFTER_DURING; duration = expression { limit e (During_limit (on_cut, duration)) $endpos }
-  | e = plain; on_cut = AFTER_UNTIL; c = closure { limit e (Until_limit (on_cut, c)) $endpos }
+any_limit:
+  | l = inner_limit { l }
+  | AFTER_UNTIL; c = closure { Until_limit (Completes, c) }
+
+inner_limit:
+  | on_cut = AFTER_DURING; duration = postfix { During_limit (on_cut, duration) }
+  | AFTER_ASSURE; c = closure { Until_limit (Fails, c) }
 
 command:
   | callee = commanded; reversed = command_arguments { command $loc callee reversed }
@@ -177,13 +183,13 @@ command_arguments:
   | a = command_argument { [ a ] }
   | rest = command_arguments; COMMA; a = command_argument { a :: rest }
 
-argument_item:
-  | e = item { Positional_item e }
+argument_item(limit):
+  | e = item(limit) { Positional_item e }
 
 command_argument:
-  | a = argument_item { a }
-  | k = argument_key; COLON; e = item { Named_item (k, e) }
-  | k = computed_key; COLON; e = item { Keyed_item (k, e) }
+  | a = argument_item(any_limit) { a }
+  | k = argument_key; COLON; e = item(any_limit) { Named_item (k, e) }
+  | k = computed_key; COLON; e = item(any_limit) { Keyed_item (k, e) }
 
 computed_key:
   | t = template { t }
@@ -195,46 +201,71 @@ argument_key:
 
 (* Expressions *)
 
-expression:
-  | e = postfix
+expression(limit):
+  | e = limited(limit)
+    { e }
+  | e = rounds(limit)
     { e }
   | target = postfix; by = STEP
-    { expression $loc (Increment { target; by; prefix = false }) }
+    { item (expression $loc (Increment { target; by; prefix = false })) }
   | by = STEP; target = postfix
-    { expression $loc (Increment { target; by; prefix = true }) }
-  | NOT; e = expression
-    { expression $loc (Unary (Not, e)) }
-  | MINUS; e = expression                                                    %prec NOT
-    { expression $loc (Unary (Negate, e)) }
-  | PLUS; e = expression                                                     %prec NOT
+    { item (expression $loc (Increment { target; by; prefix = true })) }
+  | NOT; e = expression(limit)
+    { item (expression $loc (Unary (Not, settle e))) }
+  | MINUS; e = expression(limit)                                             %prec NOT
+    { item (expression $loc (Unary (Negate, settle e))) }
+  | PLUS; e = expression(limit)                                              %prec NOT
     { e }
-  | a = expression; o = operator; b = expression
-    { expression $loc (Binary (o, a, b)) }
-  | first = expression; RANGE; last = expression
-    { expression $loc (Range { first; last; inclusive = true }) }
-  | first = expression; RANGE_LESS; last = expression
-    { expression $loc (Range { first; last; inclusive = false }) }
-  | c = expression; QUESTION; a = expression; COLON; b = expression          %prec QUESTION
-    { expression $loc (Conditional (c, a, b)) }
-  | a = expression; ELVIS; b = expression
-    { expression $loc (Elvis (a, b)) }
-  | WHEN; c = closure; THEN; t = item
-    { expression $loc (When (c, settle t)) }
-  | WAIT_FOR; c = closure; THEN; t = item
-  | WAIT_FOR; c = closure; RUN; t = item
-    { expression $loc (Wait_for (c, settle t)) }
-  | on_cut = UNTIL; c = closure; RUN; t = item
-    { expression $loc (Until (on_cut, c, settle t)) }
-  | on_cut = DURING; d = item; RUN; t = item
-    { expression $loc (During (on_cut, settle d, settle t)) }
+  | a = expression(limit); o = operator; b = expression(limit)
+    { item (expression $loc (Binary (o, settle a, settle b))) }
+  | first = expression(limit); RANGE; last = expression(limit)
+    { item (expression $loc (Range { first = settle first; last = settle last; inclusive = true })) }
+  | first = expression(limit); RANGE_LESS; last = expression(limit)
+    { item (expression $loc (Range { first = settle first; last = settle last; inclusive = false })) }
+  | c = expression(limit); QUESTION; a = expression(any_limit); COLON; b = expression(limit)    %prec QUESTION
+    { item (expression $loc (Conditional (settle c, settle a, settle b))) }
+  | a = expression(limit); ELVIS; b = expression(limit)
+    { item (expression $loc (Elvis (settle a, settle b))) }
+  | WHEN; c = closure; THEN; t = item(limit)
+    { item (expression $loc (When (c, settle t))) }
+  | WAIT_FOR; c = closure; THEN; t = item(limit)
+  | WAIT_FOR; c = closure; RUN; t = item(limit)
+    { item (expression $loc (Wait_for (c, settle t))) }
+  | on_cut = UNTIL; c = closure; RUN; t = item(limit)
+    { item (expression $loc (Until (on_cut, c, settle t))) }
+  | on_cut = DURING; d = item(any_limit); RUN; t = item(limit)
+    { item (expression $loc (During (on_cut, settle d, settle t))) }
+  | REPEAT; t = item(inner_limit)                                            %prec repeated
+    { item (expression $loc (Repeat { rounds = None; body = settle t; until = None })) }
+  | REPEAT; n = item(inner_limit); COMMA; t = item(inner_limit)              %prec repeated
+    { item (expression $loc (Repeat { rounds = Some (settle n); body = settle t; until = None })) }
+
+(* A task and what stands behind it, which binds tighter than all operators. *)
+limited(limit):
+  | e = postfix
+    { item e }
+  | WATCH; t = item(any_limit); ON_ERROR; c = closure
+    { item (expression $loc (Watch (settle t, c))) }
   | RECRUIT; BLOCK; settings = statements; RBRACE; THEN; c = closure
-    { expression $loc (Recruit (settings, c)) }
-  | WATCH; t = item; ON_ERROR; c = closure
-    { expression $loc (Watch (settle t, c)) }
-  | REPEAT; t = item                                                         %prec repeated
-    { repeat $loc None t }
-  | REPEAT; n = item; COMMA; t = item
-    { repeat $loc (Some (settle n)) t }
+    { item (expression $loc (Recruit (settings, c))) }
+  | e = limited(limit); l = limit
+    { Node.limit e l $endpos }
+
+(* A [repeat] with its [until], and limits of all rounds. An operator behind it is not accepted: in
+   [repeat A until { C } >> B] readers cannot tell what the [until] belongs to. NEVER makes that an error. *)
+rounds(limit):
+  | e = closed_rounds(limit)                                                 %prec whole_expression
+    { e }
+  | e = closed_rounds(limit); operator; NEVER
+    { e }
+
+closed_rounds(limit):
+  | REPEAT; t = item(inner_limit); AFTER_UNTIL; c = closure
+    { item (expression $loc (Repeat { rounds = None; body = settle t; until = Some c })) }
+  | REPEAT; n = item(inner_limit); COMMA; t = item(inner_limit); AFTER_UNTIL; c = closure
+    { item (expression $loc (Repeat { rounds = Some (settle n); body = settle t; until = Some c })) }
+  | e = closed_rounds(limit); l = limit
+    { Node.limit e l $endpos }
 
 %inline operator:
   | POWER { Power }
@@ -322,15 +353,15 @@ parenthesised:
   | LPAREN; e = chain; RPAREN { { e with at = Location.make $loc } }
 
 items:
-  | e = item { [ settle e ] }
-  | rest = items; COMMA; e = item { settle e :: rest }
+  | e = item(any_limit) { [ settle e ] }
+  | rest = items; COMMA; e = item(any_limit) { settle e :: rest }
 
 entries:
   | e = entry { [ e ] }
   | rest = entries; COMMA; e = entry { e :: rest }
 
 entry:
-  | k = key; COLON; e = item { located $loc(k) k, settle e }
+  | k = key; COLON; e = item(any_limit) { located $loc(k) k, settle e }
 
 key:
   | k = NAME | k = STRING { Name k }

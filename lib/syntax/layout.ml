@@ -9,8 +9,8 @@ let is_incomplete = function
   | COMMA | COLON | ARROW | DOT | SAFE_DOT | QUESTION | ELVIS | ASSIGN | ASSIGN_OPERATOR _
   | LPAREN | LBRACKET | LBRACE | TRAILING | BLOCK | HOLE_OPEN | SEPARATOR | BUILDER _ | RECRUIT | COMMAND _
   | PARAMETER | DEF | IF | ELSE | OTHERWISE | WHILE | FOR | WHEN | WATCH | WAIT_FOR | REPEAT | UNTIL _ | DURING _
-  | AFTER_UNTIL _ | AFTER_DURING _ | THEN | RUN | ON_ERROR -> true
-  | NAME _ | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN | TEMPLATE_CLOSE | HOLE_CLOSE | TEXT _ | WILDCARD
+  | AFTER_UNTIL | AFTER_ASSURE | AFTER_DURING _ | THEN | RUN | ON_ERROR -> true
+  | NEVER | NAME _ | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN | TEMPLATE_CLOSE | HOLE_CLOSE | TEXT _ | WILDCARD
   | TRUE | FALSE | NULL | RETURN | BREAK | CONTINUE | RPAREN | RBRACKET | RBRACE | STEP _ | EOF -> false
 
 (* Whether no statement can begin with [token], so that it belongs to the line before. *)
@@ -18,10 +18,10 @@ let continues = function
   | RANGE | RANGE_LESS | POWER | STAR | SLASH | PERCENT | SHIFT_LEFT | SHIFT_RIGHT | LESS | LESS_EQUAL
   | GREATER | GREATER_EQUAL | EQUAL | NOT_EQUAL | AMPERSAND | CARET | BAR | AND | OR | IN
   | COMMA | COLON | DOT | SAFE_DOT | QUESTION | ELVIS | THEN | RUN | ON_ERROR | ELSE | OTHERWISE
-  | RPAREN | RBRACKET | RBRACE | HOLE_CLOSE | SEPARATOR | EOF -> true
+  | AFTER_UNTIL | AFTER_ASSURE | AFTER_DURING _ | RPAREN | RBRACKET | RBRACE | HOLE_CLOSE | SEPARATOR | EOF -> true
   | NAME _ | COMMAND _ | BUILDER _ | RECRUIT | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN | TEMPLATE_CLOSE
   | HOLE_OPEN | TEXT _ | WILDCARD | TRUE | FALSE | NULL | PARAMETER | DEF | IF | WHILE | FOR | RETURN | BREAK | CONTINUE
-  | WHEN | WATCH | WAIT_FOR | REPEAT | UNTIL _ | DURING _ | AFTER_UNTIL _ | AFTER_DURING _ | LPAREN | LBRACKET
+  | NEVER | WHEN | WATCH | WAIT_FOR | REPEAT | UNTIL _ | DURING _ | LPAREN | LBRACKET
   | LBRACE | TRAILING | BLOCK | ARROW | ASSIGN | ASSIGN_OPERATOR _ | STEP _ | PLUS | MINUS | NOT -> false
 
 (* Whether an operand can end with [token]. *)
@@ -76,22 +76,24 @@ let same_line state i = i < Array.length state.raw && not state.raw.(i).newline
 
 let is_key state i = raw_token state (i + 1) = COLON
 
-(* How far ahead a [run] is looked for. *)
+(* How far ahead the [run] of a [during] is looked for. *)
 let horizon = 100
 
-(* Whether the [until] or [during] at [i], which follows a name, begins an expression: whether its [run]
-   follows. *)
+(* Whether the [until] or [during] at [i] begins an expression, [until { C } run T]: whether its own [run] follows. *)
 let begins_expression state i =
   let rec run_follows i fuel =
     fuel > 0
     && match raw_token state i with
     | RUN -> true
     | SEPARATOR | COMMA | RPAREN | RBRACKET | RBRACE | HOLE_CLOSE | EOF -> false
+    | SHIFT_RIGHT | BAR | AMPERSAND | UNTIL _ | DURING _ | WAIT_FOR | WHEN | WATCH | REPEAT -> false
     | LPAREN | LBRACKET | LBRACE | HOLE_OPEN -> run_follows (state.partner.(i) + 1) (fuel - 1)
     | token when state.raw.(i).newline && not (continues token) -> false
     | _ -> run_follows (i + 1) (fuel - 1)
   in
-  run_follows (i + 1) horizon
+  match raw_token state i, raw_token state (i + 1) with
+  | UNTIL _, LBRACE -> raw_token state (state.partner.(i + 1) + 1) = RUN
+  | _, _ -> run_follows (i + 1) horizon
 
 (* Whether the token at [i] can only begin an argument, when it follows a name. *)
 let begins_argument state i =
@@ -160,13 +162,24 @@ let declares_parameter state i =
   && same_line state (i + 1)
   && match raw_token state (i + 1), raw_token state (i + 2) with NAME _, ASSIGN -> true | _, _ -> false
 
+let in_statements state =
+  match state.frames with
+  | [] | (Body | Value | Picking) :: _ -> true
+  | Enclosed :: _ -> false
+
+(* Whether the [until] or [during] at [i] limits the task before it, which may be on the line before. *)
+let stands_behind state i (token : Token.t) =
+  ends_operand state.last && not state.last_is_header
+  && not (token.newline && in_statements state && begins_expression state i)
+
 (* What the token at [i] is, given those before and after it. *)
 let classify state i (token : Token.t) =
   match token.token with
   | TRUE | FALSE | NULL when after_point state -> NAME (Token.text ~source:state.source token)
   | word when is_word word && (after_point state || is_key state i) -> NAME (Token.text ~source:state.source token)
-  | UNTIL on_cut when ends_operand state.last && not state.last_is_header -> AFTER_UNTIL on_cut
-  | DURING on_cut when ends_operand state.last && not state.last_is_header -> AFTER_DURING on_cut
+  | UNTIL Completes when stands_behind state i token -> AFTER_UNTIL
+  | UNTIL Fails when stands_behind state i token -> AFTER_ASSURE
+  | DURING on_cut when stands_behind state i token -> AFTER_DURING on_cut
   | ELSE when state.last_is_pick && not (if_lacks_else state) -> OTHERWISE
   | NAME "parameter" when declares_parameter state i -> PARAMETER
   | NAME x as name ->
@@ -175,11 +188,6 @@ let classify state i (token : Token.t) =
     else if x = "recruit" then RECRUIT
     else Option.fold (builder x) ~none:name ~some:(fun builder -> BUILDER builder)
   | kind -> kind
-
-let in_statements state =
-  match state.frames with
-  | [] | (Body | Value | Picking) :: _ -> true
-  | Enclosed :: _ -> false
 
 (* Whether a separator belongs between the last token and one of this [kind]. *)
 let separates state (token : Token.t) kind =

@@ -19,7 +19,7 @@ let body_start pieces opener =
 let is_joined pieces i =
   pieces.(i).comments = []
   && match pieces.(i - 1).token, pieces.(i).token with
-  | (UNTIL _ | AFTER_UNTIL _ | WHEN | WAIT_FOR | ON_ERROR | BUILDER _ | ELSE), (LBRACE | BLOCK) -> true
+  | (UNTIL _ | AFTER_UNTIL | AFTER_ASSURE | WHEN | WAIT_FOR | ON_ERROR | BUILDER _ | ELSE), (LBRACE | BLOCK) -> true
   | RPAREN, BLOCK -> Spacing.ends_head pieces (i - 1)
   | RBRACE, ELSE | ELSE, IF -> true
   | _, COMMA -> true
@@ -77,7 +77,8 @@ let settle pieces =
 (* {1 Long lines} *)
 
 (* How loosely a line may end before piece [i]: the loosest first. *)
-type looseness = Body | Element | Joint | Choice | Either | Both | Beside | Chain | Sum | Operator | Inside | Value
+type looseness =
+    Body | Element | Joint | Choice | Either | Both | Beside | Chain | Sum | Operator | Limit | Inside | Value
 
 (* Whether piece [i] stands between a closure's brace and its arrow. *)
 let is_in_parameters pieces i =
@@ -99,6 +100,7 @@ let looseness pieces i =
   | (PLUS | MINUS), _ when not (Spacing.is_prefix pieces (i - 1)) -> Some Sum
   | (STAR | SLASH | PERCENT | POWER | AMPERSAND | CARET | EQUAL | NOT_EQUAL | LESS | LESS_EQUAL | GREATER
     | GREATER_EQUAL | IN), _ -> Some Operator
+  | _, (AFTER_UNTIL | AFTER_ASSURE | AFTER_DURING _) -> Some Limit
   | (LPAREN | LBRACKET), _ -> Some Inside
   | (ASSIGN | ASSIGN_OPERATOR _), _ -> Some Value
   | _, _ when pieces.(i).starts -> Some Body

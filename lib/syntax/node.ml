@@ -20,18 +20,6 @@ let apply base limits =
 
 let settle { base; limits } = apply base limits
 
-(* The first [until] behind a repeated task is the repeat's own; what stands behind that limits the repeat. *)
-let repeat place rounds { base; limits } =
-  let whole = Location.make place in
-  let node until body stop = { it = Repeat { rounds; body; until }; at = { whole with stop } } in
-  let rec divide before = function
-    | (Until_limit (Completes, condition), stop) :: after ->
-      apply (node (Some condition) (apply base before) stop) (List.rev after)
-    | limit :: after -> divide (limit :: before) after
-    | [] -> node None (apply base limits) whole.stop
-  in
-  divide [] (List.rev limits)
-
 type argument_item =
   | Positional_item of item
   | Named_item of string located * item

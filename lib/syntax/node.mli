@@ -19,10 +19,6 @@ val limit : item -> limit -> Lexing.position -> item
 val settle : item -> expression
 (** [settle i] is the base of [i] within its limits. *)
 
-val repeat : Lexing.position * Lexing.position -> expression option -> item -> expression
-(** [repeat place n t] is [repeat N, T], without [n] [repeat T]. The first [until { C }] behind [t] is when the repeat
-    ends; limits behind that are the repeat's. *)
-
 type argument_item =
   | Positional_item of item
   | Named_item of string located * item

@@ -36,7 +36,7 @@ let rec begins_with_call e =
   | Binary (_, e, _) | Index (e, _) | Member { subject = e; _ } | Call { callee = e; _ } -> begins_with_call e
   | _ -> false
 
-(* Whether [e] is that with limits around it, each of which can stand behind it. *)
+(* Whether [e] is such a call with limits around it, each of which can stand behind it. *)
 let rec is_limited_call e =
   match e.it with
   | During (_, d, e) -> (not (is_closure (Positional d))) && is_limited_call e
@@ -372,16 +372,17 @@ and conditional_statement out condition yes no =
     body out no
 
 (* [execute(t) during d] as a statement is read as [execute(t during d)]; [during d run execute(t)] is not. *)
-and limited out e =
+and limited ?(inside = false) out e =
   match e.it with
   | During (on_cut, d, t) when is_limited_call e ->
-    limited out t;
+    limited ~inside:true out t;
     put out (" " ^ during on_cut ^ " ");
     expression out postfix d
   | Until (on_cut, c, t) when is_limited_call e ->
-    limited out t;
+    limited ~inside:true out t;
     put out (" " ^ until on_cut ^ " ");
     closure out c
+  | Binary _ when inside -> expression out postfix e
   | _ -> opening out e
 
 (* An expression at the start of a statement, where a brace opens a block. *)

@@ -97,7 +97,7 @@ let tasks =
     [ "t1 = task 't1' during 2.seconds", "t1 = during 2.seconds run task('t1')";
       "execute t until { c }", "execute(until { c } run t)";
       "execute v: a until { c }, w: b during 2", "execute(v: until { c } run a, w: during 2 run b)";
-      "a >> b until { c }", "until { c } run (a >> b)"; "a during 1 during 2", "during 2 run (during 1 run a)";
+      "a during 1 during 2", "during 2 run (during 1 run a)";
       "a >> waitFor { c } then b | d", "a >> (waitFor { c } then (b | d))";
       "waitFor { c } then a until { d }", "waitFor { c } then (until { d } run a)";
       "waitFor { c } run a", "waitFor { c } then a"; "during { d } run a >> b", "during { d } run (a >> b)";
@@ -106,6 +106,52 @@ let tasks =
       "T[a] >> T[b]", "(T[a]) >> (T[b])"; "execute task('t')[v1] | t2", "execute((task('t')[v1]) | t2)";
       "choose { a }", "oneOf { a }";
       "pick { type: 'UAV' }", "pick {\n type: 'UAV'\n}"; "pick { run: 1; then: 2 }", "pick {\nrun: 1\nthen: 2\n}" ]
+
+(* What stands behind a task binds tighter than every operator; so do its time and its condition. *)
+let limits =
+  all "limits behind tasks"
+    [ "execute a during 5.min | b", "execute((during 5.min run a) | b)";
+      "a within d >> b", "(within d run a) >> b"; "a >> b within d", "a >> (within d run b)";
+      "a until { c } | b", "(until { c } run a) | b"; "a >> b until { c }", "a >> (until { c } run b)";
+      "a assure { c } & b during 1", "(assure { c } run a) & (during 1 run b)";
+      "a during 2 * n", "(during 2 run a) * n"; "a during (2 * n)", "during (2 * n) run a";
+      "a during f(x)[1].min | b", "(during (f(x)[1].min) run a) | b"; "a during { d } | b", "(during { d } run a) | b";
+      "!a during 1", "!(during 1 run a)"; "a.b[c](d) within 1", "within 1 run (a.b[c](d))";
+      "c ? a during 1 : b during 2", "c ? (during 1 run a) : (during 2 run b)";
+      "task 'a' during 1 | b", "task((during 1 run 'a') | b)"; "confirm 'a' within 1", "within 1 run confirm('a')";
+      "execute a until { c } | during 3 run b", "execute((until { c } run a) | (during 3 run b))";
+      "watch a onError { c } during 1 >> b", "(during 1 run (watch a onError { c })) >> b";
+      "a | watch b onError { c } until { d }", "a | (until { d } run (watch b onError { c }))";
+      "recruit { a } then { b } during 1 | c", "(during 1 run (recruit { a } then { b })) | c";
+      "waitFor { c } then a | b during 1", "waitFor { c } then (a | (during 1 run b))";
+      "during 1 run a | b during 2", "during 1 run (a | (during 2 run b))" ]
+
+let rounds =
+  all "until behind rounds"
+    [ "repeat a until { c }", "(repeat a until { c })"; "x | repeat a >> b until { c }", "x | (repeat a >> b until { c })";
+      "repeat waitFor { c } then { a } until { d }", "(repeat (waitFor { c } then { a }) until { d })";
+      "repeat 2, during 1 run a | b until { d }", "(repeat 2, (during 1 run (a | b)) until { d })";
+      "repeat (a until { c }) >> b until { d }", "(repeat ((until { c } run a) >> b) until { d })";
+      "repeat a during 1 until { c }", "(repeat (during 1 run a) until { c })";
+      "repeat a until { c } during 1", "during 1 run (repeat a until { c })";
+      "repeat a until { c } until { d }", "until { d } run (repeat a until { c })";
+      "repeat repeat a until { c } until { d }", "(repeat (repeat a until { c }) until { d })";
+      "repeat watch a until { c } onError { d }", "repeat (watch (until { c } run a) onError { d })";
+      "repeat f(a until { c }) until { d }", "(repeat f(until { c } run a) until { d })";
+      "repeat a assure { c }", "repeat (assure { c } run a)"; "repeat a >> b during 1", "repeat (a >> (during 1 run b))";
+      "(a | repeat b) during 1", "during 1 run (a | (repeat b))";
+      "repeat task 'a' until { c }", "(repeat task('a') until { c })" ]
+
+let limits_on_lines =
+  all "limits on lines of their own"
+    [ "execute a\nuntil { c }\nexecute b", "execute(until { c } run a); execute(b)";
+      "x = a\n  during 5.min\n  assure { c }\ny", "x = (assure { c } run (during 5.min run a)); y";
+      "x = a\nwithin d\n| b", "x = (within d run a) | b"; "x = a >>\n b\n during 1", "x = a >> (during 1 run b)";
+      "x = a\nuntil { c } run b", "x = a; until { c } run b"; "x = a\nduring 5.min run b", "x = a; during 5.min run b";
+      "x = a\nuntil { c } | during 3.min run b", "x = (until { c } run a) | (during 3.min run b)";
+      "x = a\nduring d | during 3.min run b", "x = (during d run a) | (during 3.min run b)";
+      "x = a\n\nduring d\nduring e run b", "x = during d run a; during e run b";
+      "f { a\n until { c } }", "f { until { c } run a }"; "repeat a\n until { c }", "(repeat a until { c })" ]
 
 let words =
   all "words and numbers"
@@ -141,5 +187,5 @@ let answers =
 
 let suite =
   List.concat
-    [ precedence; newlines; closures; commands; tasks; words; answers;
+    [ precedence; newlines; closures; commands; tasks; limits; rounds; limits_on_lines; words; answers;
       List.map good [ "good/paper_one.dol"; "good/paper_two.dol"; "good/snippets.dol" ] ]

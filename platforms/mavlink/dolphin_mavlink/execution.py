@@ -26,6 +26,7 @@ from .landing import OPEN, Disarmed
 from .modes import parameters_of
 from .progress import Progress
 from .refusal import Refusal
+from .vehicle import DEAF, UNSIGNED
 from .wire import mavlink
 
 WORDS = 1.5  # seconds in which the reason for a mode that was left may come, and another heartbeat
@@ -492,13 +493,18 @@ class Execution:
         """A vehicle that does not answer while its mission is on its way."""
         if self.stage in ("run", "stop", "back") or self.is_over:
             return []
-        if now - self._asked_at <= self.timeout:
+        deaf = self.vehicle.is_deaf(now)
+        patience = min(self.timeout, DEAF) if deaf else self.timeout
+        if now - self._asked_at <= patience:
             return []
         if self._resumes:
             return []  # it says nothing until it knows
         if not self._mode_asked:
             return self._give_up(
-                now, "failed", f"no answer from its autopilot for {self.timeout:g} seconds ({self.stage})"
+                now,
+                "failed",
+                f"no answer from its autopilot for {patience:g} seconds ({self.stage})"
+                + (f"; it {UNSIGNED}" if deaf else ""),
             )
         self._tell_unknown(f"it did not say whether it went into mode {self.vehicle.modes.mission}")
         return []

@@ -210,6 +210,9 @@ class Shell:
             for message in messages:
                 self._station.hear(self._now(), (number, where), message)
                 self._act()
+            for system, why in self._wire.take_doubts().items():
+                self._station.doubt(self._now(), system, why)
+                self._act()
 
     def _read_orders(self):
         try:

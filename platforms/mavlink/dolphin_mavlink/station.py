@@ -78,6 +78,8 @@ class Station:
         self._requests, self._over = {}, {}
         self._asked = {}  # when each vehicle was asked for what it is to send
         self._foreign = set()
+        self._early = []  # lines of the log that wait for the greeting
+        self._doubts = {}  # by systems: why their messages are not believed
         self._texts = {}  # by systems: the texts that were shown, and when they were said last
         self._trips = {}
         self._greeted, self._closing, self._heartbeat_at = False, None, None
@@ -115,6 +117,8 @@ class Station:
                 return
             vehicle = self._vehicles[system] = Vehicle(now, address, message, kind)
             self._trips[system] = RoundTrip()
+            if getattr(message, "needs_key", False):
+                self._log("signs its messages, and may not answer ours: no key was given (--key-file)", vehicle)
             self._asked[system] = (0, now)
             self._ask_for_telemetry(now, vehicle)
             self._send_heartbeat(vehicle.address, vehicle.version)
@@ -128,6 +132,12 @@ class Station:
             self._do(now, request, request.execution.hear(now, message))
         if message.get_type() not in TRANSFER:
             self._show(now, vehicle, before != (vehicle.mode, vehicle.armed))
+
+    def doubt(self, now, system, why):
+        """A vehicle's messages are not believed, by our key."""
+        if system not in self._doubts:
+            self._log(f"the messages of system {system} are {why}, and are not believed (--key-file)")
+        self._doubts[system] = why
 
     def _believed(self, now, vehicle, address):
         """A vehicle that is there is not suddenly elsewhere: it moves only after it was silent."""
@@ -204,6 +214,9 @@ class Station:
                 "patience": PATIENCE,
             }
         )
+        early, self._early = self._early, []
+        for line in early:
+            self._report(line)
         for vehicle in self._vehicles.values():
             self._show(now, vehicle, True)
 
@@ -268,6 +281,9 @@ class Station:
             patience = min(request.timeout, UNHEARD)
             if not request.resumes and now - request.since >= patience:
                 why = f"no {request.vehicle} was heard for {patience:g} seconds"
+                for system, doubt in self._doubts.items():
+                    if self.name_of(system) == request.vehicle:
+                        why += f": its messages are {doubt} (--key-file)"
                 self._end(now, name, {"kind": "failed", "why": why})
             return
         try:
@@ -428,7 +444,11 @@ class Station:
 
     def _log(self, text, vehicle=None):
         about = {} if vehicle is None else {"vehicle": self.name_of(vehicle.system)}
-        self._report({"kind": "log", **about, "text": text})
+        line = {"kind": "log", **about, "text": text}
+        if self._greeted:
+            self._report(line)
+        else:
+            self._early.append(line)  # the greeting comes first
 
     def _report(self, line):
         self._out.append(("report", line))

@@ -10,6 +10,8 @@ from .wire import mavlink, version_of
 
 LINK_SILENCE = 5.0  # seconds without a heartbeat, after which the link counts as lost
 MOVE_SILENCE = 10.0  # seconds after which a vehicle may be heard from another address
+DEAF = 5.0  # seconds in which a vehicle answers the first requests
+UNSIGNED = "signs its messages: --key-file gives the pass phrase by which ours are signed"
 FALL = 3.0  # metres a second: no copter lands as fast
 _CLOCK_WRAPS = 2**32 / 1000  # seconds
 _DEVICES = {mavlink.MAV_TYPE_CAMERA: "camera", mavlink.MAV_TYPE_GIMBAL: "gimbal", mavlink.MAV_TYPE_WINCH: "winch"}
@@ -73,7 +75,7 @@ class Vehicle:
         self.autopilot, self.frame = kind or (heartbeat.autopilot, modes.frame_of(heartbeat.type))
         self._type = heartbeat.type
         self.modes = modes.modes_of(self.autopilot, self.frame)
-        self.heard_at = now
+        self.heard_at = self.first_heard_at = now
         self.mode, self.armed, self.status = None, False, mavlink.MAV_STATE_UNINIT
         self.heartbeats = 0  # how many there were
         self.place = None  # (latitude, longitude)
@@ -87,6 +89,8 @@ class Vehicle:
         self.flew_at = -math.inf  # when it last reported that it is in the air
         self.grounded = False  # whether it was on the ground while it was armed
         self.sank_at = -math.inf  # when it last sank faster than any landing
+        self.needs_key = False  # whether it signs its messages, and we have no key
+        self.answers = False  # whether it has ever answered us
         self.boot, self.restarted_at = None, -math.inf  # the seconds since its start; when it last started again
         self.current, self.total, self.mission_state = None, None, None
         self._height = None  # metres above home, and when, by its clock
@@ -145,6 +149,7 @@ class Vehicle:
             return
         self.heard_at, self.version = now, version_of(message)
         self.heartbeats += 1
+        self.needs_key = getattr(message, "needs_key", False)
         mode = modes.name_of(self.autopilot, self.frame, message.custom_mode)
         armed = bool(message.base_mode & mavlink.MAV_MODE_FLAG_SAFETY_ARMED)
         if not armed or (mode != self.mode and mode in self.modes.given_back and mode != self.pilot):
@@ -241,10 +246,19 @@ class Vehicle:
         at, kind = self._fence
         return f"fence breach{kind}" if now - at <= recent else None
 
+    def _command_ack(self, now, message):
+        self.answers = True
+
+    def is_deaf(self, now):
+        """Whether it signs its messages, and has left without an answer all of ours, which are not signed."""
+        return self.needs_key and not self.answers and now - self.first_heard_at >= DEAF
+
     def unready(self, now, has_plan):
         """What keeps the vehicle from being given a plan though it has a link, as a predicate; None: nothing."""
         if has_plan:
             return None
+        if self.is_deaf(now):
+            return f"does not answer, and {UNSIGNED}"
         if self.status in _UNABLE:
             said_at, text = self.distress
             return _UNABLE[self.status] + (f": {text}" if text and now - said_at < 60 else "")

@@ -13,13 +13,29 @@ SIGNED = 0x01
 SIGNING_EPOCH = 1420070400
 
 
+_AUTOPILOTS = (mavlink.MAV_AUTOPILOT_ARDUPILOTMEGA, mavlink.MAV_AUTOPILOT_PX4)
+
+
 class _Codec(mavlink.MAVLink):
     """pymavlink's codec. It would take the timestamp of a forged signature for the stream's latest, and refuse the true
-    ones after it; here only a signature that is right moves the stream on."""
+    ones after it; here only a signature that is right moves the stream on. `doubt`: why the last frame with a right
+    checksum was not believed; None if it was, or is a copy."""
+
+    doubt = None
 
     def check_signature(self, msgbuf, srcSystem, srcComponent):
         right = hashlib.sha256(self.signing.secret_key + bytes(msgbuf[:-6])).digest()[:6]
-        return right == bytes(msgbuf[-6:]) and super().check_signature(msgbuf, srcSystem, srcComponent)
+        if right != bytes(msgbuf[-6:]):
+            self.doubt = "signed with another key"
+            return False
+        is_known = (msgbuf[-13], srcSystem, srcComponent) in self.signing.stream_timestamps
+        believed = super().check_signature(msgbuf, srcSystem, srcComponent)
+        self.doubt = None if believed or is_known else "signed by a clock that is more than a minute behind ours"
+        return believed
+
+    def unsigned(self, number):
+        """Whether a message may come without a right signature."""
+        return False
 
 
 class Wire:
@@ -27,7 +43,9 @@ class Wire:
 
     def __init__(self, system, component, key=None):
         self._codec = _Codec(None, srcSystem=system, srcComponent=component)
+        self._has_key, self._doubts = key is not None, {}
         if key is not None:
+            self._codec.signing.allow_unsigned_callback = _Codec.unsigned
             self._codec.signing.secret_key = hashlib.sha256(key.encode()).digest()
             self._codec.signing.sign_outgoing = True
 
@@ -71,14 +89,33 @@ class Wire:
             data = rest[1:]
         return messages
 
+    def take_doubts(self):
+        """By systems that seem to be vehicles: why their messages are not believed, since this was asked last."""
+        doubts, self._doubts = self._doubts, {}
+        return doubts
+
     def _message(self, frame):
         if frame[0] == mavlink.PROTOCOL_MARKER_V2 and frame[2] & ~SIGNED:
             return None
+        rejected = self._codec.signing.reject_count
+        self._codec.doubt = "not signed"
         try:
             message = self._codec.decode(bytearray(frame))
         except (mavlink.MAVError, ValueError, TypeError):
+            if self._codec.signing.reject_count > rejected:
+                self._doubt(frame)
             return None
-        return None if message.get_msgId() < 0 or message.get_type().startswith("UNKNOWN") else message
+        if message.get_msgId() < 0 or message.get_type().startswith("UNKNOWN"):
+            return None
+        message.needs_key = not self._has_key and frame[0] == mavlink.PROTOCOL_MARKER_V2 and bool(frame[2] & SIGNED)
+        return message
+
+    def _doubt(self, frame):
+        is_2 = frame[0] == mavlink.PROTOCOL_MARKER_V2
+        system, number, payload = (frame[5], frame[7:10], frame[10:]) if is_2 else (frame[3], frame[5:6], frame[6:])
+        is_vehicle = not any(number) and len(payload) > 5 and payload[5] in _AUTOPILOTS
+        if is_vehicle and self._codec.doubt is not None:
+            self._doubts[system] = self._codec.doubt
 
 
 def _size(data, at):

@@ -103,6 +103,8 @@ class Network:
             return
         for message in self._wire.decode_datagram(data):
             self.station.hear(self.now, ("link", vehicle.system), message)
+        for system, why in self._wire.take_doubts().items():
+            self.station.doubt(self.now, system, why)
         self._act()
 
     def _to_vehicle(self, vehicle, data):

@@ -16,6 +16,18 @@ class Protocol(Case):
         self.assertEqual((hello["kind"], hello["protocol"], hello["name"]), ("hello", 1, "mavlink"))
         self.assertEqual(hello["plans"], ["name", "imcPlan", "mission"])
 
+    def test_nothing_is_reported_before_the_greeting(self):
+        vehicle, wire = SimVehicle(1), Wire(1, 1, "dolphins")
+        station, ours = Station(Options()), Wire(255, 190)
+        for message in vehicle.tick(0.0):
+            for heard in ours.decode_datagram(wire.encode(message)):
+                station.hear(0.0, "link", heard)
+        station.tick(0.1)
+        self.assertEqual([what for what in station.take() if what[0] == "report"], [])
+        station.order(0.2, {"kind": "hello", "protocol": 1})
+        kinds = [what[1]["kind"] for what in station.take() if what[0] == "report"]
+        self.assertEqual(kinds, ["hello", "log", "vehicle"])
+
     def test_another_version(self):
         station = Station(Options())
         station.order(0.0, {"kind": "hello", "protocol": 2})
@@ -248,6 +260,55 @@ class Trust(Case):
         stranger._wires[1] = Wire(1, 1)
         stranger.run(5)
         self.assertEqual(stranger.said("vehicle"), [])
+
+    def test_a_vehicle_that_wants_signed_messages_and_no_key(self):
+        """It does not answer: that is said at once, and kept in mind where vehicles are picked."""
+        vehicle = SimVehicle(1)
+        wires = Network([vehicle], options=Options(stored={"survey": way(3)}))
+        wires._wires[1] = Wire(1, 1, "dolphins")
+        wires.run(2)
+        logs = ["signs its messages, and may not answer ours: no key was given (--key-file)"]
+        self.assertEqual([r["text"] for r in wires.said("log")], logs)
+        hint = "signs its messages: --key-file gives the pass phrase by which ours are signed"
+        wires.start("r", "mav-1", stored())
+        self.ends(wires, "r", "failed", f"no answer from its autopilot for 5 seconds (upload); it {hint}")
+        self.assertEqual(wires.vehicle_said("mav-1")["unready"], f"does not answer, and {hint}")
+        wires.start("r2", "mav-1", stored())
+        self.ends(wires, "r2", "failed", f"does not answer, and {hint}")
+        self.assertEqual(len(wires.said("log")), 1)
+
+    def test_a_vehicle_that_signs_and_answers_all_the_same(self):
+        """As ArduPilot does on its USB port."""
+        vehicle = SimVehicle(1)
+        wires = Network([vehicle], options=Options(stored={"survey": way(3)}))
+        signs = Wire(1, 1, "dolphins")
+        signs.decode_datagram = Wire(1, 1).decode_datagram
+        wires._wires[1] = signs
+        wires.run(8)
+        self.assertIsNone(wires.vehicle_said("mav-1")["unready"])
+        wires.start("r", "mav-1", stored())
+        self.ends(wires, "r", "done")
+
+    def test_vehicles_whose_messages_a_key_does_not_let_in(self):
+        for key, why in ((None, "not signed"), ("whales", "signed with another key")):
+            wires = Network([SimVehicle(1)], key="dolphins", doubled=0.3)
+            wires._wires[1] = Wire(1, 1, key)
+            wires.run(5)
+            logs = [f"the messages of system 1 are {why}, and are not believed (--key-file)"]
+            self.assertEqual([r["text"] for r in wires.said("log")], logs)
+            wires.start("r", "mav-1", stored())
+            self.ends(wires, "r", "failed", f"no mav-1 was heard for 10 seconds: its messages are {why} (--key-file)")
+        wires = Network([SimVehicle(1)], key="dolphins")
+        wires._wire.set_date(1e9 + 1420070400)
+        wires.run(5)
+        [log] = wires.said("log")
+        self.assertIn("are signed by a clock that is more than a minute behind ours", log["text"])
+
+    def test_copies_of_signed_messages_are_not_remarked_on(self):
+        wires = Network([SimVehicle(1)], key="dolphins", doubled=0.5, reordered=0.3)
+        wires.run(20)
+        self.assertEqual(wires.said("log"), [])
+        self.assertTrue(wires.vehicle_said("mav-1")["link"])
 
     def test_a_vehicle_moves_to_another_address_once_it_was_silent(self):
         vehicle, wires = one()

@@ -1,0 +1,3 @@
+(** Archives, and files of each format that are cut or changed anywhere. *)
+
+val cases : unit Alcotest.test_case list

@@ -1,0 +1,3 @@
+(** Maps in each format. *)
+
+val cases : unit Alcotest.test_case list

@@ -1,0 +1,3 @@
+(** Tiles in MBTiles. *)
+
+val cases : unit Alcotest.test_case list

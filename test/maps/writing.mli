@@ -1,0 +1,3 @@
+(** Maps that are written. *)
+
+val cases : unit Alcotest.test_case list

@@ -67,6 +67,7 @@ class Execution:
         self._mode_at_stop, self._stop_accepted = None, None
         self._disarmed, self._lands = None, False  # since it is disarmed; whether it was at an item that lands it then
         self._armed_by_us, self._resumes, self._stopping, self._unknown = False, False, False, False
+        self._unrecognised = None
 
     # What the station calls
 
@@ -74,10 +75,11 @@ class Execution:
         self._stage_at = self._asked_at = self._begun = now
         return self._try(now)
 
-    def resume(self, now):
-        """Finds out what became of a mission that an adapter before this one has begun, or was about to begin."""
+    def resume(self, now, unrecognised=None):
+        """Finds out what became of a mission that an adapter before this one has begun, or was about to begin.
+        `unrecognised`: why it is not known which mission that is."""
         self._stage_at = self._asked_at = self._begun = now
-        self._resumes, self._mode_asked = True, True
+        self._resumes, self._mode_asked, self._unrecognised = True, True, unrecognised
         return self._try(now)
 
     def kept(self, now):
@@ -139,6 +141,8 @@ class Execution:
         v = self.vehicle
         if not v.link(now) or v.mode is None or now - v.heard_at > 2.5:
             return []
+        if self._resumes and self._unrecognised is not None:
+            return self._resumed(now, self._unrecognised)
         if self._resumes:
             return self._board(now, Boarding.compare)
         why = self._refusal(now)
@@ -197,7 +201,7 @@ class Execution:
 
     def _note(self, now, then):
         self.stage, self._next_after_note, self._asked_at = "note", then, now
-        self.events.append(("note", {"mission": self.mission.digest, "items": len(self.mission.items)}))
+        self.events.append(("note", self.mission.note))
         return []
 
     def _arm(self, now):
@@ -491,7 +495,7 @@ class Execution:
 
     def _silence(self, now):
         """A vehicle that does not answer while its mission is on its way."""
-        if self.stage in ("run", "stop", "back") or self.is_over:
+        if self.stage in ("run", "stop", "back", "unrecognised") or self.is_over:
             return []
         deaf = self.vehicle.is_deaf(now)
         patience = min(self.timeout, DEAF) if deaf else self.timeout
@@ -530,20 +534,30 @@ class Execution:
         self._mode_before, self._known = v.mode, {v.mode}
         self._resumes, self._asked_mode = False, None
         if why is not None:
-            return self._fail(why)
+            return self._not_recognised(now, why, flies)
+        self._progress.resume()
+        flies = flies or (v.armed and self._progress.returns_by_itself())
         if v.mission_state == mavlink.MISSION_STATE_COMPLETE:
             self._end("done")
             return []
         if not flies:
             what = f"it is in mode {v.mode}" if v.armed else "it is not armed"
-            return self._fail(f"does not fly the mission that it was to begin: {what}")
-        self._progress.resume()
+            return self._fail(f"does not fly the mission that it was to begin, and may have flown it: {what}")
         self._stage_at = now
         if self._stopping:
             return self._go_to_stop(now)
         self.stage = "run"
         self.events.append(("taken",))
         return []
+
+    def _not_recognised(self, now, why, flies):
+        """It cannot be said what became of the mission. What the vehicle flies is stopped when Dolphin orders it."""
+        self.stage = "unrecognised"
+        if not flies:
+            what = f"is in mode {self.vehicle.mode}" if self.vehicle.armed else "is not armed"
+            return self._fail(f"{what}, and may have flown the mission that it was to begin: {why}")
+        self._tell_unknown(why)
+        return self._go_to_stop(now) if self._stopping else []
 
     def _fail(self, why):
         self._end("failed", why)

@@ -178,6 +178,51 @@ class Mission:
     def digest(self):
         return hashlib.sha256(repr((self.items, self.arm)).encode()).hexdigest()[:16]
 
+    @property
+    def note(self):
+        """All that a later adapter needs to recognise the mission on board, as a JSON object."""
+        return {
+            "mission": self.digest,
+            "items": len(self.items),
+            "arm": self.arm,
+            "endless": self.endless,
+            "compiled": [_to_note(item) for item in self.items],
+        }
+
+
+UNKNOWN = Mission((Item(0),))  # stands for a mission of which nothing is known
+
+
+def _to_note(item):
+    params = [None if math.isnan(value) else value for value in item.params]
+    values = [item.command, item.frame, item.x, item.y, item.z, item.autocontinue, *params]
+    while values and values[-1] == 0:
+        values.pop()
+    return values
+
+
+def _of_note(values):
+    numbers = isinstance(values, list) and all(
+        value is None or (isinstance(value, (int, float)) and not isinstance(value, bool)) for value in values
+    )
+    if not numbers or len(values) > 10:
+        raise Unreadable("its note is malformed")
+    command, frame, x, y, z, autocontinue, *params = [*values, *(0,) * (10 - len(values))]
+    if any(not isinstance(value, int) for value in (command, frame, x, y, autocontinue)) or z is None:
+        raise Unreadable("its note is malformed")
+    params = tuple(math.nan if value is None else float(value) for value in params)
+    return Item(command, frame, params, x, y, float(z), autocontinue)
+
+
+def of_note(note):
+    """The mission in a note; None if it has none, as those of earlier versions. Raises Unreadable."""
+    if not isinstance(note, dict) or "compiled" not in note:
+        return None
+    if not isinstance(note["compiled"], list) or not note["compiled"]:
+        raise Unreadable("its note is malformed")
+    items = tuple(_of_note(values) for values in note["compiled"])
+    return Mission(items, note.get("arm") is True, note.get("endless") is True)
+
 
 # Files
 

@@ -20,9 +20,10 @@ class For:
     frame: str = None
     is_px4: bool = False
     home: tuple = None
-    place: tuple = None
+    place: tuple = None  # where it is
     geoid: float = None
     known: bool = False  # whether there is a vehicle
+    armed: bool = False
 
     @property
     def kind(self):
@@ -30,12 +31,13 @@ class For:
 
 
 def vehicle(name, v):
-    return For(name, v.frame, v.autopilot == modes.PX4, v.home, v.place, v.geoid, True)
+    home = v.home or (v.armed_from if v.armed else None)
+    return For(name, v.frame, v.autopilot == modes.PX4, home, v.place, v.geoid, True, v.armed)
 
 
 def compile_plan(plan, stored, whom):
     """The Mission of `plan`, as it is in orders, for `whom`. `stored(name)` is the items of a stored mission, or raises
-    Unreadable. Raises Refused."""
+    Unreadable. Raises Refused, and Unheard if it depends on what the vehicle has not reported yet."""
     try:
         if plan.get("language") is None:
             found = Mission(stored(plan["name"]))

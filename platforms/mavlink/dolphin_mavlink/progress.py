@@ -117,7 +117,7 @@ class Progress:
     def is_where_it_lands(self):
         """Whether the mission ends with a landing, and the vehicle is at its place."""
         last = self._last_item
-        places = [item for item in self._mission.items[: self._mission.last + 1] if item.has_place]
+        places = [item for item in self._mission.items[: self._mission.last + 1] if item.is_destination]
         if last.command == missions.RETURN:
             return self._is_near(last)
         return self._lands(last) and bool(places) and self._is_near(places[-1])

@@ -20,12 +20,13 @@ from .sightings import Sightings
 from .transfer import RoundTrip
 from .vehicle import MOVE_SILENCE, Vehicle, is_autopilot
 from .wire import mavlink
+from .words import Unheard
 
 PROTOCOL = 1
 ANNOUNCE = 5
 PATIENCE = 120
 CLOSING = 5.0
-UNHEARD = 10.0  # seconds in which a vehicle may be heard that a start is for
+UNHEARD = 10.0  # seconds in which a vehicle may be heard that a start is for, and then where it is
 RESUMING = 10.0  # seconds in which orders to resume may come
 REMEMBERED = 1000  # so many ended requests are known
 _WANTED = [
@@ -67,6 +68,8 @@ class _Request:
     resumes: bool = False
     stops: bool = False  # whether it is to be stopped as soon as the vehicle is heard
     note: int = None
+    noted: dict = None  # of an adapter before this one
+    heard_since: float = None  # since when the vehicle is heard
 
 
 class Station:
@@ -238,6 +241,8 @@ class Station:
             plans.compile_plan(line["plan"], self._stored, whom)
         except plans.Refused as refused:
             problems = refused.problems
+        except Unheard:
+            pass  # the plan fits; a start waits for it
         self._report({"kind": "checked", "id": line["id"], "problems": problems})
 
     def _order_kept(self, now, line):
@@ -266,8 +271,10 @@ class Station:
             if known.last is not None:
                 self._report(known.last)
             return
-        self._enter(now, line).resumes = True
+        request = self._enter(now, line)
+        request.resumes = True
         if line["notes"]:
+            request.noted = line["notes"][0]
             self._try_to_begin(now, line["request"])
         else:
             # Nothing is sent that begins a mission before its note is kept.
@@ -286,16 +293,38 @@ class Station:
                         why += f": its messages are {doubt} (--key-file)"
                 self._end(now, name, {"kind": "failed", "why": why})
             return
+        if request.heard_since is None:
+            request.heard_since = now
+        why = None
         try:
-            mission = plans.compile_plan(request.plan, self._stored, plans.vehicle(request.vehicle, vehicle))
+            mission = self._mission(request, vehicle)
+        except Unheard as unheard:
+            patience = min(request.timeout, UNHEARD)
+            if now - request.heard_since < patience:
+                return
+            why = f"its {unheard} was not heard for {patience:g} seconds"
         except plans.Refused as refused:
-            self._end(now, name, {"kind": "failed", "why": str(refused)})
+            why = str(refused)
+        if why is not None and not request.resumes:
+            self._end(now, name, {"kind": "failed", "why": why})
             return
-        request.execution = self._execution(vehicle, mission, request.timeout)
-        out = request.execution.resume(now) if request.resumes else request.execution.begin(now)
+        # A mission that may have been begun is stopped, even if it cannot be recognised.
+        request.execution = self._execution(vehicle, missions.UNKNOWN if why else mission, request.timeout)
+        execution = request.execution
+        out = execution.resume(now, why) if request.resumes else execution.begin(now)
         if request.stops:
-            out += request.execution.stop(now)
+            out += execution.stop(now)
         self._do(now, request, out)
+
+    def _mission(self, request, vehicle):
+        """What was noted when it was to begin, if that is known: what a plan becomes depends on where the vehicle is."""
+        try:
+            noted = missions.of_note(request.noted)
+        except missions.Unreadable as unreadable:
+            raise plans.Refused([str(unreadable)]) from None
+        if noted is not None:
+            return noted
+        return plans.compile_plan(request.plan, self._stored, plans.vehicle(request.vehicle, vehicle))
 
     def _execution(self, vehicle, mission, timeout):
         vehicle.idle_mission = vehicle.idle_mission and vehicle.mode == vehicle.modes.mission

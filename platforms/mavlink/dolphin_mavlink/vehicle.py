@@ -79,6 +79,7 @@ class Vehicle:
         self.mode, self.armed, self.status = None, False, mavlink.MAV_STATE_UNINIT
         self.heartbeats = 0  # how many there were
         self.place = None  # (latitude, longitude)
+        self.armed_from = None  # its place when it was disarmed last: its home, if it does not report another one
         self.altitude = None  # above mean sea level
         self.relative = None  # above home; of what dives above the surface
         self.geoid = None  # how far mean sea level is above the ellipsoid, where it says so
@@ -166,6 +167,8 @@ class Vehicle:
         self._sink(now, message)
         if (message.lat, message.lon) != (0, 0) and abs(message.lat) <= 900000000 and abs(message.lon) <= 1800000000:
             self.place = message.lat / 1e7, message.lon / 1e7
+            if not self.armed:
+                self.armed_from = self.place
             self.altitude, self.relative = message.alt / 1000, message.relative_alt / 1000
             self.speed = math.hypot(message.vx, message.vy) / 100
 

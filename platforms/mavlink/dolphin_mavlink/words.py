@@ -21,6 +21,10 @@ class Refused(Exception):
         self.problems = list(problems)
 
 
+class Unheard(Exception):
+    """What the vehicle has not reported yet, without which the plan cannot be made."""
+
+
 class Misfit(Exception):
     """Why one maneuver or item does not fit."""
 
@@ -41,8 +45,10 @@ class Builder:
         self.items, self.first_of, self.jumps = [], [], []
         self.arm, self.endless = False, False
         self._altitude = None
-        self._place = whom.place or whom.home or (0.0, 0.0)
-        self._home = whom.home or whom.place or (0.0, 0.0)
+        # A vehicle on the ground takes its place for home once it is armed. Without a vehicle any place will do.
+        anywhere = None if whom.known else (0.0, 0.0)
+        self._at = whom.place or anywhere
+        self._home_at = whom.home or (None if whom.armed else whom.place) or anywhere
 
     def mission(self, entries):
         problems = []
@@ -73,8 +79,21 @@ class Builder:
             raise Refused(["it has no items"])
         return Mission(tuple(self.items), self.arm)
 
+    @property
+    def _place(self):
+        """Where the vehicle is by then."""
+        if self._at is None:
+            raise Unheard("position")
+        return self._at
+
+    @property
+    def _home(self):
+        if self._home_at is None:
+            raise Unheard("home position")
+        return self._home_at
+
     def _to(self, place):
-        self._place = place
+        self._at = place
 
     def _z(self, a):
         given = a.number("altitude", None)
@@ -116,7 +135,7 @@ class Builder:
             if item.is_destination:
                 self._to(item.place)
             elif item.command == mavlink.MAV_CMD_DO_SET_HOME:
-                self._home = item.place if item.has_place else self._place
+                self._home_at = item.place if item.has_place else self._place
 
     def _speed(self, a):
         self._change_speed(a.number("speed"))
@@ -127,10 +146,10 @@ class Builder:
     def _set_home(self, a):
         place = a.place("position", None)
         if place is None:
-            self._home = self._place
+            self._home_at = self._place
             self.items.append(Item(mavlink.MAV_CMD_DO_SET_HOME, params=(1.0, 0.0, 0.0, 0.0)))
         else:
-            self._home = place
+            self._home_at = place
             self.items.append(located(mavlink.MAV_CMD_DO_SET_HOME, place, 0, missions.RELATIVE))
 
     # Ways

@@ -1,7 +1,16 @@
 """Adapters and links that die at 100 moments of a mission: nothing is flown twice, nothing is lost, or it is said."""
 
+import json
+import math
+import random
+
+from dolphin_mavlink import geo
+from dolphin_mavlink.mission import Item, Mission, of_note
+from dolphin_mavlink.station import Options
 from dolphin_mavlink.wire import mavlink
-from tests.support import Case, one, stored, way
+from sim.network import Network
+from sim.vehicle import SimVehicle
+from tests.support import HARBOUR, Case, one, seeds, stored, way
 
 POINTS = 100
 LENGTH = 16.0  # seconds that the mission takes, from the order to its end, and a little more
@@ -10,6 +19,13 @@ LENGTH = 16.0  # seconds that the mission takes, from the order to its end, and 
 def moments():
     """Dense at the beginning, where most is decided."""
     return [LENGTH * (k / POINTS) ** 2 for k in range(POINTS)]
+
+
+def flight(*words):
+    """A plan in the language of missions, which arms the vehicle."""
+    words = (["arm", True], *words)
+    items = [{"item": name, "arguments": arguments, "named": {}} for name, *arguments in words]
+    return {"name": "flight", "language": "mission", "body": {"items": items}}
 
 
 class Console:
@@ -139,8 +155,191 @@ class Killed(Case):
         vehicle.items[3].x += 5000
         wires.start_station(resumes=True)
         wires.order(kind="resume", request="r", vehicle="mav-1", plan=plan, timeout=60, notes=[{"mission": "x"}])
+        self.assertTrue(wires.run(20, lambda: wires.said("unknown", "r")))
+        self.assertIn("the mission on board is another one", wires.said("unknown", "r")[0]["why"])
+        self.assertEqual((wires.end_of("r"), vehicle.mode), (None, "AUTO"))
         wires.stop("r")
+        self.ends(wires, "r", "stopped")
+        self.assertEqual(vehicle.mode, "BRAKE")
+
+    def test_another_mission_that_was_to_be_stopped(self):
+        vehicle, wires = self.flying(stored(), way(30))
+        vehicle.items[3].x += 5000
+        self.resume(wires, stored())
+        wires.stop("r")
+        self.ends(wires, "r", "stopped")
+        self.assertEqual(vehicle.mode, "BRAKE")
+
+    def test_another_mission_that_is_not_flown(self):
+        vehicle, wires = self.flying(stored(), way(30))
+        vehicle.items[3].x += 5000
+        vehicle.pilot(wires.now, "LOITER")
+        self.resume(wires, stored())
         end = wires.run_to_end("r")
         self.assertEqual(end["kind"], "failed")
-        self.assertIn("the mission on board is another one", end["why"])
-        self.assertEqual(vehicle.mode, "AUTO")
+        self.assertIn("is in mode LOITER, and may have flown the mission that it was to begin", end["why"])
+        self.assertEqual(vehicle.mode, "LOITER")
+
+    def flying(self, plan, items=None, px4=False, seconds=4.0, **more):
+        """A vehicle whose mission has been under way for some seconds when its adapter dies."""
+        vehicle, wires = one(px4=px4, items=items, **more)
+        wires.start("r", "mav-1", plan)
+        self.assertTrue(wires.run(30, lambda: wires.said("taken")), wires.reports[-3:])
+        wires.run(seconds)
+        wires.gone = True
+        wires.run(1)
+        return vehicle, wires
+
+    def resume(self, wires, plan, notes=None):
+        """A new adapter, which hears no position before it is asked to resume."""
+        noted = [r["note"] for r in reversed(wires.said("note", "r"))]
+        noted = json.loads(json.dumps(noted, allow_nan=False))
+        wires.start_station(resumes=True)
+        wires.order(
+            kind="resume", request="r", vehicle="mav-1", plan=plan, timeout=60, notes=noted if notes is None else notes
+        )
+
+    def test_missions_relative_to_where_the_vehicle_was(self):
+        """And those that begin with a take-off from there. They are resumed from elsewhere, and go on."""
+        relative = flight(["takeOff", 20], ["move", 50, 0], ["move", 0, 50], ["move", -50, 0], ["loiterTime", 5])
+        here = {"latitude": HARBOUR[0] + 0.002, "longitude": HARBOUR[1], "height": 0}
+        absolute = flight(["takeOffWithYaw", 20, 90], ["goPos", here], ["loiterTime", 5])
+        unturned = flight(["takeOff", 20], ["goPos", here], ["returnHomeAndLand"])
+        for plan in (relative, absolute, unturned):
+            for px4 in (False, True):
+                for seconds in (0.2, 3.0, 6.0):
+                    with self.subTest(plan=plan, px4=px4, seconds=seconds):
+                        vehicle, wires = self.flying(plan, px4=px4, seconds=seconds)
+                        flown = len(vehicle.items)
+                        self.resume(wires, plan)
+                        self.ends(wires, "r", "done")
+                        self.assertEqual((len(vehicle.began), len(vehicle.items)), (1, flown))
+                        self.assertEqual(wires.said("unknown"), [])
+
+    def test_a_note_without_the_items(self):
+        """As earlier adapters wrote it. What the plan becomes now is another mission: it is stopped."""
+        plan = flight(["takeOff", 20], ["move", 500, 0], ["move", 0, 500])
+        vehicle, wires = self.flying(plan)
+        self.resume(wires, plan, notes=[{"mission": "x", "items": 3}])
+        self.assertTrue(wires.run(20, lambda: wires.said("unknown", "r")))
+        wires.stop("r")
+        self.ends(wires, "r", "stopped")
+        self.assertEqual(vehicle.mode, "BRAKE")
+
+    def test_notes_that_are_malformed(self):
+        good = [16, 6, 1, 2, 3.0]
+        for compiled in (7, [], [7], [["x"]], [[16, 6, None]], [[16, 6, 1.5]], [good + [0] * 6], [[True]]):
+            with self.subTest(compiled=compiled):
+                vehicle, wires = self.flying(stored(), way(30))
+                self.resume(wires, stored(), notes=[{"mission": "x", "items": 1, "compiled": compiled}])
+                self.assertTrue(wires.run(20, lambda: wires.said("unknown", "r")))
+                wires.stop("r")
+                self.ends(wires, "r", "stopped")
+                self.assertEqual(vehicle.mode, "BRAKE")
+
+    def test_a_plan_that_cannot_be_made_any_more(self):
+        """Its stored mission is gone, and the note has no items."""
+        vehicle, wires = self.flying(stored(), way(30))
+        wires._options.stored.clear()
+        self.resume(wires, stored(), notes=[{"mission": "x", "items": 30}])
+        self.assertTrue(wires.run(20, lambda: wires.said("unknown", "r")))
+        self.assertIn("there is no mission 'survey'", wires.said("unknown", "r")[0]["why"])
+        wires.stop("r")
+        self.ends(wires, "r", "stopped")
+        self.assertEqual(vehicle.mode, "BRAKE")
+
+    def test_a_note_outlives_its_file(self):
+        vehicle, wires = self.flying(stored(), way(8))
+        wires._options.stored.clear()
+        self.resume(wires, stored())
+        self.ends(wires, "r", "done")
+
+    def test_a_vehicle_that_has_landed_in_the_meantime(self):
+        plan = flight(["takeOff", 20], ["move", 30, 0], ["returnHomeAndLand"])
+        vehicle, wires = self.flying(plan, seconds=1)
+        wires.gone = True
+        self.assertTrue(wires.run(120, lambda: not vehicle.armed))
+        wires.run(5)
+        vehicle.tells_state = False
+        self.resume(wires, plan)
+        end = wires.run_to_end("r", 60)
+        self.assertEqual(end["kind"], "failed")
+        self.assertIn("may have flown it: it is not armed", end["why"])
+        self.assertEqual(len(vehicle.began), 1)
+
+    def test_notes_give_missions_back(self):
+        for seed in seeds(20):
+            generator = random.Random(seed)
+
+            def number():
+                return generator.choice((0.0, -0.0, 7.5, math.nan, generator.uniform(-1e6, 1e6)))
+
+            items = tuple(
+                Item(
+                    generator.choice((16, 22, 93, 178, 203)),
+                    generator.choice((2, 5, 6, 11)),
+                    tuple(number() for _ in range(4)),
+                    generator.choice((0, generator.randrange(-(2**31), 2**31))),
+                    generator.choice((0, generator.randrange(-(2**31), 2**31))),
+                    generator.choice((0.0, generator.uniform(-100, 100))),
+                    generator.randrange(2),
+                )
+                for _ in range(generator.randrange(1, 9))
+            )
+            sent = Mission(items, generator.choice((True, False)), generator.choice((True, False)))
+            note = json.loads(json.dumps(sent.note, allow_nan=False))
+            found = of_note(note)
+            self.assertEqual(repr(found).replace("-0.0", "0.0"), repr(sent).replace("-0.0", "0.0"))
+
+
+class Unheard(Case):
+    """Nothing is made of a plan before the vehicle has reported what it depends on."""
+
+    def one(self, hidden, armed=False):
+        vehicle = SimVehicle(1, "copter", False, HARBOUR, armed=armed)
+        sense, vehicle.hidden = vehicle._sense, {hidden}
+
+        def part(now):
+            sense(now)
+            vehicle._out = [m for m in vehicle._out if m.get_type() not in vehicle.hidden]
+
+        vehicle._sense = part
+        wires = Network([vehicle], options=Options(stored={"survey": way(5)}))
+        wires.run(3)
+        return vehicle, wires
+
+    def test_the_position(self):
+        plan = flight(["takeOff", 20], ["move", 50, 0])
+        vehicle, wires = self.one("GLOBAL_POSITION_INT")
+        wires.start("r", "mav-1", plan)
+        wires.run(4)
+        self.assertEqual(vehicle.items, [])
+        vehicle.hidden = set()
+        self.ends(wires, "r", "done")
+        self.assertLess(geo.distance(vehicle.place, geo.displace(HARBOUR, 50, 0)), 1)
+        vehicle, wires = self.one("GLOBAL_POSITION_INT")
+        wires.start("r", "mav-1", plan)
+        self.ends(wires, "r", "failed", "its position was not heard for 10 seconds")
+        self.assertEqual(vehicle.items, [])
+
+    def test_the_home_position(self):
+        """On the ground it is where the vehicle is; in flight it has to be known."""
+        plan = flight(["altitude", 20], ["returnHomeAndLand"])
+        vehicle, wires = self.one("HOME_POSITION")
+        wires.start("r", "mav-1", flight(["takeOff", 20], ["move", 50, 0], ["returnHome"]))
+        self.ends(wires, "r", "done")
+        self.assertLess(geo.distance(vehicle.place, HARBOUR), 1)
+        vehicle, wires = self.one("HOME_POSITION", armed=True)
+        wires.start("r", "mav-1", plan)
+        self.ends(wires, "r", "failed", "its home position was not heard for 10 seconds")
+        self.assertEqual(vehicle.items, [])
+
+    def test_a_plan_that_needs_neither(self):
+        vehicle, wires = self.one("GLOBAL_POSITION_INT")
+        wires.start("r", "mav-1", stored())
+        self.assertTrue(wires.run(5, lambda: vehicle.began))
+
+    def test_a_check(self):
+        _, wires = self.one("GLOBAL_POSITION_INT")
+        wires.order(kind="check", id=3, plan=flight(["takeOff", 20], ["move", 50, 0]), vehicle="mav-1")
+        self.assertEqual(wires.reports[-1], {"kind": "checked", "id": 3, "problems": []})

@@ -2,7 +2,8 @@
 
     mavsdk_vehicle.py PORT
 
-It flies a mission by saying that each item is complete, ten a second. Ends when its input ends.
+It flies a mission by reporting that each item is complete, ten a second. Ends when its input ends. Letters on its
+input: S, it takes 2 s for each item; R and L, somebody else sends it home, or to land.
 """
 
 import os
@@ -20,6 +21,7 @@ from mavsdk.plugins.telemetry_server import Heading, Position, TelemetryServer, 
 class Flight:
     def __init__(self):
         self.items, self.armed, self.mode = [], False, FlightMode.HOLD
+        self.seconds = 0.1
 
     def flies(self):
         return self.armed and self.mode == FlightMode.MISSION and self.items
@@ -53,7 +55,17 @@ def main(port):
     # Last, so that the first heartbeat has the mode: a change of it is a pilot's hand.
     mavsdk.add_any_connection(f"udpout://127.0.0.1:{port}")
     ended = threading.Event()
-    threading.Thread(target=lambda: (os.read(0, 1), ended.set()), daemon=True).start()
+
+    def obey():
+        while letter := os.read(0, 1):
+            if letter == b"S":
+                flight.seconds = 2.0
+            else:
+                flight.mode = FlightMode.RETURN_TO_LAUNCH if letter == b"R" else FlightMode.LAND
+                action.set_flight_mode_internal(flight.mode)
+        ended.set()
+
+    threading.Thread(target=obey, daemon=True).start()
     left = None
     while not ended.is_set():
         telemetry.publish_position(Position(41.185, -8.706, 30.0, 30.0), VelocityNed(0, 0, 0), Heading(0))
@@ -68,7 +80,7 @@ def main(port):
                 action.set_flight_mode_internal(FlightMode.HOLD)
         else:
             left = None
-        time.sleep(0.1)
+        time.sleep(flight.seconds)
 
 
 if __name__ == "__main__":

@@ -24,10 +24,15 @@ class Mavsdk(unittest.TestCase):
             vehicle.stdin.close()
 
         self.addCleanup(end)
+        self.vehicle = vehicle
         self.adapter = Adapter("--udp", str(port), "--kind", "1=copter:px4", "--name", "1=foreign")
         self.addCleanup(self.adapter.close)
         self.adapter.greet()
         self.adapter.until_ready("foreign")
+
+    def tell(self, letter):
+        self.vehicle.stdin.write(letter)
+        self.vehicle.stdin.flush()
 
     def start(self, request):
         self.adapter.order(kind="start", request=request, vehicle="foreign", plan=FLIGHT, timeout=20)
@@ -36,6 +41,21 @@ class Mavsdk(unittest.TestCase):
         for request in ("r1", "r2", "r3"):
             self.start(request)
             self.assertEqual(self.adapter.end_of(request), {"kind": "done", "request": request})
+
+    def sent_by_another(self, letter, why):
+        self.tell(b"S")
+        self.start("r")
+        self.adapter.until(lambda r: r["kind"] == "taken")
+        self.tell(letter)
+        end = self.adapter.end_of("r")
+        self.assertEqual((end["kind"], end.get("why")), ("failed", why + ", set by its pilot or another station"))
+        self.adapter.until(lambda r: r["kind"] == "vehicle" and r.get("unready") == why)
+
+    def test_a_return_that_somebody_else_orders(self):
+        self.sent_by_another(b"R", "returns home in mode RTL")
+
+    def test_a_landing_that_somebody_else_orders(self):
+        self.sent_by_another(b"L", "lands in mode LAND")
 
 
 if __name__ == "__main__":

@@ -334,7 +334,8 @@ let man =
        "every fair run ends: tasks that run end some time, timers expire, no step is put off for ever.");
     `I ("no unhandled error", "no fault, and no error of a task that nothing handles.");
     `I ("assertions", "no $(b,assert) of the program fails.");
-    `I ("vehicles for all tasks", "every $(b,pick) and every $(b,execute) gets its vehicles.");
+    `I ("vehicles for all picks", "every $(b,pick) gets its vehicles. Printed only if it does not hold.");
+    `I ("vehicles for all tasks", "every $(b,execute) gets its vehicles.");
     `P "If there is a $(b,fence distance), it also says which plans may run side by side whose ways come nearer to \
         each other.";
     `P "Noted are also runs that call $(b,halt), tuples left over at the end, and code that no run reaches.";

@@ -587,10 +587,10 @@ The orders in which vehicles come are counted out one after another, also by a p
   $ for i in 1 2 3 4 5 6 7 8 9; do echo "vehicle 'uuv-$i', { type 'UUV' }"; done > nine.fleet
   $ echo 'v = pick { count 9 }' > nine.dol
   $ (ulimit -s 512; explore nine.dol --fleet nine.fleet --faults join --reduction por --max-states 3000 | grep -v inconclusive)
-  vehicles for all tasks: violated after 2 steps: vehicles are missing
+  vehicles for all picks: violated after 2 steps: vehicles are missing
   3001 states, 1 transitions, depth 1; reduced by partial order
   
-  vehicles for all tasks: a shortest run in which vehicles are missing
+  vehicles for all picks: a shortest run in which vehicles are missing
       program                                   where
   1   pick(9 vehicles)                          nine.dol:1
   2   no-vehicles(could not pick 9 vehicles...  nine.dol:1
@@ -617,6 +617,7 @@ For machines.
   "verdicts":[{"property":"no deadlock"
   "verdict":"holds"}
   "verdict":"violated"
+  "verdict":"holds"}
   "verdict":"holds"}
   "verdict":"holds"}
   "verdict":"holds"}
@@ -658,8 +659,8 @@ For whatever collects results of tests, and for code hosts and editors.
   [1]
   $ sed 's/time="[^"]*"/time="T"/' reports.xml
   <?xml version="1.0" encoding="UTF-8"?>
-  <testsuites tests="8" failures="1" errors="0" time="T">
-    <testsuite name="reports.dol" tests="8" failures="1" errors="0" time="T">
+  <testsuites tests="9" failures="1" errors="0" time="T">
+    <testsuite name="reports.dol" tests="9" failures="1" errors="0" time="T">
       <testcase classname="reports.dol" name="no deadlock"/>
       <testcase classname="reports.dol" name="termination"/>
       <testcase classname="reports.dol" name="no unhandled error"/>
@@ -676,6 +677,7 @@ For whatever collects results of tests, and for code hosts and editors.
   
         </failure>
       </testcase>
+      <testcase classname="reports.dol" name="vehicles for all picks"/>
       <testcase classname="reports.dol" name="vehicles for all tasks"/>
       <testcase classname="reports.dol" name="no halt"/>
       <testcase classname="reports.dol" name="no leftover tuples"/>
@@ -695,7 +697,7 @@ For whatever collects results of tests, and for code hosts and editors.
   >             print('  ', step['location']['message']['text'])
   > END
   $ python3 results.py
-  2.1.0 dolphin explore ['no-deadlock', 'termination', 'no-unhandled-error', 'assertions', 'vehicles-for-all-tasks', 'no-halt', 'no-leftover-tuples', 'all-code-reached']
+  2.1.0 dolphin explore ['no-deadlock', 'termination', 'no-unhandled-error', 'assertions', 'vehicles-for-all-picks', 'vehicles-for-all-tasks', 'no-halt', 'no-leftover-tuples', 'all-code-reached']
   no-deadlock pass none reports.dol None
   termination pass none reports.dol None
   no-unhandled-error pass none reports.dol None
@@ -706,6 +708,7 @@ For whatever collects results of tests, and for code hosts and editors.
      noptilus-1: starts a & b
      noptilus-1: ends a & b
      program: broken(assertion failed: it is done)
+  vehicles-for-all-picks pass none reports.dol None
   vehicles-for-all-tasks pass none reports.dol None
   no-halt pass none reports.dol None
   no-leftover-tuples pass none reports.dol None
@@ -713,9 +716,9 @@ For whatever collects results of tests, and for code hosts and editors.
   $ explore reports.dol --strict --max-states 2 --junit bound.xml --sarif bound.sarif > /dev/null
   [3]
   $ grep -c 'type="inconclusive"' bound.xml
-  8
+  9
   $ grep -c '"kind": "open"' bound.sarif
-  8
+  9
   $ explore reports.dol --sarif -
   dolphin: option '--sarif': '-' is no name of a file
   Usage: dolphin explore [OPTION]… PROG
@@ -865,7 +868,7 @@ Bitstate hashing: as many states where the bits are many, and nothing is said to
   $ explore deadlock.dol --bitstate 64K --trace bitstate.run --junit bitstate.xml > shown
   [1]
   $ dolphin exec deadlock.dol --follow bitstate.run > followed; grep -c testcase bitstate.xml
-  16
+  18
   $ dolphin explore ../../examples/sequence.dol --bitstate 1M --json | grep -o '"bitstate":{"bytes":[0-9]*,"hashes":[0-9]*'
   "bitstate":{"bytes":1048576,"hashes":3
   $ dolphin explore ../../examples/sequence.dol --bitstate 0 2>&1 | head -1
@@ -918,3 +921,16 @@ Values that hold their parts many times over are compared part by part once:
   no unhandled error: a shortest run in which an error that nobody handles ends the program
   $ dolphin lts shared.dol --timeout 10 | tail -n 1
   (3,"fault(a value of more than 1000000 parts, each counted as often as it stands there, is too large for this)",4)
+
+A vehicle that may be missing does not hide that a task cannot be executed:
+
+  $ cat > masked.dol << 'END'
+  > v = pick { type 'UUV' }
+  > execute task('p') | task('q')
+  > END
+  $ echo "vehicle 'a', { type 'UUV' }" > masked.fleet
+  $ dolphin explore masked.dol --faults all | grep '^vehicles.*: violated'
+  vehicles for all picks: violated after 2 steps: vehicles are missing
+  vehicles for all tasks: violated after 3 steps: a task cannot be executed
+  $ dolphin explore masked.dol | grep '^vehicles.*: violated'
+  vehicles for all tasks: violated after 3 steps: a task cannot be executed

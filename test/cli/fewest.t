@@ -100,7 +100,7 @@ All runs, not only in time.
   $ dolphin explore lanes.dol --set n=3..4
   n  states  verdict
   3  17      holds
-  4  3       violated: vehicles for all tasks
+  4  3       violated: vehicles for all picks
   fewest: n=3
   $ dolphin explore lanes.dol --set n=4..5 > /dev/null
   [1]
@@ -221,10 +221,10 @@ The least part of a fleet: the lanes are shared by all that are there.
   [3]
   $ dolphin time ../../examples/rendezvous.dol --fewest --deadline 20.min | head -6
   fewest: 4 of 4 vehicles: noptilus-1, noptilus-2, noptilus-3, x8-02
-  without noptilus-1: vehicles for all tasks: violated
-  without noptilus-2: vehicles for all tasks: violated
-  without noptilus-3: vehicles for all tasks: violated
-  without x8-02: vehicles for all tasks: violated
+  without noptilus-1: vehicles for all picks: violated
+  without noptilus-2: vehicles for all picks: violated
+  without noptilus-3: vehicles for all picks: violated
+  without x8-02: vehicles for all picks: violated
   16 fleets looked at
 
 What was found flies.

@@ -188,10 +188,11 @@ A lost vehicle stays bound. It is not there for a pick until something is heard 
   termination: holds
   no unhandled error: holds
   assertions: holds
-  vehicles for all tasks: violated after 8 steps: vehicles are missing
+  vehicles for all picks: violated after 8 steps: vehicles are missing
+  vehicles for all tasks: holds
   16 states, 15 transitions, depth 9; reduced by partial order
   
-  vehicles for all tasks: a shortest run in which vehicles are missing
+  vehicles for all picks: a shortest run in which vehicles are missing
       program                                   noptilus-1                        where
   1   pick(1 vehicle with id 'noptilus-1')                                        lost.dol:1
   2   picks noptilus-1                                                            lost.dol:1

@@ -180,7 +180,7 @@ let check_verdict ~exact found (property, (verdict : Search.verdict)) =
   in
   match (property : Property.t) with
   | No_deadlock -> same "deadlock" found.deadlock
-  | No_error | Assertions | Vehicles | No_halt | No_leftover -> same "broken" (List.assoc_opt property found.broken)
+  | No_error | Assertions | Vehicles | Allocation | No_halt | No_leftover -> same "broken" (List.assoc_opt property found.broken)
   | Invariant _ -> same "invariant" found.false_in
   | All_reached -> (
       match verdict, found.unreached with

@@ -190,9 +190,9 @@ let print_properties_case (program, looped, failing) =
 let agreements : (string * Property.t list) list =
   [ ("F ended", [ No_deadlock; Termination ]);
     ("G (ended -> G ended)", []);
-    ("G !error", [ No_error; Vehicles; Assertions ]);
+    ("G !error", [ No_error; Vehicles; Allocation; Assertions ]);
     ("G !halt", [ No_halt ]);
-    ("(F ended) & G !(error | halt)", [ No_deadlock; Termination; No_error; Vehicles; Assertions; No_halt ]);
+    ("(F ended) & G !(error | halt)", [ No_deadlock; Termination; No_error; Vehicles; Allocation; Assertions; No_halt ]);
     ("F G ended", [ No_deadlock; Termination ]);
     ("G (start -> !{running('p') && running('q')} | running(p))", []);
     ("!done W start", []); ("!done(p) W start(p)", []); ("!(start | done) W bind", []) ]

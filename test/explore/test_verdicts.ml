@@ -94,7 +94,8 @@ let verdicts : (string * (unit -> unit)) list =
     ("a loop that only an interruption ends",
      check ~options:interrupted Termination "while (true) { execute action { } }" "for ever 1+2");
     ("vehicles that are not there", check Vehicles "v = pick { type 'UAV' }" "violated in 2");
-    ("too few vehicles", check Vehicles (pick ^ "execute task('p') | task('q') | task('r')") "violated in 5");
+    ("too few vehicles", check Allocation (pick ^ "execute task('p') | task('q') | task('r')") "violated in 5");
+    ("too few vehicles to pick", check Vehicles "v = pick { count 3; type 'UUV'; timeout 1.seconds }" "violated in 2");
     ("a halt in a handler",
      check ~options:failing No_halt (pick ^ "execute watch task('p')[va] onError { halt 'no' }") "violated in 7");
     ("a halt that is not reached", check No_halt "if (1 > 2) { halt 'no' }" "holds");

@@ -39,7 +39,7 @@ let shows options program world property (run : Search.run) =
   | Termination ->
     let back = follow options program world there run.cycle in
     run.cycle <> [] && List.exists (fun s -> List.exists (same s) back) there
-  | No_error | Assertions | Vehicles | No_halt | No_leftover -> (
+  | No_error | Assertions | Vehicles | Allocation | No_halt | No_leftover -> (
       match List.rev run.steps with
       | [] -> false
       | last :: _ -> there <> [] && Property.broken_by_end last.rules last.next = Some property)

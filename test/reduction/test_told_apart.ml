@@ -73,9 +73,9 @@ let by_name =
        ^ "e = ''\nexecute watch (watch task('p')[v] onError { e = it }) onError {\nif (e.contains('C'.toLowerCase() + ':')) { halt 'h' } }");
     keeps "a name in the program" [ Vehicles ] (one ^ "w = pick { id 'c'; timeout 1.seconds }");
     keeps "a name that is computed" [ Vehicles ] (one ^ "w = pick { id 'C'.toLowerCase(); timeout 1.seconds }");
-    keeps "a plan for a vehicle" [ Vehicles ]
+    keeps "a plan for a vehicle" [ Allocation ]
       (one ^ "execute imcPlan { planName 'i'; vehicles 'c'; locate 41.1852, -8.7048; goTo speed:1.0 }");
-    tells "a plan for a vehicle that is computed" [ Vehicles ]
+    tells "a plan for a vehicle that is computed" [ Allocation ]
       (one ^ "execute imcPlan { planName 'i'; vehicles 'C'.toLowerCase(); locate 41.1852, -8.7048; goTo speed:1.0 }");
     tells "a plan for a vehicle that was picked" [ ]
       (one ^ "execute imcPlan { planName 'i'; vehicles v; locate 41.1852, -8.7048; goTo speed:1.0 }");

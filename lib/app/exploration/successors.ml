@@ -136,7 +136,7 @@ let number_of_property : Property.t option -> int = function
   | None -> 0
   | Some No_error -> 1
   | Some Assertions -> 2
-  | Some Vehicles -> 3
+  | Some (Vehicles | Allocation) -> 3
   | Some No_halt -> 4
   | Some No_leftover -> 5
   | Some (No_deadlock | Termination | All_reached | Invariant _ | Formula _ | Apart _) -> 0

@@ -16,7 +16,7 @@ type settings = {
 
 let properties : (string * Property.t) list =
   [ ("NoDeadlock", No_deadlock); ("Termination", Termination); ("NoError", No_error); ("Assertions", Assertions);
-    ("EnoughVehicles", Vehicles); ("NoHalt", No_halt); ("NoLeftover", No_leftover) ]
+    ("EnoughVehicles", Allocation); ("NoHalt", No_halt); ("NoLeftover", No_leftover) ]
 
 let phrase name = match List.assoc_opt name properties with Some p -> Property.name p | None -> name
 
@@ -31,7 +31,11 @@ let violated : Event.violation -> string = function
 let shows name options program world ((c, e) : Dolphin_explore.Labelled.state) (steps : Transition.t list) =
   match List.assoc_opt name properties, List.rev steps with
   | Some No_deadlock, _ -> Environment.is_stuck options program e (Environment.choices options program world e c)
-  | Some ((No_error | Assertions | Vehicles | No_halt | No_leftover) as p), last :: _ ->
+  | Some (Vehicles | Allocation), last :: _ -> (
+      match Property.broken_by_end last.rules c with
+      | Some (Vehicles | Allocation) -> true
+      | Some _ | None -> false)
+  | Some ((No_error | Assertions | No_halt | No_leftover) as p), last :: _ ->
     Property.broken_by_end last.rules c = Some p
   | (Some _ | None), _ -> true
 

@@ -1,18 +1,19 @@
 open Dolphin_semantics
 
-type t = No_deadlock | Termination | No_error | Assertions | Vehicles | No_halt | No_leftover | All_reached
+type t = No_deadlock | Termination | No_error | Assertions | Vehicles | Allocation | No_halt | No_leftover | All_reached
        | Invariant of string
        | Formula of string
        | Apart of string
 
-let all = [ No_deadlock; Termination; No_error; Assertions; Vehicles; No_halt; No_leftover; All_reached ]
+let all = [ No_deadlock; Termination; No_error; Assertions; Vehicles; Allocation; No_halt; No_leftover; All_reached ]
 
 let name = function
   | No_deadlock -> "no deadlock"
   | Termination -> "termination"
   | No_error -> "no unhandled error"
   | Assertions -> "assertions"
-  | Vehicles -> "vehicles for all tasks"
+  | Vehicles -> "vehicles for all picks"
+  | Allocation -> "vehicles for all tasks"
   | No_halt -> "no halt"
   | No_leftover -> "no leftover tuples"
   | All_reached -> "all code reached"
@@ -26,6 +27,7 @@ let question = function
   | No_error -> "an error that nobody handles ends the program"
   | Assertions -> "an assertion fails"
   | Vehicles -> "vehicles are missing"
+  | Allocation -> "a task cannot be executed"
   | No_halt -> "the program halts"
   | No_leftover -> "tuples are left when the program completes"
   | All_reached -> "no run reaches this"
@@ -39,8 +41,8 @@ let broken_by_end rules (c : Configuration.t) =
   match c.control with
   | Ended (Failed fault) when Fault.is_assertion fault -> Some Assertions
   | Ended (Failed _) ->
-    let of_vehicles = function Rule.Alloc_err | Pick_err -> true | _ -> false in
-    Some (if List.exists of_vehicles rules then Vehicles else No_error)
+    let has rule = List.exists (fun (r : Rule.t) -> r = rule) rules in
+    Some (if has Pick_err then Vehicles else if has Alloc_err then Allocation else No_error)
   | Ended (Halted _) -> Some No_halt
   | Ended Completed when not (Tuples.is_empty c.shared.tuples) -> Some No_leftover
   | Ended (Completed | Interrupted) | Script _ | Waiting _ | Executing _ -> None

@@ -154,7 +154,7 @@ let verdicts x (options : options) graph invariants =
   let run = run_through graph ~shortest in
   let verdict = function
     | Property.No_deadlock -> of_verdict run (State_graph.no_deadlock graph)
-    | (No_error | Assertions | Vehicles | No_halt | No_leftover) as property ->
+    | (No_error | Assertions | Vehicles | Allocation | No_halt | No_leftover) as property ->
       of_verdict run (State_graph.never graph property)
     | Termination -> termination x options graph ~shortest
     | All_reached -> unreached graph x.program

@@ -8,18 +8,30 @@ type t = {
   dual : int array;  (* by column: not positive, 0 for columns without row *)
 }
 
+(* A square matrix: the rows of the given one, and below them rows that cost nothing anywhere, which hold the columns
+   that are free in the end. *)
+type square = { rows : int; columns : int; cost : int array; nothing : int array }
+
+let square ~rows ~columns cost = { rows; columns; cost; nothing = Array.make columns 0 }
+
+(* The array that has a row of the matrix, and where the row begins in it. *)
+let row_in m row = if row < m.rows then (m.cost, row * m.columns) else (m.nothing, 0)
+
 (* Each row that has one takes a free column among its cheapest: so dear searches start from few rows only. *)
-let take_cheapest ~rows ~columns cost column_of row_of =
+let take_cheapest m ~rows dual column_of row_of =
   for row = 0 to rows - 1 do
-    let base = row * columns in
+    let cost, base = row_in m row in
     let least = ref forbidden and choice = ref (-1) in
-    for column = 0 to columns - 1 do
+    for column = 0 to m.columns - 1 do
       let c = cost.(base + column) in
-      if c < !least then begin
-        least := c;
-        choice := if row_of.(column) < 0 then column else -1
+      if c < forbidden then begin
+        let c = c - dual.(column) in
+        if c < !least then begin
+          least := c;
+          choice := if row_of.(column) < 0 then column else -1
+        end
+        else if c = !least && !choice < 0 && row_of.(column) < 0 then choice := column
       end
-      else if c = !least && !choice < 0 && c < forbidden && row_of.(column) < 0 then choice := column
     done;
     if !choice >= 0 then begin
       column_of.(row) <- !choice;
@@ -27,14 +39,72 @@ let take_cheapest ~rows ~columns cost column_of row_of =
     end
   done
 
+(* {1 Duals to start from}
+
+   An auction with steps that become smaller, after Bertsekas (1988): a row bids for its cheapest column as much as it
+   would cost to take the second cheapest, and a step more. The duals are those of a matching that is at most a step
+   for each row dearer than the best; what is missing to the best, the searches below find. *)
+
+(* One round with this [step], of [most] bids: whether every row has a column. *)
+let auction ~spent ~most m dual step =
+  let holder = Array.make m.columns (-1) and waiting = Queue.create () in
+  let bids = ref 0 and lost = ref false in
+  let bid row =
+    incr bids;
+    let cost, base = row_in m row in
+    let least = ref max_int and second = ref max_int and choice = ref (-1) in
+    for column = 0 to m.columns - 1 do
+      let c = cost.(base + column) in
+      if c < forbidden then begin
+        let c = c - dual.(column) in
+        if c < !second then
+          if c < !least then begin
+            second := !least;
+            least := c;
+            choice := column
+          end
+          else second := c
+      end
+    done;
+    if !second = max_int then lost := true
+    else begin
+      dual.(!choice) <- dual.(!choice) - (!second - !least) - step;
+      if holder.(!choice) >= 0 then Queue.add holder.(!choice) waiting;
+      holder.(!choice) <- row
+    end
+  in
+  for row = 0 to m.columns - 1 do
+    Queue.add row waiting
+  done;
+  while (not (Queue.is_empty waiting)) && (not !lost) && !bids < most do
+    bid (Queue.take waiting)
+  done;
+  spent := !spent + (!bids * m.columns);
+  Queue.is_empty waiting && not !lost
+
+let auctioned ~spent m =
+  let dual = Array.make m.columns 0 in
+  let dearest = Array.fold_left (fun most c -> if c < forbidden then max most c else most) 0 m.cost in
+  let rec rounds step =
+    if not (auction ~spent ~most:(50 * m.columns) m dual step) then None
+    else if step = 1 then Some dual
+    else rounds (max 1 (step / 5))
+  in
+  rounds (max 1 (dearest / 4))
+
+(* Fewer rows are matched as fast without an auction; many more columns than rows make it slow. *)
+let is_for_auction ~rows ~columns = rows >= 100 && rows <= columns && columns <= rows + (rows / 4)
+
+(* {1 Searches} *)
+
 (* Shortest augmenting paths, after Jonker and Volgenant (1987).
 
    One search runs Dijkstra's algorithm over the columns. [order] holds first the columns that are done, up to
    [low], then those at distance [least] that are not, up to [high], then the others. *)
-let solve ~spent ~rows ~columns cost =
+let search_all ~spent m ~rows dual =
+  let columns = m.columns in
   let column_of = Array.make rows (-1) and row_of = Array.make columns (-1) in
-  let dual = Array.make columns 0 in
-  take_cheapest ~rows ~columns cost column_of row_of;
+  take_cheapest m ~rows dual column_of row_of;
   spent := !spent + (rows * columns);
   let distance = Array.make columns 0 and previous = Array.make columns 0 in
   let order = Array.init columns Fun.id in
@@ -44,8 +114,9 @@ let solve ~spent ~rows ~columns cost =
     order.(b) <- column
   in
   let search start =
+    let cost, base = row_in m start in
     for column = 0 to columns - 1 do
-      let c = cost.((start * columns) + column) in
+      let c = cost.(base + column) in
       distance.(column) <- (if c < forbidden then c - dual.(column) else max_int);
       previous.(column) <- start
     done;
@@ -78,7 +149,7 @@ let solve ~spent ~rows ~columns cost =
         let column = order.(!low) in
         incr low;
         let row = row_of.(column) in
-        let base = row * columns in
+        let cost, base = row_in m row in
         let saved = cost.(base + column) - dual.(column) - !least in
         let place = ref !high in
         spent := !spent + (columns - !high);
@@ -122,12 +193,25 @@ let solve ~spent ~rows ~columns cost =
       Ok ()
     end
   in
-  let rec search_all row =
+  let rec from row =
     if row = rows then Ok { column_of; row_of; dual }
-    else if column_of.(row) >= 0 then search_all (row + 1)
-    else match search row with Ok () -> search_all (row + 1) | Error _ as error -> error
+    else if column_of.(row) >= 0 then from (row + 1)
+    else match search row with Ok () -> from (row + 1) | Error _ as error -> error
   in
-  search_all 0
+  from 0
+
+(* Without the rows that cost nothing. These hold columns of the greatest dual, which becomes 0. *)
+let given_rows ~rows { column_of; row_of; dual } =
+  let greatest = Array.fold_left max min_int dual in
+  { column_of = Array.sub column_of 0 rows;
+    row_of = Array.map (fun row -> if row < rows then row else -1) row_of;
+    dual = Array.map (fun d -> d - greatest) dual }
+
+let solve ~spent ~rows ~columns cost =
+  let m = square ~rows ~columns cost in
+  match if is_for_auction ~rows ~columns then auctioned ~spent m else None with
+  | Some dual -> Result.map (given_rows ~rows) (search_all ~spent m ~rows:columns dual)
+  | None -> search_all ~spent m ~rows (Array.make columns 0)
 
 (* The matchings that cost as little as the one given are those of all rows that use tight pairs only, of reduced
    cost 0, and every column whose dual is below 0. To see them as perfect matchings, one more row, [spare], holds all

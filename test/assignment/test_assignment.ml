@@ -258,6 +258,64 @@ let is_honest (tree, effort) vehicles =
   | Error (Conflict { leaves; _ }), None -> conflict_is_real tree leaves
   | Error (No_candidate _), _ | Ok _, None | Error (Conflict _), Some _ -> false
 
+(* {1 Large matrices}
+
+   Too large for all allocations to be tried: the duals of a matching prove that it costs least. *)
+
+module Matching = Dolphin_assignment.Matching
+
+type family = Random | On_a_line | Products | Few_costs
+
+let cost_of family state ~forbidden =
+  let random = Random.State.int state in
+  let here = Array.init 400 (fun _ -> random 100_000) and there = Array.init 400 (fun _ -> random 1000) in
+  fun row column ->
+    if random 100 < forbidden then Matching.forbidden
+    else
+      match family with
+      | Random -> random 1_000_000
+      | On_a_line -> abs (here.(row) - there.(column))
+      | Products -> (row + 1) * (column + 1)
+      | Few_costs -> random 3
+
+let matrix (rows, more, family, forbidden, seed) =
+  let columns = rows + more and state = Random.State.make [| seed |] in
+  let cost = cost_of family state ~forbidden in
+  (rows, columns, Array.init (rows * columns) (fun i -> cost (i / columns) (i mod columns)))
+
+let costs_least ~rows ~columns cost (m : Matching.t) =
+  let reduced row column =
+    let c = cost.((row * columns) + column) in
+    if c >= Matching.forbidden then Matching.forbidden else c - m.dual.(column)
+  in
+  let all = List.init columns Fun.id in
+  let is_cheapest row column = List.for_all (fun other -> reduced row column <= reduced row other) all in
+  let rows_agree row = m.row_of.(m.column_of.(row)) = row && is_cheapest row m.column_of.(row) in
+  let is_dual column = if m.row_of.(column) < 0 then m.dual.(column) = 0 else m.dual.(column) <= 0 in
+  List.for_all rows_agree (List.init rows Fun.id) && List.for_all is_dual all
+
+let lacks_columns ~columns cost rows =
+  let may row column = cost.((row * columns) + column) < Matching.forbidden in
+  let reached = List.filter (fun column -> List.exists (fun row -> may row column) rows) (List.init columns Fun.id) in
+  List.compare_lengths reached rows < 0
+
+let large_is_solved problem =
+  let rows, columns, cost = matrix problem in
+  match Matching.solve ~spent:(ref 0) ~rows ~columns cost with
+  | Ok m -> costs_least ~rows ~columns cost m
+  | Error lacking -> lacks_columns ~columns cost lacking
+
+let large_generator =
+  let open QCheck2.Gen in
+  let family = oneofl [ Random; On_a_line; Products; Few_costs ] and forbidden = oneofl [ 0; 0; 20; 97; 99 ] in
+  let* rows = int_range 90 140 in
+  let* more = int_range (-1) (rows / 3) and* family = family in
+  let* forbidden = forbidden and* seed = int_bound 1_000_000 in
+  return (rows, more, family, forbidden, seed)
+
+let print_large (rows, more, _, forbidden, seed) =
+  Printf.sprintf "%d rows, %d columns more, %d %% forbidden, seed %d" rows more forbidden seed
+
 let law_of generator print property ~count name = Test_support.Property.case ~count name ~print generator property
 
 let print_tree = Fmt.str "%a" pp_tree
@@ -289,6 +347,7 @@ let () =
           case "1000 x 1000" thousand_by_thousand;
           case "20,000 alike" twenty_thousand_alike;
           case "effort is a bound" effort_is_a_bound;
+          law_of large_generator print_large large_is_solved ~count:100 "duals prove that a matching costs least";
         ] );
       ( "all allocations",
         [

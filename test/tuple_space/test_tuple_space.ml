@@ -173,7 +173,9 @@ let changed_keeps_the_balance (first, second) =
       | Consume _ | Oldest _ -> true
     in
     let untouched = Space.changed ~before ~after:(Space.post "new" 1 before) in
-    List.for_all is_right [ "a"; "b"; "c" ] && List.for_all is_kept second && untouched = ([ ("new", []) ], [ ("new", [ 1 ]) ])
+    List.for_all is_right [ "a"; "b"; "c" ]
+    && List.for_all is_kept second
+    && untouched = ([ ("new", []) ], [ ("new", [ 1 ]) ])
 
 let case name run = Alcotest.test_case name `Quick run
 

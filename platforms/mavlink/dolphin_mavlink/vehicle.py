@@ -99,7 +99,8 @@ class Vehicle:
         self.distress = (-math.inf, "")  # when it last spoke of an emergency, and how
         self.texts = collections.deque(maxlen=30)  # what it said in words, oldest first
         self.to_show = []  # of these, those that are for people
-        self._fence, self._chunk = (-math.inf, ""), None  # its last breach; where a text in pieces goes on
+        self._fence, self._breach = (-math.inf, ""), None  # when its fence was breached last, and which one goes on
+        self._chunk = None  # where a text in pieces goes on
         self.devices = []
         self.pilot = None  # the mode in which a pilot took it over; until it is given back
         self.hand = None  # what keeps it from the next plan then
@@ -241,8 +242,10 @@ class Vehicle:
                 self.distress = (-math.inf, "")  # it is over, and the vehicle flies on
 
     def _fence_status(self, now, message):
-        if message.breach_status == 1:
+        breach = (message.breach_count, message.breach_time, message.breach_type) if message.breach_status else None
+        if breach is not None and breach != self._breach:
             self._fence = (now, _BREACHES.get(message.breach_type, ""))
+        self._breach = breach  # one that goes on is not a new one
 
     def breach(self, now, recent):
         """The breach of its fence within the last `recent` seconds, in words; None: there was none."""

@@ -289,6 +289,21 @@ class Departures(Case):
         wires.say(vehicle, vehicle.pilot(wires.now, "LOITER"))
         self.ends(wires, "r", "failed", "taken over by its pilot in mode LOITER")
 
+    def test_a_breach_that_goes_on_is_not_the_reason(self):
+        """Of a fence that only reports, for example."""
+        vehicle, wires = self.flying()
+        for _ in range(30):
+            wires.say(vehicle, [mavlink.MAVLink_fence_status_message(1, 1, mavlink.FENCE_BREACH_BOUNDARY, 5000)])
+            wires.run(0.5)
+        wires.say(vehicle, vehicle.pilot(wires.now, "LOITER"))
+        self.ends(wires, "r", "failed", "taken over by its pilot in mode LOITER")
+        vehicle, wires = self.flying()
+        for count in (1, 2):
+            wires.say(vehicle, [mavlink.MAVLink_fence_status_message(1, count, mavlink.FENCE_BREACH_MAXALT, 5000)])
+            wires.run(12 if count == 1 else 0.1)
+        wires.say(vehicle, vehicle.pilot(wires.now, "LAND"))
+        self.ends(wires, "r", "failed", "fence breach (maximum altitude), in mode LAND")
+
     def test_a_failsafe_that_is_over_is_not_the_reason(self):
         for end in ("GCS Failsafe Cleared", "Radio Failsafe Cleared", "EKF Failsafe Cleared", "GCS Failsafe Off"):
             for before in (None, end.rpartition(" ")[0]):

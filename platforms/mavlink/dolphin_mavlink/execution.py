@@ -350,6 +350,10 @@ class Execution:
             return self._upload(now)
         if v.mode not in self._known:
             return self._taken_over(now)
+        if v.armed and v.mode == self._first_mode and v.mode not in v.modes.hands_off and not self._armed_by_us:
+            # It was not armed, and by now its pilot has armed it.
+            v.pilot = v.mode
+            return self._fail(f"taken over by its pilot in mode {v.mode}")
         if (
             self._commands.waiting == mavlink.MAV_CMD_DO_SET_MODE
             and v.mode == self._asked_mode

@@ -253,6 +253,24 @@ class Refusals(Case):
         self.assertEqual(vehicle.mode, "LOITER")
 
 
+class Pilots(Case):
+    def test_a_pilot_who_arms_while_the_mission_is_on_its_way(self):
+        """The vehicle is the pilot's, though its mode is the one in which it was."""
+        for kind in ("copter", "plane", "rover"):
+            for tenths in range(1, 20):
+                with self.subTest(kind=kind, tenths=tenths):
+                    vehicle, wires = one(kind, items=way(12), delay=0.1)
+                    mode = vehicle.mode
+                    wires.start("r", "mav-1", stored())
+                    wires.run(tenths / 10)
+                    self.assertEqual(vehicle.mode, mode)
+                    vehicle.armed = True
+                    wires.say(vehicle, vehicle.pilot(wires.now, mode))
+                    self.ends(wires, "r", "failed", f"taken over by its pilot in mode {mode}")
+                    self.assertEqual((vehicle.mode, vehicle.armed), (mode, True))
+                    self.assertEqual(vehicle.began, [])
+
+
 class Departures(Case):
     """What took a vehicle out of its mission is named."""
 

@@ -14,11 +14,12 @@ class Boarding:
         self._vehicle, self._mission, self._round_trip = vehicle, mission, round_trip
         self._items = ()  # as they are numbered on board
         self._transfer, self._uploads, self._only_compares = None, 0, False
+        self._upload_at = None  # when the next upload begins
         self.stage, self.since, self.result = None, 0.0, None
 
     def upload(self, now):
         v = self._vehicle
-        self.stage, self.since, self._uploads = "upload", now, self._uploads + 1
+        self.stage, self.since, self._uploads, self._upload_at = "upload", now, self._uploads + 1, None
         self._number()
         self._transfer = Upload(v.target, self._items, self._round_trip)
         return self._transfer.begin(now)
@@ -30,9 +31,13 @@ class Boarding:
         return self._verify(now)
 
     def hear(self, now, message):
+        if self._upload_at is not None:
+            return []  # an answer to the upload that was given up
         return self._transfer.hear(now, message) + self._transferred(now)
 
     def tick(self, now):
+        if self._upload_at is not None:
+            return self.upload(now) if now >= self._upload_at else []
         return self._transfer.tick(now) + self._transferred(now)
 
     def cancel(self):
@@ -81,7 +86,8 @@ class Boarding:
         if self._uploads >= UPLOADS:
             self.result = why
             return []
-        return self.upload(now)
+        self.stage, self._upload_at = "upload", now + self._round_trip.settled
+        return []
 
     def _difference(self, items):
         if len(items) != len(self._items):

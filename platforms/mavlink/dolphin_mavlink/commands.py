@@ -12,7 +12,7 @@ class Commands:
     """`waiting` is the command that waits for its acknowledgement, if any."""
 
     def __init__(self, vehicle, round_trip):
-        self._vehicle, self._repeated = vehicle, Repeated(round_trip)
+        self._vehicle, self._repeated = vehicle, Repeated(round_trip, most=2.0)
         self.waiting = None
         self._modes_sent, self._modes_acknowledged, self._modes_before = 0, 0, 0
 

@@ -2,7 +2,7 @@
 the time, and gives messages to send.
 
 Nothing is ever waited for only once. Whoever hears nothing repeats its last message, after four of the link's round
-trips; what comes twice, late or out of order changes nothing. What an upload's end leaves open (an acknowledgement
+trips, and then ever later; what comes twice, late or out of order changes nothing. What an upload's end leaves open (an acknowledgement
 that was lost, an error that answers a repeated item) the download after it decides.
 """
 
@@ -19,46 +19,90 @@ _REFUSALS = {
 }
 
 
+LONGEST = 10.0  # seconds: round trips that are longer are not told from losses
+ITEM_PATIENCE = 1.5  # seconds: earlier repeats of an item keep a vehicle from asking for it (MAVSDK's timer)
+ERRORS = 5  # so many errors end a transfer that has not got under way: fewer may answer the one before
+COPY = 0.1, 0.9  # seconds, by the round trip, within which a second request for an item is taken for the first one
+
+
 class RoundTrip:
     """How long the link takes for a question and its answer, by those that were asked once."""
 
     def __init__(self):
         self.seconds = 0.2
+        self._is_measured, self._backoff = False, 1.0
 
     def measured(self, seconds):
-        self.seconds += 0.2 * (min(seconds, 2.0) - self.seconds)
+        """A question that was asked once was answered."""
+        self._learn(min(seconds, LONGEST))
+        self._backoff = 1.0
+
+    def at_least(self, seconds):
+        """A question that was asked more than once was answered, `seconds` after it was asked last."""
+        if seconds > self.seconds:
+            self._learn(min(seconds, LONGEST))
+
+    def _learn(self, seconds):
+        gain = 1.0 if not self._is_measured else 0.5 if seconds > self.seconds else 0.2
+        self._is_measured = True
+        self.seconds += gain * (seconds - self.seconds)
+
+    def repeated(self):
+        """A question had no answer in time: the link has lost it, or is slower than it was."""
+        self._backoff = min(1.5 * self._backoff, 40.0)
+
+    def patience(self, most):
+        """After so many seconds without an answer, one asks again: `most`, unless the link is known to be slower."""
+        known = max(0.25, min(4 * self.seconds, max(2.0, 1.5 * self.seconds)))
+        if self._is_measured:
+            most = min(most, max(2.0, 3 * self.seconds))
+        return min(known * self._backoff, max(known, most))
 
     @property
-    def patience(self):
-        """After so many seconds without an answer, one asks again."""
-        return min(max(4 * self.seconds, 0.25), 2.0)
+    def settled(self):
+        """After so many seconds, all that was sent before has been answered."""
+        return max(0.25, 1.5 * self.seconds)
 
 
 class Repeated:
-    """A message that is sent until it is answered."""
+    """A message that is sent until it is answered, at the latest every `most` seconds if the link is not slower."""
 
-    def __init__(self, round_trip):
-        self._round_trip = round_trip
+    def __init__(self, round_trip, most=8.0):
+        self._round_trip, self._most = round_trip, most
         self.messages, self.sent_at, self.times = [], 0.0, 0
+        self._due, self._least = 0.0, 0.0
 
-    def send(self, now, *messages):
-        self.messages, self.sent_at, self.times = list(messages), now, 1
+    def send(self, now, *messages, least=0.0):
+        """`least`: how many seconds pass before it is repeated, at least."""
+        self.messages, self.times, self._least = list(messages), 1, least
+        self._sent(now)
         return self.messages
+
+    def _sent(self, now):
+        self.sent_at, self._due = now, now + max(self._least, self._round_trip.patience(self._most))
 
     def answered(self, now):
         if self.times == 1:
             self._round_trip.measured(now - self.sent_at)
+        elif self.times > 1:
+            self._round_trip.at_least(now - self.sent_at)
         self.times = 0
 
     def postponed(self, now, seconds):
         """The answer is that it shall be sent again, `seconds` from now."""
-        self.sent_at, self.times = now + seconds - self._round_trip.patience, max(self.times, 2)
+        self._due, self.times = now + seconds, max(self.times, 2)
+
+    def again(self, now):
+        """It is asked for."""
+        self.times += 1
+        self._sent(now)
+        return self.messages
 
     def tick(self, now):
-        if self.times == 0 or now - self.sent_at < self._round_trip.patience:
+        if self.times == 0 or now < self._due:
             return []
-        self.sent_at, self.times = now, self.times + 1
-        return self.messages
+        self._round_trip.repeated()
+        return self.again(now)
 
 
 def numbered(items, home):
@@ -81,9 +125,10 @@ class Upload:
     the transfer up), or ("refused", why)."""
 
     def __init__(self, target, items, round_trip):
-        self._target, self._items = target, items
+        self._target, self._items, self._round_trip = target, items, round_trip
         self._repeated = Repeated(round_trip)
         self._asked = -1  # the highest item that was asked for
+        self._errors = 0  # before the first item was asked for
         self.result = None
 
     def begin(self, now):
@@ -94,22 +139,36 @@ class Upload:
         kind = message.get_type()
         if self.result is not None or getattr(message, "mission_type", 0) != 0:
             return []
-        if kind in ("MISSION_REQUEST", "MISSION_REQUEST_INT") and message.seq < len(self._items):
-            if message.seq == self._asked and self._repeated.times > 0 and now - self._repeated.sent_at < 0.1:
-                return []  # it has been answered: this is the request's copy
-            if message.seq > self._asked:
-                self._repeated.answered(now)
-            self._asked = max(self._asked, message.seq)
-            return self._repeated.send(now, self._items[message.seq].message(self._target, message.seq))
+        if kind in ("MISSION_REQUEST", "MISSION_REQUEST_INT"):
+            return self._requested(now, message.seq)
         if kind == "MISSION_ACK":
             self._acknowledged(message.type)
         return []
+
+    def _requested(self, now, seq):
+        if seq >= len(self._items) or seq > self._asked + 1:
+            return []  # of an earlier transfer
+        repeated = self._repeated
+        if seq == self._asked and repeated.times > 0:
+            low, high = COPY
+            if now - repeated.sent_at < min(max(low, 0.9 * self._round_trip.seconds), high):
+                return []  # it has been answered: this is the request's copy
+            return repeated.again(now)
+        if seq > self._asked:
+            repeated.answered(now)
+            self._asked = seq
+            return repeated.send(now, self._items[seq].message(self._target, seq), least=ITEM_PATIENCE)
+        return []  # a late copy: later items were asked for
 
     def _acknowledged(self, verdict):
         everything = self._asked == len(self._items) - 1
         if verdict == mavlink.MAV_MISSION_ACCEPTED:
             # Without a request for the last item it is the end of something else.
             self.result = "accepted" if everything else None
+        elif self._asked < 0 and verdict in (mavlink.MAV_MISSION_OPERATION_CANCELLED, mavlink.MAV_MISSION_ERROR):
+            # It answers an earlier transfer, as long as the vehicle asks for items in the end.
+            self._errors += 1
+            self.result = "again" if self._errors >= ERRORS else None
         elif verdict == mavlink.MAV_MISSION_OPERATION_CANCELLED:
             self.result = "again"
         elif verdict == mavlink.MAV_MISSION_ERROR:
@@ -134,6 +193,8 @@ class Download:
         self._target, self._window, self._most = target, window, most
         self._repeated = Repeated(round_trip)
         self._count, self._got, self._asked = None, {}, 0
+        self._round_trip, self._errors = round_trip, 0
+        self._asked_at = {}  # when each item was asked for that was asked for once
         self.items, self.refused = None, None
 
     def begin(self, now):
@@ -153,10 +214,15 @@ class Download:
         if kind in ("MISSION_ITEM_INT", "MISSION_ITEM") and self._count is not None:
             if message.seq < self._count and message.seq not in self._got:
                 self._got[message.seq] = missions.of_message(message)
-                self._repeated.answered(now)
+                asked_at = self._asked_at.get(message.seq)
+                if asked_at is not None:
+                    self._round_trip.measured(now - asked_at)
                 return self._next(now)
         if kind == "MISSION_ACK" and message.type not in (0, mavlink.MAV_MISSION_INVALID_SEQUENCE):
-            self.refused = _REFUSALS.get(message.type, f"error {message.type}")
+            # It may answer a copy of the upload's last item. A refusal is repeated, as often as the question is.
+            self._errors += 1
+            if min(self._errors, self._repeated.times) >= ERRORS:
+                self.refused = _REFUSALS.get(message.type, f"error {message.type}")
         return []
 
     def _end(self, items):
@@ -170,6 +236,7 @@ class Download:
         last = min(self._count, missing + self._window)
         self._asked = max(self._asked, missing)
         fresh = [self._request(n) for n in range(self._asked, last)]
+        self._asked_at.update((n, now) for n in range(self._asked, last))
         self._asked = max(self._asked, last)
         # What is repeated is only the first that is missing: an autopilot may insist on the order.
         again = self._request(missing)
@@ -185,5 +252,7 @@ class Download:
         messages = self._repeated.tick(now)
         if messages and self._count is not None:
             # Something was lost: on with one at a time.
-            self._window, self._asked = 1, min(n for n in range(self._count) if n not in self._got) + 1
+            missing = min(n for n in range(self._count) if n not in self._got)
+            self._window, self._asked = 1, missing + 1
+            self._asked_at[missing] = None
         return messages

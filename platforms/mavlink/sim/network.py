@@ -13,7 +13,7 @@ class Network:
         self.random = random.Random(seed)
         self.loss, self.doubled, self.reordered, self.delay = loss, doubled, reordered, delay
         self.now, self.reports, self.reported_at = 0.0, [], []
-        self.sent = 0  # datagrams of the station
+        self.sent, self.sent_messages = 0, []  # of the station
         self.down = False  # whether the links are dead
         self.vehicles = {v.system: v for v in vehicles}
         self._wires = {v.system: Wire(v.system, v.component, key) for v in vehicles}
@@ -122,6 +122,7 @@ class Network:
                 address, message, version = what
                 if address is not None and address[1] in self.vehicles:
                     self.sent += 1
+                    self.sent_messages.append(message)
                     vehicle = self.vehicles[address[1]]
                     data = self._wire.encode(message, version)
                     self._transmit(data, lambda data, v=vehicle: self._to_vehicle(v, data))

@@ -2,7 +2,7 @@
 
 import unittest
 
-from dolphin_mavlink.transfer import RoundTrip, Upload, numbered
+from dolphin_mavlink.transfer import Download, RoundTrip, Upload, numbered
 from dolphin_mavlink.wire import mavlink
 from tests.support import Case, one, seeds, stored, way
 
@@ -41,6 +41,38 @@ class Lossy(Case):
                     break
                 self.assertEqual((len(vehicle.began), len(vehicle.reached)), (n + 1, 4 * n + 4), seed)
         self.assertGreaterEqual(ended.count("done"), 0.9 * len(ended))
+
+
+class Slow(Case):
+    def fly(self, seed, px4, delay, loss):
+        vehicle, wires = one(px4=px4, items=way(8), seed=seed, delay=delay, loss=loss)
+        wires.run(60, lambda: "link" in wires.vehicle_said("mav-1"))
+        wires.start("r", "mav-1", stored())
+        end = wires.run_to_end("r", 1500)
+        self.assertIsNotNone(end, wires.reports[-3:])
+        self.assertEqual(end["kind"], "done", end)
+        self.assertEqual((len(vehicle.began), len(vehicle.reached)), (1, 8))
+        return wires
+
+    def test_links_of_0_1_to_3_s_each_way(self):
+        """With and without losses. PX4 gives an upload up after 5 s without an item, so round trips of 6 s are too much
+        for it, and of 4 s if items are lost."""
+        for seed in seeds(1):
+            for delay in (0.1, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0):
+                for loss in (0.0, 0.05, 0.1):
+                    for px4 in (False, True):
+                        if px4 and delay > (2.0 if loss == 0 else 1.5):
+                            continue
+                        with self.subTest(seed=seed, delay=delay, loss=loss, px4=px4):
+                            self.fly(seed, px4, delay, loss)
+
+    def test_a_slow_link_is_not_flooded(self):
+        """Without losses, at most five datagrams an item."""
+        for delay in (0.5, 1.0, 2.0):
+            with self.subTest(delay=delay):
+                wires = self.fly(1, False, delay, 0.0)
+                items = [m for m in wires.sent_messages if m.get_type() == "MISSION_ITEM_INT"]
+                self.assertLessEqual(len(items), 5 * 9)
 
 
 class RoundTrips(Case):
@@ -105,6 +137,25 @@ class Uploads(unittest.TestCase):
             self.ask(1.0 + seq, seq)
         self.assertEqual(self.acknowledge(mavlink.MAV_MISSION_ERROR), "unclear")
 
+    def test_an_item_is_not_repeated_before_1_5_s(self):
+        """MAVSDK's vehicle asks again only after it has heard nothing for a while."""
+        self.ask(0.05, 0)
+        at = [now / 100 for now in range(5, 1000) if self.upload.tick(now / 100)]
+        self.assertGreaterEqual(at[0] - 0.05, 1.5)
+        self.assertTrue(all(b - a >= 1.49 for a, b in zip(at, at[1:])), at)
+        self.assertGreater(len(at), 2)
+
+    def test_answers_to_an_earlier_transfer(self):
+        for result in (mavlink.MAV_MISSION_OPERATION_CANCELLED, mavlink.MAV_MISSION_ERROR, 0):
+            self.assertIsNone(self.acknowledge(result))
+        self.assertEqual(self.ask(9.1, 2), [])
+        self.assertEqual([self.ask(9.2, 0), self.ask(9.3, 1), self.ask(9.4, 0), self.ask(9.5, 2)], [[0], [1], [], [2]])
+        self.assertEqual(self.acknowledge(mavlink.MAV_MISSION_ACCEPTED), "accepted")
+
+    def test_errors_that_go_on(self):
+        results = [self.acknowledge(mavlink.MAV_MISSION_ERROR) for _ in range(5)]
+        self.assertEqual(results, [None, None, None, None, "again"])
+
     def test_a_transfer_that_the_vehicle_gave_up(self):
         self.ask(1.0, 0)
         self.assertEqual(self.acknowledge(mavlink.MAV_MISSION_OPERATION_CANCELLED), "again")
@@ -115,6 +166,21 @@ class Uploads(unittest.TestCase):
         fence = mavlink.MAVLink_mission_ack_message(255, 190, 0, mavlink.MAV_MISSION_TYPE_FENCE)
         self.upload.hear(9.0, fence)
         self.assertIsNone(self.upload.result)
+
+
+class Downloads(unittest.TestCase):
+    def test_errors_that_answer_copies_of_the_upload(self):
+        """They are no refusal; one that answers each repeated question is."""
+        download = Download((1, 1), RoundTrip())
+        download.begin(0.0)
+        denied = mavlink.MAVLink_mission_ack_message(255, 190, mavlink.MAV_MISSION_DENIED)
+        for _ in range(20):
+            download.hear(0.1, denied)
+        self.assertIsNone(download.refused)
+        for now in range(1, 1000):
+            if download.tick(now / 10):
+                download.hear(now / 10, denied)
+        self.assertEqual(download.refused, "it was denied")
 
 
 if __name__ == "__main__":

@@ -42,8 +42,12 @@ let afresh program order =
 (* So many transitions and events may pass before others get their turn. *)
 let most_without_pause = 100
 
-(* So many rounds of a repeat, or of a task that runs anew, may begin without any event. *)
+(* Limit on rounds of a repeat, or of a task that is tried again, that begin without time or an event between them;
+   and on the tasks that one vehicle begins at one instant. *)
 let most_rounds = 10_000
+
+(* Where time passes by itself, an instant is as long as this (s): a vehicle that refuses a plan takes some time, too. *)
+let instant = 0.001
 
 let begins_round (t : Transition.t) =
   List.exists (function Rule.Repeat_2 | Repeat_again | Watch_retry -> true | _ -> false) t.rules
@@ -91,7 +95,10 @@ module Make (P : Platform.S) = struct
     mutable posted : news Lwt.t option;  (* the next input, if it was asked for *)
     mutable input_before : bool;  (* whether the latest piece of news was an input *)
     mutable since_pause : int;  (* transitions and events since others had their turn *)
-    mutable rounds : int;  (* of repeats that began since the last event *)
+    mutable rounds : int;  (* of repeats that began since the last event or instant *)
+    mutable round_began : float;  (* when the latest of them, or of [starts], did *)
+    starts : (Core.vehicle, int) Hashtbl.t;  (* of tasks, likewise *)
+    mutable restless : Core.site option;  (* where the task is that one vehicle began too often *)
   }
 
   let is_resolved promise = match Lwt.state promise with Lwt.Sleep -> false | Return _ | Fail _ -> true
@@ -192,12 +199,42 @@ module Make (P : Platform.S) = struct
     s.reply <- None;
     Option.iter Lwt.cancel reply
 
+  (* Ends of tasks and of timers that come at the same instant do not let a round wait; nor do answers, where no person
+     takes time to give them. *)
+  let lets_wait ~time s : Transition.event option -> bool = function
+    | None | Some (Recruited _) -> false
+    | Some (Input _ | Interruption) -> true
+    | Some (Vehicle_done _ | Vehicle_failed _ | Timer_expired _) ->
+      time -. s.round_began > if P.virtual_time then 0. else instant
+    | Some (Confirmed _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _) ->
+      (not P.virtual_time) || time > s.round_began
+
+  let forget_rounds s =
+    s.rounds <- 0;
+    s.restless <- None;
+    Hashtbl.reset s.starts
+
+  let count_start s v (p : Core.platform_task) =
+    let n = 1 + Option.value (Hashtbl.find_opt s.starts v) ~default:0 in
+    Hashtbl.replace s.starts v n;
+    if n > most_rounds then s.restless <- Some p.task_site
+
+  (* The loops of a program, whatever they are made of: rounds of its tasks, and of its script if vehicles take part. *)
+  let count_rounds s ~time ~cause (t : Transition.t) =
+    if lets_wait ~time s cause then forget_rounds s;
+    let task_of v = Vehicle_map.find_opt v t.next.shared.allocation in
+    let start = match t.label with Start (v, _) -> Option.map (fun p -> (v, p)) (task_of v) | _ -> None in
+    Option.iter (fun (v, p) -> count_start s v p) start;
+    let begins = begins_round t in
+    if begins then s.rounds <- s.rounds + 1;
+    if begins || start <> None then s.round_began <- time
+
   let take s ~cause (t : Transition.t) =
     s.since_pause <- (match t.label with Silent -> most_without_pause | _ -> s.since_pause + 1);
     let is_news = match cause with Some (Transition.Recruited _) | None -> false | Some _ -> true in
     if is_news then s.alarms <- 0;
-    s.rounds <- (if is_news then 0 else if begins_round t then s.rounds + 1 else s.rounds);
     let time = time_of s in
+    count_rounds s ~time ~cause t;
     Log.transition ~time ~cause t;
     s.observer.transition ~time ~cause t;
     s.configuration <- t.next;
@@ -392,6 +429,7 @@ module Make (P : Platform.S) = struct
       advance s
     | Executing (_, r) when s.rounds >= most_rounds ->
       give_up s (Spins (Option.value (first_repeat r) ~default:Fault.unknown_site))
+    | Executing _ when s.restless <> None -> give_up s (Spins (Option.value s.restless ~default:Fault.unknown_site))
     | Script _ | Waiting _ | Executing _ -> (
         look s;
         match Transition.internal s.program s.world s.configuration () with
@@ -404,7 +442,7 @@ module Make (P : Platform.S) = struct
   (* The program cannot go on; it executes what it declares by onInterrupt, which may fail in its own way. *)
   and give_up s outcome =
     interrupt s;
-    s.rounds <- 0;
+    forget_rounds s;
     advance s >|= function
     | Ended Interrupted -> outcome
     | (Ended (Completed | Halted _ | Failed _) | Stuck _ | Spins _) as ended -> ended
@@ -492,7 +530,7 @@ module Make (P : Platform.S) = struct
         world = beginning.world;
         dates = Dated_code.of_program program; moment = beginning.time; alarm = None; alarms = 0;
         telemetry = Off; upcoming = None; reply = None; questions = Task_questions.create (); posted = None;
-        input_before = false; unknown = []; since_pause = 0; rounds = 0 }
+        input_before = false; unknown = []; since_pause = 0; rounds = 0; round_began = beginning.time; starts = Hashtbl.create 16; restless = None }
     in
     let whole () =
       switch_telemetry s ~sensitive:false;

@@ -13,7 +13,8 @@ type outcome =
   (** A deadlock: no task runs, no timer runs, no sensor matters, and every guard that the residual waits for is
       false, now and for ever. The run was interrupted, and has ended since. *)
   | Spins of Core.site
-  (** 10,000 rounds of the [repeat] there, or of others, followed each other without any event. The run was
+  (** 10,000 rounds of the [repeat] there, of others, or of tasks that are tried again followed each other without time or
+      an event from outside between them; or a vehicle began the task there, or others, that often. The run was
       interrupted, and has ended since. *)
 
 val guards : Residual.t -> Core.closure list

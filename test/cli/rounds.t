@@ -25,6 +25,60 @@ What goes round without any wait is stopped after 10,000 rounds, and says where 
   $ head -n 1 error | cut -d: -f1-3
   again.dol:1:9
 
+Nor do tasks that end or fail at the instant at which they begin let a round wait, whatever goes round.
+
+  $ spins() { dolphin exec --sim=$1.fleet $1.dol > log 2> error; echo $?; tail -n 1 log | cut -c 10-; sed -n '1s/, and.*//p' error; }
+  $ printf "vehicle 'a', { type 'UUV'; battery 0.percent }\n" > empty.fleet
+  $ cat > empty.dol << 'END'
+  > v = pick { type 'UUV' }
+  > execute watch task('short') onError { retry() }
+  > END
+  $ spins empty
+  1
+  program     is stuck
+  empty.dol:2:9: error: the program is stuck in rounds that begin here: they follow each other
+  $ printf "vehicle 'a', { type 'UUV' }\nplan 'short', { only 'UAV'; duration 1.min }\n" > only.fleet; cp empty.dol only.dol
+  $ spins only
+  1
+  program     is stuck
+  only.dol:2:9: error: the program is stuck in rounds that begin here: they follow each other
+  $ printf "vehicle 'a', { type 'UUV' }\n" > popup.fleet
+  $ cat > popup.dol << 'END'
+  > v = pick { type 'UUV' }
+  > execute repeat imcPlan { planName 'up'; popup duration: 0 }
+  > END
+  $ spins popup
+  1
+  program     is stuck
+  popup.dol:2:9: error: the program is stuck in rounds that begin here: they follow each other
+  $ cp popup.fleet script.fleet; cat > script.dol << 'END'
+  > v = pick { type 'UUV' }
+  > while (true) { execute imcPlan { planName 'up'; popup duration: 0 } }
+  > END
+  $ spins script
+  1
+  program     is stuck
+  script.dol:2:24: error: the program is stuck in rounds that begin here: they follow each other
+  $ (cat popup.fleet; echo "answer 'Again?', 'no'") > asks.fleet; cat > asks.dol << 'END'
+  > execute watch confirm('Again?') onError { retry() }
+  > END
+  $ spins asks
+  1
+  program     is stuck
+  asks.dol:1:9: error: the program is stuck in rounds that begin here: they follow each other
+  $ echo "execute repeat idle(0)" > idle.dol; cp popup.fleet idle.fleet
+  $ spins idle
+  1
+  program     is stuck
+  idle.dol:1:9: error: the program is stuck in rounds that begin here: they follow each other
+
+So it is in paced time.
+
+  $ dolphin exec empty.dol --fleet empty.fleet --speed 1 > log 2> error
+  [1]
+  $ tail -n 1 log | cut -c 10-
+  program     is stuck
+
 Rounds in which something happens are not counted: these are 20,000.
 
   $ cat > many.dol << 'END'

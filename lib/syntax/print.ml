@@ -430,6 +430,7 @@ and command out name arguments =
 
 let until = Spelling.until
 let during = Spelling.during
+let operator = Spelling.operator
 
 (* {1 Programs} *)
 

@@ -12,3 +12,6 @@ val until : Ast.on_cut -> string
 
 val during : Ast.on_cut -> string
 (** [during on_cut] is ["during"] or ["within"]. *)
+
+val operator : Ast.binary -> string
+(** [operator o] is its spelling, [">>"]. *)

@@ -147,10 +147,10 @@ let tasks : example list =
     example Make_err "it gives no task" (task "watch { 7 } onError { message it; ignore() }")
       "broken({ 7 }: expected a task, found a number, 7)" "MAKE-ERR, WATCH-IGNORE, EXECUTE-DONE" "script"
       [ "say { 7 }: expected a task, found a number, 7" ];
-    example Make_err "it takes what nobody gives" (task "{ x -> %p }")
-      "broken({ task('p')[v] } takes 1 value, and its guard took none)" "MAKE-ERR, EXECUTE-ERR"
-      "failed: { task('p')[v] } takes 1 value, and its guard took none"
-      [ released; "end: { task('p')[v] } takes 1 value, and its guard took none" ];
+    example Make_err "it takes what nobody gives" (task "[{ x -> %p }][0]")
+      "broken({ closure } takes 1 value, and its guard took none)" "MAKE-ERR, EXECUTE-ERR"
+      "failed: { closure } takes 1 value, and its guard took none"
+      [ released; "end: { closure } takes 1 value, and its guard took none" ];
     example Allocate "vehicles that nobody holds" (task "{ task('a') } | %p") "allocate(noptilus-2)" "ALLOCATE, PAR-1"
       "(holding noptilus-2 a[noptilus-2] | p[noptilus-1])" [];
     example Allocate "what a task holds is there for what it makes" (task "{ %p >> { task('b') } }")

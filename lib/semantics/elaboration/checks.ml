@@ -52,8 +52,10 @@ let hint_for_setting builder name =
 
 (* {1 What is known of an expression before it runs} *)
 
-let rec kind_of (e : Ast.expression) : Builtins.kind =
+let rec kind_by variable (e : Ast.expression) : Builtins.kind =
+  let kind_of = kind_by variable in
   match e.it with
+  | Variable name -> variable name
   | Integer _ | Number _ -> Number
   | String _ | Template _ -> String
   | Closure _ -> Closure
@@ -77,8 +79,10 @@ let rec kind_of (e : Ast.expression) : Builtins.kind =
       match kind_of e with Number -> Task | Vehicles -> Vehicles | _ -> Any)
   | Call { callee = { it = Variable name; _ }; _ } -> (
       match Builtins.find name with Some builtin -> builtin.result | None -> Any)
-  | Variable _ | Wildcard | Binary _ | Conditional _ | Elvis _ | Increment _ | Call _ | Member _ | Index _
-  | Pick_else _ | When _ -> Any
+  | Wildcard | Binary _ | Conditional _ | Elvis _ | Increment _ | Call _ | Member _ | Index _ | Pick_else _ | When _ ->
+    Any
+
+let kind_of e = kind_by (fun _ -> Builtins.Any) e
 
 let could_be (wanted : Builtins.kind) (found : Builtins.kind) =
   match wanted, found with
@@ -95,8 +99,13 @@ let known_kind env (e : Ast.expression) =
     when is_hidden env name -> Builtins.Any
   | _ -> kind_of e
 
-let check_kind env what wanted (e : Ast.expression) =
-  let found = known_kind env e in
+let operand_kind env (e : Ast.expression) =
+  let variable name = if is_hidden env name then Builtins.Any else Scope.kind_of_variable env.program name in
+  match e.it with
+  | Call _ -> known_kind env e
+  | _ -> kind_by variable e
+
+let check_found env what wanted found (e : Ast.expression) =
   let hint =
     match wanted, e.it with
     | Builtins.Task, Binary (And, _, _) -> Some "tasks one after the other are a >> b, tasks at once a | b"
@@ -105,29 +114,58 @@ let check_kind env what wanted (e : Ast.expression) =
   in
   if not (could_be wanted found) then
     error env ?hint Wrong_kind e.at "%s takes %s, this is %s" what (Builtins.describe wanted)
-      (match found with Other -> "none" | found -> Builtins.describe found)
+      (match found with Builtins.Other -> "none" | found -> Builtins.describe found)
+
+let check_kind env what wanted e = check_found env what wanted (known_kind env e) e
+let check_operand env what wanted e = check_found env what wanted (operand_kind env e) e
+
+let hint_for_operand env symbol (e : Ast.expression) =
+  match e.it with
+  | String name -> Some (Printf.sprintf "a plan is named by task('%s')" name)
+  | Call { callee = { it = Variable ("running" | "connected" as name); _ }; _ } when not (is_hidden env name) ->
+    Some (Format.asprintf "a task that waits for it is condition { %a }" Dolphin_syntax.Print.expression e)
+  | Call { callee = { it = Variable name; _ }; _ } when Builtins.is_deed name && not (is_hidden env name) ->
+    Some (Format.asprintf "what is done in a task is an action: action { %a }" Dolphin_syntax.Print.expression e)
+  | Call { callee = { it = Variable name; _ }; _ } when Builtins.is_of_script name && not (is_hidden env name) ->
+    Some (Printf.sprintf "%s belongs to the script: do it before execute" name)
+  | During (on_cut, d, _) when e.at.start.pos_cnum < d.at.start.pos_cnum && not (List.mem symbol [ ">>"; "|"; "&" ]) ->
+    let word = Dolphin_syntax.Print.during on_cut in
+    Some (Format.asprintf "if it belongs to the time, put that in parentheses: %s (%a %s ...)" word
+            Dolphin_syntax.Print.expression d symbol)
+  | _ -> None
+
+let describe_kind env e = Builtins.describe (operand_kind env e)
+
+(* The first of [operands] that surely is of none of these kinds. *)
+let check_operands env wanted operands ~complain =
+  let is_wrong e = List.for_all (fun kind -> not (could_be kind (operand_kind env e))) wanted in
+  Option.iter complain (List.find_opt is_wrong operands)
 
 let check_operator env (op : Ast.binary) (a : Ast.expression) (b : Ast.expression) =
-  let symbol = match op with Sequence -> ">>" | _ -> "|" in
-  let need (e : Ast.expression) =
-    let hint =
-      match e.it with
-      | String name -> Some (Printf.sprintf "a plan is named by task('%s')" name)
-      | Call { callee = { it = Variable ("running" | "connected" as name); _ }; _ } when not (is_hidden env name) ->
-        Some (Format.asprintf "a task that waits for it is condition { %a }" Dolphin_syntax.Print.expression e)
-      | Call { callee = { it = Variable name; _ }; _ } when Builtins.is_deed name && not (is_hidden env name) ->
-        Some (Format.asprintf "what is done in a task is an action: action { %a }" Dolphin_syntax.Print.expression e)
-      | Call { callee = { it = Variable name; _ }; _ } when Builtins.is_of_script name && not (is_hidden env name) ->
-        Some (Printf.sprintf "%s belongs to the script: do it before execute" name)
-      | _ -> None
-    in
-    if not (could_be Task (known_kind env e)) then
-      error env ?hint Wrong_kind e.at "%s composes tasks, and this is %s" symbol (Builtins.describe (known_kind env e))
-  in
-  match op, known_kind env a, known_kind env b with
-  | Sequence, _, _ -> need a; need b
-  | Parallel, Task, _ -> need b
-  | Parallel, _, Task -> need a
+  let symbol = Dolphin_syntax.Print.operator op in
+  let wrong (e : Ast.expression) ?hint format =
+    let hint = match hint with Some _ -> hint | None -> hint_for_operand env symbol e in
+    error env ?hint Wrong_kind e.at format in
+  let compose (e : Ast.expression) = wrong e "%s composes tasks, and this is %s" symbol (describe_kind env e) in
+  match op, operand_kind env a, operand_kind env b with
+  | Sequence, _, _ -> List.iter (fun e -> check_operands env [ Task ] [ e ] ~complain:compose) [ a; b ]
+  | Parallel, Task, _ -> check_operands env [ Task ] [ b ] ~complain:compose
+  | Parallel, _, Task -> check_operands env [ Task ] [ a ] ~complain:compose
+  | Parallel, _, _ ->
+    let complain e =
+      wrong e "| takes two tasks, or a vehicle set and a predicate { v -> ... }, and this is %s" (describe_kind env e) in
+    check_operands env [ Task; Vehicles ] [ a ] ~complain;
+    check_operands env [ Task ] [ b ] ~complain
+  | Intersect, _, _ ->
+    let complain e =
+      let hint = if operand_kind env e = Task then Some "tasks at once are a | b" else None in
+      wrong e ?hint "& takes two vehicle sets or two areas, and this is %s" (describe_kind env e) in
+    check_operands env [ Vehicles ] [ a; b ] ~complain
+  | (Multiply | Divide | Remainder | Power | Add | Subtract), found, other
+    when (found = Task || other = Task) && (op <> Add || (found <> String && other <> String)) ->
+    let e = if operand_kind env a = Task then a else b in
+    let hint = if found = other then Some "tasks one after the other are a >> b, tasks at once a | b" else None in
+    wrong e ?hint "%s takes no task" symbol
   | _, _, _ -> ()
 
 (* {1 Places of names} *)

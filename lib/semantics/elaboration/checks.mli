@@ -66,6 +66,12 @@ val kind_of : Ast.expression -> Builtins.kind
 val known_kind : env -> Ast.expression -> Builtins.kind
 (** As {!kind_of}, but functions of the program hide names of the language. *)
 
+val operand_kind : env -> Ast.expression -> Builtins.kind
+(** As {!known_kind}, and variables that are assigned once have the kind of their value. *)
+
+val check_operand : env -> string -> Builtins.kind -> Ast.expression -> unit
+(** As {!check_kind}, by {!operand_kind}. *)
+
 val could_be : Builtins.kind -> Builtins.kind -> bool
 (** [could_be wanted found] is whether a value of kind [found] may be one of kind [wanted]. *)
 

@@ -100,9 +100,28 @@ let confirm_task env at arguments =
 
 (* {1 Operands} *)
 
+(* Code in the place of a task, also that of certain vehicles. *)
+let rec code_of (e : Ast.expression) =
+  match e.it with
+  | Closure c -> Some c
+  | Index (e, _) -> code_of e
+  | _ -> None
+
+let check_given env (c : Ast.closure) =
+  match c.parameters with
+  | Some (x :: _) ->
+    error env Wrong_parameters x.at "no guard gives '%s' a value here" x.it
+      ~hint:"what a guard takes goes to code that is all of its branch: then { x -> T(x) >> U }, or \
+             (waitFor { ... } then { x -> T(x) }) >> U"
+  | Some [] | None -> ()
+
 (* An operand that is a task; code in its place makes it. *)
-let task_operand env (e : Ast.expression) =
+let branch_operand env (e : Ast.expression) =
   match e.it, confirmation env e with
   | _, Some arguments -> confirm_task env e.at arguments
   | Closure c, None -> told c (closure env e.at Scope.Maker "task" c)
   | _, None -> elaborate env e
+
+let task_operand env e =
+  Option.iter (check_given env) (code_of e);
+  branch_operand env e

@@ -61,6 +61,12 @@ let hint (e : expression) =
 (* Whether [Translate] tells of it, as a task that is not executed. *)
 let is_task ~top e = top && Checks.kind_of e = Builtins.Task
 
+(* [def f(v) { { T } }]: whether the braces look like code that makes a task. *)
+let looks_like_code body =
+  match body with
+  | [ { it = Expression e; _ } ] -> Checks.kind_of e = Builtins.Task
+  | _ -> false
+
 (* [value] is whether the last statement is the value of the code around. *)
 let rec body p ~top ~value acc = function
   | [] -> acc
@@ -74,6 +80,10 @@ and statement p ~top ~value acc (s : statement) =
     Diagnostic.warning ?hint:(hint e) No_effect e.at "this has no effect: nobody takes its value" :: acc
   | If (_, yes, no) -> within ~value (within ~value acc yes) no
   | While (_, b) | For (_, _, b) -> within ~value:false acc b
+  | Block b when value && looks_like_code b ->
+    Diagnostic.warning No_effect s.at "these braces have no effect: the task in them is made at once"
+      ~hint:"code that makes it at its turn is return { ... }; if that is not meant, leave them out"
+    :: within ~value acc b
   | Block b -> within ~value acc b
   | Function { body = b; _ } -> within ~value:true acc b
   | Expression _ | Assign _ | Define _ | Parameter _ | Return _ | Break | Continue | Setting _ -> acc

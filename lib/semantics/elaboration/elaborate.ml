@@ -124,6 +124,12 @@ let without_unused_prelude (ast : Ast.program) =
       match s.it with Function { name; _ } when is_prelude s -> List.mem name.it used | _ -> true in
     List.filter is_kept ast
 
+(* Variables that are assigned once, to a value of a kind that is known. *)
+let kinds_of_variables ast =
+  let of_kind kind =
+    List.map (fun name -> (name, kind)) (Assigned.once (fun e -> Checks.kind_of e = kind) ast) in
+  List.concat_map of_kind [ Builtins.Task; Number; String; Vehicles ]
+
 let no_chart _ = Error "no file can be read here"
 
 (* Of the maps that stand in the declarations of fences, which are no code. *)
@@ -156,6 +162,7 @@ let elaborated ?(chart = no_chart) ~source_name (ast : Ast.program) =
   let ast = without_unused_prelude ast in
   let program =
     Scope.create ~variables:(Assigned.names ast) ~suppliers:(Assigned.once is_supplier ast)
+      ~kinds:(kinds_of_variables ast)
       ~parameters:(List.map (fun (p : Parameters.t) -> p.name) (Parameters.of_program ast))
       ~chart ~functions:[] ~globals:[] ()
   in

@@ -12,6 +12,7 @@ type program = {
   variables : string list;
   parameters : string list;
   suppliers : string list;
+  kinds : (string * Builtins.kind) list;
   chart : string -> (Chart.t, string) result;
   charted : (string, string * Chart.t) Hashtbl.t;  (* variables that are a chart, with its file *)
   functions : (string, Core.lambda) Hashtbl.t;
@@ -52,13 +53,14 @@ let assigned_global program name =
 
 let no_chart _ = Error "no file can be read here"
 
-let create ?(first_site = 0) ?(variables = []) ?(parameters = []) ?(suppliers = []) ?(chart = no_chart) ~functions
-    ~globals () =
+let create ?(first_site = 0) ?(variables = []) ?(parameters = []) ?(suppliers = []) ?(kinds = [])
+    ?(chart = no_chart) ~functions ~globals () =
   let program =
     {
       variables;
       parameters;
       suppliers;
+      kinds;
       chart;
       charted = Hashtbl.create 4;
       functions = Hashtbl.create 16;
@@ -151,6 +153,7 @@ let is_parameter program name = List.mem name program.parameters
 let chart program path = program.chart path
 let note_chart program name path chart = Hashtbl.replace program.charted name (path, chart)
 let find_chart program name = Hashtbl.find_opt program.charted name
+let kind_of_variable program name = Option.value (List.assoc_opt name program.kinds) ~default:Builtins.Any
 let is_supplier program name = List.mem name program.suppliers
 let recruits program = program.recruits
 let goes_round program = program.goes_round

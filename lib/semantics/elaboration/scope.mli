@@ -13,6 +13,7 @@ val create :
   ?variables:string list ->
   ?parameters:string list ->
   ?suppliers:string list ->
+  ?kinds:(string * Builtins.kind) list ->
   ?chart:(string -> (Chart.t, string) result) ->
   functions:(string * Core.lambda) list ->
   globals:string list ->
@@ -20,7 +21,8 @@ val create :
   program
 (** [functions] and [globals] exist already, as for an answer to [ask]; sites are numbered from [first_site] on, by
     default from 0. [variables] are names that the text gives a value to somewhere; [parameters], the program's
-    parameters; [suppliers], the names of variables that surely are the supplier; [chart path] is
+    parameters; [suppliers], the names of variables that surely are the supplier; [kinds], the kinds of variables that
+    have one; [chart path] is
     what [map] makes of a file, by default that it cannot be read. *)
 
 val site : program -> Location.t -> Core.site
@@ -131,6 +133,9 @@ val note_chart : program -> string -> string -> Chart.t -> unit
 
 val find_chart : program -> string -> (string * Chart.t) option
 (** What {!note_chart} noted of a variable. *)
+
+val kind_of_variable : program -> string -> Builtins.kind
+(** The kind of the variable in [kinds], [Any] by default. *)
 
 val is_supplier : program -> string -> bool
 (** Whether the variable is one of the [suppliers]. *)

@@ -148,7 +148,7 @@ let rec elaborate env (e : Ast.expression) : expression =
     (match index.it with
      | String name -> Chart_calls.check_member env subject { it = name; at = index.at }
      | _ -> ());
-    let subject = task_operand env subject in
+    let subject = branch_operand env subject in
     apply env at Element [ subject; elaborate env index ]
   | Builder (builder, body) -> Setting_blocks.build env at builder body
   | Pick_else (settings, otherwise) -> pick_else env at settings otherwise
@@ -196,7 +196,8 @@ and elaborate_map env at entries =
 and guarded env at operation construct guard t =
   check_kind env construct Task t;
   let guard = task_code env at construct guard in
-  apply env at (Builtin operation) [ guard; task_operand env t ]
+  let operand = if operation = Make_wait_for then branch_operand else task_operand in
+  apply env at (Builtin operation) [ guard; operand env t ]
 
 and assure env at guard t =
   check_kind env "assure" Task t;
@@ -205,12 +206,12 @@ and assure env at guard t =
 
 and during env at on_cut (d : Ast.expression) t =
   let word = Dolphin_syntax.Print.during on_cut in
-  check_kind env word Task t;
+  check_operand env word Task t;
   let d =
     match d.it with
     | Closure c -> task_code env d.at word c
     | _ ->
-      check_kind env word Number d;
+      check_operand env word Number d;
       Option.iter (fun fault -> error env Wrong_value d.at "%s" fault) (Literal_check.fault_of_time word d);
       elaborate env d
   in

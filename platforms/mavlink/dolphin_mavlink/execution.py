@@ -318,7 +318,7 @@ class Execution:
 
     def _look_back(self, now):
         """Whether the mode is put back, or is another's by now, and the reason has come."""
-        if not self._is_back and now - self._back_at < BACK:
+        if not self._is_back and now - self._back_at < max(BACK, 3 * self._round_trip.seconds):
             return
         if self._refusal_of is None:
             self._end(*self._end_of_back)

@@ -10,7 +10,7 @@ from .wire import mavlink, version_of
 
 LINK_SILENCE = 5.0  # seconds without a heartbeat, after which the link counts as lost
 MOVE_SILENCE = 10.0  # seconds after which a vehicle may be heard from another address
-DEAF = 5.0  # seconds in which a vehicle answers the first requests
+DEAF = 10.0  # seconds in which a vehicle answers the first requests, over slow links too
 UNSIGNED = "signs its messages: --key-file gives the pass phrase by which ours are signed"
 FALL = 3.0  # metres a second: no copter lands as fast
 _CLOCK_WRAPS = 2**32 / 1000  # seconds

@@ -231,6 +231,17 @@ class Refusals(Case):
                 wires.run(2)
                 self.assertEqual(vehicle.mode, "STABILIZE")
 
+    def test_a_mode_is_put_back_over_a_slow_link(self):
+        for delay in (0.5, 1.0, 2.0):
+            with self.subTest(delay=delay):
+                vehicle, wires = one(delay=delay)
+                wires.run(10)
+                vehicle.results[ARM] = FAILED
+                vehicle.reasons[ARM] = CRITICAL, "Arm: GPS 1: Bad fix"
+                wires.start("r", "mav-1", stored())
+                self.ends(wires, "r", "failed", "its autopilot does not arm: Arm: GPS 1: Bad fix")
+                self.assertEqual(vehicle.mode, "STABILIZE")
+
     def test_a_mode_that_cannot_be_put_back(self):
         vehicle, wires = one(delay=0.2)
         vehicle.results[ARM] = FAILED

@@ -271,7 +271,7 @@ class Trust(Case):
         self.assertEqual([r["text"] for r in wires.said("log")], logs)
         hint = "signs its messages: --key-file gives the pass phrase by which ours are signed"
         wires.start("r", "mav-1", stored())
-        self.ends(wires, "r", "failed", f"no answer from its autopilot for 5 seconds (upload); it {hint}")
+        self.ends(wires, "r", "failed", f"no answer from its autopilot for 10 seconds (upload); it {hint}")
         self.assertEqual(wires.vehicle_said("mav-1")["unready"], f"does not answer, and {hint}")
         wires.start("r2", "mav-1", stored())
         self.ends(wires, "r2", "failed", f"does not answer, and {hint}")

@@ -14,9 +14,34 @@ type row = {
   assumed : World.assumption list;
 }
 
-let site_of (label : Label.t) (t : Transition.t) before =
+(* The code of a step that may have such a label, of all that has begun: from the outside in, left to right. *)
+let code_for (label : Label.t) (c : Configuration.t) =
+  let code : Residual.t -> Core.closure list = fun r ->
+    match label, r with
+    | Act _, Action c | Check _, Condition c | Cut _, Until (_, c, _) | Make, Made { code = c; _ } -> [ c ]
+    | Check _, (One_of bs | All_of (None, bs)) -> List.map (fun (b : Residual.branch) -> b.guard) bs
+    | Check _, Repeat { round = None; again } -> Option.to_list again.until
+    | _, _ -> []
+  in
+  match c.control with
+  | Executing (_, r) -> Residual.fold_active (fun found r -> found @ code r) [] r
+  | Script _ | Waiting _ | Ended _ -> []
+
+(* Where the code of the step stands: the first that it has left behind; or all of it that it may be, if that is at one
+   place. *)
+let site_of_code (label : Label.t) before (t : Transition.t) =
+  let site (c : Core.closure) = c.lambda.lambda_site in
+  let sites c = List.map site (code_for label c) in
+  let count site = List.fold_left (fun n site' -> if site = site' then n + 1 else n) 0 in
+  let known = Option.fold ~none:[] ~some:sites before and left = sites t.next in
+  match List.find_opt (fun site -> count site left < count site known) known, List.sort_uniq Int.compare known with
+  | Some site, _ | None, [ site ] -> Some site
+  | None, ([] | _ :: _ :: _) -> None
+
+let site_of (label : Label.t) (t : Transition.t) ~code before =
   let task v = Option.map (fun (p : Core.platform_task) -> p.task_site) (Vehicle_map.find_opt v before) in
   match label, t.next.control with
+  | _, (Script _ | Waiting _ | Executing _) when Option.is_some code -> code
   | Start (v, _), _ ->
     Option.map
       (fun (p : Core.platform_task) -> p.task_site)
@@ -45,6 +70,8 @@ let words program ~source before (t : Transition.t) =
 let row (program : Core.program) ~source (before : Configuration.t option) (t : Transition.t) =
   let running = Option.fold ~none:Vehicle_map.empty ~some:(fun (c : Configuration.t) -> c.shared.allocation) before in
   let at site = Fault.location program (Fault.make site "") in
+  let is_own site = Option.fold ~none:false ~some:(fun at -> Location.file at <> Dolphin_syntax.Prelude.file) (at site) in
+  let code = Option.bind (site_of_code t.label before t) (fun site -> if is_own site then Some site else None) in
   let actor =
     match t.label with Start (v, _) | Done (v, _) | Fail (v, _, _) -> v | _ -> program_column
   in
@@ -56,7 +83,7 @@ let row (program : Core.program) ~source (before : Configuration.t option) (t : 
     | Bind vs -> "picks " ^ Wording.vehicles vs
     | label -> Format.asprintf "%a" Label.pp label
   in
-  { actor; text = Phrase.one_line text; at = Option.bind (site_of t.label t running) at;
+  { actor; text = Phrase.one_line text; at = Option.bind (site_of t.label t ~code running) at;
     words = words program ~source before t; assumed = t.assumed }
 
 let place row =
@@ -150,7 +177,7 @@ let lines ?(first = 1) ?heads ?columns ~source program run =
   | Some columns ->
     let width widest = width (table ~widest ~words:None without_assumed) in
     let rec fitting widest = if widest <= narrowest || width widest <= columns then widest else fitting (widest - 1) in
-    let widest = fitting widest in
+    let widest = fitting (min columns (max widest (width_of_all (List.map (fun row -> row.text) rows)))) in
     let has_words = List.exists (fun row -> row.words <> "") rows in
     let left = columns - width widest - 2 in
     if left < -2 then listing ~heads ~columns rows

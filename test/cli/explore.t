@@ -90,23 +90,23 @@ In a wide terminal the log's words stand beside what conditions and timers do. I
   $ COLUMNS=60 explore narrow.dol | tail -n +8
   no deadlock: a shortest run in which nothing can happen
     any more, and the program has not ended
-      program                                   where
-  1   pick(1 vehicle of type 'UUV' with pay...  narrow.dol:1
-  2   picks noptilus-1                          narrow.dol:1
-  3   execute                                   narrow.dol:2
-  4   act(post position:'north of the secon...  narrow.dol:2
-  5   check                                     narrow.dol:2
+      program                                     where
+  1   pick(1 vehicle of type 'UUV' with paylo...  narrow.dol:1
+  2   picks noptilus-1                            narrow.dol:1
+  3   execute                                     narrow.dol:2
+  4   act(post position:'north of the second ...  narrow.dol:2
+  5   check                                       narrow.dol:2
   tuples then: {position:'north of the second buoy'}
   waits for the condition at narrow.dol:2:76, !poll(position: _)
   waits for the condition at narrow.dol:2:154, poll(never: 1)
   $ COLUMNS=200 explore narrow.dol | tail -n +8
   no deadlock: a shortest run in which nothing can happen any more, and the program has not ended
-      program                                   where         in words
-  1   pick(1 vehicle of type 'UUV' with pay...  narrow.dol:1
-  2   picks noptilus-1                          narrow.dol:1
-  3   execute                                   narrow.dol:2
-  4   act(post position:'north of the secon...  narrow.dol:2  posts position:'north of the second buoy'
-  5   check                                     narrow.dol:2  sees that poll(position: _) || false holds
+      program                                         where         in words
+  1   pick(1 vehicle of type 'UUV' with payload DVL)  narrow.dol:1
+  2   picks noptilus-1                                narrow.dol:1
+  3   execute                                         narrow.dol:2
+  4   act(post position:'north of the second buoy')   narrow.dol:2  posts position:'north of the second buoy'
+  5   check                                           narrow.dol:2  sees that poll(position: _) || false holds
   tuples then: {position:'north of the second buoy'}
   waits for the condition at narrow.dol:2:76, !poll(position: _)
   waits for the condition at narrow.dol:2:154, poll(never: 1)
@@ -470,13 +470,13 @@ Where states stand for others that are alike, runs have the names that the progr
    3   execute                                                                       alike.dol:3
    4                                             starts a1                           alike.dol:2
    5                                             ends a1                             alike.dol:2
-   6   act(post ready:1)                                                             alike.dol:3
+   6   act(post ready:1)                                                             alike.dol:2
    7                                                         starts a2               alike.dol:2
    8                                                         ends a2                 alike.dol:2
-   9   act(post ready:2)                                                             alike.dol:3
+   9   act(post ready:2)                                                             alike.dol:2
   10                                                                     starts a3   alike.dol:2
   11                                                                     ends a3     alike.dol:2
-  12   act(post ready:3)                                                             alike.dol:3
+  12   act(post ready:3)                                                             alike.dol:2
   13   check(consume ready:1)                                                        alike.dol:3
   14   timeout                                                                       alike.dol:3
   tuples then: {ready:2, ready:3}
@@ -934,3 +934,30 @@ A vehicle that may be missing does not hide that a task cannot be executed:
   vehicles for all tasks: violated after 3 steps: a task cannot be executed
   $ dolphin explore masked.dol | grep '^vehicles.*: violated'
   vehicles for all tasks: violated after 3 steps: a task cannot be executed
+
+A step of a task has the place of its own code, and labels are cut only where there is no room:
+
+  $ cat > places.dol << 'END'
+  > v = pick { type 'UUV' }
+  > t = task('p') >>
+  >     action { post x: 1 }
+  > execute (until {
+  >     poll x: 1
+  >   } run repeat idle(5))
+  >   | t[v]
+  >   >> condition {
+  >        consume x: 1 } >> { action {
+  >        message 'm' } }
+  > assert { false }, 'this text of an assertion is long enough to be cut where cells have forty characters'
+  > END
+  $ cp masked.fleet places.fleet
+  $ dolphin explore places.dol | sed -n '/act(/,$p'
+   6   act(post x:1)                                       places.dol:3
+   7   cut                                                 places.dol:4
+   8   check(consume x:1)                                  places.dol:8
+   9   make                                                places.dol:9
+  10   allocate()                                          places.dol:4
+  11   act(message 'm')                                    places.dol:9
+  12   fault(assertion failed: this text of ...            places.dol:11
+  $ COLUMNS=150 dolphin explore places.dol | grep fault
+  12   fault(assertion failed: this text of an assertion is long enough to be cut where cells have forty characters)            places.dol:11

@@ -57,7 +57,7 @@ A deadline that holds, and one that does not, with the run that breaks it.
   7:00                                ends survey                  relay.dol:3
   7:00   act(post ready:1)                                         relay.dol:3
   7:00                                starts home                  relay.dol:3
-  7:00   check(consume ready:1)                                    relay.dol:3
+  7:00   check(consume ready:1)                                    relay.dol:4
   7:00                                               starts visit  relay.dol:4
   8:30                                ends home                    relay.dol:3
   9:00                                               ends visit    relay.dol:4
@@ -86,7 +86,7 @@ A deadline that holds, and one that does not, with the run that breaks it.
   7:00                                ends survey                  relay.dol:3
   7:00   act(post ready:1)                                         relay.dol:3
   7:00                                starts home                  relay.dol:3
-  7:00   check(consume ready:1)                                    relay.dol:3
+  7:00   check(consume ready:1)                                    relay.dol:4
   7:00                                               starts visit  relay.dol:4
   8:30                                ends home                    relay.dol:3
   9:00                                               ends visit    relay.dol:4
@@ -124,7 +124,7 @@ is not known.
   7:00                                ends survey                  relay.dol:3
   7:00   act(post ready:1)                                         relay.dol:3
   7:00                                starts home                  relay.dol:3
-  7:00   check(consume ready:1)                                    relay.dol:3
+  7:00   check(consume ready:1)                                    relay.dol:4
   7:00                                               starts visit  relay.dol:4
   8:30                                ends home                    relay.dol:3
   9:00                                               ends visit    relay.dol:4

@@ -70,7 +70,8 @@ let words program ~source before (t : Transition.t) =
 let row (program : Core.program) ~source (before : Configuration.t option) (t : Transition.t) =
   let running = Option.fold ~none:Vehicle_map.empty ~some:(fun (c : Configuration.t) -> c.shared.allocation) before in
   let at site = Fault.location program (Fault.make site "") in
-  let is_own site = Option.fold ~none:false ~some:(fun at -> Location.file at <> Dolphin_syntax.Prelude.file) (at site) in
+  let is_in_program at = Location.file at <> Dolphin_syntax.Prelude.file in
+  let is_own site = Option.fold ~none:false ~some:is_in_program (at site) in
   let code = Option.bind (site_of_code t.label before t) (fun site -> if is_own site then Some site else None) in
   let actor =
     match t.label with Start (v, _) | Done (v, _) | Fail (v, _, _) -> v | _ -> program_column

@@ -245,7 +245,9 @@ let holds_of_fair_runs program (g : Reference.t) all f =
       in
       let c = g.states.(i).configuration in
       let is_stuck = Environment.is_stuck g.options program g.states.(i).outside (List.to_seq g.edges.(i)) in
-      let of_edge k ((t : Transition.t), j) = arrive (Some t, t.next) j (if all.(i) = [] then other j else List.nth all.(i) k) in
+      let of_edge k ((t : Transition.t), j) =
+        arrive (Some t, t.next) j (if all.(i) = [] then other j else List.nth all.(i) k)
+      in
       let stays = if is_stuck then arrive (None, c) i (other i) else [] in
       Hashtbl.replace edges n (stays @ List.concat (List.mapi of_edge g.edges.(i)));
       n

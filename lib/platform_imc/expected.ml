@@ -80,6 +80,13 @@ let heard v x =
   in
   (inputs, Names.remove v x)
 
+let postpone seconds x =
+  let later = function
+    | Run r -> Run { r with deadline = r.deadline +. seconds }
+    | (Nothing | Halt _) as intent -> intent
+  in
+  Names.map later x
+
 let give_up ~now x =
   let is_late = function Run { deadline; _ } -> deadline <= now | Nothing | Halt _ -> false in
   let late = Names.filter (fun _ intent -> is_late intent) x in

@@ -31,6 +31,9 @@ val stop_all : t -> t
 val heard : Core.vehicle -> t -> Execution.input list * t
 (** [heard v x] is what the execution on [v] is to be given, in order, as [v] has said what it runs. *)
 
+val postpone : float -> t -> t
+(** [postpone seconds x] is [x] with later deadlines. *)
+
 val give_up : now:float -> t -> Core.vehicle list * t
 (** [give_up ~now x] is the vehicles that were not heard in time: their tasks have failed, and are to be halted. *)
 

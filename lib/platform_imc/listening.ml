@@ -64,10 +64,15 @@ let aborted ~now (p : Packet.t) s =
 
 (* What was intended for an expected vehicle is done once it has said what it runs. *)
 let take_over ~now (n : Node.t) s =
-  if Execution.report n.execution = None then (s, [])
+  if Execution.report n.execution = None || now < s.wary_until then (s, [])
   else
     let inputs, expected = Expected.heard n.name s.expected in
-    command_all ~now inputs n { s with expected }
+    let s = { s with expected } in
+    match taken_by_another n.name s with
+    | None -> command_all ~now inputs n s
+    | Some _ when inputs = [] -> (s, [])
+    (* Its plan is another's now. *)
+    | Some why -> (push (Task_failed (n.name, why)) s, [])
 
 (* What it is said to carry, and does not list. *)
 let missing_devices (before : Node.t) (n : Node.t) s =
@@ -87,7 +92,7 @@ let remark_on_payload before n s =
 let heard ~now (p : Packet.t) (n : Node.t) s =
   let before = n in
   let first = n.last_heard = neg_infinity in
-  let n, outputs = Node.hear ~now ~own:s.settings.id p n in
+  let n, outputs = Node.hear ~now ~jitter:s.settings.jitter ~own:s.settings.id p n in
   let s, sent = carry_out ~now n outputs (update n { s with accepted = s.accepted + 1 }) in
   let s, more = take_over ~now n s in
   let n = again n s in
@@ -106,18 +111,45 @@ let request_of_another ~now (vehicle : Node.t) (p : Packet.t) s =
   | Message _ | Unknown _ -> skip s
 
 (* What two consoles hold at once was picked by both at the same time. *)
+(* The same run, of a copy of its journal, lives there; of two that resume it one goes on. *)
+let with_twin (n : Node.t) s =
+  match n.claim with
+  | Some (_, claim)
+    when s.resuming && claim.run = s.settings.run && claim.run <> "" && not (claim.resuming && s.settings.id < n.id) ->
+    { s with twin = Some n.name }
+  | Some _ | None -> s
+
+(* Those that the console [n] had first, or that two want and it gets. *)
+let yielded ~now (n : Node.t) s =
+  let is_lost v =
+    Name_set.mem v s.bound
+    && (now < s.wary_until || (n.id < s.settings.id && now < deferred_until v s))
+  in
+  { s with yielded = List.fold_left (fun set v -> Name_set.add v set) s.yielded (List.filter is_lost (held_by n)) }
+
+let let_go ~now vehicles s =
+  let one s v =
+    match find v s with
+    | Some n when not (Names.mem v s.held || Name_set.mem v s.bound) ->
+      update (Node.let_go ~now ~jitter:s.settings.jitter n) s
+    | Some _ | None -> s
+  in
+  List.fold_left one s vehicles
+
 let claimed ~now (before : Node.t) s =
   let n = again before s in
+  let s = yielded ~now n (with_twin n s) in
   let held = held_by n and held_before = held_by before in
   if held = held_before then (s, [])
   else
+    let s = let_go ~now held_before (with_claims s) in
     let conflict v =
       match n.claim with
       | Some (_, claim) when Name_set.mem v s.bound && not (List.mem v held_before) ->
         Some (Remark (v, "also " ^ Claim.obstacle ~console:n.name claim))
       | Some _ | None -> None
     in
-    (tell_all ~now (held @ held_before) (with_claims s), List.filter_map conflict held)
+    (tell_all ~now (held @ held_before) s, List.filter_map conflict held)
 
 let packet ~now ~from (p : Packet.t) s =
   match p.content with
@@ -142,7 +174,11 @@ let record ~from (h : Header.t) bytes s =
     { s with received = Received.add h bytes s.received }
   | Some _ | None -> s
 
+(* After a longer gap it is for a tick to find out that the console slept. *)
+let dated ~now s = if now -. s.seen <= Claim.patience then { s with seen = Float.max now s.seen } else s
+
 let datagram ~now ~from ?len bytes s =
+  let s = dated ~now s in
   let header = Header.read ?len bytes in
   let s = match header with Ok h -> record ~from h bytes s | Error _ -> s in
   let decoded f =

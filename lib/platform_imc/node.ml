@@ -150,14 +150,16 @@ let obstacle n = Readiness.obstacle ~mode:n.mode ~error:n.error (Execution.repor
 let is_resting ~now n = match n.freed with Some at -> now < at +. rest | None -> false
 
 (* [n] that was [before], as to whether it has just become free: of a plan that was not ours. *)
-let freed ~now before n =
+let freed ~now ~jitter before n =
   let is_idle n = Execution.idle n.execution in
   match obstacle before, obstacle n with
   | Some _, None when is_idle before && is_idle n && Execution.report before.execution <> None ->
-    { n with freed = Some now }
+    { n with freed = Some (now +. jitter) }
   | _, Some _ -> { n with freed = None }
   | (Some _ | None), None -> n
 
+let let_go ~now ~jitter n = if jitter > 0. then { n with freed = Some (now +. jitter -. rest) } else n
+let overslept ~now gap n = { n with last_heard = Float.min now (n.last_heard +. gap) }
 let rested n = { n with freed = None }
 let unclaimed n = { n with claim = None }
 
@@ -192,9 +194,9 @@ let remark_on_stamp (p : Packet.t) before n : Execution.output list =
            p.timestamp) ]
   else []
 
-let hear ~now ~own p n =
+let hear ~now ?(jitter = 0.) ~own p n =
   let heard, outputs = hear_message ~now ~own p n in
-  (freed ~now n heard, remark_on_stamp p n heard @ outputs)
+  (freed ~now ~jitter n heard, remark_on_stamp p n heard @ outputs)
 
 let queried n = { n with queries = n.queries + 1 }
 

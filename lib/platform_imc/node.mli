@@ -45,16 +45,18 @@ val belongs : Unix.inet_addr -> t -> bool
 (** [belongs host n] is whether datagrams of [n] may come from [host]. *)
 
 val rest : float
-(** 1 s: so long a vehicle that was busy must be ready before it can be picked. Between two plans of another program it
-    is ready for about a millisecond (measured). *)
+(** 1 s: so long, and [jitter] (0 s) longer, a vehicle that was busy must be ready before it can be picked. Between
+    two plans of another program it is ready for about a millisecond (measured). *)
 
 val absence : float
 (** 30 s: three announcements are missing. After that a system may come back elsewhere. *)
 
 (** {1:telemetry What it says} *)
 
-val hear : now:float -> own:int -> Packet.t -> t -> t * Execution.output list
-(** [hear ~now ~own p n] is [n] after its packet [p] came, and what follows for its plan. Replies of PlanControl count
+val hear : now:float -> ?jitter:float -> own:int -> Packet.t -> t -> t * Execution.output list
+
+(** [hear ~now ~jitter ~own p n] is [n] after its packet [p] came, and what follows for its plan. Replies of
+    PlanControl count
     if they are for the console [own]; values that are no numbers, or out of range, are left out.
 
     The position is EstimatedState's reference point, moved [x] metres north and [y] metres east over the ground, [z]
@@ -69,6 +71,12 @@ val rested : t -> t
 
 val unclaimed : t -> t
 (** [unclaimed n] is [n] that holds nothing any more. *)
+
+val overslept : now:float -> float -> t -> t
+(** [overslept ~now gap n] is [n] if this console did not listen for [gap] seconds until [now]. *)
+
+val let_go : now:float -> jitter:float -> t -> t
+(** [let_go ~now ~jitter n] is [n], which another console held until now: it can be picked in [jitter] seconds. *)
 
 val queried : t -> t
 (** [queried n] is [n] that was asked for its entity list once more. *)

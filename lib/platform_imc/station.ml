@@ -4,7 +4,6 @@ open Dolphin_imc
 include Station_state
 
 let datagram = Listening.datagram
-let tick = Upkeep.tick
 let due = Upkeep.due
 let most_nodes = Listening.most_nodes
 let announce_interval = Presence.announce_interval
@@ -27,8 +26,7 @@ let check_order ~now (n : Node.t) (order : Execution.order) s =
     Error (Printf.sprintf "the plan cannot be sent: %d bytes do not fit a datagram" (String.length bytes))
   | Some _, Ok _ -> Ok ()
 
-let start ~now vehicle task s =
-  let s = { s with outbox = Outbox.without_task vehicle s.outbox } in
+let start_now ~now vehicle task s =
   match Expected.order_of task, find vehicle s with
   | Error why, _ -> (push (Task_failed (vehicle, why)) s, [])
   | Ok order, (None | Some _) when Expected.mem vehicle s.expected ->
@@ -39,8 +37,32 @@ let start ~now vehicle task s =
       | Ok () -> command ~now (Start order) n s
       | Error why -> (push (Task_failed (vehicle, why)) s, []))
 
-let stop ~now vehicle s =
+let start ~now vehicle task s =
+  let s = awake ~now s in
   let s = { s with outbox = Outbox.without_task vehicle s.outbox } in
+  if now < deferred_until vehicle s && not (Expected.mem vehicle s.expected) then
+    ({ s with deferred = Names.add vehicle task s.deferred }, [])
+  else
+    match taken_by_another vehicle s with
+    | Some why -> (push (Task_failed (vehicle, why)) s, [])
+    | None -> start_now ~now vehicle task s
+
+(* Tasks that waited for the claims of others. *)
+let start_deferred ~now s =
+  let due, deferred = Names.partition (fun v _ -> now >= deferred_until v s) s.deferred in
+  let one vehicle task (s, sent) =
+    let s, more = start ~now vehicle task s in
+    (s, sent @ more)
+  in
+  Names.fold one due ({ s with deferred }, [])
+
+let tick ~now s =
+  let s, sent = Upkeep.tick ~now s in
+  let s, more = start_deferred ~now s in
+  (s, sent @ more)
+
+let stop ~now vehicle s =
+  let s = { s with outbox = Outbox.without_task vehicle s.outbox; deferred = Names.remove vehicle s.deferred } in
   match find vehicle s with
   | None | Some _ when Expected.mem vehicle s.expected -> ({ s with expected = Expected.stop vehicle s.expected }, [])
   | None -> (s, [])
@@ -48,11 +70,20 @@ let stop ~now vehicle s =
 
 let bind ~now vehicles s =
   let also v = Option.map (fun why -> Remark (v, "also " ^ why)) (Names.find_opt v s.held) in
-  let s = hold vehicles s in
+  let s = hold vehicles (awake ~now s) in
+  let is_rival (n : Node.t) = n.claim <> None in
+  let until = now +. contest *. (1. +. s.settings.jitter) in
+  let contests =
+    if Systems.exists is_rival s.systems then
+      List.fold_left (fun contests v -> Names.add v until contests) s.contests vehicles
+    else s.contests
+  in
+  let s = { s with contests } in
   (s, List.filter_map also vehicles @ claims ~now s)
 
 let release ~now vehicles s =
-  let s = { s with bound = List.fold_left (fun bound v -> Name_set.remove v bound) s.bound vehicles } in
+  let without set = List.fold_left (fun set v -> Name_set.remove v set) set vehicles in
+  let s = { s with bound = without s.bound; yielded = without s.yielded } in
   (tell_all ~now vehicles s, claims ~now s)
 
 let leaves ~now ~at vehicles s =
@@ -62,7 +93,7 @@ let leaves ~now ~at vehicles s =
   List.fold_left postpone s vehicles
 
 let stop_all ~now s =
-  let s = { s with expected = Expected.stop_all s.expected } in
+  let s = { s with expected = Expected.stop_all s.expected; deferred = Names.empty } in
   for_each (fun n s -> stop ~now n.name s) s
 
 let cancel_timer timer s =
@@ -86,9 +117,12 @@ let telemetry ~now on s =
 
 let take s = Option.map (fun (event, outbox) -> (event, { s with outbox })) (Outbox.take s.outbox)
 let waiting s = not (Outbox.is_empty s.outbox)
+let twin s = s.twin
+let resuming s = s.resuming
 let owes_stop s = Expected.halts s.expected <> []
 let quiet ~now s =
-  (not (owes_stop s)) && not (Systems.exists (fun n -> not (Execution.is_settled ~now n.execution)) s.systems)
+  (not (owes_stop s)) && Names.is_empty s.deferred
+  && not (Systems.exists (fun n -> not (Execution.is_settled ~now n.execution)) s.systems)
 
 let unsettled ~now s =
   let of_node (n : Node.t) = Option.map (fun plan -> (n.name, plan)) (Execution.unsettled ~now n.execution) in

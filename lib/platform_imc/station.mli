@@ -21,6 +21,9 @@ type settings = {
   type_names : (int * string) list;  (** Of types for which IMC 5.4 has no names. *)
   records : bool;  (** Whether {!received} is kept. *)
   abort_after : float option;  (** See {!Execution.create}. *)
+  run : string;  (** Which run of the program: the identity in its journal; [""]: none is told. *)
+  jitter : float;
+  (** From 0 to 1 s, by chance: how much later than others this console sees that a vehicle is free. *)
 }
 
 val create : settings -> t
@@ -64,7 +67,9 @@ val due : t -> float
 val start : now:float -> Core.vehicle -> Core.platform_task -> t -> t * output list
 val stop : now:float -> Core.vehicle -> t -> t * output list
 val bind : now:float -> Core.vehicle list -> t -> t * output list
-(** Other consoles are told ({!Claim}). *)
+(** Other consoles are told ({!Claim}). If there are any, tasks of these vehicles start {!Station_state.contest}
+    later: who hears meanwhile that a console with a lower IMC address holds one, too, has lost it, and its tasks
+    fail. *)
 
 val claims : now:float -> t -> output list
 (** Tells other consoles what this one holds: what is bound, and what may still run a plan of its own. *)
@@ -89,6 +94,12 @@ val take : t -> (Platform.event * t) option
 
 val waiting : t -> bool
 (** Whether there is one. *)
+
+val resuming : t -> bool
+(** It is still listened whether the run lives elsewhere: nothing was commanded since {!resume}. *)
+
+val twin : t -> string option
+(** The console in which the run that was to be resumed lives. *)
 
 val owes_stop : t -> bool
 (** A vehicle that is to be stopped was not heard yet, since {!resume}. *)

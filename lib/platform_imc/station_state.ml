@@ -16,12 +16,21 @@ type settings = {
   type_names : (int * string) list;
   records : bool;
   abort_after : float option;
+  run : string;
+  jitter : float;
 }
 
 type t = {
   settings : settings;
   systems : Systems.t;
   bound : Name_set.t;
+  seen : float;
+  wary_until : float;
+  resuming : bool;
+  twin : string option;
+  contests : float Names.t;
+  yielded : Name_set.t;
+  deferred : Core.platform_task Names.t;
   claimed : Name_set.t;  (* what other consoles were told last, each second *)
   held : string Names.t;  (* by other consoles, and by which, in words *)
   telemetry : bool;
@@ -45,12 +54,17 @@ type output =
   | Remark of Core.vehicle * string
 
 let create settings =
-  { settings; systems = Systems.none; bound = Name_set.empty; claimed = Name_set.empty; held = Names.empty;
+  { settings; systems = Systems.none; bound = Name_set.empty; seen = neg_infinity;
+    wary_until = neg_infinity; resuming = false; twin = None; contests = Names.empty; yielded = Name_set.empty;
+    deferred = Names.empty; claimed = Name_set.empty; held = Names.empty;
     telemetry = false;
     timeouts = Names.empty; timeout = 60.;
     timers = Timers.none; expected = Expected.none; outbox = Outbox.empty; presence = Presence.start;
     dropped = Names.empty; skipped = 0; accepted = 0; received = Received.nothing }
 
+(* Claims come each second, and at once from consoles that know this one. *)
+let wariness = 2.5
+let contest = 0.3
 let timeout_of name s = Option.value (Names.find_opt name s.timeouts) ~default:s.timeout
 let add_timeouts pairs s = { s with timeouts = List.fold_left (fun map (v, x) -> Names.add v x map) s.timeouts pairs }
 let hold vehicles s = { s with bound = List.fold_left (fun bound v -> Name_set.add v bound) s.bound vehicles }
@@ -60,6 +74,7 @@ let update n s = { s with systems = Systems.update n s.systems }
 let resume ~now (outstanding : History.outstanding) s =
   let s = { s with timeout = Option.value outstanding.timeout ~default:s.timeout } in
   let s = hold outstanding.bound (add_timeouts outstanding.timeouts s) in
+  let s = { s with seen = now; wary_until = now +. wariness; resuming = true } in
   let deadline v = now +. timeout_of v s in
   { s with expected = Expected.resume ~deadline outstanding; timers = Timers.of_list outstanding.timers }
 
@@ -74,6 +89,30 @@ let with_claims s =
     | None -> held
   in
   { s with held = List.fold_left add Names.empty (Systems.to_list s.systems) }
+
+(* {1 Sleep} *)
+
+(* Nothing was heard while this console did not run. *)
+let wake ~now s =
+  let gap = now -. s.seen in
+  let slept s (n : Node.t) = { s with systems = Systems.update (Node.overslept ~now gap n) s.systems } in
+  let s = List.fold_left slept s (Systems.to_list s.systems) in
+  let yielded = Name_set.filter (fun v -> Names.mem v s.held) s.bound in
+  { s with
+    wary_until = Float.max s.wary_until (now +. wariness);
+    yielded = Name_set.union yielded s.yielded;
+    expected = Expected.postpone gap s.expected }
+
+let awake ~now s =
+  let s = if s.seen > neg_infinity && now -. s.seen > Claim.patience then wake ~now s else s in
+  { s with seen = Float.max s.seen now }
+
+(* Until when a task of [v] must not be started. *)
+let deferred_until v s =
+  Float.max s.wary_until (Option.value (Names.find_opt v s.contests) ~default:neg_infinity)
+
+(* Another console has it, and had it first. *)
+let taken_by_another v s = if Name_set.mem v s.yielded then Names.find_opt v s.held else None
 
 let state_of ~now (n : Node.t) s =
   let kind =
@@ -116,11 +155,12 @@ let is_console (n : Node.t) = n.kind = Ccu && n.address <> None
 (* A vehicle that may still run a plan of ours is not free for others. *)
 let holds ~now s =
   let add held (n : Node.t) = if Execution.unsettled ~now n.execution = None then held else Name_set.add n.name held in
-  List.fold_left add s.bound (Systems.to_list s.systems)
+  Name_set.diff (List.fold_left add s.bound (Systems.to_list s.systems)) s.yielded
 
 let claims ~now s =
   let vehicles = Name_set.elements (holds ~now s) in
-  let claim = Claim.to_message { program = s.settings.program; vehicles } in
+  let { program; run; _ } = s.settings in
+  let claim = Claim.to_message { program; run; resuming = s.resuming; vehicles } in
   let to_console n = if is_console n then to_node ~now n claim s else [] in
   List.concat_map to_console (Systems.to_list s.systems)
 

@@ -20,12 +20,22 @@ type settings = {
   type_names : (int * string) list;
   records : bool;
   abort_after : float option;
+  run : string;
+  jitter : float;
 }
 
 type t = {
   settings : settings;
   systems : Systems.t;
   bound : Name_set.t;
+  seen : float;  (** when anything happened last; a later time means that this console slept *)
+  wary_until : float;
+  (** after a sleep, and at a resumption: until then nothing is started; [neg_infinity]: all is well *)
+  resuming : bool;  (** [wary_until] is that of a resumption *)
+  twin : string option;  (** another console that has the run which was to be resumed *)
+  contests : float Names.t;  (** vehicles that were bound a moment ago: until when others may object *)
+  yielded : Name_set.t;  (** bound, but others held them when it mattered *)
+  deferred : Core.platform_task Names.t;  (** tasks to start once it is known who holds the vehicles *)
   claimed : Name_set.t;  (** what other consoles were told last, each second *)
   held : string Names.t;  (** by other consoles, and by which, in words *)
   telemetry : bool;
@@ -57,6 +67,24 @@ val timeout_of : Core.vehicle -> t -> float
 
 val add_timeouts : (Core.vehicle * float) list -> t -> t
 val hold : Core.vehicle list -> t -> t
+
+(** {1:holds Who holds what} *)
+
+val wariness : float
+(** 2.5 s: so long claims are listened for after a sleep, and before anything is resumed. *)
+
+val contest : float
+(** 0.3 s: so long, and up to that much longer ([jitter]), claims on vehicles that were just bound are listened for. *)
+
+val awake : now:float -> t -> t
+(** [awake ~now s] is [s] as something happens. A console to which nothing has happened for longer than
+    {!Claim.patience} has slept: others hold for free what it held, so it listens first; and silences do not count. *)
+
+val deferred_until : Core.vehicle -> t -> float
+(** Until when no task of the vehicle is started. *)
+
+val taken_by_another : Core.vehicle -> t -> string option
+(** Who holds the vehicle, in words, though it is bound here: another console had it first. *)
 
 val find : Core.vehicle -> t -> Node.t option
 val update : Node.t -> t -> t

@@ -16,6 +16,7 @@ type options = {
   type_names : (int * string) list;
   records : bool;
   abort : bool;
+  run : string;
   close_patience : float;
   note : Core.vehicle -> string -> unit;
   keep : time:float -> Core.vehicle -> Yojson.Safe.t -> unit;
@@ -27,7 +28,7 @@ let default =
   { id = None; name = None; program = ""; loopback = false; interfaces = []; data_port = 0;
     announce_ports = [ 30100; 30101; 30102; 30103; 30104 ];
     group = Unix.inet_addr_of_string "224.0.75.69";
-    payload = []; types = []; type_names = []; records = false; abort = false; close_patience = 5.;
+    payload = []; types = []; type_names = []; records = false; abort = false; run = ""; close_patience = 5.;
     note = (fun _ _ -> ());
     keep = (fun ~time:_ _ _ -> ()); sync = None; clock = Clock.system }
 
@@ -193,6 +194,7 @@ let settings options ~port ~hosts ~time : Station.settings =
     epoch = options.clock.date () -. time;
     first_request = Random.State.int random 0x10000;
     payload = options.payload; types = options.types; type_names = options.type_names; records = options.records;
+    run = options.run; jitter = Random.State.float random 1.;
     abort_after = (if options.abort then Some abort_after else None) }
 
 let guard p thread = Lwt.async (fun () -> Lwt.catch thread (fun error -> Shell.fail p.shell error; Lwt.return_unit))
@@ -237,9 +239,27 @@ let opened make =
 
 let open_ options = opened (fun () -> make options)
 
+let release_sockets p =
+  Shell.close p.shell;
+  List.iter Sockets.close_quietly p.speakers;
+  Lwt.catch (fun () -> Lwt_unix.close p.data) (fun _ -> Lwt.return_unit) >>= fun () ->
+  Lwt.catch (fun () -> Lwt_unix.close p.announcements) (fun _ -> Lwt.return_unit)
+
+(* Claims are listened for before anything is commanded. *)
+let rec alone p =
+  match Station.twin p.station with
+  | Some console ->
+    release_sockets p >|= fun () ->
+    let why = "its journal was copied, or moved while it ran; nothing was commanded" in
+    Error (Printf.sprintf "this run lives in %s: %s" console why)
+  | None when Station.resuming p.station -> Lwt_unix.sleep 0.05 >>= fun () -> alone p
+  | None -> Lwt.return (Ok p)
+
 let open_again options ~time history =
   let outstanding = History.outstanding ~announce_period:longest_silence history in
-  opened (fun () -> make ~time ~outstanding options)
+  match opened (fun () -> make ~time ~outstanding options) with
+  | Ok p -> Lwt.catch (fun () -> alone p) (fun error -> release_sockets p >>= fun () -> Lwt.fail error)
+  | Error _ as error -> Lwt.return error
 
 (* {1 Commands} *)
 
@@ -271,12 +291,6 @@ let next p =
         Some event)
 
 (* {1 Closing} *)
-
-let release_sockets p =
-  Shell.close p.shell;
-  List.iter Sockets.close_quietly p.speakers;
-  Lwt.catch (fun () -> Lwt_unix.close p.data) (fun _ -> Lwt.return_unit) >>= fun () ->
-  Lwt.catch (fun () -> Lwt_unix.close p.announcements) (fun _ -> Lwt.return_unit)
 
 (* A stop that is confirmed later than this is worth a word to whoever waits; Execution.patience is usual. *)
 let prompt = 2.

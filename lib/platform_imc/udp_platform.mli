@@ -21,6 +21,7 @@ type options = {
   type_names : (int * string) list;  (** Of types for which IMC 5.4 has no names. *)
   records : bool;  (** Whether {!received} is kept. *)
   abort : bool;  (** Whether a vehicle that still maneuvers 3 s after it was told to stop is told to abort. *)
+  run : string;  (** The identity of the run, which copies of its journal share; [""]: none. *)
   close_patience : float;  (** So many seconds [close] waits for stops to be confirmed; for vehicles
                                that are not heard again yet, {!announce_period} at least. *)
   note : Core.vehicle -> string -> unit;  (** Is told what is unusual, for people. *)
@@ -43,9 +44,9 @@ include Platform.S
 val open_ : options -> (t, string) result
 (** [open_ options] listens and announces itself from now on. The error says which port cannot be had. *)
 
-val open_again : options -> time:float -> History.t -> (t, string) result
+val open_again : options -> time:float -> History.t -> (t, string) result Lwt.t
 (** [open_again options ~time history] takes over, at [time], from a console that died after [history]; see
-    {!Station.resume}. *)
+    {!Station.resume}. It listens for a moment first; the error may be that the run lives in another console. *)
 
 val leave : t -> unit Lwt.t
 (** [leave p] closes [p] and stops nothing: vehicles go on, for a console that takes over. *)

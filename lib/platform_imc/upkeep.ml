@@ -37,7 +37,8 @@ let beat ~now s =
     let s, queried = for_each (fun n s -> if lacks_entities ~now n then query ~now n s else (s, [])) s in
     let held = holds ~now s in
     (* The last one says that nothing is held. *)
-    let is_due = heartbeats = All && not (Name_set.is_empty held && Name_set.is_empty s.claimed) in
+    let is_free = s.settings.run = "" && Name_set.is_empty held && Name_set.is_empty s.claimed in
+    let is_due = heartbeats = All && not is_free in
     let claims = if is_due then claims ~now s else [] in
     ({ s with claimed = held }, claims @ beaten @ queried)
 
@@ -68,7 +69,10 @@ let turns (n : Node.t) =
 let turn ~now (n : Node.t) s =
   let rested, unclaimed = turns n in
   let s = if now >= rested then tell ~now (Node.rested n) (update (Node.rested n) s) else s in
-  if now < unclaimed then s else tell_all ~now (held_by n) (with_claims (update (Node.unclaimed (again n s)) s))
+  if now < unclaimed then s
+  else
+    let held = held_by n in
+    tell_all ~now held (Listening.let_go ~now held (with_claims (update (Node.unclaimed (again n s)) s)))
 
 let check ~now (n : Node.t) s =
   let s = turn ~now n s in
@@ -89,11 +93,19 @@ let give_up ~now s =
   let fail s v = push (Task_failed (v, no_word v s)) s in
   List.fold_left fail { s with expected } late
 
+(* It is known by now who holds what. *)
+let look_again ~now s =
+  if now < s.wary_until then (s, [])
+  else if s.wary_until = neg_infinity then (s, [])
+  else for_each (Listening.take_over ~now) { s with wary_until = neg_infinity; resuming = false }
+
 let tick ~now s =
+  let s = awake ~now s in
+  let s, resumed = look_again ~now s in
   let s, announced = announce ~now s in
   let s, beaten = beat ~now s in
   let s, checked = for_each (check ~now) s in
-  (expire ~now (give_up ~now s), announced @ beaten @ checked)
+  (expire ~now (give_up ~now s), resumed @ announced @ beaten @ checked)
 
 let due s =
   let of_node time (n : Node.t) = Float.min time (Float.min (Execution.due n.execution) (end_of_link n s)) in
@@ -101,5 +113,9 @@ let due s =
     let rested, unclaimed = turns n in
     Float.min (of_node time n) (Float.min rested unclaimed)
   in
-  let own = Float.min (Presence.due s.presence) (Float.min (Timers.first s.timers) (Expected.due s.expected)) in
+  let first v _ time = Float.min time (deferred_until v s) in
+  let wary = if s.wary_until = neg_infinity then infinity else s.wary_until in
+  let own = Names.fold first s.deferred wary in
+  let own = Float.min own (Float.min (Presence.due s.presence) 
+                             (Float.min (Timers.first s.timers) (Expected.due s.expected))) in
   List.fold_left of_node own (Systems.to_list s.systems)

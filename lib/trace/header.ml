@@ -10,6 +10,7 @@ type t = {
   seed : int;
   speed : float option;
   started : string;
+  run : string option;
   fences : Dolphin_semantics.Fences.fence list;
 }
 
@@ -58,6 +59,7 @@ let to_json h : Yojson.Safe.t =
          ("seed", `Int h.seed);
          ("speed", of_option Dolphin_json.Canonical.number h.speed);
          ("started", `String h.started) ]
+     @ Option.fold h.run ~none:[] ~some:(fun run -> [ ("run", `String run) ])
      @ of_order h.order
      @ unless_empty "fences" (fun fences -> `List (List.map Dolphin_json.On_map.fence fences)) h.fences)
 
@@ -90,9 +92,10 @@ let of_json json =
   let* program = get to_source "program" found in
   let* fleet = get (nullable to_source) "fleet" found in
   let* platform = get text "platform" found in
+  let* run = optional (fun json -> Result.map Option.some (text json)) ~default:None "run" found in
   let* order = optional to_order ~default:By_hearing "order" found in
   let* seed = get whole "seed" found in
   let* speed = get (nullable number) "speed" found in
   let* started = get text "started" found in
   let* fences = optional (list Dolphin_json.On_map.to_fence) ~default:[] "fences" found in
-  Ok { program; fleet; platform; order; seed; speed; started; fences }
+  Ok { program; fleet; platform; order; seed; speed; started; run; fences }

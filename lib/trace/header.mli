@@ -15,6 +15,8 @@ type t = {
   seed : int;
   speed : float option;  (** of a simulation, times real time; [None]: as fast as it goes *)
   started : string;  (** by the clock of the console, in UTC: ["2026-03-01T12:00:00Z"] *)
+  run : string option;
+  (** of a run on vehicles of a network: its identity in the world, which copies of the journal share *)
   fences : Dolphin_semantics.Fences.fence list;  (** that vehicles are kept to *)
 }
 

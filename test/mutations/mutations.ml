@@ -78,7 +78,8 @@ let vehicle = "lauv-noptilus-1"
 
 let settings : Station.settings =
   { id = 0x4ABC; name = "ccu-dolphin"; program = ""; addresses = [ { host = loopback; port = 6001 } ]; epoch = 1.79e9;
-    first_request = 101; payload = []; types = []; type_names = []; records = true; abort_after = None }
+    first_request = 101; payload = []; types = []; type_names = []; records = true; abort_after = None;
+    run = ""; jitter = 0. }
 
 let hear ~now bytes s = fst (Station.datagram ~now ~from:loopback bytes s)
 

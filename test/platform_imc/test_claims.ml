@@ -9,7 +9,8 @@ let theirs = 0x4002
 
 let settings id name program port : Station.settings =
   { id; name; program; addresses = [ { host = loopback; port } ]; epoch = 0.; first_request = 0; payload = [];
-    types = []; type_names = []; records = false; abort_after = None }
+    types = []; type_names = []; records = false; abort_after = None;
+    run = ""; jitter = 0. }
 
 let hear_bytes ~now bytes s = Station.datagram ~now ~from:loopback bytes s
 

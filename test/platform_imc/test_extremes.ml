@@ -9,7 +9,8 @@ let epoch = 1.79e9
 
 let settings : Station.settings =
   { id = own; name = "ccu-test"; program = ""; addresses = [ { host = loopback; port = 6001 } ]; epoch;
-    first_request = 0; payload = []; types = []; type_names = []; records = false; abort_after = None }
+    first_request = 0; payload = []; types = []; type_names = []; records = false; abort_after = None;
+    run = ""; jitter = 0. }
 
 let packet ?(stamp = fun x -> x) ~now ?(dst = Header.nobody) message =
   Result.get_ok (Packet.encode (Packet.make ~src:vehicle ~dst ~timestamp:(stamp (epoch +. now)) message))

@@ -11,7 +11,8 @@ let station () =
   Station.create
     { id = console; name = "ccu-dolphin-5a0e"; program = "rendezvous.dol";
       addresses = [ { host = loopback; port = 34433 } ]; epoch = 1.795e9; first_request; payload = []; types = [];
-      type_names = []; records = false; abort_after = None }
+      type_names = []; records = false; abort_after = None;
+      run = ""; jitter = 0. }
 
 type run = { station : Station.t; told : string list }  (* latest first *)
 
@@ -49,20 +50,29 @@ let name_of run id =
   let is_it (x : Station.system) = x.node.id = id in
   (List.find is_it (Station.systems ~now:0. run.station)).node.name
 
+(* A console does something each second, though the recording has long gaps. *)
+let rec live ~from ~until run =
+  let now = from +. 1. in
+  if now >= until then run else live ~from:now ~until (after now run (Station.tick ~now run.station))
+
 (* Where the recorded console made a request, this one is told to make it. *)
-let line run (line : Recording.line) =
+let line (before, run) (line : Recording.line) =
   let now = line.time +. 1. in
+  let run = live ~from:before ~until:now run in
   let run = after now run (Station.tick ~now run.station) in
-  if line.inward then after now run (Station.datagram ~now ~from:loopback line.bytes run.station)
-  else
-    match request line.bytes with
-    | Some (dst, _, name) ->
-      after now run (Station.start ~now (name_of run dst) { name; plan = None; task_site = 0 } run.station)
-    | None -> Alcotest.fail "no request"
+  let run =
+    if line.inward then after now run (Station.datagram ~now ~from:loopback line.bytes run.station)
+    else
+      match request line.bytes with
+      | Some (dst, _, name) ->
+        after now run (Station.start ~now (name_of run dst) { name; plan = None; task_site = 0 } run.station)
+      | None -> Alcotest.fail "no request"
+  in
+  (now, run)
 
 let replay ~until =
   let lines = List.filter (fun (l : Recording.line) -> l.time < until) (Lazy.force Recording.fleet) in
-  List.fold_left line { station = station (); told = [] } lines
+  snd (List.fold_left line (0., { station = station (); told = [] }) lines)
 
 (* The errors are those of a task that has to do with no plan: each vehicle's are told once. *)
 let swarm = "error of Maneuver.VehicleFormation.Swarm: unable to bind to socket: Address already in use"

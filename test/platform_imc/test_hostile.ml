@@ -6,7 +6,8 @@ let elsewhere = Unix.inet_addr_of_string "203.0.113.9"
 
 let settings : Station.settings =
   { id = Recording.console; name = "ccu-test"; program = ""; addresses = [ { host = loopback; port = 6001 } ]; epoch = 1.79e9;
-    first_request = 0; payload = []; types = []; type_names = []; records = false; abort_after = None }
+    first_request = 0; payload = []; types = []; type_names = []; records = false; abort_after = None;
+    run = ""; jitter = 0. }
 
 let station () = Station.create settings
 

@@ -9,7 +9,8 @@ let loopback = Unix.inet_addr_loopback
 
 let settings : Station.settings =
   { id = own; name = "ccu-test"; program = ""; addresses = [ { host = loopback; port = 6001 } ]; epoch = 0.; first_request = 0;
-    payload = []; types = []; type_names = []; records = false; abort_after = None }
+    payload = []; types = []; type_names = []; records = false; abort_after = None;
+    run = ""; jitter = 0. }
 
 let announce name sys_type port =
   Message.Announce

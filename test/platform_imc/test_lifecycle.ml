@@ -12,7 +12,8 @@ let station ~request =
   Station.create
     { id = Recording.console; name = "ccu-test"; program = ""; addresses = [ { host = loopback; port = 6001 } ]; epoch = 1.79e9;
       first_request = first_request request; payload = []; types = []; type_names = []; records = false;
-      abort_after = None }
+      abort_after = None;
+      run = ""; jitter = 0. }
 
 type run = { station : Station.t; events : (float * Platform.event) list; sent : (float * Message.t) list }
 
@@ -180,8 +181,12 @@ let unsettled =
       check "its stop is not confirmed" [ "planA" ] stopped;
       let lost = replay ~request:109 [ (109, `Start) ] ~keep:(silent_since 109) in
       check "it runs for the program" [] lost;
-      let lost = after ~now:200. lost (Station.tick ~now:200. lost.station) in
-      Alcotest.check strings "lost" [ "200.000 lauv-noptilus-1 failed: no word from the vehicle for 60 seconds" ]
+      let tick run i =
+        let now = the_end +. float_of_int i in
+        after ~now run (Station.tick ~now run.station)
+      in
+      let lost = List.fold_left tick lost (List.init 140 Fun.id) in
+      Alcotest.check strings "lost" [ "109.250 lauv-noptilus-1 failed: no word from the vehicle for 60 seconds" ]
         (verdicts lost);
       check "its link was given up" [ "planB" ] lost)
 

@@ -79,6 +79,7 @@ let go ~seed ?period ~name ~source ~scenario host =
   let its_source = Header.source ~path:name source in
   let header : Header.t =
     { program = its_source; fleet = None; platform = "sim"; order = By_hearing; seed; speed = None; started;
+      run = None;
       fences = Fences.list program.fences }
   in
   let recorder = Recorder.make ?period program header (write_to journal) in

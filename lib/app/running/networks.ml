@@ -24,6 +24,7 @@ type opened = { part : Several.part; estimates : unit -> estimate list; leave : 
 
 type surroundings = {
   program : string;
+  run : string;
   note : Core.vehicle option -> string -> unit;
   keep : time:float -> Core.vehicle -> Yojson.Safe.t -> unit;
   sync : (unit -> unit Lwt.t) option;
@@ -52,10 +53,10 @@ let log_network network =
 (* [history name] is the part of the past that concerns the platform of this name. *)
 let open_imc s ~history options =
   let note v = s.note (Some v) in
-  let options = { options with Udp_platform.program = s.program; note; keep = s.keep; sync = s.sync } in
+  let options = { options with Udp_platform.program = s.program; run = s.run; note; keep = s.keep; sync = s.sync } in
   let opened =
     match s.past with
-    | None -> Udp_platform.open_ options
+    | None -> Lwt.return (Udp_platform.open_ options)
     | Some (time, _) -> Udp_platform.open_again options ~time (history Udp_platform.name)
   in
   let made network =
@@ -63,7 +64,7 @@ let open_imc s ~history options =
     let part = Several.Part ((module Udp_platform), network) in
     (Udp_platform.name, { part; estimates = imc_estimates network; leave = (fun () -> Udp_platform.leave network) })
   in
-  Result.map made opened
+  Lwt.map (Result.map made) opened
 
 (* {1 Adapters} *)
 
@@ -147,10 +148,10 @@ let open_ choice s =
   let history = history_of s ~owners ~is_single in
   let imc =
     match choice.imc with
-    | None -> Ok []
-    | Some options -> Result.map (fun one -> [ one ]) (open_imc s ~history options)
+    | None -> Lwt.return (Ok [])
+    | Some options -> Lwt.map (Result.map (fun one -> [ one ])) (open_imc s ~history options)
   in
-  match imc with
+  imc >>= function
   | Error why -> Lwt.return (Error why)
   | Ok imc -> (
       open_adapters s ~history imc choice.adapters >>= function

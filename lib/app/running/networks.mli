@@ -33,6 +33,7 @@ type opened = {
 (** What a run gives its platforms. *)
 type surroundings = {
   program : string;  (** the name of its file *)
+  run : string;  (** the run's identity; [""] if it has none *)
   note : Core.vehicle option -> string -> unit;
   keep : time:float -> Core.vehicle -> Yojson.Safe.t -> unit;
   sync : (unit -> unit Lwt.t) option;

@@ -96,6 +96,7 @@ type t = {
   front : front;
   settings : settings;
   seed : int;
+  run : string option;  (* its identity, that copies of its journal share *)
   program : Program_file.t;
   scenario : Dolphin_scenario.Scenario.t;
   resumed : Resumed.t option;
@@ -132,6 +133,7 @@ let header r (fleet : Fleet_file.t) : Header.t =
     order = (if is_simulated r.settings then Simulator.Virtual.order else Udp_platform.order);
     seed = r.seed;
     speed = r.settings.speed;
+    run = r.run;
     started = Recording.utc_now ();
     fences = Dolphin_semantics.Fences.list r.program.program.fences }
 
@@ -178,7 +180,7 @@ let unheard (resumed : Resumed.t) =
 let open_network r recording =
   let note vehicle text = r.front.remark (match vehicle with Some v -> v ^ ": " ^ text | None -> text) in
   let surroundings : Networks.surroundings =
-    { program = Filename.basename r.program.path; note;
+    { program = Filename.basename r.program.path; run = Option.value r.run ~default:""; note;
       keep = (fun ~time vehicle json -> Recording.note recording ~time ~vehicle json);
       sync = Recording.sync recording;
       past = Option.map (fun resumed -> (time_of_run resumed, past_of_platform r)) r.resumed }
@@ -330,9 +332,14 @@ let go r ~interruption recording =
   in
   Lwt.finalize run (fun () -> Recording.close recording; Lwt.return_unit)
 
+let new_identity () =
+  let random = Random.State.make_self_init () in
+  String.concat "" (List.init 4 (fun _ -> Printf.sprintf "%07x" (Random.State.bits random lsr 2)))
+
 let start front ~interruption (settings : settings) program (fleet : Fleet_file.t) =
   let seed = Option.value settings.seed ~default:0 in
-  let r = { front; settings; seed; program; scenario = fleet.scenario; resumed = None; fenced = None } in
+  let run = if is_simulated settings then None else Some (new_identity ()) in
+  let r = { front; settings; seed; run; program; scenario = fleet.scenario; resumed = None; fenced = None } in
   log_start settings program fleet ~seed;
   go r ~interruption (Recording.start settings.recording (header r fleet) program.program)
 
@@ -381,7 +388,8 @@ let resumption front settings ~changed ~fleet program path =
     let fenced =
       if Fences.is_none fences then None else Some (Fence_guard.replay fences resumed.past.history) in
     log_start settings program fleet ~seed;
-    Ok ({ front; settings; seed; program; scenario; resumed = Some resumed; fenced }, resumed)
+    let run = resumed.past.header.run in
+    Ok ({ front; settings; seed; run; program; scenario; resumed = Some resumed; fenced }, resumed)
 
 let resume front ~interruption (settings : settings) ~changed ~fleet program path =
   let*? r, resumed = resumption front settings ~changed ~fleet program path in

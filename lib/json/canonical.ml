@@ -9,7 +9,7 @@ let of_float x =
   let shortest = List.find_opt gives_back [ text 15; text 16 ] in
   let text = Option.value shortest ~default:(text 17) in
   let is_marked c = c = '.' || c = 'e' in
-  if String.exists is_marked text || not (Float.is_finite x) then text else text ^ ".0"
+  if String.exists is_marked text then text else text ^ ".0"
 
 let write_string buffer text =
   let character c =
@@ -22,7 +22,7 @@ let write_string buffer text =
     | c -> Buffer.add_char buffer c
   in
   Buffer.add_char buffer '"';
-  String.iter character text;
+  String.iter character (Utf8.repaired text);
   Buffer.add_char buffer '"'
 
 let rec write buffer (json : Yojson.Safe.t) =
@@ -36,7 +36,7 @@ let rec write buffer (json : Yojson.Safe.t) =
   | `Bool b -> Buffer.add_string buffer (string_of_bool b)
   | `Int i -> Buffer.add_string buffer (string_of_int i)
   | `Intlit digits -> Buffer.add_string buffer digits
-  | `Float x -> Buffer.add_string buffer (of_float x)
+  | `Float x -> Buffer.add_string buffer (if Float.is_finite x then of_float x else "null")
   | `String text -> write_string buffer text
   | `List items | `Tuple items -> separated '[' (write buffer) ']' items
   | `Assoc members ->

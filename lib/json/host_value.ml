@@ -185,11 +185,23 @@ let nesting text =
   String.iter (fun c -> if !quoted then within_string c else bracket c) text;
   !deepest_so_far
 
+(* What Yojson takes and JSON does not have. *)
+let rec beyond (json : Yojson.Safe.t) =
+  let text s = if Utf8.is_valid s then None else Some "a text in it is not UTF-8" in
+  match (json :> Canonical.extended) with
+  | `Null | `Bool _ | `Int _ | `Intlit _ -> None
+  | `Float x -> if Float.is_finite x then None else Some "a number in it is not finite, or too large"
+  | `String s -> text s
+  | `List xs | `Tuple xs -> List.find_map beyond xs
+  | `Assoc members ->
+    List.find_map (fun (name, x) -> match text name with None -> beyond x | wrong -> wrong) members
+  | `Variant (name, x) -> (match text name with None -> Option.bind x beyond | wrong -> wrong)
+
 let parse ?(deepest = 2 * deepest) text =
   if nesting text > deepest then Error (Printf.sprintf "it is nested more than %d deep" deepest)
   else
     match Yojson.Safe.from_string text with
-    | json -> Ok json
+    | json -> (match beyond json with None -> Ok json | Some why -> Error why)
     | exception Yojson.Json_error why -> Error (String.concat " " (String.split_on_char '\n' why))
 
 let rec is_data : Core.value -> bool = function

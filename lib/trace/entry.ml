@@ -72,10 +72,15 @@ let to_string entry = Canonical.to_string (to_json entry)
 
 (* {1 Reading} *)
 
+(* What no vehicle can have shown is not read: a share is from 0 to 1, metres are near the earth. *)
+let between low high json =
+  let* x = number json in
+  if x >= low && x <= high then Ok x else Error (Printf.sprintf "%g, not from %g to %g" x low high)
+
 let to_position found =
   let* latitude = get number "latitude" found in
   let* longitude = get number "longitude" found in
-  let* height = get number "height" found in
+  let* height = get (between (-20_000.) 1e6) "height" found in
   Result.map_error (Format.asprintf "%a" Position.pp_error) (Position.make ~latitude ~longitude ~height)
 
 let to_readings json =
@@ -87,10 +92,11 @@ let to_state found =
   let* kind = get text "type" found in
   let* payload = get (list text) "payload" found in
   let* position = to_position found in
-  let* battery = get (nullable number) "battery" found in
+  let* battery = get (nullable (between 0. 1.)) "battery" found in
   let some_number json = Result.map Option.some (number json) in
-  let* depth = optional some_number ~default:None "depth" found in
-  let* altitude = optional some_number ~default:None "altitude" found in
+  let metres json = Result.map Option.some (between (-1e6) 1e6 json) in
+  let* depth = optional metres ~default:None "depth" found in
+  let* altitude = optional metres ~default:None "altitude" found in
   let* connected = get truth "connected" found in
   let* speed = optional (nullable number) ~default:None "speed" found in
   let* readings = optional to_readings ~default:[] "readings" found in

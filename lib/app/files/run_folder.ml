@@ -29,7 +29,15 @@ let ending = ".run"
 let rec unused folder base n =
   let name = if n = 1 then base else Printf.sprintf "%s-%d" base n in
   let path = Filename.concat folder (name ^ ending) in
-  if Sys.file_exists path then unused folder base (n + 1) else path
+  match Unix.openfile path [ O_WRONLY; O_CREAT; O_EXCL; O_CLOEXEC ] 0o666 with
+  | fd -> Unix.close fd; path
+  | exception Unix.Unix_error (EEXIST, _, _) -> unused folder base (n + 1)
+
+(* A run that did not begin leaves nothing behind. *)
+let forget_if_empty path =
+  match Unix.stat path with
+  | { st_size = 0; _ } -> ( try Sys.remove path with Sys_error _ -> ())
+  | _ | (exception Unix.Unix_error _) -> ()
 
 let fresh ~program =
   let* folder = folder () in
@@ -39,8 +47,8 @@ let fresh ~program =
       t.tm_sec
       (Filename.remove_extension (Filename.basename program))
   in
-  match make folder with
-  | () -> Ok (unused folder base 1)
+  match make folder; unused folder base 1 with
+  | path -> at_exit (fun () -> forget_if_empty path); Ok path
   | exception Unix.Unix_error (error, _, _) ->
     Error (Error.Unavailable (Printf.sprintf "%s: %s" folder (Unix.error_message error)))
 

@@ -54,9 +54,34 @@ let check path =
   | false -> writable path [ W_OK ]
   | exception Sys_error _ -> writable (Filename.dirname path) [ W_OK; X_OK ]
 
+let filled channel f = Fun.protect ~finally:(fun () -> close_out_noerr channel) (fun () -> f channel; close_out channel)
+
+(* The permissions of a new file, as [open_out] gives them. *)
+let usual_permissions () =
+  let mask = Unix.umask 0 in
+  ignore (Unix.umask mask);
+  0o666 land lnot mask
+
+(* A link stays a link, to a file with the permissions that it had. *)
+let replace path ~permissions f =
+  let temporary, channel =
+    Filename.open_temp_file ~mode:[ Open_binary ] ~temp_dir:(Filename.dirname path) ".dolphin" "" in
+  match
+    filled channel f;
+    Unix.chmod temporary permissions;
+    Sys.rename temporary path
+  with
+  | () -> ()
+  | exception error -> (try Sys.remove temporary with Sys_error _ -> ()); raise error
+
 let write path f =
   let save () =
-    let channel = open_out_bin path in
-    Fun.protect ~finally:(fun () -> close_out_noerr channel) (fun () -> f channel; close_out channel)
+    match Unix.stat path with
+    | { st_kind = S_REG; st_perm; _ } -> replace (Unix.realpath path) ~permissions:st_perm f
+    | { st_kind = S_DIR | S_CHR | S_BLK | S_LNK | S_FIFO | S_SOCK; _ } -> filled (open_out_bin path) f
+    | exception Unix.Unix_error (ENOENT, _, _) -> replace path ~permissions:(usual_permissions ()) f
   in
-  match save () with () -> Ok () | exception Sys_error why -> Error (Error.Unavailable (named path why))
+  match save () with
+  | () -> Ok ()
+  | exception Sys_error why -> Error (Error.Unavailable (named path why))
+  | exception Unix.Unix_error (error, _, _) -> Error (Error.Unavailable (path ^ ": " ^ Unix.error_message error))

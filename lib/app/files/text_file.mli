@@ -25,4 +25,5 @@ val check : string -> (unit, Error.t) result
 (** [check path] fails with {!Error.Unavailable} if it is clear already that {!write} will. It writes nothing. *)
 
 val write : string -> (out_channel -> unit) -> (unit, Error.t) result
-(** [write path f] makes the file [path] anew with what [f] writes. The error is {!Error.Unavailable}. *)
+(** [write path f] replaces the file [path], if it is there, by what [f] writes, and only when all is written: a failure
+    leaves it as it was. Devices and pipes are written to directly. The error is {!Error.Unavailable}. *)

@@ -1,0 +1,42 @@
+Runs that start at once keep journals of their own, also where all of them start in one second.
+
+  $ export XDG_STATE_HOME=$PWD/state
+  $ echo "v = pick { type 'UUV' }" > pick.dol
+  $ for i in 1 2 3 4 5 6 7 8 9 10 11 12; do
+  >   (dolphin exec pick.dol --keep > $i.log 2>&1; echo $? > $i.status) &
+  > done; wait
+  $ cat *.status | sort | uniq -c | sed 's/^ *//'; ls state/dolphin/runs | wc -l
+  12 0
+  12
+
+A run that does not begin leaves nothing behind.
+
+  $ dolphin exec pick.dol --keep --draw missing/folder.svg 2> /dev/null
+  [3]
+  $ ls state/dolphin/runs | wc -l
+  12
+
+What no vehicle can have shown is not the line of a run, nor is what JSON does not have.
+
+  $ dolphin exec pick.dol --journal pick.run > log
+  $ check() { sed "$1" pick.run > changed.run; dolphin trace check pick.dol changed.run 2>&1 | cut -c 1-90; }
+  $ check 's/"battery":1,/"battery":7,/' | head -n 1
+  dolphin: changed.run:3: "battery" is 7, not from 0 to 1
+  $ check 's/"height":0,/"height":1e308,/' | head -n 1
+  dolphin: changed.run:3: "height" is 1e+308, not from -20000 to 1e+06
+  $ check 's/"time":0,/"time":1e999,/' | head -n 1
+  dolphin: changed.run:2: this is no JSON: a number in it is not finite, or too large
+  $ sed 's/"type":"UUV"/"type":"UU\xff"/' pick.run > changed.run; dolphin trace check pick.dol changed.run
+  dolphin: changed.run:3: this is no JSON: a text in it is not UTF-8
+  [2]
+
+An export that fails leaves the file as it was, and nothing beside it.
+
+  $ mkdir out; echo before > out/pick.svg
+  $ (ulimit -f 1; dolphin trace draw pick.run -o out/pick.svg) 2>&1 | sed 's/^[^:]*: //'
+  the picture cannot be written: out/pick.svg: File too large
+  $ cat out/*; ls -A out
+  before
+  pick.svg
+  $ dolphin trace draw pick.run -o out/pick.svg; head -c 5 out/pick.svg; ls -A out
+  <?xmlpick.svg

@@ -34,7 +34,8 @@ let serve settings ~port ~browser =
   let links = Console.links console in
   List.iter tell links;
   flush stdout;
-  if browser then open_browser (snd (List.hd links));
+  (* The arguments of a process are seen by all users of this machine: no token is among them. *)
+  (match links with [ (_, link) ] when browser -> open_browser link | _ -> ());
   let interruption = Interruption.make () in
   let again () =
     if Console.busy console && not (Run.is_simulated settings.run) then Report.complain last_words;

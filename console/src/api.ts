@@ -16,7 +16,7 @@ export interface Going { number: number; state: string; progress: string }
 export interface Status {
   instance: string; folder: string; tiles: string | null; simulated: boolean; version: string; run: RunStatus | null;
   exploration: Going | null; timing: Going | null; graph: Going | null;
-  helm: { holder: string | null; asking: string[] }; watching: number;
+  helm: { holder: string | null; asking: string[]; taken_from: string | null }; watching: number;
 }
 export interface LogLine { time: number; severity: string; about: string[]; text: string }
 export interface Waiting { time: number; for: { what: string; at?: string; lacking?: string }[] }
@@ -30,19 +30,32 @@ export interface Fence {
 }
 export interface Way { vehicle: string; plan: string; path: Pair[] }
 
-// A page keeps its name when it is loaded again, and so its helm.
-export const client: string = sessionStorage.getItem("client") ?? "page-" + Math.random().toString(36).slice(2, 10);
+// A page keeps its key when it is loaded again, and so its helm. It is a secret: the server tells others a name for it.
+const fresh = () => "page-" + [...crypto.getRandomValues(new Uint8Array(16))].map((b) => b.toString(16).padStart(2, "0")).join("");
+const client: string = sessionStorage.getItem("client") ?? fresh();
 sessionStorage.setItem("client", client);
 
 export class Refusal extends Error {
   constructor(public code: string, message: string, public diagnostics: Diagnostic[]) { super(message); }
 }
 
-export async function ask(verb: string, path: string, body?: Json): Promise<Json> {
+// What only computes is given up where a command needs a connection: browsers have six to a server.
+let computing = new AbortController();
+const computes = /^(check|complete|hover|signature|definition|format|plans|world|runs|files|layer|exploration|timing|graph)\b/;
+
+export function makeWay() {
+  computing.abort();
+  computing = new AbortController();
+}
+
+export async function ask(verb: string, path: string, body?: Json, signal?: AbortSignal): Promise<Json> {
+  const isCommand = verb !== "GET" && !(verb === "POST" && computes.test(path));
   const reply = await fetch("/api/" + path, {
     method: verb,
     headers: body === undefined ? {} : { "Content-Type": "application/json", "X-Dolphin-Client": client },
     body: body === undefined ? undefined : JSON.stringify(body),
+    signal: signal ?? (isCommand ? undefined : computing.signal),
+    priority: isCommand ? "high" : "low",
   });
   const found = await reply.json();
   if (!reply.ok) throw new Refusal(found.error.code, found.error.message, found.error.diagnostics ?? []);
@@ -50,7 +63,7 @@ export async function ask(verb: string, path: string, body?: Json): Promise<Json
 }
 
 export const get = (path: string) => ask("GET", path);
-export const post = (path: string, body: Json = {}) => ask("POST", path, body);
+export const post = (path: string, body: Json = {}, signal?: AbortSignal) => ask("POST", path, body, signal);
 
 export interface Listener {
   status(s: Status): void;
@@ -61,20 +74,22 @@ export interface Listener {
   places(p: { time: number; places: Place[] }): void;
   way(w: { time: number; way: Way }): void;
   clock(time: number): void;
-  role(role: "steers" | "watches"): void;
+  role(role: "steers" | "watches", me: string): void;
+  beat(): void;  // something came
   link(up: boolean, why?: string): void;
 }
 
 export function listen(l: Listener) {
   const source = new EventSource("/api/events?client=" + client);
   const on = (name: string, f: (data: Json) => void) =>
-    source.addEventListener(name, (e) => f(JSON.parse((e as MessageEvent).data)));
+    source.addEventListener(name, (e) => { f(JSON.parse((e as MessageEvent).data)); l.beat(); });
+  on("beat", () => {});
   on("status", (s) => l.status(s));
   on("run", (r) => l.reset(r.id));
   on("journal", (line) => l.journal(line));
   on("log", (line) => l.log(line));
   on("waiting", (w) => l.waiting(w));
-  on("role", (r) => l.role(r.role));
+  on("role", (r) => l.role(r.role, r.client));
   on("places", (p) => l.places(p));
   on("way", (w) => l.way(w));
   on("clock", (c) => l.clock(c.time));

@@ -29,6 +29,7 @@ export class StateGraph {
     $("graph-out").addEventListener("click", () => this.zoom(1 / 0.7));
     $("graph-all").addEventListener("click", () => this.all());
     $("graph-close").addEventListener("click", () => this.dialog.close());
+    this.dialog.addEventListener("keydown", (e) => { if (e.key === "Escape") this.dialog.close(); });
     const el = $("graph-picture");
     el.addEventListener("wheel", (e) => { e.preventDefault(); this.zoom(e.deltaY < 0 ? 0.85 : 1 / 0.85, e); }, { passive: false });
     let from: PointerEvent | null = null;
@@ -54,7 +55,7 @@ export class StateGraph {
   open(graph: Graph) {
     this.graph = { ...graph, texts: graph.texts.map(legible) };
     this.draw();
-    if (!this.dialog.open) this.dialog.showModal();
+    if (!this.dialog.open) this.dialog.show();
     this.all();
     $<HTMLInputElement>("graph-find").value = "";
     this.find("");

@@ -1,6 +1,9 @@
 // The page: what the server tells is shown, and what a person wants is sent.
 
-import { type Diagnostic, type Json, type LogLine, type Status, Refusal, ask, client, get, listen, post, replay } from "./api";
+import { type Diagnostic, type Json, type LogLine, type Status, Refusal, ask, get, listen, post, replay } from "./api";
+import { choose } from "./choice";
+import { HelmView } from "./helm";
+import { Stop } from "./stop";
 import { $, h } from "./dom";
 import { Editor } from "./editor";
 import { Layers } from "./layers";
@@ -26,6 +29,7 @@ let hash: string | null = null;
 let dirty = false;
 let linked = false;
 let watches = false;  // this page's link is for watching
+let me = "";  // the name that others know this page by
 
 const map = new ChartMap($("map"), (id) => { $<HTMLSelectElement>("about").value = id; renderLog(true); });
 const table = new VehicleTable($("vehicles"), (id) => map.focus(id));
@@ -55,6 +59,8 @@ const dialog = new Dialog((answer) => attempt(() => post("run/answer", answer))(
 const verdicts = new Verdicts({ show: showFound, goTo, cancel: (subject) => attempt(() => ask("DELETE", subject, {}))(),
   graph: () => attempt(() => analyse("graph"))(), enact: (of) => attempt(() => enact(of))() });
 const plans = new Plans((sketch) => map.sketch(sketch));
+const stop = new Stop(tell);
+const helm = new HelmView(attempt, tell);
 const alarms = new Alarms((id) => { map.focus(id); $<HTMLSelectElement>("about").value = id; renderLog(true); });
 
 // {1 The program}
@@ -95,12 +101,14 @@ async function openOther(path: string | null): Promise<boolean> {
   if (path === editor.path) return true;
   const select = $<HTMLSelectElement>("program");
   if (![...select.options].some((o) => o.value === path)) return false;
-  if (dirty && !confirm("The text is not saved. Leave it?")) return false;
+  if (dirty && !(await leaves())) return false;
   select.value = path;
   showTab("source");
   await openProgram();
   return true;
 }
+
+const leaves = () => choose("The text is not saved. Leave it?", "Leave it", "Stay", "danger");
 
 let plansAsked = 0;
 async function loadWorld() {
@@ -147,7 +155,7 @@ async function save() {
     hash = (await ask("PUT", "file", { path: editor.path, text: editor.text, hash })).hash;
   } catch (e) {
     if (!(e instanceof Refusal && e.code === "changed")) { tell((e as Error).message); return; }
-    if (!confirm("The file has changed on the disk since it was read. Write over it?")) return;
+    if (!(await choose("The file has changed on the disk since it was read. Write over it?", "Write over it", "Cancel", "danger"))) return;
     hash = (await get("file?path=" + encodeURIComponent(editor.path))).hash;
     hash = (await ask("PUT", "file", { path: editor.path, text: editor.text, hash })).hash;
   }
@@ -474,30 +482,13 @@ function renderBanner() {
 function renderHead() {
   const run = status?.run, going = run?.state === "running" || run?.state === "stopping";
   $<HTMLButtonElement>("run").disabled = watches || going || !linked || !program();
-  $<HTMLButtonElement>("stop").disabled = watches || !going;
-  $("stop").textContent = run?.state === "stopping" ? "Stop all" : "Stop";
-  $("stop").title = run?.state === "stopping" ? "Ends what the program executes by onInterrupt, too" : "As the program says by onInterrupt; else stops all";
+  stop.show(run ?? null, watches);
   $<HTMLButtonElement>("explore").disabled = watches || !linked || status?.exploration?.state === "running" || !program();
   $<HTMLButtonElement>("time").disabled = watches || !linked || status?.timing?.state === "running" || !program();
   $<HTMLSelectElement>("speed").disabled = status !== null && !status.simulated;
   $("link").textContent = !linked ? "no server" : going ? `${run.counterexample !== null ? "counterexample of " : ""}${run.program ?? "a program"} ${clock(live.time)}` : "";
   $("link").className = linked ? "" : "trouble";
-  renderHelm();
-}
-
-// Buttons that somebody is about to press stay as they are until something changes.
-let helmKey = "";
-function renderHelm() {
-  const helm = status?.helm, key = JSON.stringify(helm ?? null);
-  if (key === helmKey) return;
-  helmKey = key;
-  if (watches) return $("helm").replaceChildren("this link is for watching");
-  const mine = helm?.holder === client, asking = helm?.asking.includes(client);
-  $("helm").replaceChildren(
-    !helm || helm.holder === null ? "" : mine ? "you have the helm" : "another page has the helm",
-    helm?.holder && !mine && !asking ? h("button", { click: attempt(() => post("helm", { want: "take" })) }, "Ask for it") : "",
-    asking ? " (asked for)" : "",
-    mine && helm!.asking.length ? h("button", { class: "main", click: attempt(() => post("helm", { want: "give-up" })) }, "Hand it over") : "");
+  helm.show(status?.helm ?? null, me, watches);
 }
 
 // What happens within a tenth of a second is drawn at once.
@@ -568,17 +559,23 @@ listen({
   places({ places }) { live.add({ kind: "places", places }); if (!past) changed(); },
   way({ way }) { live.add({ kind: "way", way }); if (!past) changed(); },
   clock(time) { live.time = Math.max(live.time, time); if (!past) changed(); },
-  role(is) {
+  role(is, name) {
     watches = is === "watches";
+    me = name;
     document.body.classList.toggle("watches", watches);
-    helmKey = "";
     renderHead();
   },
+  beat() { helm.alive(); },
   link(up, why) { linked = up; if (why) tell(why); renderHead(); },
 });
 
 $("program").addEventListener("change", attempt(async () => {
-  if (dirty && !confirm("The text is not saved. Leave it?")) { $<HTMLSelectElement>("program").value = editor.path; return; }
+  const wanted = program();
+  if (dirty) {
+    $<HTMLSelectElement>("program").value = editor.path;
+    if (!(await leaves())) return;
+    $<HTMLSelectElement>("program").value = wanted;
+  }
   if (status?.run?.state === "over" || !status?.run) { live = new Run(); if (!past) shown = live; }
   await openProgram();
 }));
@@ -589,7 +586,6 @@ window.addEventListener("hashchange", attempt(async () => {
 }));
 $("fleet").addEventListener("change", attempt(loadWorld));
 $("run").addEventListener("click", attempt(startRun));
-$("stop").addEventListener("click", attempt(() => post("run/stop")));
 $("explore").addEventListener("click", attempt(() => analyse("exploration")));
 $("time").addEventListener("click", attempt(() => analyse("timing")));
 $("save").addEventListener("click", attempt(save));

@@ -14,6 +14,7 @@ export class Dialog {
   constructor(private give: (a: Answer) => void, private goTo: (at: string) => void) {
     $("give").addEventListener("click", (e) => { e.preventDefault(); this.answer(this.field.value.trim()); });
     $("later").addEventListener("click", () => this.el.close());
+    this.el.addEventListener("keydown", (e) => { if (e.key === "Escape") this.el.close(); });
   }
 
   // The question there is now, of this run.
@@ -37,7 +38,7 @@ export class Dialog {
     $("choices").replaceChildren(...(truth ? [["Yes", "true"], ["No", "false"]] : []).map(([name, text]) =>
       h("button", { type: "button", class: "main", click: () => this.answer(text) }, name)));
     this.field.value = "";
-    if (!this.el.open) this.el.showModal();
+    if (!this.el.open) this.el.show();  // not modal: Stop works while it is open
     // Neither yes nor no is what Enter gives by chance.
     (truth ? $("later") : this.field).focus();
   }

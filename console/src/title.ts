@@ -8,10 +8,10 @@ export function mark(name: string, text: string) {
   if (before === text) return;
   if (text) marks.set(name, text); else marks.delete(name);
   document.title = marks.size ? [...marks.values()].join("  ") : title;
-  if (text && document.hidden) beep();
+  if (text && document.hidden) ring();
 }
 
-function beep() {
+export function ring() {
   try {
     const audio = new AudioContext(), tone = audio.createOscillator(), gain = audio.createGain();
     gain.gain.value = 0.05;

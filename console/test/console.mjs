@@ -115,16 +115,22 @@ await test("a run asks, is answered, and grows on map, timeline and log", async 
 const second = await open({ colorScheme: "dark" });
 const lines = (p) => p.evaluate(() => [...document.querySelectorAll("#log pre")].slice(0, 12).map((l) => l.textContent).join("\n"));
 
-await test("a second page sees the same, watches, and asks for the helm", async () => {
+await test("a second page sees the same, watches, asks for the helm, and may take it by force", async () => {
   await second.waitForSelector("#timeline .task");
   same(await lines(second), await lines(page), "the log");
   await second.waitForSelector("#helm >> text=another page");
-  await second.click("#stop");
-  await second.waitForSelector("#banner >> text=has the helm");
   await picture(second, "dark");
-  await second.click("#helm button");
+  await second.click("#helm >> text=Ask for it");
+  await page.waitForFunction(() => document.title.includes("asks for the helm"));
   await page.click("#helm >> text=Hand it over");
   await second.waitForSelector("#helm >> text=you have the helm");
+  await second.waitForFunction(() => document.title.includes("You have the helm"));
+  await page.click("#helm >> text=Take it");
+  await page.click("#choice >> text=Take it");
+  await page.waitForSelector("#helm >> text=you have the helm");
+  await second.waitForFunction(() => document.title.includes("was taken from this page"));
+  await second.waitForSelector("#banner >> text=has taken the helm");
+  await second.waitForSelector("#log pre >> text=takes the helm from");
 });
 
 await test("a page that is loaded again sees the same", async () => {
@@ -185,20 +191,26 @@ await test("names are completed", async () => {
 });
 
 await test("inputs are posted, and Stop stops", async () => {
-  page.once("dialog", (d) => d.accept());
-  await choose(page, "stuck.dol");
+  await page.selectOption("#program", "stuck.dol");
+  await page.click("#choice >> text=Leave it");
+  await page.waitForFunction(() => location.hash === "#stuck.dol");
   await choose(page, "targets.dol");
   if (await second.locator("#helm >> text=you have the helm").count()) {
-    await page.click("#helm >> text=Ask for it");
-    await second.click("#helm >> text=Hand it over");
+    await page.click("#helm >> text=Take it");
+    await page.click("#choice >> text=Take it");
   }
   await page.click("#run");
   await page.waitForSelector("#input-found");
   await page.fill("#input-found", "'wreck'");
   await page.keyboard.press("Enter");
   await page.waitForSelector("#log pre >> text=To the wreck");
-  await page.click("#stop");
-  await page.waitForSelector(".outcome.interrupted");
+  // By whoever steers, without the helm, by the key, at the same place on each page.
+  same(JSON.stringify(await second.locator("#stop").boundingBox()), JSON.stringify(await page.locator("#stop").boundingBox()), "the place");
+  await second.waitForSelector("#stop:not([disabled])");
+  const before = Date.now();
+  await second.keyboard.press("F8");
+  await second.waitForSelector(".outcome.interrupted");
+  same(Date.now() - before < 1000, true, "at once");
 });
 
 await test("a counterexample is stepped through, on source and log", async () => {

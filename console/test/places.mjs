@@ -89,8 +89,9 @@ execute ready()
   });
 
   await test("what was found of another program says so, and of one that has changed", async () => {
-    page.once("dialog", (d) => d.accept());
-    await choose(page, "stuck.dol");
+    await page.selectOption("#program", "stuck.dol");
+    await page.click("#choice >> text=Leave it");
+    await page.waitForFunction(() => location.hash === "#stuck.dol");
     await page.click("#explore");
     await page.waitForSelector(".verdicts .violated >> text=no deadlock");
     same(await page.locator("#found-exploration .outcome").count(), 0, "it is of this one");

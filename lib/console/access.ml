@@ -36,10 +36,16 @@ let is_address text =
   let bare = if n > 2 && text.[0] = '[' && text.[n - 1] = ']' then String.sub text 1 (n - 2) else text in
   match Unix.inet_addr_of_string bare with _ -> true | exception Failure _ -> false
 
+(* As one writes it: OCaml reads 0x50 and 8_0, too. *)
+let port_of text =
+  if text <> "" && String.length text <= 5 && String.for_all (fun c -> c >= '0' && c <= '9') text then
+    int_of_string_opt text
+  else None
+
 let split_port text =
   match String.rindex_opt text ':' with
   | Some i when text.[String.length text - 1] <> ']' ->
-    (String.sub text 0 i, int_of_string_opt (String.sub text (i + 1) (String.length text - i - 1)))
+    (String.sub text 0 i, port_of (String.sub text (i + 1) (String.length text - i - 1)))
   | Some _ | None -> (text, Some 80)
 
 (* On the loopback address its names alone: others may have been bound to it. Elsewhere there are tokens, and any

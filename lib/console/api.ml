@@ -197,9 +197,14 @@ let going_on h =
   | Some run when Live_run.goes_on run -> Ok run
   | Some _ | None -> refuse 409 "no-run" "no run goes on"
 
-let stop h _ =
+(* Without [all], each Stop goes one step further: two people who press it at once would end what the first one has
+   begun, the vehicles' way home perhaps. *)
+let stop h client found =
+  let* all = optional truth "all" found in
   let* run = going_on h in
-  Live_run.stop run;
+  let stopping : Live_run.stopping = match all with None -> Next | Some false -> Program | Some true -> All in
+  Live_run.stop run stopping;
+  if Helm.holder (Hall.helm h) <> Some client then Live_run.remark run (client ^ " stops it, without the helm");
   Ok (`Assoc [])
 
 let answer h found =
@@ -300,26 +305,39 @@ let replay h r =
 
 (* {1 The helm} *)
 
-let client (r : Request.t) =
-  let name =
+let client h role (r : Request.t) =
+  let key =
     match Request.header r "x-dolphin-client", Request.parameter r "client" with
-    | Some name, _ | None, Some name -> name
+    | Some key, _ | None, Some key -> key
     | None, None -> "api"
   in
-  if Helm.is_name name then Ok name else bad "a client's name has 1 to 64 letters, digits, points and dashes"
+  if Visitors.is_key key then Ok (Hall.name h role key)
+  else bad "a client's key has 1 to 64 letters, digits, points, dashes and underscores"
+
+let take h client by =
+  if not (Hall.watches h client) then
+    refuse 409 "not-watching" "a client that has the helm looks on: GET /api/events?client=KEY"
+  else Ok (Hall.set_helm h (by (Hall.helm h) client))
+
+(* All who look on see in the log that it was taken. *)
+let force h client =
+  let before = Helm.holder (Hall.helm h) in
+  let* () = take h client Helm.force in
+  match Hall.run h, before with
+  | Some run, Some other when other <> client && Live_run.goes_on run ->
+    Ok (Live_run.remark run (Printf.sprintf "%s takes the helm from %s" client other))
+  | (Some _ | None), _ -> Ok ()
 
 let steer h client found =
   let* what = get Field.text "want" found in
   match what with
-  | "take" when not (Hall.watches h client) ->
-    refuse 409 "not-watching" "who has the helm looks on: GET /api/events?client=NAME"
-  | "take" -> Ok (Hall.set_helm h (Helm.ask (Hall.helm h) client))
+  | "take" -> take h client Helm.ask
+  | "force" -> force h client
+  | "keep" -> Ok (Hall.keep_helm h client)
   | "give-up" -> Ok (Hall.set_helm h (Helm.give_up (Hall.helm h) client))
-  | _ -> bad "want is \"take\" or \"give-up\""
+  | _ -> bad "want is \"take\", \"force\", \"keep\" or \"give-up\""
 
-let helm h r =
-  let* client = client r in
-  let* found = body r in
+let helm h client found =
   let* () = steer h client found in
   let helm = Hall.helm h in
   Ok (`Assoc [ ("holder", of_option (fun c -> `String c) (Helm.holder helm)); ("asking", texts (Helm.asking helm)) ])
@@ -332,21 +350,23 @@ type route =
   | Compute_beside of (Hall.t -> members -> (json, refusal) result Lwt.t)  (* likewise, in another process *)
   | Command of (Hall.t -> members -> (json, refusal) result)  (* needs the helm *)
   | Later of (Hall.t -> members -> (json, refusal) result Lwt.t)  (* likewise *)
-  | Helm
+  | Steer of (Hall.t -> string -> members -> (json, refusal) result)  (* of whoever steers, with or without the helm *)
   | Told of (Hall.t -> Access.role -> Request.t -> (Response.t, refusal) result Lwt.t)
 
-let most_watchers = 100
+let most_watchers = 60
+let most_steerers = 40
 
-let role_event (role : Access.role) =
+let role_event (role : Access.role) client =
   let name = match role with Steers -> "steers" | Watches -> "watches" in
-  Printf.sprintf "event: role\ndata: {\"role\":\"%s\"}\n\n" name
+  Printf.sprintf "event: role\ndata: {\"role\":\"%s\",\"client\":\"%s\"}\n\n" name client
 
-let events h role r =
-  let* client = client r in
-  if Hall.watchers h >= most_watchers then refuse 503 "too-many" "too many look on"
+let events h (role : Access.role) r =
+  let* client = client h role r in
+  let most = match role with Steers -> most_steerers | Watches -> most_watchers in
+  if Hall.watchers h role >= most then refuse 503 "too-many" "too many look on"
   else
     let last = match Request.header r "last-event-id" with Some id -> Some id | None -> Request.parameter r "last" in
-    let follow write = write (role_event role) >>= fun () -> Hall.follow h ~client ~last write in
+    let follow write = write (role_event role client) >>= fun () -> Hall.follow h role ~client ~last write in
     Ok (Response.stream ~kind:"text/event-stream" follow)
 
 let table =
@@ -376,13 +396,13 @@ let table =
     (("DELETE", "graph"), Command (Analyses.cancel Graph));
     (("POST", "run"), Command start);
     (("POST", "run/counterexample"), Command enact);
-    (("POST", "run/stop"), Command stop);
+    (("POST", "run/stop"), Steer stop);
     (("POST", "run/answer"), Command answer);
     (("POST", "run/post"), Later post);
     (("POST", "run/resume"), Command resume);
     (("GET", "runs"), Look runs);
     (("GET", "replay"), Told (fun h _ r -> Lwt.return (replay h r)));
-    (("POST", "helm"), Helm) ]
+    (("POST", "helm"), Steer helm) ]
 
 let routes = List.map (fun ((verb, path), _) -> (verb, "/api/" ^ path)) table
 
@@ -390,7 +410,7 @@ let routes = List.map (fun ((verb, path), _) -> (verb, "/api/" ^ path)) table
 let with_helm h r f =
   let allowed =
     let* found = body r in
-    let* client = client r in
+    let* client = client h Steers r in
     Result.map (fun () -> found) (Result.map_error (refusal 409 "no-helm") (Hall.command h client))
   in
   match allowed with
@@ -405,10 +425,16 @@ let perform h (role : Access.role) r route =
   | Compute f, _ -> Lwt.return (of_result (Result.bind (body r) (f h)))
   | Compute_beside f, _ -> (
       match body r with Ok found -> f h found >|= of_result | Error refused -> Lwt.return (of_refusal refused))
-  | (Command _ | Later _ | Helm), Watches -> Lwt.return (of_refusal watcher)
+  | (Command _ | Later _ | Steer _), Watches -> Lwt.return (of_refusal watcher)
   | Command f, Steers -> with_helm h r (fun found -> Lwt.return (f h found))
   | Later f, Steers -> with_helm h r (f h)
-  | Helm, Steers -> Lwt.return (of_result (helm h r))
+  | Steer f, Steers ->
+    let done_ =
+      let* found = body r in
+      let* client = client h Steers r in
+      f h client found
+    in
+    Lwt.return (of_result done_)
   | Told f, _ -> f h role r >|= (function Ok response -> response | Error r -> of_refusal r)
 
 let api h role (r : Request.t) path =

@@ -44,7 +44,7 @@ let close c =
   List.iter Analysis.cancel (Hall.analyses c.hall);
   let over =
     match Hall.run c.hall with
-    | Some run when Live_run.goes_on run -> Live_run.stop run; Live_run.finished run
+    | Some run when Live_run.goes_on run -> Live_run.stop run Next; Live_run.finished run
     | Some _ | None -> Lwt.return_unit
   in
   over >>= fun () -> Server.close c.server

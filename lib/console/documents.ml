@@ -6,14 +6,16 @@ let service ~file ~fleet ~may_read source = Service.read ~file ?fleet ~may_read 
 
 (* {1 Places} *)
 
-(* How many code units of UTF-16 the first [n] bytes of [text] have. *)
-let units text n =
-  let count = ref 0 in
-  for i = 0 to min n (String.length text) - 1 do
+(* [units text n] is the number of code units of UTF-16 that the first [n] bytes of [text] have. To be applied to
+   [text] once for many [n]. *)
+let units text =
+  let length = String.length text in
+  let before = Array.make (length + 1) 0 in
+  for i = 0 to length - 1 do
     let c = Char.code text.[i] in
-    if c < 0x80 || c >= 0xC0 then count := !count + if c >= 0xF0 then 2 else 1
+    before.(i + 1) <- before.(i) + if c < 0x80 then 1 else if c < 0xC0 then 0 else if c >= 0xF0 then 2 else 1
   done;
-  !count
+  fun n -> before.(max 0 (min n length))
 
 (* The byte at which so many code units of [text] have passed. *)
 let byte text wanted =
@@ -29,12 +31,14 @@ let byte text wanted =
   in
   min length (from 0 0)
 
-let span source ({ start; stop } : Service.span) : (string * Yojson.Safe.t) list =
-  [ ("from", `Int (units source start)); ("to", `Int (units source stop)) ]
+let span_in units ({ start; stop } : Service.span) : (string * Yojson.Safe.t) list =
+  [ ("from", `Int (units start)); ("to", `Int (units stop)) ]
+
+let span source at = span_in (units source) at
 
 (* {1 Diagnostics} *)
 
-let diagnostic ?file source (d : Diagnostic.t) : Yojson.Safe.t =
+let diagnostic ?file units (d : Diagnostic.t) : Yojson.Safe.t =
   let { Location.start; stop } = d.at in
   let hint = Option.fold d.hint ~none:[] ~some:(fun text -> [ ("hint", `String text) ]) in
   let elsewhere =
@@ -45,17 +49,17 @@ let diagnostic ?file source (d : Diagnostic.t) : Yojson.Safe.t =
   in
   let severity = match d.severity with Error -> "error" | Warning -> "warning" in
   `Assoc
-    (span source { start = max 0 start.pos_cnum; stop = max 0 stop.pos_cnum }
+    (span_in units { start = max 0 start.pos_cnum; stop = max 0 stop.pos_cnum }
      @ [ ("line", `Int (Location.line d.at)); ("column", `Int (Location.column d.at)); ("severity", `String severity);
          ("message", `String d.message); ("code", `String (Diagnostic.code_name d.code)) ]
      @ elsewhere @ hint)
 
-let diagnostics d = `List (List.map (diagnostic (Service.source d)) (Service.diagnostics d))
+let diagnostics d = `List (List.map (diagnostic (units (Service.source d))) (Service.diagnostics d))
 
 let of_error ~file ~source e =
   let plain text = Diagnostic.error Location.none text in
   let found = Dolphin_app.Error.diagnostics e @ List.map plain (Dolphin_app.Error.sentences e) in
-  `List (List.map (diagnostic ~file source) found)
+  `List (List.map (diagnostic ~file (units source)) found)
 
 (* {1 Writing} *)
 

@@ -22,7 +22,9 @@ let kind path =
 
 (* {1 What there is} *)
 
-let is_hidden name = name = "" || name.[0] = '.' || name.[0] = '_'
+(* [-rf.dol] would be an option of a command that gets all names of the folder, and a line feed ends a line of a list. *)
+let is_control c = Char.code c < 32 || c = '\127'
+let is_hidden name = name = "" || List.mem name.[0] [ '.'; '_'; '-' ] || String.exists is_control name
 let most_files = 2_000
 let deepest = 8
 
@@ -37,10 +39,10 @@ let list f =
       List.concat_map (item depth path) (List.filter (fun name -> not (is_hidden name)) (Array.to_list names))
   and item depth path name =
     let path = if path = "" then name else path ^ "/" ^ name in
-    match (Unix.lstat (Filename.concat f.root path)).st_kind, kind name with
-    | S_DIR, _ when depth < deepest -> below (depth + 1) path
-    | S_REG, Some kind when !count < most_files -> incr count; [ (kind, path) ]
-    | (S_DIR | S_REG | S_LNK | S_CHR | S_BLK | S_FIFO | S_SOCK), _ -> []
+    match Unix.lstat (Filename.concat f.root path), kind name with
+    | { st_kind = S_DIR; _ }, _ when depth < deepest -> below (depth + 1) path
+    | { st_kind = S_REG; st_nlink = 1; _ }, Some kind when !count < most_files -> incr count; [ (kind, path) ]
+    | { st_kind = S_DIR | S_REG | S_LNK | S_CHR | S_BLK | S_FIFO | S_SOCK; _ }, _ -> []
     | exception Unix.Unix_error _ -> []
   in
   below 0 ""
@@ -60,44 +62,61 @@ let refuse path why = Error (Printf.sprintf "%s: %s" (String.escaped path) why)
 (* Names that can be meant: none hidden, none that leads elsewhere. *)
 let plain path =
   let names = String.split_on_char '/' path in
-  if String.length path > 1_000 || String.contains path '\000' || List.exists is_hidden names then
-    refuse path "no such file is shown here"
+  if String.length path > 1_000 || List.exists is_hidden names then refuse path "no such file is shown here"
   else if kind path = None then refuse path "this is neither a program nor a fleet nor a journal nor a layer"
   else Ok ()
 
-let real f path =
-  match Unix.realpath (Filename.concat f.root path) with
+(* The path below the root, too, of what [full] really is. *)
+let real path full =
+  match Unix.realpath full with
   | exception Unix.Unix_error (error, _, _) -> refuse path (Unix.error_message error)
-  | full -> (
-      match from_root f full with
-      | Some _ -> Ok full
-      | None -> refuse path "this is a link to somewhere else")
+  | full -> Ok full
 
-let is_file path =
-  match (Unix.stat path).st_kind with
-  | S_REG -> true
-  | S_DIR | S_LNK | S_CHR | S_BLK | S_FIFO | S_SOCK -> false
-  | exception Unix.Unix_error _ -> false
+let below_root f path full =
+  Option.to_result ~none:(path ^ ": this is a link to somewhere else") (from_root f full)
+
+(* Neither a pipe, which blocks its reader, nor another name of a file that may lie elsewhere. *)
+let regular path full =
+  match Unix.stat full with
+  | { st_kind = S_REG; st_nlink = 1; _ } -> Ok ()
+  | { st_kind = S_REG; _ } -> refuse path "this file has another name, a hard link: a copy of it would be shown"
+  | { st_kind = S_DIR | S_LNK | S_CHR | S_BLK | S_FIFO | S_SOCK; _ } -> refuse path "this is no file"
+  | exception Unix.Unix_error (error, _, _) -> refuse path (Unix.error_message error)
 
 let find f path =
   let* () = plain path in
-  let* full = real f path in
-  if is_file full && kind full <> None then Ok full else refuse path "this is no file"
+  let* full = real path (Filename.concat f.root path) in
+  let* below = below_root f path full in
+  let* () = Result.map_error (fun _ -> String.escaped path ^ ": no such file is shown here") (plain below) in
+  let* () = regular path full in
+  Ok full
 
 let place f path =
   let* () = plain path in
   if Sys.file_exists (Filename.concat f.root path) then find f path
   else
     let folder = Filename.dirname path in
-    let* full = if folder = "." then Ok f.root else real f folder in
+    let* full = if folder = "." then Ok f.root else real path (Filename.concat f.root folder) in
+    let* () =
+      if full = f.root then Ok ()
+      else
+        let* below = below_root f path full in
+        if List.exists is_hidden (String.split_on_char '/' below) then refuse path "no such folder" else Ok ()
+    in
     if Sys.is_directory full then Ok (Filename.concat full (Filename.basename path)) else refuse path "no such folder"
 
+(* What a text may name besides what is shown. *)
+let is_map path = List.mem (String.lowercase_ascii (Filename.extension path)) Dolphin_maps.Map_file.formats
+
 let may_read f path =
-  let is_inside = match Unix.realpath path with
-    | full -> from_root f full <> None
-    | exception Unix.Unix_error _ -> false
+  let visible =
+    let* full = real path path in
+    let* below = below_root f path full in
+    let names = String.split_on_char '/' below in
+    let* () = regular path full in
+    if List.exists is_hidden names || not (kind below <> None || is_map below) then refuse path "hidden" else Ok ()
   in
-  if is_inside then Ok () else Error (path ^ ": there is no such file in the folder of this console")
+  Result.map_error (fun _ -> path ^ ": there is no such file in the folder of this console") visible
 
 let inside f path =
   match Unix.realpath path with

@@ -27,8 +27,10 @@ type t = {
   mutable runs : int;
   mutable analyses : (subject * numbered) list;  (* one of each at most *)
   mutable begun : int;  (* analyses *)
+  visitors : Visitors.t;
   mutable helm : Helm.t;
-  mutable watching : string list;  (* a client as often as it looks on *)
+  mutable alive : (string * float) list;  (* when each client that tells that it is alive has done so last *)
+  mutable watching : (string * Access.role) list;  (* a client as often as it looks on *)
 }
 
 let make settings =
@@ -36,7 +38,7 @@ let make settings =
     Digest.to_hex (Digest.string (Printf.sprintf "%d %f" (Unix.getpid ()) (Unix.gettimeofday ()))) in
   { settings; instance = String.sub instance 0 8; grown = Lwt_condition.create ();
     access = { port = 0; tokens = Option.map (fun _ -> Access.fresh ()) settings.listen }; run = None; runs = 0;
-    analyses = []; begun = 0; helm = Helm.free; watching = [] }
+    analyses = []; begun = 0; visitors = Visitors.make (); helm = Helm.free; alive = []; watching = [] }
 
 let settings h = h.settings
 let access h = h.access
@@ -48,7 +50,8 @@ let busy h = Option.fold h.run ~none:false ~some:Live_run.goes_on
 let analysis h subject = Option.map (fun a -> a.analysis) (List.assoc_opt subject h.analyses)
 let analyses h = List.map (fun (_, a) -> a.analysis) h.analyses
 let helm h = h.helm
-let watchers h = List.length h.watching
+let name h = Visitors.name h.visitors
+let watchers h role = List.length (List.filter (fun (_, of_client) -> of_client = role) h.watching)
 
 let begin_run h start =
   let before = h.run in
@@ -71,7 +74,20 @@ let set_helm h helm =
     changed h
   end
 
-let watches h client = List.mem client h.watching
+let watches h client = List.mem_assoc client h.watching
+
+let most_silent = 8.
+
+let keep_helm h client =
+  let now = Unix.gettimeofday () in
+  h.alive <- (client, now) :: List.remove_assoc client h.alive;
+  let check () =
+    if List.assoc_opt client h.alive = Some now then begin
+      h.alive <- List.remove_assoc client h.alive;
+      set_helm h (Helm.give_up h.helm client)
+    end
+  in
+  Lwt.async (fun () -> Lwt_unix.sleep most_silent >|= check)
 
 let command h client =
   let had helm = if watches h client then set_helm h helm in
@@ -114,8 +130,9 @@ let status h : Yojson.Safe.t =
       ("helm",
        `Assoc
          [ ("holder", Field.of_option (fun client -> `String client) (Helm.holder h.helm));
-           ("asking", Field.texts (Helm.asking h.helm)) ]);
-      ("watching", `Int (watchers h)) ]
+           ("asking", Field.texts (Helm.asking h.helm));
+           ("taken_from", Field.of_option (fun client -> `String client) (Helm.taken_from h.helm)) ]);
+      ("watching", `Int (List.length h.watching)) ]
 
 (* {1 Events} *)
 
@@ -134,13 +151,12 @@ let without_time : Yojson.Safe.t -> Yojson.Safe.t =
           members)
   | json -> json
 
-type reader = { mutable told : string; mutable run_id : string; mutable offset : int; mutable silent : int }
+type reader = { mutable told : string; mutable run_id : string; mutable offset : int; mutable spoken : float }
 
-let clock h : string option =
+let clock h =
   match h.run with
-  | Some run when Live_run.goes_on run ->
-    Some (event "clock" (`Assoc [ ("time", Canonical.number (Live_run.now run)) ]))
-  | Some _ | None -> None
+  | Some run when Live_run.goes_on run -> event "clock" (`Assoc [ ("time", Canonical.number (Live_run.now run)) ])
+  | Some _ | None -> "event: beat\ndata: {}\n\n"
 
 let next_of_run h reader =
   match h.run with
@@ -170,33 +186,32 @@ let next h reader =
 (* What happens within so many seconds is told at once. *)
 let collected = 0.01
 
-(* After so many silent seconds a comment finds out whether the client is still there. *)
-let most_silent = 15
+(* A page that hears nothing for longer shows that its server is gone. *)
+let beat = 1.
 
 let wait h reader =
-  let news = Lwt_condition.wait h.grown >>= fun () -> Lwt_unix.sleep collected >|= fun () -> None in
-  let silence () =
-    reader.silent <- reader.silent + 1;
-    match clock h with
-    | Some text -> Some text
-    | None when reader.silent mod most_silent = 0 -> Some ": nothing new\n\n"
-    | None -> None
-  in
-  Lwt.pick [ news; (Lwt_unix.sleep 1. >|= silence) ]
+  let news = Lwt_condition.wait h.grown >>= fun () -> Lwt_unix.sleep collected in
+  let silence = reader.spoken +. beat -. Unix.gettimeofday () in
+  Lwt.pick [ news; Lwt_unix.sleep (Float.max 0. (Float.min beat silence)) ]
 
 let rec tell h reader write =
-  match next h reader with
-  | Some text -> write text >>= fun () -> tell h reader write
-  | None -> (
-      wait h reader >>= function
-      | Some text -> write text >>= fun () -> tell h reader write
-      | None -> tell h reader write)
+  let now = Unix.gettimeofday () in
+  let text =
+    match next h reader with
+    | Some text -> Some text
+    | None -> if now >= reader.spoken +. beat then Some (clock h) else None
+  in
+  match text with
+  | Some text ->
+    reader.spoken <- now;
+    write text >>= fun () -> tell h reader write
+  | None -> wait h reader >>= fun () -> tell h reader write
 
 (* {1 Who looks on} *)
 
 let rec without_one client = function
   | [] -> []
-  | other :: rest when other = client -> rest
+  | (other, _) :: rest when other = client -> rest
   | other :: rest -> other :: without_one client rest
 
 (* A page that is loaded again comes back at once. *)
@@ -205,18 +220,18 @@ let grace = 5.
 let leave h client =
   h.watching <- without_one client h.watching;
   changed h;
-  let give_up () = if not (List.mem client h.watching) then set_helm h (Helm.give_up h.helm client) in
+  let give_up () = if not (watches h client) then set_helm h (Helm.give_up h.helm client) in
   Lwt.async (fun () -> Lwt_unix.sleep grace >|= give_up)
 
-let follow h ~client ~last write =
+let follow h role ~client ~last write =
   let run_id, offset =
     match h.run, last with
     | Some run, Some last when Feed.resumed (Live_run.feed run) last > 0 ->
       (Live_run.id run, Feed.resumed (Live_run.feed run) last)
     | (Some _ | None), _ -> ("", 0)
   in
-  let reader = { told = ""; run_id; offset; silent = 0 } in
-  h.watching <- client :: h.watching;
+  let reader = { told = ""; run_id; offset; spoken = 0. } in
+  h.watching <- (client, role) :: h.watching;
   changed h;
   Lwt.finalize (fun () -> write "retry: 1000\n\n" >>= fun () -> tell h reader write)
     (fun () -> leave h client; Lwt.return_unit)

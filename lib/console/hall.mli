@@ -47,8 +47,18 @@ val set_analysis : t -> subject -> Analysis.t -> unit
 
 (** {1 The helm} *)
 
+val name : t -> Access.role -> string -> string
+(** {!Visitors.name}: clients are known by it here. *)
+
 val helm : t -> Helm.t
 val set_helm : t -> Helm.t -> unit
+
+val keep_helm : t -> string -> unit
+(** [keep_helm h client]: [client] is alive. From then on it loses the helm if it does not repeat this within
+    {!most_silent} seconds: a connection whose other end has vanished stays open for minutes. *)
+
+val most_silent : float
+(** 8 seconds. *)
 
 val command : t -> string -> (unit, string) result
 (** [command h client] is before a command of [client]: whoever looks on gets the helm by it if it is free, others may
@@ -62,9 +72,10 @@ val watches : t -> string -> bool
 val status : t -> Yojson.Safe.t
 (** All that stands beside the journal. *)
 
-val follow : t -> client:string -> last:string option -> (string -> unit Lwt.t) -> unit Lwt.t
-(** [follow h ~client ~last write] writes server-sent events for [client] until [write] fails: the {!status} whenever it
-    changes, and all messages of the run, from the one with the identity [last] on if that is of this run. A helm
-    whose holder does not look on any more is free soon after. *)
+val follow : t -> Access.role -> client:string -> last:string option -> (string -> unit Lwt.t) -> unit Lwt.t
+(** [follow h role ~client ~last write] writes server-sent events for [client] until [write] fails: the {!status}
+    whenever it changes, and all messages of the run, from the one with the identity [last] on if that is of this run;
+    at least one event each second. The client that asked first gets the helm soon after its holder has left. *)
 
-val watchers : t -> int
+val watchers : t -> Access.role -> int
+(** The number of streams of events of clients with this role. *)

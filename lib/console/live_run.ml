@@ -174,10 +174,14 @@ let enact ~id ~changed ~speed program fleet witness =
   begin_ ~id ~changed ~enacts:witness.Dolphin_trace.Witness.property order (fun r front ~interruption ->
       Enacted_run.start front ~interruption ~speed ~follower:(follower r) program fleet witness)
 
-let stop r =
-  if goes_on r then begin
+type stopping = Next | Program | All
+
+let stop r stopping =
+  let was_stopping = r.state = Stopping in
+  if goes_on r && not (was_stopping && stopping = Program) then begin
     r.state <- Stopping;
     Interruption.once_more r.interruption;
+    if stopping = All && not was_stopping then Interruption.once_more r.interruption;
     r.changed ()
   end
 

@@ -35,8 +35,16 @@ val now : t -> float
 val finished : t -> unit Lwt.t
 (** Resolves when it is over, and its vehicles are released. *)
 
-val stop : t -> unit
-(** As Ctrl-C does. *)
+(** What a Stop ends. *)
+type stopping =
+  | Next  (** as Ctrl-C does: the program, or, if it is being stopped already, what it executes by [onInterrupt] *)
+  | Program  (** the program alone: nothing if it is being stopped already *)
+  | All  (** what it executes by [onInterrupt], too *)
+
+val stop : t -> stopping -> unit
+
+val remark : t -> string -> unit
+(** A line of its log. *)
 
 val answer : t -> int -> string -> (unit, string) result
 (** [answer r n text] answers the question with the number [n]; or says why not: somebody else did. *)

@@ -136,7 +136,7 @@ def main():
     ask("POST", "run/post", {"pairs": "go: 'north'"})
     ask("POST", "helm", {"want": "take"})
     ask("POST", "helm", {"want": "give-up"})
-    ask("POST", "run/stop", {})
+    ask("POST", "run/stop", {"all": False})
     until("status", lambda found: found["run"]["state"] == "over")
     ask("POST", "run/resume", {"run": "none"})
     run = ask("GET", "runs")[1]["runs"][0]

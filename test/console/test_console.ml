@@ -55,6 +55,9 @@ let member path json =
   let one json name = match json with `Assoc _ -> Yojson.Safe.Util.member name json | _ -> `Null in
   List.fold_left one json path
 
+let has_text part text =
+  match Str.search_forward (Str.regexp_string part) text 0 with _ -> true | exception Not_found -> false
+
 let code reply = Yojson.Safe.Util.to_string (member [ "error"; "code" ] (Client.json reply))
 
 let refused what expected reply =
@@ -105,6 +108,8 @@ let who_may_ask _ port =
   Lwt_list.iter_s
     (fun (what, expected, headers) -> ask headers >|= refused what (expected, "refused"))
     [ ("another name", 421, [ ("Host", "evil.example") ]);
+      ("its port, as nobody writes it", 421, [ ("Host", Printf.sprintf "localhost:0x%x" port) ]);
+      ("the same in another way", 421, [ ("Host", Printf.sprintf "localhost:%d_%d" (port / 10) (port mod 10)) ]);
       ("another port", 421, [ ("Host", "127.0.0.1:1") ]);
       ("a foreign page", 403, [ ("Origin", "http://evil.example") ]);
       ("a page of no origin", 403, [ ("Origin", "null") ]);
@@ -208,9 +213,31 @@ let no_escape folder port =
   write (Filename.concat folder "../outside.fleet") "vehicle 'secret', { type 'UUV' }\n";
   Unix.symlink "../outside.fleet" (Filename.concat folder "names.fleet");
   program "message 'x'\n";
-  Client.ask ~port "/api/world?program=names.dol" >|= fun r ->
+  Client.ask ~port "/api/world?program=names.dol" >>= fun r ->
   status "the program is read" 200 r.status;
-  holds "but not the fleet that a link leads to" true (member [ "fleet" ] (Client.json r) = `Null)
+  holds "but not the fleet that a link leads to" true (member [ "fleet" ] (Client.json r) = `Null);
+  (* Nor hidden files, those of other kinds, hard links, pipes; the answer does not depend on what is there. *)
+  List.iter (fun name -> write (Filename.concat folder name) "secret_of_mine\n") [ ".env"; "_env.dol"; "notes.txt"; ".x.dol" ];
+  Unix.link outside (Filename.concat folder "hard.dol");
+  Unix.mkfifo (Filename.concat folder "pipe.dol") 0o600;
+  write (Filename.concat folder "-rf.dol") "message 'x'\n";
+  write (Filename.concat folder "two\nlines.dol") "message 'x'\n";
+  Lwt_list.iter_s
+    (fun name ->
+       let typed = Printf.sprintf {|{"path": "names.dol", "text": "include '%s'\nx = map '%s'\n"}|} name name in
+       Client.ask ~body:typed ~port "/api/check" >|= fun r ->
+       status name 200 r.status;
+       holds (name ^ ": " ^ r.body) true (has_text "there is no such file" r.body && not (has_text "secret" r.body)))
+    [ ".env"; "_env.dol"; "notes.txt"; ".x.dol"; "hard.dol"; "pipe.dol"; "none.dol" ]
+  >>= fun () ->
+  Lwt_list.iter_s
+    (fun path -> Client.ask ~port ("/api/file?path=" ^ path) >|= refused path (404, "not-found"))
+    [ "hard.dol"; "pipe.dol"; "-rf.dol"; "two%0Alines.dol" ]
+  >>= fun () ->
+  Client.ask ~verb:"PUT" ~body:{|{"path": "-rf.dol", "text": ""}|} ~port "/api/file" >>= fun r ->
+  refused "no option is saved" (404, "not-found") r;
+  Client.ask ~port "/api/files" >|= fun r ->
+  List.iter (fun name -> holds name false (has_text name r.body)) [ "hard"; "pipe"; "-rf"; "lines"; "env" ]
 
 let saving folder port =
   let put body = Client.ask ~verb:"PUT" ~body ~port "/api/file" in
@@ -439,7 +466,7 @@ let stuck folder port =
   let log = List.map (fun line -> member [ "text" ] (Yojson.Safe.from_string line)) (data (events "log" seen)) in
   let words = List.map (fun line -> Str.replace_first (Str.regexp "^.*program  *") "" (Yojson.Safe.Util.to_string line)) in
   let of_program = List.filter (fun line -> Str.string_match (Str.regexp "is ") line 0) (words log) in
-  Alcotest.(check (list string)) "told" [ "is stuck: executes onInterrupt"; "is interrupted" ] of_program;
+  Alcotest.(check (list string)) "told" [ "is stuck: executes onInterrupt"; "is stuck" ] of_program;
   Client.leave first
 
 let faults _ port =
@@ -548,20 +575,97 @@ let the_helm () =
   text "who asked first" "b" (helm h);
   let h = Helm.give_up h "c" in
   text "who does not want it any more" "nobody" (helm (Helm.give_up h "b"));
-  List.iter (fun name -> holds name false (Helm.is_name name)) [ ""; "a b"; String.make 65 'a'; "a\n" ]
+  let h = Helm.force (Helm.ask (Helm.ask h "a") "d") "d" in
+  text "taken by force" "d" (helm h);
+  Alcotest.(check (option string)) "from whom" (Some "b") (Helm.taken_from h);
+  text "the other still asks" "a" (helm (Helm.give_up h "d"));
+  List.iter (fun key -> holds key false (Visitors.is_key key)) [ ""; "a b"; String.make 65 'a'; "a\n" ];
+  let v = Visitors.make () in
+  text "one key, one name" (Visitors.name v Steers "a") (Visitors.name v Steers "a");
+  holds "a watcher has another" true (Visitors.name v Steers "a" <> Visitors.name v Watches "a");
+  holds "and so has another key" true (Visitors.name v Steers "a" <> Visitors.name v Steers "b");
+  let public = Visitors.name v Steers "a" in
+  holds "the name is no key" true (Visitors.name v Steers public <> public)
+
+let role_name (m : Client.message) = Yojson.Safe.Util.to_string (member [ "client" ] (Yojson.Safe.from_string m.data))
+
+(* Two steer. Stop without the helm; the helm by force; a page that vanishes. *)
+let stop_without_helm _ port =
+  let command ~client path body =
+    Client.ask ~headers:[ ("X-Dolphin-Client", client) ] ~body ~port ("/api/" ^ path) in
+  let look key =
+    Client.watch ~port key >>= fun w ->
+    Client.until w (fun m -> m.event = "role") >|= fun seen -> (w, role_name (List.hd (List.rev seen))) in
+  look "first" >>= fun (first, first_name) ->
+  look "second" >>= fun (second, second_name) ->
+  holds "names are no keys" true (first_name <> "first" && first_name <> second_name);
+  let holder () =
+    Client.ask ~port "/api/status" >|= fun r -> Yojson.Safe.to_string (member [ "helm"; "holder" ] (Client.json r)) in
+  command ~client:"first" "run" {|{"program": "mission.dol", "answers": ["1"], "speed": 10}|} >>= fun r ->
+  status "begun" 200 r.status;
+  holder () >>= fun found ->
+  text "who has begun has the helm" (Printf.sprintf "%S" first_name) found;
+  command ~client:first_name "run/post" {|{"pairs": "go: 1"}|} >>= fun r ->
+  refused "by the public name" (409, "no-helm") r;
+  command ~client:"second" "helm" {|{"want": "force"}|} >>= fun r ->
+  status "by force" 200 r.status;
+  Client.until first (fun m -> m.event = "log" && has_text "takes the helm" m.data) >>= fun _ ->
+  holder () >>= fun found ->
+  text "the other has it" (Printf.sprintf "%S" second_name) found;
+  let before = Unix.gettimeofday () in
+  command ~client:"first" "run/stop" {|{"all": false}|} >>= fun r ->
+  status "Stop without the helm" 200 r.status;
+  Client.until first is_over >>= fun _ ->
+  holds "at once" true (Unix.gettimeofday () -. before < 2.);
+  command ~client:"first" "helm" {|{"want": "take"}|} >>= fun _ ->
+  Client.leave second >>= fun () ->
+  let falls (m : Client.message) =
+    m.event = "status"
+    && member [ "helm"; "holder" ] (Yojson.Safe.from_string m.data) = `String first_name in
+  Client.until first falls >>= fun _ -> Client.leave first
+
+(* Two who press Stop at the same time do not end the way home. *)
+let stop_twice folder port =
+  write (Filename.concat folder "home.dol")
+    "onInterrupt task('home')\nv = pick { type 'UUV' }\nexecute idle(1.hour)\n";
+  Client.watch ~port "first" >>= fun first ->
+  Client.ask ~body:{|{"program": "home.dol", "speed": 2}|} ~port "/api/run" >>= fun r ->
+  status "started" 200 r.status;
+  Client.until first (fun m -> m.event = "journal" && has_text "transition" m.data) >>= fun _ ->
+  let stop body = Client.ask ~body ~port "/api/run/stop" >|= fun r -> status body 200 r.status in
+  Lwt_list.iter_p stop [ {|{"all": false}|}; {|{"all": false}|}; {|{"all": false}|} ] >>= fun () ->
+  Lwt_unix.sleep 0.3 >>= fun () ->
+  Client.ask ~port "/api/status" >>= fun r ->
+  text "still on its way home" {|"stopping"|} (Yojson.Safe.to_string (member [ "run"; "state" ] (Client.json r)));
+  stop {|{"all": true}|} >>= fun () ->
+  Client.until first is_over >>= fun _ -> Client.leave first
+
+(* 4,000 constants took 4 s and more, nine times as long as 2,000. *)
+let many_constants _ port =
+  let program = String.concat "" (List.init 4_000 (fun i -> Printf.sprintf "x%d = %d\\n" i i)) in
+  let wrong = String.concat "" (List.init 4_000 (fun i -> Printf.sprintf "message y%d\\n" i)) in
+  let check what program =
+    let before = Sys.time () in
+    Client.ask ~body:(Printf.sprintf {|{"path": "short.dol", "text": "%s"}|} program) ~port "/api/check" >|= fun r ->
+    status what 200 r.status;
+    holds (Printf.sprintf "%s: %.2f s" what (Sys.time () -. before)) true (Sys.time () -. before < 1.5) in
+  check "constants" program >>= fun () -> check "faults" wrong
 
 let () =
   let slow name f = Alcotest.test_case name `Quick f in
   Alcotest.run "console"
     [ ("http",
        [ slow "heads" heads; slow "sizes" sizes; slow "patience" patience; slow "connections" connections; slow "rate" rate ]);
-      ("helm", [ slow "who has it" the_helm ]);
+      ("helm",
+       [ slow "who has it" the_helm; slow "Stop without it" (console stop_without_helm);
+         slow "Stop pressed twice" (console stop_twice) ]);
       ("safe",
        [ slow "who may ask" (console who_may_ask);
          slow "with tokens"
            (served (fun folder -> { (settings folder) with listen = Some Unix.inet_addr_loopback }) with_tokens); slow "no escape from the folder" (console no_escape);
          slow "malformed requests" (console malformed); slow "tiles" tiles ]);
-      ("files", [ slow "saving" (console saving); slow "texts under way" (console texts) ]);
+      ("files", [ slow "saving" (console saving); slow "texts under way" (console texts);
+                  slow "many constants" (console many_constants) ]);
       ("runs",
        [ slow "a run" (console a_run); slow "journals of the folder" (console journals); slow "answers and posts" (console answers_and_posts);
          slow "what is asked" (console what_is_asked); slow "on the map" (console on_the_map);

@@ -2,11 +2,12 @@ open Core
 module Ast = Dolphin_syntax.Ast
 module Diagnostic = Dolphin_syntax.Diagnostic
 module String_map = Map.Make (String)
+module String_set = Set.Make (String)
 
 (* [own]: what the program itself names, known or not. [charted]: variables that are a map, with its file. *)
 type t = {
   known : value String_map.t;
-  own : string list;
+  own : String_set.t;
   chart : string -> (Chart.t, string) result;
   charted : (string * string) list;
 }
@@ -19,7 +20,7 @@ let computing_calls = [ "location"; "area"; "imcPlan"; "task"; "map" ]
 let is_setting name = List.mem_assoc name Plan_builder.vocabulary || List.mem_assoc name Mission_builder.vocabulary
 
 let computes constants locals (e : Ast.expression) =
-  let is_own name = List.mem name constants.own in
+  let is_own name = String_set.mem name constants.own in
   match e.it with
   | Variable name ->
     if String_map.mem name constants.known || List.mem name locals || not (is_own name) then None
@@ -48,8 +49,23 @@ let unknown constants (e : Ast.expression) =
 let fuel = 2_000_000
 let is_error (d : Diagnostic.t) = match d.severity with Error -> true | Warning -> false
 
+(* The known variables that [e] names: with all of them, a list of n constants would take n * n steps and more. *)
+let named constants (e : Ast.expression) =
+  let rec add found (e : Ast.expression) =
+    match e.it with
+    | Variable name -> (
+        match String_map.find_opt name constants.known with
+        | Some x -> String_map.add name x found
+        | None -> found)
+    | Map entries -> List.fold_left key found entries
+    | _ -> found
+  and key found ((k : Ast.key Ast.located), _) =
+    match k.it with Computed k -> Fold.expression add found k | Name _ -> found
+  in
+  String_map.bindings (Fold.expression add String_map.empty e)
+
 let elaborated constants (e : Ast.expression) =
-  let globals = String_map.bindings constants.known in
+  let globals = named constants e in
   let program = Scope.create ~chart:constants.chart ~functions:[] ~globals:(List.map fst globals) () in
   let lambda = Lambdas.shell program e.at "constant" 0 in
   List.iter (Chart_calls.note program) constants.charted;
@@ -85,7 +101,7 @@ let chart constants (e : Ast.expression) =
   let path =
     match e.it, Chart_calls.file e with
     | Variable name, _ -> List.assoc_opt name constants.charted
-    | _, Some (path, _) when not (List.mem Chart_calls.word constants.own) -> Some path
+    | _, Some (path, _) when not (String_set.mem Chart_calls.word constants.own) -> Some path
     | _, (Some _ | None) -> None
   in
   Option.bind path (fun path -> Result.to_option (constants.chart path))
@@ -96,17 +112,17 @@ let function_names (ast : Ast.program) =
   List.filter_map (fun (s : Ast.statement) -> match s.it with Function { name; _ } -> Some name.it | _ -> None) ast
 
 let of_program ~chart ast =
-  let once = Assigned.once (fun _ -> true) ast in
+  let once = String_set.of_list (Assigned.once (fun _ -> true) ast) in
   let add constants (s : Ast.statement) =
     match s.it with
     | Parameter { name = { it = name; _ }; value = e; _ }
     | Define ({ it = name; _ }, Some e)
     | Assign { target = { it = Variable name; _ }; operator = None; value = e }
-      when List.mem name once -> (
+      when String_set.mem name once -> (
         match value constants e with
         | Ok x -> { constants with known = String_map.add name x constants.known }
         | Error _ -> constants)
     | _ -> constants
   in
-  List.fold_left add { known = String_map.empty; own = Assigned.names ast @ function_names ast; chart;
-                       charted = Chart_calls.assigned ast } ast
+  let own = String_set.of_list (Assigned.names ast @ function_names ast) in
+  List.fold_left add { known = String_map.empty; own; chart; charted = Chart_calls.assigned ast } ast

@@ -1,0 +1,13 @@
+(** Identities of clients. Each client has a key, which only it and the server know, and a name, which all see. *)
+
+type t
+
+val make : unit -> t
+(** Names of another [make] differ. *)
+
+val is_key : string -> bool
+(** Whether a client may have this key: 1 to 64 letters, digits, points, dashes and underscores. *)
+
+val name : t -> Access.role -> string -> string
+(** [name v role key] is the name of the client with [key]. The key cannot be computed from the name, and a client that
+    watches never has the name of one that steers. *)

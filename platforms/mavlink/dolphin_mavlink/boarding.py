@@ -4,6 +4,7 @@ from . import mission as missions
 from .transfer import Download, Upload, numbered
 
 UPLOADS = 5  # so many transfers are tried
+SILENCES = 20  # and so many more if the vehicle fell silent in the midst of them
 
 
 class Boarding:
@@ -14,6 +15,7 @@ class Boarding:
         self._vehicle, self._mission, self._round_trip = vehicle, mission, round_trip
         self._items = ()  # as they are numbered on board
         self._transfer, self._uploads, self._only_compares = None, 0, False
+        self._silences = 0
         self._upload_at = None  # when the next upload begins
         self.stage, self.since, self.result = None, 0.0, None
 
@@ -68,7 +70,9 @@ class Boarding:
         if isinstance(result, tuple):
             self.result = f"its autopilot refuses the mission: {result[1]}"
             return []
-        if result == "again":
+        if result == "silent" and self._silences < SILENCES:
+            self._silences, self._uploads = self._silences + 1, self._uploads - 1
+        if result in ("again", "silent"):
             return self._again(now, "its autopilot gave up each of the uploads")
         return self._verify(now)
 

@@ -21,6 +21,7 @@ _REFUSALS = {
 
 LONGEST = 10.0  # seconds: round trips that are longer are not told from losses
 ITEM_PATIENCE = 1.5  # seconds: earlier repeats of an item keep a vehicle from asking for it (MAVSDK's timer)
+SILENCE = 5.0  # seconds without a word, on a link that is not slower, after which the vehicle has given a transfer up
 ERRORS = 5  # so many errors end a transfer that has not got under way: fewer may answer the one before
 COPY = 0.1, 0.9  # seconds, by the round trip, within which a second request for an item is taken for the first one
 
@@ -57,6 +58,10 @@ class RoundTrip:
         if self._is_measured:
             most = min(most, max(2.0, 3 * self.seconds))
         return min(known * self._backoff, max(known, most))
+
+    @property
+    def silence(self):
+        return max(SILENCE, 3 * self.seconds)
 
     @property
     def settled(self):
@@ -122,13 +127,14 @@ def numbered(items, home):
 
 class Upload:
     """`result` is None while it goes on, then "accepted", "unclear" (a download will tell), "again" (the vehicle gave
-    the transfer up), or ("refused", why)."""
+    the transfer up), "silent" (it asks for nothing any more), or ("refused", why)."""
 
     def __init__(self, target, items, round_trip):
         self._target, self._items, self._round_trip = target, items, round_trip
         self._repeated = Repeated(round_trip)
         self._asked = -1  # the highest item that was asked for
         self._errors = 0  # before the first item was asked for
+        self._heard_at = 0.0
         self.result = None
 
     def begin(self, now):
@@ -148,6 +154,7 @@ class Upload:
     def _requested(self, now, seq):
         if seq >= len(self._items) or seq > self._asked + 1:
             return []  # of an earlier transfer
+        self._heard_at = now
         repeated = self._repeated
         if seq == self._asked and repeated.times > 0:
             low, high = COPY
@@ -179,7 +186,12 @@ class Upload:
         # An invalid sequence answers an item that came twice.
 
     def tick(self, now):
-        return self._repeated.tick(now) if self.result is None else []
+        if self.result is not None:
+            return []
+        if self._asked >= 0 and now - self._heard_at > self._round_trip.silence:
+            self.result = "unclear" if self._asked == len(self._items) - 1 else "silent"
+            return []
+        return self._repeated.tick(now)
 
     def cancel(self):
         """Tells the vehicle that nothing more will come."""
@@ -193,11 +205,12 @@ class Download:
         self._target, self._window, self._most = target, window, most
         self._repeated = Repeated(round_trip)
         self._count, self._got, self._asked = None, {}, 0
-        self._round_trip, self._errors = round_trip, 0
+        self._round_trip, self._errors, self._heard_at = round_trip, 0, 0.0
         self._asked_at = {}  # when each item was asked for that was asked for once
         self.items, self.refused = None, None
 
     def begin(self, now):
+        self._heard_at = now
         return self._repeated.send(now, mavlink.MAVLink_mission_request_list_message(*self._target))
 
     def hear(self, now, message):
@@ -205,6 +218,7 @@ class Download:
         if self.items is not None or self.refused or getattr(message, "mission_type", 0) != 0:
             return []
         if kind == "MISSION_COUNT" and self._count is None:
+            self._heard_at = now
             self._repeated.answered(now)
             self._count = message.count
             if message.count > self._most:
@@ -213,6 +227,7 @@ class Download:
             return self._next(now)
         if kind in ("MISSION_ITEM_INT", "MISSION_ITEM") and self._count is not None:
             if message.seq < self._count and message.seq not in self._got:
+                self._heard_at = now
                 self._got[message.seq] = missions.of_message(message)
                 asked_at = self._asked_at.get(message.seq)
                 if asked_at is not None:
@@ -249,6 +264,10 @@ class Download:
     def tick(self, now):
         if self.items is not None or self.refused:
             return []
+        if self._count is not None and now - self._heard_at > self._round_trip.silence:
+            # The vehicle has given it up: it is asked for the whole list again.
+            self._count, self._got, self._asked, self._asked_at = None, {}, 0, {}
+            return self.begin(now)
         messages = self._repeated.tick(now)
         if messages and self._count is not None:
             # Something was lost: on with one at a time.

@@ -11,6 +11,7 @@ from .wire import mavlink
 
 IMAGE_START, IMAGE_STOP = mavlink.MAV_CMD_IMAGE_START_CAPTURE, mavlink.MAV_CMD_IMAGE_STOP_CAPTURE
 MOST_ITEMS = 5000
+APPROACH = 5.0  # metres ahead for each metre of height that a plane's way down to its landing takes, at least
 
 
 class Refused(Exception):
@@ -199,10 +200,26 @@ class Builder:
 
     def _return_home_and_land(self, a):
         self._return_home(a)
+        self._check_approach(self._home, self._home)
         self.items.append(located(missions.LAND, self._home, 0, missions.RELATIVE))
 
+    def _check_approach(self, start, place):
+        """A plane glides from the item before to the place where it lands, as steep as that is."""
+        if self._whom.frame not in ("plane", "vtol"):
+            return
+        if self._altitude is None:
+            raise Misfit("from how high does it land? Give altitude: metres above home, before the approach")
+        ahead, least = geo.distance(start, place), APPROACH * self._altitude
+        if ahead < least:
+            raise Misfit(
+                f"a plane comes down from {self._altitude:g} m within {ahead:.0f} m: begin the approach by goPos "
+                f"{least:.0f} m or more before the place, and land by landingPoint"
+            )
+
     def _land(self, a):
+        start = self._place if self._whom.frame in ("plane", "vtol") else None
         self._to_offset(a)
+        self._check_approach(start, self._place)
         self.items.append(located(missions.LAND, self._place, 0, missions.RELATIVE))
 
     def _move_and_loiter(self, a):

@@ -443,6 +443,26 @@ class Missions(unittest.TestCase):
             ["item 2, loiterPos: it takes seconds or turns, above 0, not both"],
         )
 
+    def test_landings_of_planes(self):
+        """They need an approach of 5 m ahead for each metre of height; copters do not."""
+        far, near = ({**HERE, "latitude": geo.displace(HARBOUR, north, 0)[0]} for north in (260, 240))
+        flight = (("takeOff", 50), ("move", 500))
+        self.assertEqual([i.command for i in self.found(*flight, ("returnHomeAndLand",)).items], [22, 16, 16, 21])
+        for whom in (UAV, plans.For("v1", "vtol", True, HARBOUR, HARBOUR, None, True)):
+            why = self.refused(*flight, ("returnHomeAndLand",), whom=whom)
+            self.assertEqual(
+                why,
+                [
+                    "item 3, returnHomeAndLand: a plane comes down from 50 m within 0 m: begin the approach by goPos "
+                    "250 m or more before the place, and land by landingPoint"
+                ],
+            )
+            for words in ((("goPos", near), ("landingPoint", HERE)), (("landingPoint",),)):
+                self.assertIn("a plane comes down from 50 m", self.refused(*flight, *words, whom=whom)[0])
+            found = self.found(*flight, ("goPos", far), ("landingPoint", HERE), whom=whom).items
+            self.assertEqual([i.command for i in found], [22, 16, 16, 21])
+            self.assertIn("from how high", self.refused(("stored", "s"), ("landingPoint", HERE), whom=whom)[0])
+
     def test_a_home_that_is_set_on_the_way(self):
         found = self.found(("takeOff", 30), ("move", 100), ("home",), ("move", 50), ("returnHome",)).items
         self.assertEqual(found[-1].place, found[1].place)

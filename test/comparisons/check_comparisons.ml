@@ -1,8 +1,6 @@
-let from_here folder =
-  if Filename.is_relative folder then Filename.concat tree.cmt_builddir folder else folder in
-Load_path.init (List.map from_here tree.cmt_loadpath);
-that are named. What an abstract type holds is its module's affair: equal areas may differ in their parts. Each use is
-  printed with its place and the abstract type; the exit status is then 1. *)
+(* Polymorphic comparison and hashing at abstract types, found in the compiler's typed trees (cmt files) below the folders
+   that are named. What an abstract type holds is its module's affair: equal areas may differ in their parts. Each use is
+   printed with its place and the abstract type; the exit status is then 1. *)
 
 (* Of what they compare, this argument. Tables and sets of the standard library are told by the type of their key. *)
 let compared =

@@ -12,7 +12,7 @@ type code =
   | Bad_map | Bad_fence | Broken_fence | Deed_in_answer
   | Deed_in_maker
   | Vehicle_twice
-  | Unused_task | No_effect | Assigned_condition | Wide_value | Unknown_plan | Unread_input | Partial_map
+  | Unused_task | No_effect | Assigned_condition | Wide_value | Unknown_plan | Unread_input | Other_meaning | Partial_map
 
 let codes =
   [ (Syntax, "syntax"); (Unknown_name, "unknown-name"); (Unknown_unit, "unknown-unit");
@@ -29,7 +29,7 @@ let codes =
     (Deed_in_answer, "deed-in-answer"); (Deed_in_maker, "deed-in-maker");
     (Vehicle_twice, "vehicle-twice"); (Unused_task, "unused-task");
     (No_effect, "no-effect"); (Assigned_condition, "assigned-condition"); (Wide_value, "wide-value");
-    (Unknown_plan, "unknown-plan"); (Unread_input, "unread-input");
+    (Unknown_plan, "unknown-plan"); (Unread_input, "unread-input"); (Other_meaning, "other-meaning");
     (Partial_map, "partial-map") ]
 
 let code_name code = List.assoc code codes

@@ -33,6 +33,7 @@ type code =
   | Wide_value  (** a warning: the value of a pair has a condition in it that may be meant to stand beside it *)
   | Unknown_plan  (** a warning: the fleet says nothing of it *)
   | Unread_input  (** a warning: what the outside posts with this key is never looked at *)
+  | Other_meaning  (** a warning: the original language means something else *)
   | Partial_map  (** a warning: features of a map are flawed, left out or repaired *)
 
 val codes : (code * string) list

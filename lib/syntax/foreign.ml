@@ -28,6 +28,12 @@ let is_used word following =
   | ("as" | "instanceof"), NAME _ -> true
   | _ -> false
 
+let advice_for_new (tokens : Token.t array) i word =
+  match word, tokens.(i + 1).token with
+  | "new", (NAME ("Position" | "Location") | COMMAND ("Position" | "Location")) ->
+    Some "a position is location(41.18, -8.70), or pos { lat 41.18; lon 8.70.west; height 100 }"
+  | _, _ -> None
+
 let faults (tokens : Token.t array) =
   let found = ref [] in
   let look i (token : Token.t) =
@@ -36,6 +42,7 @@ let faults (tokens : Token.t array) =
       let is_member = i > 0 && (match tokens.(i - 1).token with DOT | SAFE_DOT | DEF -> true | _ -> false) in
       begin match advice word with
         | Some hint when not is_member ->
+          let hint = Option.value (advice_for_new tokens i word) ~default:hint in
           let message = Printf.sprintf "there is no '%s' in this language" word in
           found := Diagnostic.error (Token.at token) message ~hint :: !found
         | Some _ | None -> ()

@@ -47,6 +47,10 @@ let hint_for_recruit =
 
 let hint_for_setting builder name =
   if builder = Ast.Mission && name = sends_message then Some hint_for_message
+  else if builder = Ast.Mission && name = "moveAndLoiterTurns" then
+    Some "turns are an argument here: moveAndLoiter 50, 0, turns: 3"
+  else if builder = Ast.Imc_plan && name = "surveyArea" then
+    Some "surveyArea is an item of mission { ... }; in a plan, for (p in coverage(area, spacing: 20.m)) goTo location: p"
   else if builder = Ast.Recruit && List.mem name (Builtins.settings Pick) then Some hint_for_recruit
   else did_you_mean name (Builtins.settings builder)
 
@@ -204,6 +208,11 @@ let check_subtraction env (e : Ast.expression) =
 
 let check_no_setting env (target : Ast.expression) (value : Ast.expression) =
   match target.it with
+  | Member { subject = { it = Variable name; _ }; name = field; _ }
+    when in_settings env name <> None && not (is_hidden env name) ->
+    error env Misplaced_setting target.at "'%s.%s = ' assigns a variable and sets nothing" name field.it
+      ~hint:(if name = "speed" then "write speed 900, Speed.Units.RPM"
+             else Printf.sprintf "a setting is written with its values: %s VALUE" name)
   | Variable name when in_settings env name <> None && not (is_hidden env name) ->
     let example =
       match value.it with

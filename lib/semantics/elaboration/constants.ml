@@ -76,7 +76,7 @@ let elaborated constants (e : Ast.expression) =
   | [] -> Ok (lambda, Scope.locations program, Scope.globals program, List.map snd globals)
   | errors -> Error errors
 
-let run (lambda, locations, global_names, values) at =
+let run (lambda, locations, global_names, values) =
   let program =
     { source_name = ""; locations; global_names; functions = []; main = lambda; ordered_keys = No_key; inputs = [];
       on_interrupt = None; recruits = false; goes_round = false; reads_sensors = false; reads_now = false;
@@ -85,17 +85,23 @@ let run (lambda, locations, global_names, values) at =
   let context : Code.context =
     { program; world = World.empty; allocation = Vehicle_map.empty; bound = []; held = lazy []; needed = lazy []; store;
       tuples = Tuples.empty No_key; mode = Task_code; deeds = [] } in
-  let wrong at message = Error [ Diagnostic.error ~code:Bad_fence at message ] in
   match Machine.run ~fuel context (Machine.call { lambda; captured = [||] } []) with
-  | Decided (Finished x, _, _) -> Ok x
-  | Decided (Faulted fault, _, _) -> wrong (Option.value (Fault.location program fault) ~default:at) fault.message
-  | Decided ((Exhausted | Left_off | Did _ | Waits _ | Halted _), _, _) | Open _ | Unclear _ ->
-    wrong at "this is not known before the program runs"
+  | Decided (Finished x, _, _) -> `Value x
+  | Decided (Faulted fault, _, _) -> `Fault (Fault.location program fault, fault.message)
+  | Decided ((Exhausted | Left_off | Did _ | Waits _ | Halted _), _, _) | Open _ | Unclear _ -> `Not_known
 
 let value constants (e : Ast.expression) =
   match unknown constants e with
   | Some why -> Error [ why ]
-  | None -> Result.bind (elaborated constants e) (fun code -> run code e.at)
+  | None ->
+    let wrong at message = Error [ Diagnostic.error ~code:Bad_fence at message ] in
+    let known code =
+      match run code with
+      | `Value x -> Ok x
+      | `Fault (at, message) -> wrong (Option.value at ~default:e.at) message
+      | `Not_known -> wrong e.at "this is not known before the program runs"
+    in
+    Result.bind (elaborated constants e) known
 
 let chart constants (e : Ast.expression) =
   let path =
@@ -105,6 +111,14 @@ let chart constants (e : Ast.expression) =
     | _, (Some _ | None) -> None
   in
   Option.bind path (fun path -> Result.to_option (constants.chart path))
+
+let fault constants (e : Ast.expression) =
+  match unknown constants e, lazy (elaborated constants e) with
+  | Some _, _ | None, (lazy (Error _)) -> None
+  | None, (lazy (Ok code)) -> (
+      match run code with
+      | `Fault (at, message) -> Some (Diagnostic.error ~code:Wrong_value (Option.value at ~default:e.at) message)
+      | `Value _ | `Not_known -> None)
 
 (* {1 Variables} *)
 

@@ -19,3 +19,6 @@ val chart : t -> Ast.expression -> Chart.t option
 
 val value : t -> Ast.expression -> (Core.value, Diagnostic.t list) result
 (** [value constants e] is the value of [e], or why it is not known, and where. *)
+
+val fault : t -> Ast.expression -> Diagnostic.t option
+(** [fault constants e] is the error that computing [e] ends with, if [e] is known to. *)

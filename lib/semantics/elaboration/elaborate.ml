@@ -34,6 +34,7 @@ let declare_parameters program (ast : Ast.program) =
 let hint_for_unknown name names =
   if name = "include" then Some "include 'lib.dol' stands at the top of a file, outside of all braces"
   else if name = "parameter" then Some "a parameter has a value: parameter n = 3, 'what it is'"
+  else if name = "setCommunicationTimeout" then Some "it is called setConnectionTimeout here"
   else if name = Checks.sends_message then Some Checks.hint_for_message
   else if Builtins.math name then Some (Printf.sprintf "write Math.%s" name)
   else if Builtins.constant ("Math." ^ name) <> None then Some (Printf.sprintf "write Math.%s" name)
@@ -156,6 +157,16 @@ let fences program ~chart ast =
       fences
   end
 
+(* Plans of constants that cannot be built. *)
+let report_plans program ~chart ast =
+  let plans found (e : Ast.expression) =
+    match e.it with Builder ((Imc_plan | Mission), _) -> e :: found | _ -> found in
+  match List.fold_left (Fold.statement plans) [] ast with
+  | [] -> ()
+  | plans ->
+    let constants = Constants.of_program ~chart ast in
+    List.iter (Scope.report program) (List.filter_map (Constants.fault constants) plans)
+
 let known_plans ~chart ast = Fence_declarations.plans (Constants.of_program ~chart ast) ast
 
 let elaborated ?(chart = no_chart) ~source_name (ast : Ast.program) =
@@ -191,6 +202,7 @@ let elaborated ?(chart = no_chart) ~source_name (ast : Ast.program) =
   report_unread_inputs program;
   List.iter (Scope.report program) (Parallel_check.program ast @ Effect_check.program ast);
   let fences = fences program ~chart ast in
+  if not (List.exists is_error (Scope.reports program)) then report_plans program ~chart ast;
   let reports = Scope.reports program in
   if List.exists is_error reports then Error reports
   else

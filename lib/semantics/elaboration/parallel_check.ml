@@ -17,10 +17,12 @@ let picks_one body =
 
 (* {1 Tasks} *)
 
-(* At least so many vehicles at once. *)
+(* At least so many vehicles at once. [execute (a | b)[v]] is read as an [execute] and an index: what follows the
+   parentheses is part of its argument. *)
 let rec width (e : expression) =
   match e.it with
   | Builder ((Imc_plan | Mission), _) | Call { callee = { it = Variable ("task" | "imcPlan"); _ }; _ } -> 1
+  | Call { callee = { it = Variable "execute"; _ }; arguments = [ Positional a ] } -> width a
   | Binary (Parallel, a, b) -> width a + width b
   | Binary (Sequence, a, b) -> max (width a) (width b)
   | Binary (Divide, a, _) | Index (a, _) | Until (_, _, a) | During (_, _, a) | Watch (a, _) | Wait_for (_, a)
@@ -34,6 +36,7 @@ let rec surely singles (e : expression) =
   | Index (a, _) | Binary (Divide, a, _) | Until (_, _, a) | During (_, _, a) | Watch (a, _) | Wait_for (_, a)
   | Repeat { body = a; _ } -> surely singles a
   | Binary ((Sequence | Parallel), a, b) -> surely singles a @ surely singles b
+  | Call { callee = { it = Variable "execute"; _ }; arguments = [ Positional a ] } -> surely singles a
   | _ -> []
 
 let twice at v =

@@ -72,6 +72,13 @@ let add env at slot name arguments =
     | argument -> elaborate env (value_of argument)
   in
   let arguments' = outside (fun () -> List.map argument arguments) in
+  (match in_mission, name, arguments with
+   | true, "returnHomeAndLoiter", Positional ({ it = Integer _ | Number _; _ } as e) :: _ ->
+     Scope.report env.program
+       (Diagnostic.warning Other_meaning e.at "this is how long the vehicle loiters, in seconds; in the original language \
+                                               it is the radius"
+          ~hint:"write a unit of time behind it, or radius: before it")
+   | _, _, _ -> ());
   (match Scope.settings env.code with
    | Some (Imc_plan, _) -> check_named_settings env name arguments
    | Some (Mission, _) ->
@@ -80,7 +87,10 @@ let add env at slot name arguments =
        | Positional e | Keyed (_, e) -> (None, e)
      in
      Option.iter
-       (fun fault -> error env Wrong_value at "%s" fault)
+       (fun fault ->
+          let hint =
+            if name = "surveyArea" then Some "the area is a list of corners: surveyArea [a, b, c], 20.m" else None in
+          error env ?hint Wrong_value at "%s" fault)
        (Literal_check.fault_of_mission name (List.map argument arguments))
    | Some ((Pick | Recruit), _) when arguments <> [] && not (List.exists is_named arguments) ->
      let literal (e : Ast.expression) = match e.it with Wildcard -> Some Wildcard | _ -> Literal_check.value e in

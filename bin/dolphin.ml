@@ -32,12 +32,14 @@ let command =
       Tla_command.command; Trace_command.command; Walk_command.command ] in
   Cmd.group info (Help_command.command ~others:(List.map Cmd.name commands) :: commands)
 
-(* [--sim] alone would take the next argument for its fleet. [dolphin --help PROG] is [dolphin help PROG]. *)
+(* [--sim] alone would take the next argument for its fleet. [dolphin --help PROG] is [dolphin help PROG]. Manuals that
+   do not go to a terminal are plain text: overstrikes hide words from grep. *)
 let arguments =
   let rec complete = function
     | [] -> []
     | "--" :: _ as rest -> rest
     | "--sim" :: rest -> "--sim=" :: complete rest
+    | "--help" :: rest when not (Unix.isatty Unix.stdout) -> "--help=plain" :: complete rest
     | argument :: rest -> argument :: complete rest
   in
   match Array.to_list Sys.argv with

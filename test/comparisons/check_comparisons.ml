@@ -1,6 +1,6 @@
-(* Polymorphic comparison and hashing at abstract types, found in the compiler's typed trees (cmt files) below the folders
-   that are named. What an abstract type holds is its module's affair: equal areas may differ in their parts. Each use is
-   printed with its place and the abstract type; the exit status is then 1. *)
+(* Polymorphic comparison and hashing at abstract types, found in the compiler's typed trees (cmt files) below the
+   folders that are named. Equal values of an abstract type may differ in their parts: its module compares them. Each
+   use is printed with its place and the abstract type; the exit status is then 1. *)
 
 (* Of what they compare, this argument. Tables and sets of the standard library are told by the type of their key. *)
 let compared =
@@ -47,7 +47,8 @@ let opaque env ty =
       if not (is_predefined || List.mem (Path.name path) transparent) then note (Path.name path)
     | { type_kind = Type_abstract; type_manifest = Some ty; _ } -> walk ty
     | { type_kind = Type_open; _ } -> ()
-    | { type_kind = Type_record (fields, _); _ } -> List.iter (fun (f : Types.label_declaration) -> walk f.ld_type) fields
+    | { type_kind = Type_record (fields, _); _ } ->
+      List.iter (fun (f : Types.label_declaration) -> walk f.ld_type) fields
     | { type_kind = Type_variant (cases, _); _ } ->
       let of_case (c : Types.constructor_declaration) =
         match c.cd_args with
@@ -105,7 +106,10 @@ let check path =
   let tree = Cmt_format.read_cmt path in
   Env.reset_cache ();
   Envaux.reset_cache ();
-  Load_path.init (List.map (fun folder -> if Filename.is_relative folder then Filename.concat tree.cmt_builddir folder else folder) tree.cmt_loadpath);
+  let from_here folder =
+    if Filename.is_relative folder then Filename.concat tree.cmt_builddir folder else folder
+  in
+  Load_path.init (List.map from_here tree.cmt_loadpath);
   match tree.cmt_annots with
   | Implementation structure -> iterator.structure iterator structure
   | _ -> ()

@@ -32,8 +32,8 @@ _NOT_SCALED = {
 # Commands that fly to their place.
 DESTINATIONS = {16, 17, 18, 19, 21, 22, 31, 36, 82, 84, 85, 94}
 _DEFINED = mavlink.enums["MAV_CMD"]
-# ArduPilot stores a place also of these, for which MAVLink defines none: NAV_CONTINUE_AND_CHANGE_ALT, NAV_GUIDED_ENABLE,
-# DO_GO_AROUND.
+# ArduPilot stores a place also of these, for which MAVLink defines none: NAV_CONTINUE_AND_CHANGE_ALT,
+# NAV_GUIDED_ENABLE, DO_GO_AROUND.
 _STORED_PLACE = {30, 92, 191}
 _NEED_A_PLACE = {16, 31, 36, 82, 195, 201, mavlink.MAV_CMD_CONDITION_GATE}
 

@@ -317,7 +317,7 @@ class Station:
         self._do(now, request, out)
 
     def _mission(self, request, vehicle):
-        """What was noted when it was to begin, if that is known: what a plan becomes depends on where the vehicle is."""
+        """What was noted when it was to begin, if it was: what a plan becomes depends on where the vehicle is."""
         try:
             noted = missions.of_note(request.noted)
         except missions.Unreadable as unreadable:

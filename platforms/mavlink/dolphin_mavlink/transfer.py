@@ -2,8 +2,8 @@
 the time, and gives messages to send.
 
 Nothing is ever waited for only once. Whoever hears nothing repeats its last message, after four of the link's round
-trips, and then ever later; what comes twice, late or out of order changes nothing. What an upload's end leaves open (an acknowledgement
-that was lost, an error that answers a repeated item) the download after it decides.
+trips, and then ever later; what comes twice, late or out of order changes nothing. What an upload's end leaves open (an
+acknowledgement that was lost, an error that answers a repeated item) the download after it decides.
 """
 
 from . import mission as missions

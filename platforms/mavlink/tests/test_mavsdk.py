@@ -14,8 +14,8 @@ from tests.test_process import FLIGHT, FOLDER, Adapter, free_port
 
 
 class Lossy:
-    """Passes datagrams on between a vehicle, which sends to `port`, and an adapter, which listens on another port. Loses
-    a share of them, by a seed."""
+    """Passes datagrams on between a vehicle, which sends to `port`, and an adapter, which listens on another port.
+    Loses a share of them, by a seed."""
 
     def __init__(self, adapter_port, loss, seed):
         self.loss, self._random = loss, random.Random(seed)

@@ -1,7 +1,8 @@
 open Dolphin_app
 module Diagnostic = Dolphin_syntax.Diagnostic
 
-let complain sentence = Format.eprintf "dolphin: %s@." sentence
+(* An error may quote names and texts from anywhere: a terminal gets no control characters from it. *)
+let complain sentence = Format.eprintf "dolphin: %s@." (Dolphin_trace.Phrase.harmless sentence)
 
 let diagnostics ~source found =
   if found <> [] then Format.eprintf "%a@." Error.pp (Error.Bad_text { source; found })

@@ -108,7 +108,7 @@ let import bytes =
   let text = geojson bytes in
   timed (Printf.sprintf "%d MB of GeoJSON" (bytes / 1_000_000)) (fun () ->
       match Dolphin_maps.Map_file.read ~path:"cells.geojson" text with
-      | Ok things -> Printf.sprintf "%d areas" (List.length things)
+      | Ok map -> Printf.sprintf "%d areas" (List.length map.things)
       | Error why -> why)
 
 let () =

@@ -912,8 +912,8 @@ let local_step_in_traps =
   in_file "lib/semantics/rules/local_step.ml" ~noticed_by:"reduction/test_traps"
     [
       ( "any time is one for during",
-        {|when seconds >= 0. && seconds < infinity|},
-        {|when seconds < infinity|} );
+        {|when Time.is_one seconds|},
+        {|when seconds < Time.longest|} );
     ]
 
 let unknown =
@@ -1650,8 +1650,10 @@ let heights =
 let narrow_bars =
   in_file "lib/trace/picture/timeline.ml" ~noticed_by:"trace/test_pictures"
     [
-      ("names of narrow bars lie on each other", {|before +. wide last > x|}, {|before +. (0. *. wide last) > x|});
-      ("names of narrow bars leave the picture", {|Float.min x (f.right +. 10. -. wide group)|}, {|Float.min x (f.right +. wide group)|});
+      ("names of narrow bars lie on each other", {|last.x +. last.width +. 10. > x|}, {|last.x > x|});
+      ( "names of narrow bars leave the picture",
+        {|Float.min group.x (f.right -. group.width)|},
+        {|Float.min group.x f.right|} );
     ]
 
 let vector =

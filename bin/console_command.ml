@@ -31,17 +31,18 @@ let serve settings ~port ~browser =
     if role = "" then Printf.printf "The console of %s is at %s\n" root link
     else Printf.printf "The console of %s, for whoever %s: %s\n" root role link
   in
-  let links = Console.links console in
-  List.iter tell links;
-  flush stdout;
-  (* The arguments of a process are seen by all users of this machine: no token is among them. *)
-  (match links with [ (_, link) ] when browser -> open_browser link | _ -> ());
+  (* Before the address is printed: a reader of it may interrupt at once. *)
   let interruption = Interruption.make () in
   let again () =
     if Console.busy console && not (Run.is_simulated settings.run) then Report.complain last_words;
     Exit_status.exit_interrupted ()
   in
   Interruption.on_signals ~again interruption;
+  let links = Console.links console in
+  List.iter tell links;
+  flush stdout;
+  (* The arguments of a process are seen by all users of this machine: no token is among them. *)
+  (match links with [ (_, link) ] when browser -> open_browser link | _ -> ());
   Lwt_main.run (Interruption.promise interruption >>= fun () -> Console.close console);
   Ok Exit_status.Done
 

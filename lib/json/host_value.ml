@@ -202,7 +202,9 @@ let parse ?(deepest = 2 * deepest) text =
   else
     match Yojson.Safe.from_string text with
     | json -> (match beyond json with None -> Ok json | Some why -> Error why)
-    | exception Yojson.Json_error why -> Error (String.concat " " (String.split_on_char '\n' why))
+    (* Yojson quotes the bytes of the text as they are. *)
+    | exception Yojson.Json_error why ->
+      Error (Dolphin_syntax.Character.printable (String.concat " " (String.split_on_char '\n' why)))
 
 let rec is_data : Core.value -> bool = function
   | Null | Boolean _ | Integer _ | Number _ | String _ | Position _ | Area _ | Vehicles _ -> true

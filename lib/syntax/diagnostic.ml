@@ -48,23 +48,18 @@ let compare a b =
 
 (* {1 The line a diagnostic points at} *)
 
-let is_continuation c = Char.code c land 0xC0 = 0x80
-
 (* The characters of [source] from [first] up to [last], each as it is shown: one column each, but for a
    tab, which takes four. *)
 let shown source first last =
-  let rec stop i = if i < last && is_continuation source.[i] then stop (i + 1) else i in
   let rec characters i reversed =
     if i >= last then List.rev reversed
     else
-      let next = stop (i + 1) in
+      let next = min last (i + max 1 (Character.length source i)) in
       let cell =
         match source.[i] with
         | '\t' -> "    "
         | '\r' -> ""
-        | c when Char.code c < 0x20 || Char.code c = 0x7F || is_continuation c -> "?"
-        | c when Char.code c >= 0x80 && next = i + 1 -> "?"
-        | _ -> String.sub source i (next - i)
+        | _ -> Character.printable (String.sub source i (next - i))
       in
       characters next (cell :: reversed)
   in
@@ -124,13 +119,13 @@ let pp ~source ppf d =
   let word = match d.severity with Error -> "error" | Warning -> "warning" in
   let placed = d.at <> Location.none in
   if placed then Format.fprintf ppf "%a: " Location.pp d.at;
-  Format.fprintf ppf "%s: %s" word d.message;
+  Format.fprintf ppf "%s: %s" word (Character.printable d.message);
   if placed then pp_line source ppf d.at;
   match d.hint with
   | None -> ()
   | Some hint ->
     let indent = if placed then 3 + String.length (string_of_int (Location.line d.at)) else 2 in
-    Format.fprintf ppf "@\n%shint: %s" (String.make indent ' ') hint
+    Format.fprintf ppf "@\n%shint: %s" (String.make indent ' ') (Character.printable hint)
 
 (* {1 Did you mean} *)
 

@@ -6,13 +6,8 @@ let time seconds =
 
 let count n what = Printf.sprintf "%d %s%s" n what (if n = 1 then "" else "s")
 
-(* A terminal may take the characters from U+0080 to U+009F, C2 80 to C2 9F in UTF-8, for commands too. *)
 let harmless text =
-  let is_control i c =
-    (Char.code c < 0x20 && c <> '\n') || c = '\x7F'
-    || Char.code c land 0xE0 = 0x80 && i > 0 && text.[i - 1] = '\xC2'
-  in
-  String.mapi (fun i c -> if c = '\t' then ' ' else if is_control i c then '?' else c) text
+  Dolphin_syntax.Character.printable (String.map (fun c -> if c = '\t' then ' ' else c) text)
 
 let one_line text = String.map (fun c -> if c = '\n' then ' ' else c) (harmless text)
 let is_continuation c = Char.code c land 0xC0 = 0x80

@@ -8,10 +8,11 @@ val count : int -> string -> string
 
 (** {1 Texts of others}
 
-    Names of vehicles and messages may come from anywhere. Texts are UTF-8. *)
+    Names of vehicles and messages may come from anywhere. *)
 
 val harmless : string -> string
-(** [harmless text] is [text] without control characters, which could command the terminal; lines stay lines. *)
+(** [harmless text] is [text] without control characters, which could command the terminal, and in UTF-8; lines
+    stay lines. *)
 
 val one_line : string -> string
 (** [one_line text] is [harmless text] with a blank for each end of a line. *)

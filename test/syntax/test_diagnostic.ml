@@ -27,6 +27,18 @@ let pp =
       (Printf.sprintf "f.dol:1:201: error: wrong\n  1 | ...%s!!%s...\n    | %s^^\n    hint: right" (String.make 50 'a')
          (String.make 58 'b') (String.make 53 ' ')) ]
 
+(* A text that is not UTF-8 and commands terminals, in the program and in what is said of it. *)
+let printed =
+  Alcotest.test_case "nothing but printable characters" `Quick (fun () ->
+      let source = "a\xE1\xD5\xF4\x1b[2J\xC2\x9b\xE2\x82\xACz" in
+      let cursor = Cursor.make ~file:"f.dol" source in
+      let at = Location.make (Cursor.position cursor 0, Cursor.position cursor 1) in
+      let text = Format.asprintf "@[<v>%a@]" (Diagnostic.pp ~source) (Diagnostic.error at source ~hint:source) in
+      let shown = "a????[2J?\xE2\x82\xACz" in
+      Alcotest.(check string) "text"
+        (Printf.sprintf "f.dol:1:1: error: %s\n  1 | %s\n    | ^\n    hint: %s" shown shown shown)
+        text)
+
 let placeless =
   Alcotest.test_case "without a place" `Quick (fun () ->
       let warning = Diagnostic.warning Unused_task Location.none "wrong" ~hint:"right" in
@@ -44,4 +56,4 @@ let suggest =
     suggested "execute" [ "exeucte"; "execte" ] (Some "exeucte"); suggested "a" [] None;
     suggested (String.make 10_000 'a') [ "a" ] None ]
 
-let suite = pp @ [ placeless ] @ suggest
+let suite = pp @ [ printed; placeless ] @ suggest

@@ -78,7 +78,8 @@ let progress ~live ~most =
 let heed_interruption () =
   let interrupted = ref false in
   let interrupt = Sys.Signal_handle (fun _ -> interrupted := true) in
-  List.iter (fun signal -> Sys.set_signal signal interrupt) (Dolphin_processes.Ending_signals.requests @ Dolphin_processes.Ending_signals.others);
+  let open Dolphin_processes.Ending_signals in
+  List.iter (fun signal -> Sys.set_signal signal interrupt) (requests @ others);
   fun () -> !interrupted
 
 let sampled t ~seed ~answers program fleet =

@@ -146,7 +146,8 @@ let awaited g world c = List.filter (is_awaited g world c) (Transition.awaited c
 (* Those of vehicles that are there. *)
 let recruited g world c =
   let is_accepted event = Result.is_ok (Transition.accept g.program world c event) in
-  List.map (fun e -> Event.of_event e) (List.filter is_accepted (List.of_seq (Transition.recruitable g.program world c)))
+  let recruitable = List.of_seq (Transition.recruitable g.program world c) in
+  List.map (fun e -> Event.of_event e) (List.filter is_accepted recruitable)
 
 let of_awaited (g : given) c events recruits : json =
   let all = List.concat_map (patterns c) events @ List.map Event.members recruits in

@@ -27,8 +27,8 @@ val place : t -> string -> (string, string) result
 (** [place f path] is likewise where the file [path] is or would be: its folder must be there. *)
 
 val may_read : t -> string -> (unit, string) result
-(** [may_read f path] says whether what a text names, a file to include or a map, may be read: only a file that {!find} finds, or a map in JSON.
-    The error does not depend on the reason, so it does not disclose which files there are. *)
+(** [may_read f path] says whether what a text names, a file to include or a map, may be read: only a file that {!find}
+    finds, or a map in JSON. The error does not depend on the reason, so it does not disclose which files there are. *)
 
 val inside : t -> string -> string option
 (** [inside f path] is the path from {!root} of the file with the path [path], if {!find} finds it. *)

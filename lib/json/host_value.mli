@@ -28,5 +28,5 @@ val is_data : Core.value -> bool
 (** Whether there are no tasks and objects of the host in it. *)
 
 val parse : ?deepest:int -> string -> (Yojson.Safe.t, string) result
-(** [parse text] is the JSON value that [text] is, or what is wrong: texts are UTF-8 and numbers finite. Nesting is bounded, by [deepest] (200 by
-    default), so that no text exhausts the stack. *)
+(** [parse text] is the JSON value that [text] is, or what is wrong: texts are UTF-8 and numbers finite. Nesting is
+    bounded, by [deepest] (200 by default), so that no text exhausts the stack. *)

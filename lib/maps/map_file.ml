@@ -179,7 +179,8 @@ let of_drawn drawn =
   let notes = ref [] in
   let note (d : Drawn.t) why =
     let quoted = Printf.sprintf "('%s')" d.name in
-    let place = if d.name = "" || ends (String.lowercase_ascii quoted) d.place then d.place else d.place ^ " " ^ quoted in
+    let has_name = d.name = "" || ends (String.lowercase_ascii quoted) d.place in
+    let place = if has_name then d.place else d.place ^ " " ^ quoted in
     notes := told place why :: !notes
   in
   let thing (d : Drawn.t) =

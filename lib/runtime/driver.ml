@@ -46,7 +46,8 @@ let most_without_pause = 100
    and on the tasks that one vehicle begins at one instant. *)
 let most_rounds = 10_000
 
-(* Where time passes by itself, an instant is as long as this (s): a vehicle that refuses a plan takes some time, too. *)
+(* Where time passes by itself, an instant is as long as this (s): a vehicle that refuses a plan takes some time, too.
+*)
 let instant = 0.001
 
 let begins_round (t : Transition.t) =
@@ -530,7 +531,8 @@ module Make (P : Platform.S) = struct
         world = beginning.world;
         dates = Dated_code.of_program program; moment = beginning.time; alarm = None; alarms = 0;
         telemetry = Off; upcoming = None; reply = None; questions = Task_questions.create (); posted = None;
-        input_before = false; unknown = []; since_pause = 0; rounds = 0; round_began = beginning.time; starts = Hashtbl.create 16; restless = None }
+        input_before = false; unknown = []; since_pause = 0; rounds = 0;
+        round_began = beginning.time; starts = Hashtbl.create 16; restless = None }
     in
     let whole () =
       switch_telemetry s ~sensitive:false;

@@ -13,8 +13,8 @@ type outcome =
   (** A deadlock: no task runs, no timer runs, no sensor matters, and every guard that the residual waits for is
       false, now and for ever. The run was interrupted, and has ended since. *)
   | Spins of Core.site
-  (** 10,000 rounds of the [repeat] there, of others, or of tasks that are tried again followed each other without time or
-      an event from outside between them; or a vehicle began the task there, or others, that often. The run was
+  (** 10,000 rounds of the [repeat] there, of others, or of tasks that are tried again followed each other without time
+      or an event from outside between them; or a vehicle began the task there, or others, that often. The run was
       interrupted, and has ended since. *)
 
 val guards : Residual.t -> Core.closure list
@@ -59,8 +59,9 @@ val run :
     declares by [onInterrupt], or ends. When [again] resolves (by default never), it is interrupted once more, and ends.
 
     The platform's telemetry is on while it may matter to the program, or with [~always_telemetry:true] (by default
-    false), for displays and journals, all the time; in virtual time, a run is the same with and without it. Without [host], calls to the host process fail. What is posted to [inputs] the
-    run takes as it comes, and a flood of it does not keep the platform's events away.
+    false), for displays and journals, all the time; in virtual time, a run is the same with and without it. Without
+    [host], calls to the host process fail. What is posted to [inputs] the run takes as it comes, and a flood of it does
+    not keep the platform's events away.
 
     The run begins with the program, or as [beginning] says, and [platform] is one that stands as it did then: what the
     program has started and not ended runs, its timers too. A question that was not answered, or a call of the host

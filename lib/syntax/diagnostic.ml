@@ -12,7 +12,8 @@ type code =
   | Bad_map | Bad_fence | Broken_fence | Deed_in_answer
   | Deed_in_maker
   | Vehicle_twice
-  | Unused_task | No_effect | Assigned_condition | Wide_value | Unknown_plan | Unread_input | Other_meaning | Partial_map
+  | Unused_task | No_effect | Assigned_condition | Wide_value | Unknown_plan | Unread_input | Other_meaning
+  | Partial_map
 
 let codes =
   [ (Syntax, "syntax"); (Unknown_name, "unknown-name"); (Unknown_unit, "unknown-unit");

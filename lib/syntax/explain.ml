@@ -142,7 +142,8 @@ let arguments place i =
 
 let is_word = function
   | DEF | IF | ELSE | OTHERWISE | WHILE | FOR | IN | RETURN | BREAK | CONTINUE | WHEN | WATCH | WAIT_FOR | REPEAT
-  | UNTIL _ | DURING _ | AFTER_UNTIL | AFTER_ASSURE | AFTER_DURING _ | THEN | RUN | ON_ERROR | TRUE | FALSE | NULL -> true
+  | UNTIL _ | DURING _ | AFTER_UNTIL | AFTER_ASSURE | AFTER_DURING _ | THEN | RUN | ON_ERROR | TRUE | FALSE
+  | NULL -> true
   | _ -> false
 
 (* Whether the place is among the parameters of a function or of a closure. *)
@@ -376,7 +377,8 @@ let after_rounds place =
   if place.acceptable NEVER then
     let operator = text_of place (place.index - 1) in
     Some (Printf.sprintf "what the 'until' before this '%s' ends is not clear" operator,
-          Printf.sprintf "write (repeat task until { condition }) %s other, or repeat (task until { condition }) %s other"
+          Printf.sprintf
+            "write (repeat task until { condition }) %s other, or repeat (task until { condition }) %s other"
             operator operator)
   else None
 

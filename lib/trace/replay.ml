@@ -204,7 +204,8 @@ let finish r transitions (ending : Request.ending) =
     let expected = Request.ending its_ending in
     if transitions <> r.transitions then
       mismatch r (Printf.sprintf "there were %d transitions, not %d" r.transitions transitions)
-    else if ending = expected || (ending.how = "stuck" && ended_stuck r its_ending) then Ok { r with ending = Some ending }
+    else if ending = expected || (ending.how = "stuck" && ended_stuck r its_ending) then
+      Ok { r with ending = Some ending }
     else mismatch r (Printf.sprintf "the run ended %s, not %s" expected.how ending.how)
 
 let feed r (entry : Entry.t) =

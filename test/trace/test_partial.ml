@@ -11,7 +11,8 @@ let partial ~observed journal =
   let line text =
     match entry text with
     | Header _ -> [ Entry.Partial { observed } ]
-    | Event { event = Answer _ | No_answer _ | Reply _ | No_reply _ | Input _ | Interruption { stuck = false }; _ } as event ->
+    | Event { event = Answer _ | No_answer _ | Reply _ | No_reply _ | Input _ | Interruption { stuck = false }; _ }
+      as event ->
       cause := Some event;
       []
     | Transition { step; time; _ } ->

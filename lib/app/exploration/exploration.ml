@@ -55,7 +55,8 @@ let explore ~interrupted ~progress s (program : Program_file.t) (fleet : Fleet_f
 
 let is_remark : Property.t -> bool = function
   | No_halt | No_leftover | All_reached -> true
-  | No_deadlock | Termination | No_error | Assertions | Vehicles | Allocation | Invariant _ | Formula _ | Apart _ -> false
+  | No_deadlock | Termination | No_error | Assertions | Vehicles | Allocation | Invariant _ | Formula _ | Apart _ ->
+    false
 
 type verdict = Dolphin_checker.Verdict.t = Holds | Violated | Inconclusive
 

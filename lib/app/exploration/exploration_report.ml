@@ -133,8 +133,8 @@ let to_json (p : Program_file.t) (o : Search.outcome) : Yojson.Safe.t =
     let pairs =
       match (property : Property.t) with
       | Apart _ -> [ ("states", `Int o.beside_states); ("pairs", Beside_report.json p o.beside) ]
-      | No_deadlock | Termination | No_error | Assertions | Vehicles | Allocation | No_halt | No_leftover | All_reached | Invariant _
-      | Formula _ -> []
+      | No_deadlock | Termination | No_error | Assertions | Vehicles | Allocation | No_halt | No_leftover | All_reached
+      | Invariant _ | Formula _ -> []
     in
     `Assoc ([ ("property", name); ("verdict", `String result) ] @ more @ pairs)
   in

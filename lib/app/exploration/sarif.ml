@@ -56,7 +56,8 @@ let rule : Property.t -> string = function
   | Invariant _ -> "invariant"
   | Formula _ -> "formula"
   | Apart _ -> "least-distance"
-  | (No_deadlock | Termination | No_error | Assertions | Vehicles | Allocation | No_halt | No_leftover | All_reached) as property ->
+  | ( No_deadlock | Termination | No_error | Assertions | Vehicles | Allocation | No_halt | No_leftover
+    | All_reached ) as property ->
     String.map (function ' ' -> '-' | c -> c) (Property.name property)
 
 let results ~strict (p : Program_file.t) (property, (verdict : Search.verdict)) : json list =

@@ -18,8 +18,9 @@ type run = {
 }
 
 val fresh : program:string -> (string, Error.t) result
-(** [fresh ~program] is the path of a new journal of a run of [program] that starts now: of a file that is there from now on,
-    empty, and removed when the process ends if it still is. The folder is made if it is not there. The error, {!Error.Unavailable}, says why that is not possible. *)
+(** [fresh ~program] is the path of a new journal of a run of [program] that starts now: of a file that is there from
+    now on, empty, and removed when the process ends if it still is. The folder is made if it is not there. The error,
+    {!Error.Unavailable}, says why that is not possible. *)
 
 val writable : unit -> (string, Error.t) result
 (** The folder, which may be yet to be made, if it can be written to. *)

@@ -29,7 +29,7 @@ val is_unasked : t -> Dolphin_semantics.Configuration.t -> bool
     itself. The end of what [onInterrupt] executes is none. *)
 
 val on_signals : ?goes_on:(unit -> bool) -> ?again:(unit -> 'a) -> t -> unit
-(** From now on SIGINT, SIGTERM, SIGQUIT and SIGHUP make it happen. If it has happened already and [goes_on ()], which by
-    default is false, they make it happen a second time. Otherwise they call [again], which need not return, straight
-    from the signal's handler; by default nothing. Under nohup SIGHUP stays ignored. {!Dolphin_processes.Ending_signals.others} make it
-    happen too, once. *)
+(** From now on SIGINT, SIGTERM, SIGQUIT and SIGHUP make it happen. If it has happened already and [goes_on ()], which
+    by default is false, they make it happen a second time. Otherwise they call [again], which need not return, straight
+    from the signal's handler; by default nothing. Under nohup SIGHUP stays ignored.
+    {!Dolphin_processes.Ending_signals.others} make it happen too, once. *)

@@ -24,7 +24,10 @@ val judge : Dolphin_semantics.Core.program -> State_graph.t -> all:bool -> verdi
     @raise Dolphin_checker.Limits.Stop *)
 
 val violation :
-  Dolphin_semantics.Core.program -> State_graph.t -> Dolphin_ltl.Monitor.t -> Dolphin_checker.Breadth_first.violation option
+  Dolphin_semantics.Core.program ->
+  State_graph.t ->
+  Dolphin_ltl.Monitor.t ->
+  Dolphin_checker.Breadth_first.violation option
 (** [violation p g m] is a cycle of [p], the runs around it accepted by [m] and fair, or without any event; [g] has been
     searched with [m], without reductions.
     @raise Dolphin_checker.Limits.Stop *)

@@ -50,7 +50,8 @@ let hint_for_setting builder name =
   else if builder = Ast.Mission && name = "moveAndLoiterTurns" then
     Some "turns are an argument here: moveAndLoiter 50, 0, turns: 3"
   else if builder = Ast.Imc_plan && name = "surveyArea" then
-    Some "surveyArea is an item of mission { ... }; in a plan, for (p in coverage(area, spacing: 20.m)) goTo location: p"
+    Some
+      "surveyArea is an item of mission { ... }; in a plan, for (p in coverage(area, spacing: 20.m)) goTo location: p"
   else if builder = Ast.Recruit && List.mem name (Builtins.settings Pick) then Some hint_for_recruit
   else did_you_mean name (Builtins.settings builder)
 
@@ -157,7 +158,9 @@ let check_operator env (op : Ast.binary) (a : Ast.expression) (b : Ast.expressio
   | Parallel, _, Task -> check_operands env [ Task ] [ a ] ~complain:compose
   | Parallel, _, _ ->
     let complain e =
-      wrong e "| takes two tasks, or a vehicle set and a predicate { v -> ... }, and this is %s" (describe_kind env e) in
+      let expected = "two tasks, or a vehicle set and a predicate { v -> ... }" in
+      wrong e "| takes %s, and this is %s" expected (describe_kind env e)
+    in
     check_operands env [ Task; Vehicles ] [ a ] ~complain;
     check_operands env [ Task ] [ b ] ~complain
   | Intersect, _, _ ->

@@ -75,8 +75,8 @@ let add env at slot name arguments =
   (match in_mission, name, arguments with
    | true, "returnHomeAndLoiter", Positional ({ it = Integer _ | Number _; _ } as e) :: _ ->
      Scope.report env.program
-       (Diagnostic.warning Other_meaning e.at "this is how long the vehicle loiters, in seconds; in the original language \
-                                               it is the radius"
+       (Diagnostic.warning Other_meaning e.at
+          "this is how long the vehicle loiters, in seconds; in the original language it is the radius"
           ~hint:"write a unit of time behind it, or radius: before it")
    | _, _, _ -> ());
   (match Scope.settings env.code with

@@ -160,7 +160,7 @@ module Make (Value : VALUE) = struct
       | pairs, pairs' -> Some (Option.fold ~none:[] ~some:values pairs, Option.fold ~none:[] ~some:values pairs')
     in
     let keys = By_key.bindings (By_key.merge change before.pairs after.pairs) in
-    (List.map (fun (k, (old_values, _)) -> (k, old_values)) keys, List.map (fun (k, (_, new_values)) -> (k, new_values)) keys)
+    List.split (List.map (fun (k, (gone, come)) -> ((k, gone), (k, come))) keys)
 
   let values k n = match By_key.find_opt k n.pairs with Some pairs -> values pairs | None -> []
 

@@ -22,8 +22,7 @@ let kind path =
 
 (* {1 What there is} *)
 
-(* [-rf.dol] would be an option of a command that gets all names of the folder, and a line feed ends a line of a list.
-*)
+(* A command that gets all names of the folder would take [-rf.dol] for an option; a line feed ends a line of a list. *)
 let is_control c = Char.code c < 32 || c = '\127'
 let is_hidden name = name = "" || List.mem name.[0] [ '.'; '_'; '-' ] || String.exists is_control name
 let most_files = 2_000

@@ -92,7 +92,8 @@ let go_on ~port ~journal fd death =
     Unix.ftruncate fd past.kept;
     let recorder = ref None in
     let time = Replay.time past.replay in
-    let platform = opened (Udp_platform.open_again (options ~port ~keep:(keep_with recorder)) ~time past.history) in
+    let again = Udp_platform.open_again (options ~port ~keep:(keep_with recorder)) ~time past.history in
+    let platform = opened (Lwt_main.run again) in
     let its_recorder =
       Recorder.resume program past.replay ~seen:(Resumption.seen past) (writer fd death ~from:!counted)
     in

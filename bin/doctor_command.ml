@@ -9,16 +9,16 @@ let tell ({ subject; found; advice; _ } : Doctor.finding) =
 let run () =
   Printf.printf "dolphin %s, built with OCaml %s, on %s (%d bits)\n" Version.number Sys.ocaml_version Sys.os_type
     Sys.word_size;
-  let findings = Doctor.examine () in
+  let findings = Doctor.examine ~page:(Dolphin_console.Page.folder ()) in
   List.iter tell findings;
   let is_fatal ({ advice; is_needed; _ } : Doctor.finding) = advice <> None && is_needed in
   if List.exists is_fatal findings then Exit_status.Platform_trouble else Done
 
 let man =
   [ `S Manpage.s_description;
-    `P "$(tname) tells of what version $(mname) is, and what of this machine it can use: clocks, sockets, ports \
-        and addresses by which vehicles are heard, the folder of runs, TLC. Below what is missing stands what that \
-        means, and what to do. It sends nothing." ]
+    `P "$(tname) prints the version of $(mname), and what it can use on this machine: clocks, sockets, ports \
+        and addresses for hearing vehicles, the folder of runs, the page of the console, TLC. Each missing item comes \
+        with its consequence and the remedy. $(tname) sends nothing." ]
   @ Options.see_also
 
 let command =

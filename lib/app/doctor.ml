@@ -73,4 +73,15 @@ let tlc () =
     missing "TLC" (Format.asprintf "@[<h>%a@]" Dolphin_tlc.Installation.pp_trouble trouble)
       "only dolphin tla --run wants it: explore checks programs without"
 
-let examine () = List.map (fun look -> look ()) [ clocks; socket; ports; multicasts; runs; tlc ]
+let console page () =
+  let advice =
+    "dolphin console serves only its programming interface: in the sources, scripts/console --build builds the page \
+     (it needs npm), and scripts/install installs it; DOLPHIN_CONSOLE names the folder of a page that is elsewhere"
+  in
+  match page with
+  | Some folder when Sys.file_exists (Filename.concat folder "index.html") -> well "console" ("its page is in " ^ folder)
+  | Some folder -> missing "console" (Printf.sprintf "%s has no page: no index.html" folder) advice
+  | None -> missing "console" "its page is not installed" advice
+
+let examine ~page =
+  List.map (fun look -> look ()) [ clocks; socket; ports; multicasts; runs; console page; tlc ]

@@ -7,6 +7,6 @@ type finding = {
   is_needed : bool;  (** whether programs cannot be run without it *)
 }
 
-val examine : unit -> finding list
-(** Looks at the clocks, sockets, multicasts, the user's folder of runs, and TLC. Sends nothing, and leaves nothing
-    behind. *)
+val examine : page:string option -> finding list
+(** Looks at the clocks, sockets, multicasts, the user's folder of runs, the built page of the console, which [page]
+    is the folder of, and TLC. Sends nothing, and leaves nothing behind. *)

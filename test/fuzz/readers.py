@@ -40,7 +40,8 @@ REPLIES = b"""{"id": 1, "value": {"latitude": 41.18, "longitude": -8.7}}
 """
 KML = b"""<?xml version="1.0" encoding="UTF-8"?><kml xmlns="http://www.opengis.net/kml/2.2"><Document>
 <Placemark><name>pier</name><Point><coordinates>-8.7,41.18,3</coordinates></Point></Placemark>
-<Placemark><name>way</name><LineString><coordinates>-8.7,41.18 -8.71,41.19,2 -8.72,41.2</coordinates></LineString></Placemark>
+<Placemark><name>way</name><LineString><coordinates>
+-8.7,41.18 -8.71,41.19,2 -8.72,41.2</coordinates></LineString></Placemark>
 <Placemark><name>basin</name><MultiGeometry><Polygon><outerBoundaryIs><LinearRing><coordinates>-8.7,41.1 -8.6,41.1
 -8.6,41.2 -8.7,41.1</coordinates></LinearRing></outerBoundaryIs></Polygon></MultiGeometry></Placemark>
 <NetworkLink><name>more</name><Link><href>more.kml</href></Link></NetworkLink></Document></kml>"""

@@ -15,7 +15,7 @@ let rec header length =
       | Some _ | None -> header length
 
 let send message =
-  let text = Yojson.Safe.to_string message in
+  let text = Dolphin_json.Canonical.to_string message in
   Printf.printf "Content-Length: %d\r\n\r\n%s%!" (String.length text) text
 
 (* No message is larger: what is, is no header. *)
@@ -37,11 +37,11 @@ let rec serve server =
     Exit_status.Bad_input
 
 and take server text =
-  match Yojson.Safe.from_string text with
-  | exception Yojson.Json_error _ ->
+  match Dolphin_json.Host_value.parse text with
+  | Error _ ->
     send Server.not_json;
     serve server
-  | message ->
+  | Ok message ->
     let server, messages = Server.handle server message in
     List.iter send messages;
     match Server.ended server with

@@ -164,7 +164,7 @@ def journals(bench, random, folder):
         (["trace", "show", "m.run"], "text"), (["trace", "show", "--transitions", "m.run"], "text"),
         (["trace", "check", "m.dol", "m.run"], "text"), (["trace", "draw", "m.run", "-o", "m.svg"], "text"),
         (["trace", "export", "m.run", "--to", form],
-         {"geojson": "json", "kml": "xml", "gpx": "xml", "csv": "text"}[form]),
+         {"geojson": "json", "kml": "xml", "gpx": "xml", "csv": "source"}[form]),
         (["exec", "m.dol", "--resume", "m.run", "--no-socket"], "text")])
     endless = arguments[0] == "exec"
     why = bench.run(arguments, folder, form, interrupt_after=PATIENCE if endless else None)

@@ -23,18 +23,11 @@ let known only =
     let hint = Option.fold near ~none:"" ~some:(Printf.sprintf " (did you mean '%s'?)") in
     Error (Error.Bad_input (Printf.sprintf "there is no situation '%s'%s" name hint))
 
-let write path text =
-  match open_out_bin path with
-  | exception Sys_error why -> Error (Error.Unavailable why)
-  | channel ->
-    output_string channel text;
-    close_out channel;
-    Ok ()
-
 let conclude command junit verdicts =
   let failed = List.filter (fun (v : Kit.verdict) -> v.wrong <> None) verdicts in
   Printf.printf "%d of %d situations passed\n%!" (List.length verdicts - List.length failed) (List.length verdicts);
-  let* () = Option.fold junit ~none:(Ok ()) ~some:(fun path -> write path (Kit.to_junit ~command verdicts)) in
+  let* () = Option.fold junit ~none:(Ok ()) ~some:(fun path ->
+      Text_file.write path (fun channel -> output_string channel (Kit.to_junit ~command verdicts))) in
   Ok (if failed = [] then Exit_status.Done else Failed)
 
 let run command short long vehicle patience only junit =

@@ -25,8 +25,11 @@ type output =
   | Remark of Core.vehicle option * string
   | Give_up of string
 
-(* When the adapter was last informed of a line that was refused, and why another one was since. *)
-type refusal = { informed : float; waits : string option }
+(* Lines that were refused since the adapter was last informed: how many, why the last one was, and the remark on it. *)
+type refused = { count : int; why : string; remark : string }
+
+(* When the adapter was last informed of a line that was refused, and the lines since then. *)
+type refusal = { informed : float; waits : refused option }
 
 type ping = { next : float; id : int; unanswered : int }
 
@@ -67,14 +70,32 @@ let output o d = { d with outputs = o :: d.outputs }
 let finish d = ({ d with outputs = [] }, List.rev d.outputs)
 let send order d = if d.adapter = None then d else output (Send order) d
 
-(* An adapter that writes thousands of such lines is informed of the first and of the last of each second. *)
-let refuse ~now why d =
-  if now >= d.refusal.informed +. refusal_interval then
-    send (Order.Refused why) { d with refusal = { informed = now; waits = None } }
-  else { d with refusal = { d.refusal with waits = Some why } }
-
 let keep v kept d = output (Keep (v, Kept.to_json ~platform:d.platform kept)) d
 let remark v text d = output (Remark (v, text)) d
+
+let remark_refused r d =
+  let text =
+    if r.count = 1 then r.remark else Printf.sprintf "%d more lines are ignored; of the last one: %s" r.count r.remark
+  in
+  remark None text d
+
+let inform ~now r d =
+  remark_refused r (send (Order.Refused r.why) { d with refusal = { informed = now; waits = None } })
+
+(* An adapter that writes thousands of such lines is informed of the first and of the last of each second, and so is
+   the user. *)
+let refuse ~now ~remark why d =
+  let count = match d.refusal.waits with None -> 1 | Some r -> r.count + 1 in
+  let refused = { count; why; remark } in
+  if now >= d.refusal.informed +. refusal_interval then inform ~now refused d
+  else { d with refusal = { d.refusal with waits = Some refused } }
+
+(* The adapter is not informed any more, but the user is. *)
+let close_refusals d =
+  match d.refusal.waits with
+  | None -> d
+  | Some r -> remark_refused r { d with refusal = { d.refusal with waits = None } }
+
 let tell news d = { d with news = news :: d.news }
 
 let timeout_of v d = Option.value (Names.find_opt v d.timeouts) ~default:d.timeout
@@ -222,7 +243,7 @@ let sight ~now (s : Report.sight) d =
   let v = s.vehicle in
   let known = Names.find_opt v d.seen in
   match Sighting.add s (Option.map (fun seen -> seen.sighting) known) with
-  | Error why -> remark None (why ^ ": it is ignored") (refuse ~now why d)
+  | Error why -> refuse ~now ~remark:(why ^ ": it is ignored") why d
   | Ok sighting ->
     let before = Option.value known ~default:{ sighting; since = now; told = None } in
     let d = relink ~now v before sighting d in
@@ -253,7 +274,10 @@ let report ~now (r : Report.t) d =
      | Trouble why -> remark None ("the adapter cannot go on: " ^ why) d
      | Hello _ | Pong _ | Checked _ | Quiet -> d)
 
-let refused ~now why d = finish (refuse ~now why d)
+let refused ~now why d =
+  finish (refuse ~now ~remark:(Printf.sprintf "a line of the adapter %s; it is ignored" why) why d)
+
+let last_refusals d = finish (close_refusals d)
 
 (* {1 Adapters come and go} *)
 
@@ -286,7 +310,7 @@ let born ~now greeting d =
 
 let died ~now d =
   let d = Names.fold (fun v _ d -> unlink ~now v d) d.seen { d with adapter = None; ping = no_ping } in
-  finish d
+  finish (close_refusals d)
 
 (* {1 Time} *)
 
@@ -352,7 +376,7 @@ let ping ~now d =
 let tick ~now d =
   let expired, timers = Timers.expired ~now d.timers in
   let d = List.fold_left (fun d timer -> tell (Told (Timer timer)) d) { d with timers } expired in
-  let d = match d.refusal.waits with Some why when refusal_due d <= now -> refuse ~now why d | Some _ | None -> d in
+  let d = match d.refusal.waits with Some r when refusal_due d <= now -> inform ~now r d | Some _ | None -> d in
   finish (ping ~now (Names.fold (check_slot ~now) d.slots d))
 
 (* {1 Commands} *)

@@ -42,8 +42,11 @@ val died : now:float -> t -> t * output list
 val report : now:float -> Report.t -> t -> t * output list
 
 val refused : now:float -> string -> t -> t * output list
-(** A line of the adapter is no report, and why: the adapter is informed, about once a second at most, and reports all
-    that it knows again. *)
+(** [refused ~now why d]: a line of the adapter is not a report, because of [why]. The adapter is informed, about once
+    a second at most, and reports all that it knows again. The user gets a remark as often, with the number of lines. *)
+
+val last_refusals : t -> t * output list
+(** The remark on refused lines that waits for its second, if there is one, is made now. *)
 
 val durable : now:float -> string -> t -> t * output list
 val tick : now:float -> t -> t * output list

@@ -118,7 +118,6 @@ let write_ahead p sync =
 
 let hear p = function
   | Adapter.Garbage why ->
-    told p ("a line of the adapter " ^ why ^ "; it is ignored");
     absorb p (Dispatch.refused ~now:(now p) why)
   | Adapter.Report report -> (
       Log.debug (fun m -> m "%.3f %s > %s" (now p) p.platform (String.trim (Report.to_line report)));
@@ -274,6 +273,7 @@ let close p =
       p.options.note (Some v) (Printf.sprintf "may still run plan %s: it was not heard to have stopped" plan)
     in
     List.iter tell (Dispatch.unsettled p.dispatch);
+    change p (Dispatch.last_refusals p.dispatch);
     Shell.close p.shell;
     match p.adapter with None -> Lwt.return_unit | Some adapter -> say_goodbye p adapter
   end

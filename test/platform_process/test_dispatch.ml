@@ -137,15 +137,16 @@ let measurements () =
 let refusals () =
   let w = fresh () in
   let refused why = step w (fun ~now d -> D.refused ~now why d) in
+  let ignored why = Printf.sprintf "a line of the adapter %s; it is ignored" why in
   refused "a";
-  check_out w "the adapter is informed at once" [ "refused: a" ];
+  check_out w "the adapter is informed at once" [ "refused: a"; "remark -: " ^ ignored "a" ];
   pass w 0.5;
   List.iter (fun n -> refused (string_of_int n)) [ 1; 2; 3 ];
   check_out w "not each time" [];
   pass w 0.4;
   check_out w "not yet" [];
   pass w 0.2;
-  check_out w "of the last one" [ "refused: 3" ];
+  check_out w "of the last one" [ "refused: 3"; "remark -: 3 more lines are ignored; of the last one: " ^ ignored "3" ];
   pass w 3.;
   check_out w "once" [];
   report w (Vehicle { (Report.nothing "new") with link = Some true });
@@ -155,7 +156,34 @@ let refusals () =
   died w;
   born w;
   pass w 3.;
-  check_out w "another adapter is not informed of it" []
+  check_out w "another adapter is not informed of it" [ "remark -: " ^ ignored "b" ];
+  List.iter refused [ "c"; "d"; "e" ];
+  check_out w "the first one at once" [ "refused: c"; "remark -: " ^ ignored "c" ];
+  step w (fun ~now:_ d -> D.last_refusals d);
+  check_out w "the number at the end" [ "remark -: 2 more lines are ignored; of the last one: " ^ ignored "e" ];
+  pass w 3.;
+  check_out w "once" []
+
+(* A flood of lines is reported about once a second, and no line is left out of the count. *)
+let flood =
+  let counted text =
+    match Scanf.sscanf text "remark -: %d more" Fun.id with
+    | n -> n
+    | exception Scanf.Scan_failure _ -> if String.length text > 6 && String.sub text 0 6 = "remark" then 1 else 0
+  in
+  let holds gaps =
+    let w = fresh () in
+    List.iter (fun gap -> pass w gap;
+                step w (fun ~now d -> D.refused ~now "x" d)) gaps;
+    step w (fun ~now:_ d -> D.last_refusals d);
+    let counts = List.filter (fun n -> n > 0) (List.map counted (List.filter_map shown (take_outputs w))) in
+    let span = List.fold_left ( +. ) 0. gaps in
+    List.fold_left ( + ) 0 counts = List.length gaps && float_of_int (List.length counts) <= span +. 2.
+  in
+  Test_support.Property.case ~count:300 "each line that is refused is counted, once a second"
+    ~print:QCheck2.Print.(list float)
+    QCheck2.Gen.(list_size (int_bound 50) (float_bound_inclusive 0.3))
+    holds
 
 let both_or_neither =
   let members (latitude, longitude) =
@@ -461,7 +489,7 @@ let () =
           case "a link that is lost for too long" silence; case "a link that returns" link_returns;
           case "a start without an answer" no_answer; case "a stop without an answer" stop_without_answer;
           case "what is not certain" unknown; case "a vehicle without type or position" strangers;
-          case "a line that is refused" refusals; both_or_neither ] );
+          case "a line that is refused" refusals; flood; both_or_neither ] );
       ( "deaths",
         [ case "the adapter dies, and is asked" death; case "what never reached it is ordered again" death_and_absent;
           case "it is dead for long" death_for_long; case "a start meanwhile" start_while_dead;

@@ -75,6 +75,12 @@ let () =
       if why <> Unix.error_message EPIPE then Report.complain ("the output cannot be written: " ^ why);
       (* What is at the exit would try once more. *)
       Unix._exit (Exit_status.code Platform_trouble)
+    | exception Unix.Unix_error (((EAGAIN | ENOMEM | EMFILE | ENFILE) as code), call, _) ->
+      Report.complain (Printf.sprintf "the system lacks resources: %s: %s" call (Unix.error_message code));
+      Exit_status.Platform_trouble
+    | exception Out_of_memory ->
+      Report.complain "there is not enough memory";
+      Exit_status.Platform_trouble
     | exception Stack_overflow -> bug Stack_overflow
     | exception error -> bug error
   in

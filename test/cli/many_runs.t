@@ -175,6 +175,19 @@ Ctrl-C ends it with what is known, also while a run goes on for ever; whoever is
   SIGTERM 130 ['0 runs', 'interrupted; under way were the runs with the seeds 0, 1']
   SIGKILL -9 []
 
+Processes that the system does not let begin are an error of the surroundings, not a fault of dolphin.
+
+  $ (ulimit -n 12; dolphin exec relay.dol --runs 400 --jobs 40)
+  dolphin: the 40 processes that simulate runs cannot be started: pipe: Too many open files
+  [3]
+
+Nor is memory that it does not give.
+
+  $ for kilobytes in $(seq 28000 1000 44000); do
+  >   (ulimit -v $kilobytes; dolphin explore relay.dol --reduction none > found 2>&1; [ $? = 125 ] && head -n 1 found) 2> aborted
+  > done
+  > true
+
 The programs that ran did what the semantics allows.
 
   $ check-journals

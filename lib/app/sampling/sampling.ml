@@ -153,20 +153,30 @@ let follow ~interrupted ~progress ~each settings workers tally =
   in
   go 1
 
+let start_workers ~jobs ~first ?last sample =
+  match Workers.start ~jobs ~first ?last sample with
+  | workers -> Ok workers
+  | exception Unix.Unix_error (code, call, _) ->
+    let why = Printf.sprintf "%s: %s" call (Unix.error_message code) in
+    Error (Error.Unavailable (Printf.sprintf "the %d processes that simulate runs cannot be started: %s" jobs why))
+
 let run ~interrupted ~progress ~each (settings : settings) program fleet =
   let began = Unix.gettimeofday () in
   let last = Option.map (fun n -> settings.seed + n - 1) settings.runs in
   let jobs = match settings.runs with Some n -> max 1 (min n settings.jobs) | None -> settings.jobs in
   let sample seed = Sample.run ~seed ~answers:settings.answers program fleet in
-  let workers = Workers.start ~jobs ~first:settings.seed ?last sample in
   let tally = nothing () in
-  match
+  let follow workers =
     Fun.protect
       ~finally:(fun () -> Workers.stop workers)
       (fun () -> follow ~interrupted ~progress ~each settings workers tally)
+  in
+  match
+    Result.bind (start_workers ~jobs ~first:settings.seed ?last sample) @@ fun workers ->
+    Ok (follow workers)
   with
-  | stop, level -> Ok (result settings tally ~level ~stop ~seconds:(Unix.gettimeofday () -. began))
-  | exception Refused e -> Error e
+  | Ok (stop, level) -> Ok (result settings tally ~level ~stop ~seconds:(Unix.gettimeofday () -. began))
+  | Error e | (exception Refused e) -> Error e
   | exception Workers.Died { number = seed; _ } ->
     Error (Error.Unavailable (Printf.sprintf "the process that simulated the run with the seed %d has died" seed))
 

@@ -142,8 +142,8 @@ let man =
     `P "Of each $(b,within) of the program it says whether it is kept, or when it is missed, with a run in which it \
         is.";
     `P "Of each vehicle that runs a task it says how much is left in its battery, at the least, at any time in any \
-        run. How much it takes to be under way, and to rest, is $(b,battery), $(b,drain) and $(b,charge) of the fleet; \
-        what is charged at rest is not counted on. If a battery runs empty in some run, that is shown, and the answer \
+        run. How much it takes to be under way, and to rest, is $(b,battery), $(b,drain) and $(b,charge) of the fleet, \
+        and $(b,charges) of its plans. If a battery runs empty in some run, that is shown, and the answer \
         is violated; if that is not known, it is inconclusive.";
     `P "If there is a $(b,fence distance), it says which plans may run at the same time whose ways come nearer to each \
         other: then the answer is violated, and inconclusive if vehicles know such a plan by its name only.";

@@ -16,7 +16,7 @@ let scenario n : Scenario.t =
       batteries = []; shows = []; places = [] }
   in
   let plan name least most : Scenario.plan =
-    { name; duration = Some { least; most }; ending = Succeeds; place = None; only = [] }
+    { name; duration = Some { least; most }; ending = Succeeds; place = None; only = []; charges = None }
   in
   { vehicles = List.init n vehicle; plans = [ plan "short" 0.5 1.5; plan "long" 600. 600. ]; answers = [];
     replies = []; inputs = []; samples = []; fences = [] }

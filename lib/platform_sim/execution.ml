@@ -1,10 +1,10 @@
 open Dolphin_semantics
 open Dolphin_scenario
 
-type t = { track : Track.t; duration : float; outcome : (unit, string) result }
+type t = { track : Track.t; duration : float; outcome : (unit, string) result; charges : float option }
 
 let default_duration : Scenario.duration = { least = 60.; most = 180. }
-let refuse position why = { track = Track.stay position; duration = 0.; outcome = Error why }
+let refuse position why = { track = Track.stay position; duration = 0.; outcome = Error why; charges = None }
 
 let drawn_duration draw (plan : Scenario.plan option) =
   let { Scenario.least; most } = Option.value (Option.bind plan (fun p -> p.duration)) ~default:default_duration in
@@ -74,7 +74,8 @@ let make ~draw plan (vehicle : Scenario.vehicle) position (task : Core.platform_
       | Some p -> inline p vehicle position
       | None -> by_name draw plan vehicle position
     in
+    let charges = Option.bind plan (fun (p : Scenario.plan) -> p.charges) in
     if fails draw plan then
       let duration = if duration < infinity then duration else drawn_duration draw plan in
-      { track; duration = draw Moment *. duration; outcome = Error "plan failed" }
-    else { track; duration; outcome = Ok () }
+      { track; duration = draw Moment *. duration; outcome = Error "plan failed"; charges }
+    else { track; duration; outcome = Ok (); charges }

@@ -7,6 +7,7 @@ type t = {
   track : Track.t;
   duration : float;  (** seconds; [infinity] for a plan without end *)
   outcome : (unit, string) result;  (** done, or why it fails *)
+  charges : float option;  (** what an hour of it gives the battery; [None]: it drains it *)
 }
 
 val default_duration : Scenario.duration

@@ -29,6 +29,9 @@ let shown_battery v ~at =
     Some (nearest (fun a b -> Float.abs (a -. b)) (battery v ~at) v.scenario.batteries)
   else None
 
-let set_out v ~at track = { v with track; since = at; charge = Battery.set_out v.charge ~at }
-let rest v ~at = { v with track = Track.stay (position v ~at); since = at; charge = Battery.rest v.charge ~at }
+let set_out v ~at ~charges track =
+  let doing = Option.fold charges ~none:Battery.Works ~some:(fun share -> Battery.Charges share) in
+  { v with track; since = at; charge = Battery.turn v.charge ~at doing }
+
+let rest v ~at = { v with track = Track.stay (position v ~at); since = at; charge = Battery.turn v.charge ~at Rests }
 let is_steady v ~at = at -. v.since >= Track.still_from v.track && Battery.is_steady v.charge ~at

@@ -11,8 +11,9 @@ val make : Scenario.vehicle -> t
 val scenario : t -> Scenario.vehicle
 (** What the scenario says of it. *)
 
-val set_out : t -> at:float -> Track.t -> t
-(** [set_out v ~at track] is [v] that leaves at time [at] and follows [track]. *)
+val set_out : t -> at:float -> charges:float option -> Track.t -> t
+(** [set_out v ~at ~charges track] is [v] that leaves at time [at] and follows [track]. Its battery gains [charges] each
+    hour; [None]: it is drained. *)
 
 val rest : t -> at:float -> t
 (** [rest v ~at] is [v] staying where it is at time [at]. *)

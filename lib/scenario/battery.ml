@@ -1,3 +1,5 @@
+type doing = Rests | Works | Charges of float
+
 type t = { vehicle : Entry.vehicle; since : float; left : float; rate : float (* what it gains a second *) }
 
 let full = 1.
@@ -9,7 +11,12 @@ let at_rest = 0.25
 let under_way (v : Entry.vehicle) = -.v.drain /. hour
 let unplugged v = at_rest *. under_way v
 let resting (v : Entry.vehicle) = if v.charge > 0. then v.charge /. hour else unplugged v
-let rate v ~under_way:is_under_way = if is_under_way then under_way v else resting v
+
+let rate v = function
+  | Rests -> resting v
+  | Works -> under_way v
+  | Charges share -> share /. hour
+
 let start (v : Entry.vehicle) = { vehicle = v; since = 0.; left = v.battery; rate = resting v }
 
 let empty_from b =
@@ -24,9 +31,7 @@ let level b ~at =
   else if at >= full_from b then full
   else Float.max 0. (Float.min full (b.left +. (b.rate *. (at -. b.since))))
 
-let go b ~at rate = { b with since = at; left = level b ~at; rate }
-let set_out b ~at = go b ~at (under_way b.vehicle)
-let rest b ~at = go b ~at (resting b.vehicle)
+let turn b ~at doing = { b with since = at; left = level b ~at; rate = rate b.vehicle doing }
 let is_steady b ~at = b.rate = 0. || at >= empty_from b || at >= full_from b
 
 let least (v : Entry.vehicle) ~working ~until =

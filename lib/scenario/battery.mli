@@ -3,18 +3,21 @@
 
 type t
 
+(** What a vehicle does, as far as its battery is concerned. *)
+type doing =
+  | Rests
+  | Works  (** it runs a plan that drains *)
+  | Charges of float  (** it runs a plan with [charges]: an hour of it gives this share *)
+
 val start : Entry.vehicle -> t
 (** At rest, at time 0, with what the scenario says is left then. *)
 
-val set_out : t -> at:float -> t
-(** [set_out b ~at] is [b] of a vehicle that is under way from [at] on. *)
-
-val rest : t -> at:float -> t
-(** Likewise, at rest. *)
+val turn : t -> at:float -> doing -> t
+(** [turn b ~at doing] is [b] of a vehicle that does this from [at] on. *)
 
 val level : t -> at:float -> float
-(** From 0 (empty) to 1 (full), at a time not before the last change: under way it falls by [drain] each hour; at rest
-    it rises by [charge], or if that is 0 falls by a quarter of [drain]. *)
+(** From 0 (empty) to 1 (full), at a time not before the last change: work lowers it by [drain] each hour; rest
+    raises it by [charge], or if that is 0 lowers it by a quarter of [drain]; a plan that charges raises it. *)
 
 val empty_from : t -> float
 (** When it is empty if all goes on as it does; [infinity] if never. *)
@@ -22,8 +25,8 @@ val empty_from : t -> float
 val is_steady : t -> at:float -> bool
 (** Whether it does not change any more from [at] on. *)
 
-val rate : Entry.vehicle -> under_way:bool -> float
-(** What it gains in a second, under way or at rest: less than 0 if it falls. *)
+val rate : Entry.vehicle -> doing -> float
+(** What it gains in a second: less than 0 if it falls. *)
 
 val least : Entry.vehicle -> working:float -> until:float -> float
 (** [least v ~working ~until] is what is left at the time [until] of a vehicle that was under way for [working] seconds

@@ -41,6 +41,8 @@ type plan = {
   ending : ending;
   place : Dolphin_geo.Position.t option;  (** where it is run; [None]: wherever the vehicle is *)
   only : string list;  (** types and ids of the vehicles that know it; others refuse. [[]]: all know it *)
+  charges : float option;
+  (** the share of the battery that an hour of it gives, at least 0; [None]: it drains the battery *)
 }
 
 (** What is typed when a program asks [prompt]: the text of an expression, such as ["2"] or ["'x8-02'"]. *)

@@ -102,7 +102,9 @@ let plan_table : plan Setting.t list =
     setting "fails" "no value" fails;
     setting "at" position_takes (place (fun (p : plan) position -> { p with place = Some position }));
     setting "only" "types or ids of vehicles, as in only 'UUV', 'x8-02'"
-      (several Setting.text (fun plan only -> { plan with only })) ]
+      (several Setting.text (fun plan only -> { plan with only }));
+    setting "charges" "the share of the battery that an hour of the plan gives, as in charges 120.percent"
+      (one Setting.per_hour (fun plan share -> { plan with charges = Some share })) ]
 
 let words table = List.map (fun (setting : 'draft Setting.t) -> setting.word) table
 let vehicle_settings = words vehicle_table
@@ -156,7 +158,7 @@ let vehicle state (id : string located) body =
   { state with vehicles = { entry = v; name_at = id.at } :: state.vehicles; unplaced }
 
 let plan state (name : string located) body =
-  let draft = { name = name.it; duration = None; ending = Succeeds; place = None; only = [] } in
+  let draft = { name = name.it; duration = None; ending = Succeeds; place = None; only = []; charges = None } in
   let p, seen, faults = Setting.block ~what:"a plan" plan_table draft body in
   let both =
     if List.mem "fails" seen && List.mem "mayFail" seen then

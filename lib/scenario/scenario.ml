@@ -97,7 +97,15 @@ let pp_time ppf seconds = Format.fprintf ppf "%a.seconds" pp_number seconds
 
 let pp_share ppf share =
   let percent = Float.round (share *. 100.) in
-  if percent /. 100. = share then Format.fprintf ppf "%a.percent" pp_number percent else pp_number ppf share
+  let exact n = n /. 100. = share in
+  let near = share *. 100. in
+  if exact percent then Format.fprintf ppf "%a.percent" pp_number percent
+  else if share <= 1. then pp_number ppf share
+  else
+    (* More than 1 is read as percent only. *)
+    let candidates = [ Float.round (near *. 1e9) /. 1e9; near; Float.pred near; Float.succ near ] in
+    let nearest = Option.value (List.find_opt exact candidates) ~default:near in
+    Format.fprintf ppf "%a.percent" pp_number nearest
 
 let pp_coordinates ppf (p : Dolphin_geo.Position.t) =
   Format.fprintf ppf "%a, %a" pp_number p.latitude pp_number p.longitude;
@@ -140,7 +148,8 @@ let pp_plan ppf (p : plan) =
     List.map (Fmt.str "%a" duration) (Option.to_list p.duration)
     @ ending
     @ List.map (Fmt.str "%a" pp_place) (Option.to_list p.place)
-    @ if p.only = [] then [] else [ Fmt.str "only %a" pp_texts p.only ]
+    @ (if p.only = [] then [] else [ Fmt.str "only %a" pp_texts p.only ])
+    @ List.map (Fmt.str "charges %a" pp_share) (Option.to_list p.charges)
   in
   match settings with
   | [] -> Format.fprintf ppf "plan %a@\n" pp_text p.name

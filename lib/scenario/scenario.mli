@@ -111,12 +111,13 @@ reply 'queue.await', task('survey1'), either(task('survey2'), fails('the queue i
     - [drops FROM, LASTING]: its link drops; may stand again. Default: never.
 
     [plan NAME], [plan NAME, { ... }]. What of it concerns plans that are described in the program itself is only how
-    they end and who knows them; their way says how long they take.
+    they end, who knows them, and whether they charge; their way says how long they take.
     - [duration TIME] or [duration SHORTEST, LONGEST]. Default: any time; the simulator draws from 1 to 3 minutes.
     - [mayFail], [mayFail SHARE]: it fails now and then, or so often ([mayFail] alone: [10.percent]); [fails]: always.
       Default: it succeeds.
     - [at ...]: where it is run, as for vehicles. Default: where the vehicle is.
     - [only TEXT, ...]: types or ids of the vehicles that know it. Default: all do.
+    - [charges SHARE]: an hour of it gives so much, and drains nothing, as at a dock. Default: it drains the battery.
 
     [answer PROMPT, EXPRESSION, ...]. What is typed when the program asks PROMPT: the expressions one after another, the
     last for good. Any expression will do here, for it is only kept as text.

@@ -327,7 +327,8 @@ let of_fleet_plan =
       "mayFail", "mayFail 20.percent", "It fails now and then.";
       "fails", "fails", "It always fails.";
       "at", "at 41.186, -8.705", "Where it is run.";
-      "only", "only 'UAV', 'x8-02'", "Types and ids of the vehicles that know it." ]
+      "only", "only 'UAV', 'x8-02'", "Types and ids of the vehicles that know it.";
+      "charges", "charges 120.percent", "What an hour of it gives the battery, instead of draining it." ]
 
 let fleet_settings = function
   | "vehicle" -> of_vehicle

@@ -156,7 +156,7 @@ let running e =
 let rest ~at mode e = { e with mode; body = Vehicle.rest e.body ~at }
 
 let take_off ~at (run : run) e =
-  let body = Vehicle.set_out e.body ~at run.flight.execution.track in
+  let body = Vehicle.set_out e.body ~at ~charges:run.flight.execution.charges run.flight.execution.track in
   let ends = at +. run.flight.execution.duration and empty = Float.max at (Vehicle.empty_from body) in
   let ends, outcome = if empty < ends then empty, Error "battery empty" else ends, run.flight.execution.outcome in
   let maneuver = Flight.maneuver run.flight 0. in

@@ -4,15 +4,15 @@ module Battery = Dolphin_scenario.Battery
 
 let seconds ms = float ms /. 1000.
 
-type turn = { vehicle : Core.vehicle; under_way : bool; at : int }
+type turn = { vehicle : Core.vehicle; doing : Battery.doing; at : int }
 
-let turns start steps dates =
+let turns options start steps dates =
   let vehicle (p : Timed.pending) = match p.item with Task v -> Some v | _ -> None in
   let add (before, found) (step : Timed.step) at =
     let vehicles = List.sort_uniq String.compare (List.filter_map vehicle (before.Timed.pending @ step.next.pending)) in
     let turn vehicle =
-      let under_way = Timed.is_under_way step.next vehicle in
-      if under_way = Timed.is_under_way before vehicle then None else Some { vehicle; under_way; at }
+      let doing = Timed.doing options step.next vehicle in
+      if doing = Timed.doing options before vehicle then None else Some { vehicle; doing; at }
     in
     (step.next, List.rev_append (List.filter_map turn vehicles) found)
   in
@@ -22,22 +22,22 @@ let turns start steps dates =
 let left (v : Scenario.vehicle) turns ~until =
   let add (b, least) turn =
     let at = seconds turn.at in
-    ((if turn.under_way then Battery.set_out b ~at else Battery.rest b ~at), Float.min least (Battery.level b ~at)) in
+    (Battery.turn b ~at turn.doing, Float.min least (Battery.level b ~at)) in
   let b = Battery.start v in
   let turns = List.filter (fun turn -> String.equal turn.vehicle v.id) turns in
   let b, least = List.fold_left add (b, Battery.level b ~at:0.) turns in
   Float.min least (Battery.level b ~at:(seconds until))
 
-let spans (v : Scenario.vehicle) start steps =
-  let span under_way i j : Dates.span =
-    if Battery.rate v ~under_way > 0. then Short (i, j) else Long (i, j) in
+let spans options (v : Scenario.vehicle) start steps =
+  let span doing i j : Dates.span =
+    if Battery.rate v doing > 0. then Short (i, j) else Long (i, j) in
   let add (k, since, before, found) (step : Timed.step) =
-    let is_under_way s = Timed.is_under_way s v.id in
-    if is_under_way before = is_under_way step.next then (k + 1, since, step.next, found)
-    else (k + 1, k, step.next, span (is_under_way before) since k :: found)
+    let doing s = Timed.doing options s v.id in
+    if doing before = doing step.next then (k + 1, since, step.next, found)
+    else (k + 1, k, step.next, span (doing before) since k :: found)
   in
   let k, since, last, found = List.fold_left add (1, 0, start, []) steps in
-  span (Timed.is_under_way last v.id) since (k - 1) :: found
+  span (Timed.doing options last v.id) since (k - 1) :: found
 
 type way = Timed_system.edge list
 

@@ -3,19 +3,19 @@
 open Dolphin_semantics
 module Scenario = Dolphin_scenario.Scenario
 
-(** That a vehicle sets out to carry a task out, or ceases to. *)
-type turn = { vehicle : Core.vehicle; under_way : bool; at : int  (** milliseconds since the start *) }
+(** That a vehicle sets out to carry a task out, or ceases to, or goes over to a plan that charges. *)
+type turn = { vehicle : Core.vehicle; doing : Dolphin_scenario.Battery.doing; at : int  (** milliseconds since the start *) }
 
-val turns : Timed.state -> Timed.step list -> int list -> turn list
-(** [turns s steps dates] is those of a run from [s] with these dates. *)
+val turns : Timed.options -> Timed.state -> Timed.step list -> int list -> turn list
+(** [turns o s steps dates] is those of a run from [s] with these dates. *)
 
 val left : Scenario.vehicle -> turn list -> until:int -> float
 (** [left v turns ~until] is the least that is left in the battery of [v] during a run with these turns that ends at
-    [until]: under way it is drained, at rest else. *)
+    [until]. *)
 
-val spans : Scenario.vehicle -> Timed.state -> Timed.step list -> Dates.span list
-(** [spans v s steps] is what makes the battery of [v] low at the end of [steps] from [s], the last first: that it is
-    long under way and short at rest where it is charged. *)
+val spans : Timed.options -> Scenario.vehicle -> Timed.state -> Timed.step list -> Dates.span list
+(** [spans o v s steps] is what makes the battery of [v] low at the end of [steps] from [s], the last first: that it is
+    long where it is drained, and short where it is charged. *)
 
 type way = Timed_system.edge list
 

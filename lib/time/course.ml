@@ -5,7 +5,7 @@ type t = { options : Timed.options; vehicle : Core.vehicle }
 
 let create options vehicle = { options; vehicle }
 let vehicle c = c.vehicle
-let is_under_way c s = Timed.is_under_way s c.vehicle
+let may_do c s = Timed.may_do c.options s c.vehicle
 
 let is_heard c =
   let faults = c.options.environment.faults in
@@ -54,7 +54,7 @@ let is_claim c : World.assumption -> bool = function
 
 let turns c before (step : Timed.step) =
   List.mem (Timed.Task c.vehicle) step.fresh
-  || is_under_way c before <> is_under_way c step.next
+  || may_do c before <> may_do c step.next
   || List.exists (is_claim c) step.transition.assumed
 
 (* {1 What other looks would lead to} *)

@@ -8,8 +8,8 @@ type t
 val create : Timed.options -> Core.vehicle -> t
 val vehicle : t -> Core.vehicle
 
-val is_under_way : t -> Timed.state -> bool
-(** From the start of a task until its end, whichever it is. *)
+val may_do : t -> Timed.state -> Dolphin_scenario.Battery.doing list
+(** {!Timed.may_do} of its vehicle: it works or charges from the start of a task until its end, whichever it is. *)
 
 val turns : t -> Timed.state -> Timed.step -> bool
 (** [turns c s step] is whether the battery may fall or rise otherwise from [step] of [s] on, or [step] depends on what

@@ -9,6 +9,7 @@ type t = {
   posted : string -> Bounds.t;
   place : Core.vehicle -> Position.t option;
   links : Links.t;
+  charges : string -> float option;
 }
 
 let tolerance = 0.1
@@ -65,4 +66,5 @@ let of_scenario (s : Scenario.t) =
   in
   let place id = Option.map (fun (v : Scenario.vehicle) -> v.position) (vehicle id) in
   let links = Links.of_silences (List.map (fun (v : Scenario.vehicle) -> (v.id, Scenario.silences v)) s.vehicles) in
-  { task; announced = Bounds.exactly announced; silence = Bounds.exactly silence; posted; place; links }
+  let charges name = Option.bind (Scenario.plan s name) (fun (p : Scenario.plan) -> p.charges) in
+  { task; announced = Bounds.exactly announced; silence = Bounds.exactly silence; posted; place; links; charges }

@@ -10,6 +10,8 @@ type t = {
   posted : string -> Bounds.t;  (** until a pair with this key is posted, from the start or the time before *)
   place : Core.vehicle -> Dolphin_geo.Position.t option;  (** at the start *)
   links : Links.t;  (** when vehicles join, leave, and lose their links *)
+  charges : string -> float option;
+  (** what an hour of the plan of this name gives the battery of its vehicle; [None]: it drains it *)
 }
 (** Answers and replies come at once. *)
 
@@ -26,4 +28,4 @@ val links_with : Dolphin_environment.Faults.t -> t -> Links.t
 
 val of_scenario : Dolphin_scenario.Scenario.t -> t
 (** [of_scenario s] is what [s] says: [duration] of plans by name, [speed] of vehicles for plans that are described in
-    the program, [after] of inputs, [joins], [leaves], [drops] of vehicles; some time, where it says nothing. *)
+    the program, [after] of inputs, [joins], [leaves], [drops] of vehicles, [charges] of plans; some time, where it says nothing. *)

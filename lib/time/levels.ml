@@ -18,36 +18,41 @@ type context = {
   vehicle : Scenario.vehicle;
   looks : bool;  (* whether what is seen of the battery is how full it is *)
   stays : Timed_system.stay array;
+  fastest : float;  (* at which it changes in any state, a second *)
 }
 
 (* By how much it may differ from what is seen. *)
-let blur c =
-  let by under_way = Float.abs (Battery.rate c.vehicle ~under_way) *. age in
-  slightly +. Float.max (by true) (by false)
+let blur c = slightly +. (c.fastest *. age)
 
+let fastest vehicle stays =
+  let change doing = Float.abs (Battery.rate vehicle doing) in
+  let faster found (s : Timed_system.stay) = List.fold_left Float.max found (List.map change s.may_do) in
+  Array.fold_left faster (Float.max (change Rests) (change Works)) stays
+
+let rates c = List.map (Battery.rate c.vehicle)
 let after rate ms from = cut (from +. (rate *. seconds ms))
 
 (* What is left at the least, when the course has gone on for [least] to [most], in a state in which guards wait. *)
-let lowest c ~under_way ~least ~most ~waited (k : known) =
-  let rate = Battery.rate c.vehicle ~under_way in
+let lowest c ~may_do ~least ~most ~waited (k : known) =
+  let rate = List.fold_left Float.min infinity (rates c may_do) in
   if rate >= 0. then Float.max k.entry (after rate least k.low)
   else
     let by_time = match most with Some ms -> after rate ms k.low | None -> 0. in
     let by_look = if c.looks && waited > 0. then Float.min k.entry (cut (waited -. blur c)) else 0. in
     Float.max by_time by_look
 
-let highest c ~under_way ~least ~most (k : known) =
-  let rate = Battery.rate c.vehicle ~under_way in
+let highest c ~may_do ~least ~most (k : known) =
+  let rate = List.fold_left Float.max neg_infinity (rates c may_do) in
   if rate <= 0. then after rate least k.high
   else match most with Some ms -> after rate ms k.high | None -> 1.
 
 (* [None]: it does not have what is seen. *)
 let over c (k : known) (e : Timed_system.edge) =
-  let passed ({ under_way; least; most; turns; seen; binds = _ } : Timed_system.passage) =
+  let passed ({ may_do; least; most; turns; seen; binds = _ } : Timed_system.passage) =
     let seen = if c.looks then seen else Course.anything in
     let waited = c.stays.(e.source).waited in
-    let low = Float.max (lowest c ~under_way ~least ~most ~waited k) (seen.above -. blur c) in
-    let high = Float.min (highest c ~under_way ~least ~most k) (seen.below +. blur c) in
+    let low = Float.max (lowest c ~may_do ~least ~most ~waited k) (seen.above -. blur c) in
+    let high = Float.min (highest c ~may_do ~least ~most k) (seen.below +. blur c) in
     if low > high +. slightly then None
     else if turns then Some { low; high; entry = low; by = Some e }
     else Some { k with entry = low; by = Some e }
@@ -91,8 +96,8 @@ let solve c n successors order =
   known
 
 let least_of c v (k : known) =
-  let { Timed_system.under_way; most; waited } = c.stays.(v) in
-  Float.min k.entry (lowest c ~under_way ~least:0 ~most ~waited k)
+  let { Timed_system.may_do; most; waited } = c.stays.(v) in
+  Float.min k.entry (lowest c ~may_do ~least:0 ~most ~waited k)
 
 (* By the edges that lowered it last, from the start, unless they go around. *)
 let way known v =
@@ -146,5 +151,5 @@ let of_vehicle system (vehicle : Scenario.vehicle) =
     let looks = Course.is_heard course && not (List.exists binds_again edges) in
     let stays = Array.init (Timed_system.count system) (fun n -> Option.get (Timed_system.stay system n)) in
     let ends = List.map fst (Timed_system.ends system) in
-    of_graph { vehicle; looks; stays } ~is_end:(fun n -> List.mem n ends) edges
+    of_graph { vehicle; looks; stays; fastest = fastest vehicle stays } ~is_end:(fun n -> List.mem n ends) edges
   | _, _, _ -> None

@@ -32,7 +32,7 @@ module Constants = Hashtbl.Make (struct
 
 (* What a part of a residual is, without what it consists of: code by the number of its skeleton. *)
 type head =
-  | Task of { runs : bool; ending : Environment.ending; takes : takes; orbit : int }
+  | Task of { runs : bool; ending : Environment.ending; takes : takes; charges : float option; orbit : int }
   | Action of int
   | Condition of int
   | Part of int
@@ -116,7 +116,8 @@ let platform_task s ~runs v (p : Core.platform_task) =
     | None, Within { least; most } -> Milliseconds (least, most)
     | _, _ -> As_its_plan label
   in
-  Task { runs; ending = Environment.ending s.t.options.environment v p.name; takes; orbit = s.orbit label }
+  let charges = s.t.options.durations.charges p.name in
+  Task { runs; ending = Environment.ending s.t.options.environment v p.name; takes; charges; orbit = s.orbit label }
 
 let rec spell s (r : Residual.t) =
   match r with

@@ -125,7 +125,19 @@ let may_change_during_tasks o =
   may_join_during_tasks o || Links.count (links o) > Links.count (Links.only_first (links o))
 
 let is_silent o s v = Links.is_silent (links o) s.changes v
-let is_under_way s v = List.exists (fun p -> p.item = Task v && p.progress = Under_way) s.pending
+
+let doing o s v : Dolphin_scenario.Battery.doing =
+  match List.find_opt (fun p -> p.item = Task v && p.progress = Under_way) s.pending with
+  | None -> Rests
+  | Some { task; _ } ->
+    let charges = Option.bind task (fun (p : Core.platform_task) -> o.durations.charges p.name) in
+    Option.fold charges ~none:Dolphin_scenario.Battery.Works ~some:(fun share -> Dolphin_scenario.Battery.Charges share)
+
+
+let may_do o s v : Dolphin_scenario.Battery.doing list =
+  match doing o s v with
+  | Charges _ as charges when Faults.is_possible o.environment.faults.loss || is_silent o s v -> [ charges; Rests ]
+  | (Rests | Works | Charges _) as doing -> [ doing ]
 
 (* Who is there matters as long as the program may look for vehicles, and whose link is silent as long as it has the
    vehicle. *)

@@ -58,8 +58,14 @@ type state = private {
 
 val initial : options -> state
 
-val is_under_way : state -> Core.vehicle -> bool
-(** [is_under_way s v] is whether [v] carries a task out: none whose order waits for the link, and none that is over. *)
+val doing : options -> state -> Core.vehicle -> Dolphin_scenario.Battery.doing
+(** [doing o s v] is whether [v] carries a task out, and whether that charges its battery. It rests while its order
+    waits for the link, and once its task is over. *)
+
+val may_do : options -> state -> Core.vehicle -> Dolphin_scenario.Battery.doing list
+(** [may_do o s v] is all that [v] may be doing in [s], [doing o s v] first. A task that charges may be over already
+    while the link is silent; then the vehicle rests. (A task that drains may be over too, but a lower bound that counts
+    it to its latest end holds all the same.) *)
 
 val compare : state -> state -> int
 val equal : state -> state -> bool

@@ -29,7 +29,7 @@ type move =
 
 type arrival = { move : move; into : Timed.state; items : Timed.item list; execution : Likeness.execution option }
 
-type passage = { under_way : bool; least : int; most : int option; turns : bool; seen : Course.range; binds : bool }
+type passage = { may_do : Dolphin_scenario.Battery.doing list; least : int; most : int option; turns : bool; seen : Course.range; binds : bool }
 type edge = { source : int; target : int; by : move; working : Working.t; passage : passage option }
 
 type node = { place : Timed_place.t; zone : Zone.t; parent : int; move : move option }
@@ -258,13 +258,13 @@ let since t (place : Timed_place.t) zone =
 let passage t (before : Timed_place.t) zone step =
   let of_course c =
     let least, most = since t before zone in
-    let under_way = Course.is_under_way c before.state in
+    let may_do = Course.may_do c before.state in
     match step with
-    | None -> { under_way; least; most; turns = false; seen = Course.anything; binds = false }
+    | None -> { may_do; least; most; turns = false; seen = Course.anything; binds = false }
     | Some (step : Timed.step) ->
       let is_first = Zone.latest_date zone = Some 0 in
       let is_last = match step.next.configuration.control with Ended _ -> true | _ -> false in
-      { under_way; least; most; turns = Course.turns c before.state step; seen = Course.seen c before.state step;
+      { may_do; least; most; turns = Course.turns c before.state step; seen = Course.seen c before.state step;
         binds = Course.is_newly_bound c step && not (is_first || is_last) }
   in
   Option.map of_course t.course
@@ -456,12 +456,12 @@ let state t n = t.nodes.(n).place.state
 
 let course t = t.course
 
-type stay = { under_way : bool; most : int option; waited : float }
+type stay = { may_do : Dolphin_scenario.Battery.doing list; most : int option; waited : float }
 
 let stay t n =
   let of_course c =
     let { place; zone; _ } = t.nodes.(n) in
-    { under_way = Course.is_under_way c place.state; most = snd (since t place zone);
+    { may_do = Course.may_do c place.state; most = snd (since t place zone);
       waited = Course.waited c place.state }
   in
   Option.map of_course t.course

@@ -90,7 +90,7 @@ val path : t -> int -> arrival list
 
 (** The course that is observed, until a move. *)
 type passage = {
-  under_way : bool;
+  may_do : Dolphin_scenario.Battery.doing list;
   least : int;  (** it has gone on for so many milliseconds at the least *)
   most : int option;  (** and at the most; [None]: no bound *)
   turns : bool;  (** whether the move turns it *)
@@ -119,7 +119,7 @@ val state : t -> int -> Timed.state
 
 (** The course that is observed, in a state. *)
 type stay = {
-  under_way : bool;
+  may_do : Dolphin_scenario.Battery.doing list;
   most : int option;  (** it goes on for so many milliseconds at the most, to the end of what is spent there *)
   waited : float;  (** {!Course.waited} *)
 }

@@ -55,7 +55,7 @@ let with_dates options start steps ~chain dates =
   let known = List.mapi (fun i t -> Option.map (fun t -> (t, date i)) t) found in
   let known = List.filter_map Fun.id known in
   { steps = List.map fst known; dates = List.concat_map snd known; cycle = []; chain;
-    turns = Option.fold dates ~none:[] ~some:(fun dates -> Batteries.turns start steps (Array.to_list dates)) }
+    turns = Option.fold dates ~none:[] ~some:(fun dates -> Batteries.turns options start steps (Array.to_list dates)) }
 
 let run_of goal options system steps =
   let start = Timed_system.start system in
@@ -166,7 +166,7 @@ let lowest options (v : Scenario.vehicle) known { bound; of_ways } =
     | None -> None
     | Some steps -> (
         let start = Timed_system.start system in
-        match Schedule.stretched (Timed_system.successors system) start steps (Batteries.spans v start steps) with
+        match Schedule.stretched (Timed_system.successors system) start steps (Batteries.spans options v start steps) with
         | Some dates -> Some (with_dates options start steps ~chain:[] (Some dates))
         | None | (exception Dates.Contradiction) -> None)
     | exception (Timed_system.Broken | Dates.Contradiction) -> None
@@ -185,7 +185,7 @@ let lowest options (v : Scenario.vehicle) known { bound; of_ways } =
   lowest known (List.concat_map of_way of_ways)
 
 (* Of programs that look at sensors no run is shown: what they see does not follow from the time. *)
-let battery options ~observed ~last ~is_known (v : Scenario.vehicle) first =
+let battery options ~observed ~last ~is_known ~charges (v : Scenario.vehicle) first =
   let is_shown = is_known && not options.Timed.program.reads_sensors in
   let improved known found = if is_shown then lowest options v known found else None in
   let of_last (run : run) = if run.dates = [] then None else Some (left v run, run) in
@@ -193,7 +193,7 @@ let battery options ~observed ~last ~is_known (v : Scenario.vehicle) first =
   let known = Option.fold first ~none:known ~some:(improved known) in
   let is_exact { bound; _ } = Option.fold known ~none:false ~some:(fun (left, _) -> left <= bound +. slightly) in
   let with_ { bound; _ } lowest = Some { vehicle = v.id; least = bound; lowest } in
-  let may_be_closer = v.charge > 0. || options.program.reads_sensors in
+  let may_be_closer = v.charge > 0. || charges || options.program.reads_sensors in
   match first with
   | Some first when is_exact first || not may_be_closer -> with_ first known
   | first -> (
@@ -210,9 +210,11 @@ let batteries options system ~observed ~tasks ~last ~is_known vehicles =
   let of_bound (v, bound, way) = (v, { bound; of_ways = List.map (fun way -> (system, way)) (Option.to_list way) }) in
   let bounds = if is_known then List.map of_bound (Batteries.least system vehicles) else [] in
   let of_vehicle (v : Scenario.vehicle) =
-    if List.exists (fun ((task : task), _) -> task.vehicle = v.id) tasks then
-      battery options ~observed ~last ~is_known v (List.assq_opt v bounds)
-    else None
+    match List.filter (fun ((task : task), _) -> task.vehicle = v.id) tasks with
+    | [] -> None
+    | tasks ->
+      let charges = List.exists (fun ((task : task), _) -> options.Timed.durations.charges task.name <> None) tasks in
+      battery options ~observed ~last ~is_known ~charges v (List.assq_opt v bounds)
   in
   List.filter_map of_vehicle vehicles
 

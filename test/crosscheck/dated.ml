@@ -24,7 +24,8 @@ let hashed seed plans : Durations.t =
        | 1 -> [ ("a", [ (2., infinity) ]); ("c", [ (0., 2.); (4., 5.) ]) ]
        | _ -> [])
   in
-  { task; announced = Bounds.exactly 1.; silence = Bounds.exactly 2.; posted; place = (fun _ -> None); links }
+  { task; announced = Bounds.exactly 1.; silence = Bounds.exactly 2.; posted; place = (fun _ -> None); links;
+    charges = (fun _ -> None) }
 
 let random ~seed n =
   let plans = [ "p"; "q" ] in

@@ -175,7 +175,8 @@ let fleet =
     let* least = time and* more = time in
     let* ending = oneofl [ Scenario.Succeeds; Succeeds; May_fail 0.5; Fails ] in
     let* only = frequencyl [ (4, []); (1, [ "UUV" ]) ] in
-    return { Scenario.name; duration = Some { least; most = least +. more }; ending; place = None; only }
+    let* charges = frequencyl [ (2, None); (1, Some 12.) ] in
+    return { Scenario.name; duration = Some { least; most = least +. more }; ending; place = None; only; charges }
   in
   let* steady = bool in
   let steadily (v : Scenario.vehicle) = if steady then { v with joins = 0.; leaves = None; drops = [] } else v in

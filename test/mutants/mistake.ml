@@ -1328,8 +1328,8 @@ let place =
   @ in_file "lib/time/batteries.ml" ~noticed_by:"time/test_exact"
     [
       ( "a vehicle that is stopped goes on",
-        {|if under_way = Timed.is_under_way before vehicle then None|},
-        {|if not under_way || Timed.is_under_way before vehicle then None|} );
+        {|if doing = Timed.doing options before vehicle then None|},
+        {|if doing = Rests || Timed.doing options before vehicle <> Rests then None|} );
     ]
   @ in_file "lib/time/timed.ml" ~noticed_by:"time/test_missions"
     [
@@ -1357,6 +1357,12 @@ let place =
       ( "inert ends take nothing",
         {|Some (task.vehicle, i.most)|},
         {|Some (task.vehicle, 0 * i.most)|} );
+    ]
+  @ in_file "lib/time/timed.ml" ~noticed_by:"time/test_exact"
+    [
+      ( "a plan charges until its end is heard",
+        {|-> [ charges; Rests ]|},
+        {|-> [ charges ]|} );
     ]
   @ in_file "lib/time/levels.ml" ~noticed_by:"time/test_exact"
     [
@@ -1393,6 +1399,9 @@ let place =
       ( "charging is counted on",
         {|if v.charge > 0. then 0. else unplugged v|},
         {|if v.charge > 0. then resting v else unplugged v|} );
+      ( "plans that charge drain",
+        {|  | Charges share -> share /. hour|},
+        {|  | Charges _ -> under_way v|} );
     ]
   @ in_file "lib/time/slack.ml" ~noticed_by:"time/test_missions"
     [

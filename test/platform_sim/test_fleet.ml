@@ -213,7 +213,17 @@ let batteries () =
   close "at work, then at rest" 0.25 (battery_of (after 3600. (Fleet.start "a" (task "p") f)));
   let f = after 0. (single "battery 50.percent; charge 50.percent") in
   close "charged" 0.75 (battery_of (after 1800. f));
-  close "full" 1. (battery_of (after 7200. f))
+  close "full" 1. (battery_of (after 7200. f));
+  let plans = "plan 'p', { duration 30.min; charges 120.percent }\nplan 'q', { duration 30.min; charges 0.percent }" in
+  let f = after 0. (single ~plans "battery 20.percent; drain 40.percent") in
+  close "charged by a plan" 0.5 (battery_of (after 900. (Fleet.start "a" (task "p") f)));
+  close "charged by a plan, then at rest" 0.75 (battery_of (after 3600. (Fleet.start "a" (task "p") f)));
+  close "charged by a plan until it is stopped" 0.3
+    (battery_of (after 4200. (Fleet.stop "a" (after 600. (Fleet.start "a" (task "p") f)))));
+  close "neither charged nor drained" 0.2 (battery_of (after 1800. (Fleet.start "a" (task "q") f)));
+  let f = after 0. (single ~plans "battery 0.percent") in
+  let happened, _ = until 10_000. (Fleet.start "a" (task "p") f) in
+  check_news "an empty vehicle is charged" [ "1800 a done" ] happened
 
 let battery_empty () =
   let f = Fleet.start "a" (task "p") (after 0. (single ~plans:ninety "battery 1.percent; drain 100.percent")) in

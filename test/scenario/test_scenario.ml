@@ -47,7 +47,7 @@ let defaults () =
   Alcotest.(check bool) "off Leixões" true
     (Dolphin_geo.Wgs84.distance (vehicle 0).position Dolphin_geo.Place.apdl < 1000.);
   Alcotest.(check bool) "plan" true
-    (Scenario.plan s "p" = Some { name = "p"; duration = None; ending = Succeeds; place = None; only = [] })
+    (Scenario.plan s "p" = Some { name = "p"; duration = None; ending = Succeeds; place = None; only = []; charges = None })
 
 let default_fleet () =
   let s = Scenario.default in
@@ -232,8 +232,8 @@ let scenario =
     let* least = amount and* more = oneof [ return 0.; amount ] and* timed = bool in
     let duration = if timed then Some { Scenario.least; most = least +. more } else None in
     let* ending = oneof [ return Scenario.Succeeds; return Scenario.Fails; map (fun n -> Scenario.May_fail n) share ] in
-    let* place = opt place and* only = list_size (int_bound 4) name in
-    return { Scenario.name = name_of_it; duration; ending; place; only } in
+    let* place = opt place and* only = list_size (int_bound 4) name and* charges = opt share in
+    return { Scenario.name = name_of_it; duration; ending; place; only; charges } in
   let answer prompt =
     let texts = list_size (int_range 1 3) (oneofl [ "2"; "'x'"; "3.km"; "[1, _]" ]) in
     map (fun texts -> { Scenario.prompt; texts }) texts in

@@ -3,7 +3,7 @@ open Dolphin_environment
 open Dolphin_time
 
 type moment = Ended of Timed_system.ending | Task of Timing.task * Timed_system.moment
-type battery = { at_first : int; work : int; rest : int }
+type battery = { at_first : int; work : int; rest : int; charges : (string * int) list }
 type t = { dates : (moment * (int * int)) list; never_over : bool; most : (Core.vehicle * int) list }
 
 (* What is awaited: a vehicle, a timer, an input, or what people and the supplier say; and how long nothing is heard of
@@ -211,8 +211,12 @@ let tick ~batteries s =
   let later (what, clock) = (what, { clock with since = clock.since + 1 }) in
   let less (v, (missing, most)) =
     let b = List.assoc v batteries in
-    let is_under_way = Vehicle_map.mem v s.c.shared.allocation && not (List.mem_assoc v s.errands) in
-    let by = if is_under_way then b.work else -b.rest in
+    let by =
+      match Vehicle_map.find_opt v s.c.shared.allocation with
+      | Some (p : Core.platform_task) when not (List.mem_assoc v s.errands) ->
+        Option.fold (List.assoc_opt p.name b.charges) ~none:b.work ~some:(fun share -> -share)
+      | Some _ | None -> -b.rest
+    in
     let missing = max 0 (missing + by) in
     (v, (missing, max most missing))
   in

@@ -19,6 +19,7 @@ type battery = {
   at_first : int;
   work : int;  (** a second of it takes so many *)
   rest : int;  (** a second of it gives so many, until none is missing; or takes them, if less than 0 *)
+  charges : (string * int) list;  (** plans of which a second gives so many, instead of taking [work] *)
 }
 
 val all :

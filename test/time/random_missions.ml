@@ -74,6 +74,9 @@ let world =
   let open Test_support.Pure_run in
   world [ vehicle "a"; vehicle "b"; vehicle "c"; vehicle "d" ~kind:"UAV" ]
 
+(* In a third of the cases, some plans charge, of those that take equally long too. *)
+let charges (seed, _) name = if seed mod 3 = 0 && Hashtbl.hash (seed, name) mod 2 = 0 then Some 2. else None
+
 let options (program, durations, (_, environment)) : Timed.options =
   let program, world =
     match program with
@@ -83,7 +86,8 @@ let options (program, durations, (_, environment)) : Timed.options =
   { environment; program; world;
     durations =
       { task = (fun v _ p -> bounds durations v p); announced = Bounds.exactly 1.; silence = Bounds.exactly 2.;
-        posted = (fun _ -> Some_time); place = (fun _ -> None); links = Links.none };
+        posted = (fun _ -> Some_time); place = (fun _ -> None); links = Links.none;
+        charges = charges durations };
     dates = Dolphin_semantics.Dated_code.named program }
 
 let case =

@@ -28,9 +28,13 @@ let environments =
     ("with inputs", { answering with inputs = certain });
     ("with interruptions", { answering with faults = { Faults.none with interrupt = true } }) ]
 
+(* A second of work takes four parts in 40,000 of a battery; of rest it takes one, or gives a given number. Some plans
+   give what [charges] lists. *)
+let parts = 40_000
+
 (* So many seconds, by the name of the plan and the vehicle: some exactly, some none, some that overlap. Some vehicles
    join after some seconds. *)
-let durations seed : Durations.t =
+let durations ?(charges = []) seed : Durations.t =
   let task v _ (p : Core.platform_task) =
     let n = Hashtbl.hash (seed, v, p.name) in
     let least = n mod 3 in
@@ -47,7 +51,8 @@ let durations seed : Durations.t =
        | 5 -> [ ("a", [ (1., 2.) ]); ("b", [ (3., 6.) ]) ]
        | _ -> [])
   in
-  { task; announced = Bounds.exactly 1.; silence = Bounds.exactly 2.; posted; place = (fun _ -> None); links }
+  { task; announced = Bounds.exactly 1.; silence = Bounds.exactly 2.; posted; place = (fun _ -> None); links;
+    charges = (fun name -> Option.map (fun n -> float (3600 * n) /. float parts) (List.assoc_opt name charges)) }
 
 let nested =
   let open QCheck2.Gen in
@@ -327,11 +332,8 @@ let test_pairs () =
 
 (* {1 Batteries} *)
 
-(* A second of work takes four parts in 40,000; of rest it takes one, or gives as many as are said. *)
-let parts = 40_000
-
-let fleet ~at_first ~charge =
-  let battery : Enumeration.battery = { at_first; work = 4; rest = (if charge = 0 then -1 else charge) } in
+let fleet ?(charges = []) ~at_first ~charge () =
+  let battery : Enumeration.battery = { at_first; work = 4; rest = (if charge = 0 then -1 else charge); charges } in
   let percent n = 100. *. float n /. float parts in
   let vehicle v =
     Printf.sprintf "vehicle '%s', { type 'UUV'; drain 36.percent; battery %.12g.percent; charge %.12g.percent }\n" v
@@ -369,19 +371,31 @@ let batteries_agree tally (vehicles, batteries) options =
     let is_bounded = List.for_all (fun (_, (w : Timing.window)) -> w.latest <> Unbounded) o.endings in
     List.for_all check o.batteries && ((not is_bounded) || List.for_all is_told expected.most)
 
-let test_batteries_of cases ~print options ~at_first ~charge ~programs () =
+let test_batteries_of ?charges cases ~print options ~at_first ~charge ~programs () =
   let tally = { exact = 0; bounds = 0; worked = 0 } in
-  let property case = batteries_agree tally (fleet ~at_first ~charge) (options case) in
+  let property case = batteries_agree tally (fleet ?charges ~at_first ~charge ()) (options case) in
   let test = QCheck2.Test.make ~count:programs ~print ~name:"batteries and enumeration agree" cases property in
   Test_support.Property.on_each_seed ~usual:20_261_123 ~programs test;
   Printf.printf "%d exact, %d bounds, of %d vehicles that work\n" tally.exact tally.bounds tally.worked;
   Alcotest.(check bool) "most are exact" true (tally.worked > 0 && tally.exact > 3 * tally.bounds)
 
-let test_batteries =
-  let options (ast, seed, (_, environment)) : Timed.options =
-    let program = Posts.declared environment (Generate.compile ast) in
-    { environment; program; world = Generate.world; durations = durations seed; dates = Dated_code.named program } in
-  test_batteries_of case ~print options
+let battery_options ?charges (ast, seed, (_, environment)) : Timed.options =
+  let program = Posts.declared environment (Generate.compile ast) in
+  { environment; program; world = Generate.world; durations = durations ?charges seed; dates = Dated_code.named program }
+
+let test_batteries = test_batteries_of case ~print (battery_options ?charges:None)
+
+(* Plan p charges as fast as two vehicles work, q not at all, and the others drain. *)
+let test_charging_plans =
+  let charges = [ ("p", 8); ("q", 0) ] in
+  test_batteries_of ~charges case ~print (battery_options ~charges)
+
+let test_linked_charging_plans =
+  let charges = [ ("p", 8); ("q", 0) ] in
+  let options case : Timed.options =
+    let o = linked_options case in
+    { o with durations = { o.durations with charges = (durations ~charges 0).charges } } in
+  test_batteries_of ~charges linked_case ~print:print_linked_case options
 
 let test_linked_batteries = test_batteries_of linked_case ~print:print_linked_case linked_options
 
@@ -398,7 +412,7 @@ let looks = ref 0 and close = ref 0
 let looks_agree (ast, seed, (_, environment)) =
   let left = if seed mod 2 = 0 then 0.3 else 0.5 in
   let at_first = parts - int_of_float (left *. float parts) - (seed mod 30) in
-  let vehicles, batteries = fleet ~at_first ~charge:(if seed mod 3 = 0 then 6 else 0) in
+  let vehicles, batteries = fleet ~at_first ~charge:(if seed mod 3 = 0 then 6 else 0) () in
   let program = Posts.declared environment (Generate.compile ast) in
   let world = List.fold_left (fun w (v, _) -> World.open_battery v [] w) Generate.world batteries in
   let options world : Timed.options =
@@ -513,6 +527,12 @@ let () =
                               (test_batteries ~at_first:7 ~charge:3 ~programs:(programs / 2));
                             Alcotest.test_case "batteries that are charged fast" `Quick
                               (test_batteries ~at_first:20 ~charge:40 ~programs:(programs / 2));
+                            Alcotest.test_case "plans that charge" `Quick
+                              (test_charging_plans ~at_first:30 ~charge:0 ~programs);
+                            Alcotest.test_case "plans that charge, and rest that charges" `Quick
+                              (test_charging_plans ~at_first:20 ~charge:3 ~programs:(programs / 2));
+                            Alcotest.test_case "plans that charge, and links that come and go" `Quick
+                              (test_linked_charging_plans ~at_first:20 ~charge:0 ~programs);
                             Alcotest.test_case "batteries, and links that come and go" `Quick
                               (test_linked_batteries ~at_first:0 ~charge:0 ~programs);
                             Alcotest.test_case "batteries that are charged, and links that come and go" `Quick

@@ -239,7 +239,8 @@ let test_batteries () =
     fleet
       "vehicle 'a', { type 'UUV'; battery 50.percent; drain 60.percent }\n\
        vehicle 'b', { type 'UUV'; drain 60.percent; charge 600.percent }\n\
-       plan 'p', { duration 5.min, 10.min }\nplan 'q', { duration 5.min }" in
+       plan 'p', { duration 5.min, 10.min }\nplan 'q', { duration 5.min }\n\
+       plan 'dock', { duration 5.min, 8.min; charges 120.percent }" in
   let found ?(faults = "") program =
     let faults = if faults = "" then Faults.none else Result.get_ok (Faults.of_string faults) in
     let program = Test_support.Pure_run.compile_exn (both ^ program) in
@@ -266,6 +267,10 @@ let test_batteries () =
       check "a failure" ~faults:"fail=1" [ ("a", 200, 200) ] "repeat 3, task('p')[va]";
       check "charged again" [ ("b", 900, 900) ] "repeat 3, (task('p')[vb] >> idle(20.min))";
       check "hardly charged" [ ("b", 817, 817) ] "task('p')[vb] >> idle(10.seconds) >> task('p')[vb]";
+      check "charged by a plan" [ ("a", 400, 400) ] "task('p')[va] >> task('dock')[va] >> task('p')[va]";
+      check "charged by a plan to full" [ ("b", 900, 900) ] "repeat 3, (task('p')[vb] >> task('dock')[vb])";
+      check "charged by a plan that is cut off" [ ("a", 318, 318) ]
+        "task('p')[va] >> (task('dock')[va] during 54.seconds) >> task('p')[va]";
       check "looked at" [ ("a", 350, -1) ]
         "task('p')[va] >> action { if (battery(va) < 0.45) { halt 'low' } } >> task('p')[va]" ];
   let kept =
@@ -285,6 +290,11 @@ let test_batteries () =
     (verdict "until { battery(va) < 0.1 } run repeat 5, task('p')[va]" = (false, false, None));
   verdicts "not known, though the program looks" true
     (verdict "repeat 5, (task('p')[va] >> action { if (battery(va) < 0.01) { halt 'low' } })" = (false, true, Some Unknown));
+  verdicts "enough if a plan charges" true
+    (verdict "repeat 10, (task('p')[va] >> task('dock')[va])" = (false, false, None));
+  verdicts "not enough, though a plan charges" true
+    (verdict "repeat 10, (task('p')[va] >> task('p')[va] >> task('p')[va] >> task('dock')[va])"
+     = (true, false, Some Empty));
   let o = found "execute repeat task('p')[va]\n" in
   Alcotest.(check int) "nothing is said of runs without end" 0 (List.length o.batteries)
 

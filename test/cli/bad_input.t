@@ -279,6 +279,19 @@ A fleet in place of a program.
   dolphin: a.fleet: this is a fleet: name a program, and the fleet by --fleet a.fleet
   [2]
 
+Control characters in a source or in a file's name never reach the terminal.
+
+  $ printf 'message "a\033[31mb\302\233c" + nothing_there\n' > control.dol
+  $ dolphin check control.dol 2>&1
+  control.dol:1:23: error: unknown name 'nothing_there'
+    1 | message "a?[31mb?c" + nothing_there
+      |                       ^^^^^^^^^^^^^
+  control.dol: 1 error
+  [2]
+  $ dolphin check "$(printf 'a\033[31mb.dol')" 2>&1
+  dolphin: a?[31mb.dol: No such file or directory
+  [2]
+
 The programs that ran did what the semantics allows.
 
   $ check-journals

@@ -1,5 +1,6 @@
 """Mutated copies of texts, of JSON and of archives. All chance comes from the `random.Random` that is passed in."""
 
+import copy
 import io
 import json
 import re
@@ -88,7 +89,7 @@ def structure(random, original):
         other, other_key = random.choice(list(nodes(value)))
         match random.randrange(6):
             case 0 | 1 | 2:
-                container[key] = random.choice(VALUES)
+                container[key] = copy.deepcopy(random.choice(VALUES))
             case 3 if container is not value:
                 del container[key]
             case 4:

@@ -1,7 +1,7 @@
 open Cmdliner
 open Dolphin_app
 
-let verdict path found = Format.printf "%s: %s@." path (Report.counts found)
+let verdict path found = Format.printf "%s: %s@." (Dolphin_trace.Phrase.harmless path) (Report.counts found)
 
 (* Tells what is wrong with the file [path], if it can be read at all. *)
 let checked path = function

@@ -119,7 +119,7 @@ let pp_line source ppf at =
 let pp ~source ppf d =
   let word = match d.severity with Error -> "error" | Warning -> "warning" in
   let placed = d.at <> Location.none in
-  if placed then Format.fprintf ppf "%a: " Location.pp d.at;
+  if placed then Format.fprintf ppf "%s: " (Character.printable (Format.asprintf "%a" Location.pp d.at));
   Format.fprintf ppf "%s: %s" word (Character.printable d.message);
   if placed then pp_line source ppf d.at;
   match d.hint with

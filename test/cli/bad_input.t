@@ -291,6 +291,13 @@ Control characters in a source or in a file's name never reach the terminal.
   $ dolphin check "$(printf 'a\033[31mb.dol')" 2>&1
   dolphin: a?[31mb.dol: No such file or directory
   [2]
+  $ cp control.dol "$(printf 'a\033[31mb.dol')"
+  $ dolphin check "$(printf 'a\033[31mb.dol')" 2>&1
+  a?[31mb.dol:1:23: error: unknown name 'nothing_there'
+    1 | message "a?[31mb?c" + nothing_there
+      |                       ^^^^^^^^^^^^^
+  a?[31mb.dol: 1 error
+  [2]
 
 The programs that ran did what the semantics allows.
 

@@ -36,7 +36,7 @@ Other requests to terminate do the same.
 So do SIGQUIT, SIGUSR1, SIGUSR2, signals of timers and limits, and real-time signals (here by their numbers): none ends the process while vehicles move. They do so
 once: only requests to end can end it at once.
 
-  $ for number in 3 10 12 14 16 24 25 26 27 29 30 34 50 64; do
+  $ for number in 3 10 12 14 16 24 25 27 29 30 34 50 64; do
   >   dolphin exec long.dol --speed 1 > again.txt & run=$!
   >   signal $number 'starts right' again.txt || echo "$number: $?, $(tail -1 again.txt | cut -c 10-)"
   > done
@@ -47,7 +47,6 @@ once: only requests to end can end it at once.
   16: 130, program     is interrupted
   24: 130, program     is interrupted
   25: 130, program     is interrupted
-  26: 130, program     is interrupted
   27: 130, program     is interrupted
   29: 130, program     is interrupted
   30: 130, program     is interrupted

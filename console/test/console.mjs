@@ -126,7 +126,7 @@ await test("a second page sees the same, watches, asks for the helm, and may tak
   await second.waitForSelector("#helm >> text=you have the helm");
   await second.waitForFunction(() => document.title.includes("You have the helm"));
   await page.click("#helm >> text=Take it");
-  await page.click("#choice >> text=Take it");
+  await page.click("#choice button >> text=Take it");
   await page.waitForSelector("#helm >> text=you have the helm");
   await second.waitForFunction(() => document.title.includes("was taken from this page"));
   await second.waitForSelector("#banner >> text=has taken the helm");
@@ -192,12 +192,12 @@ await test("names are completed", async () => {
 
 await test("inputs are posted, and Stop stops", async () => {
   await page.selectOption("#program", "stuck.dol");
-  await page.click("#choice >> text=Leave it");
+  await page.click("#choice button >> text=Leave it");
   await page.waitForFunction(() => location.hash === "#stuck.dol");
   await choose(page, "targets.dol");
   if (await second.locator("#helm >> text=you have the helm").count()) {
     await page.click("#helm >> text=Take it");
-    await page.click("#choice >> text=Take it");
+    await page.click("#choice button >> text=Take it");
   }
   await page.click("#run");
   await page.waitForSelector("#input-found");

@@ -90,7 +90,7 @@ execute ready()
 
   await test("what was found of another program says so, and of one that has changed", async () => {
     await page.selectOption("#program", "stuck.dol");
-    await page.click("#choice >> text=Leave it");
+    await page.click("#choice button >> text=Leave it");
     await page.waitForFunction(() => location.hash === "#stuck.dol");
     await page.click("#explore");
     await page.waitForSelector(".verdicts .violated >> text=no deadlock");

@@ -640,6 +640,25 @@ let stop_twice folder port =
   stop {|{"all": true}|} >>= fun () ->
   Client.until first is_over >>= fun _ -> Client.leave first
 
+(* Layers and tiles are read in threads. The runtime of OCaml 4 switches threads by SIGVTALRM: taken for an interruption,
+   it stopped the run and ended the console. *)
+let threads_interrupt_nothing () =
+  let interruption = Dolphin_app.Interruption.make () in
+  let signals = (Sys.sighup :: Sys.sigvtalrm :: Dolphin_processes.Ending_signals.(requests @ others)) in
+  let before = List.map (fun signal -> (signal, Sys.signal signal Sys.Signal_ignore)) signals in
+  List.iter (fun (signal, behaviour) -> Sys.set_signal signal behaviour) before;
+  let restore () = List.iter (fun (signal, behaviour) -> Sys.set_signal signal behaviour) before in
+  let busy () =
+    let start = Unix.gettimeofday () in
+    while Unix.gettimeofday () -. start < 0.3 do ignore (Sys.opaque_identity (ref 0)) done in
+  Fun.protect ~finally:restore (fun () ->
+      Dolphin_app.Interruption.on_signals interruption;
+      Lwt_main.run (Lwt.join [ Lwt_preemptive.detach busy (); Lwt_preemptive.detach busy () ] >>= fun () -> Lwt_unix.sleep 0.05);
+      holds "interrupted by a thread" false (Dolphin_app.Interruption.happened interruption);
+      Unix.kill (Unix.getpid ()) Sys.sigusr1;
+      Lwt_main.run (Lwt_unix.sleep 0.05);
+      holds "interrupted by SIGUSR1" true (Dolphin_app.Interruption.happened interruption))
+
 (* 4,000 constants took 4 s and more, nine times as long as 2,000. *)
 let many_constants _ port =
   let program = String.concat "" (List.init 4_000 (fun i -> Printf.sprintf "x%d = %d\\n" i i)) in
@@ -667,6 +686,6 @@ let () =
       ("files", [ slow "saving" (console saving); slow "texts under way" (console texts);
                   slow "many constants" (console many_constants) ]);
       ("runs",
-       [ slow "a run" (console a_run); slow "journals of the folder" (console journals); slow "answers and posts" (console answers_and_posts);
+       [ slow "threads" threads_interrupt_nothing; slow "a run" (console a_run); slow "journals of the folder" (console journals); slow "answers and posts" (console answers_and_posts);
          slow "what is asked" (console what_is_asked); slow "on the map" (console on_the_map);
          slow "stopped" (console stopped); slow "stuck" (console stuck); slow "faults" (console faults) ]) ]

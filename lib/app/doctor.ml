@@ -79,7 +79,8 @@ let console page () =
      (it needs npm), and scripts/install installs it; DOLPHIN_CONSOLE names the folder of a page that is elsewhere"
   in
   match page with
-  | Some folder when Sys.file_exists (Filename.concat folder "index.html") -> well "console" ("its page is in " ^ folder)
+  | Some folder when Sys.file_exists (Filename.concat folder "index.html") ->
+    well "console" ("its page is in " ^ folder)
   | Some folder -> missing "console" (Printf.sprintf "%s has no page: no index.html" folder) advice
   | None -> missing "console" "its page is not installed" advice
 

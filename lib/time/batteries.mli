@@ -4,7 +4,11 @@ open Dolphin_semantics
 module Scenario = Dolphin_scenario.Scenario
 
 (** That a vehicle sets out to carry a task out, or ceases to, or goes over to a plan that charges. *)
-type turn = { vehicle : Core.vehicle; doing : Dolphin_scenario.Battery.doing; at : int  (** milliseconds since the start *) }
+type turn = {
+  vehicle : Core.vehicle;
+  doing : Dolphin_scenario.Battery.doing;
+  at : int;  (** milliseconds since the start *)
+}
 
 val turns : Timed.options -> Timed.state -> Timed.step list -> int list -> turn list
 (** [turns o s steps dates] is those of a run from [s] with these dates. *)

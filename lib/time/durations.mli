@@ -28,4 +28,5 @@ val links_with : Dolphin_environment.Faults.t -> t -> Links.t
 
 val of_scenario : Dolphin_scenario.Scenario.t -> t
 (** [of_scenario s] is what [s] says: [duration] of plans by name, [speed] of vehicles for plans that are described in
-    the program, [after] of inputs, [joins], [leaves], [drops] of vehicles, [charges] of plans; some time, where it says nothing. *)
+    the program, [after] of inputs, [joins], [leaves], [drops] of vehicles, [charges] of plans; some time, where it says
+    nothing. *)

@@ -29,7 +29,14 @@ type move =
 
 type arrival = { move : move; into : Timed.state; items : Timed.item list; execution : Likeness.execution option }
 
-type passage = { may_do : Dolphin_scenario.Battery.doing list; least : int; most : int option; turns : bool; seen : Course.range; binds : bool }
+type passage = {
+  may_do : Dolphin_scenario.Battery.doing list;
+  least : int;
+  most : int option;
+  turns : bool;
+  seen : Course.range;
+  binds : bool;
+}
 type edge = { source : int; target : int; by : move; working : Working.t; passage : passage option }
 
 type node = { place : Timed_place.t; zone : Zone.t; parent : int; move : move option }

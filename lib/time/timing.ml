@@ -166,7 +166,8 @@ let lowest options (v : Scenario.vehicle) known { bound; of_ways } =
     | None -> None
     | Some steps -> (
         let start = Timed_system.start system in
-        match Schedule.stretched (Timed_system.successors system) start steps (Batteries.spans options v start steps) with
+        let spans = Batteries.spans options v start steps in
+        match Schedule.stretched (Timed_system.successors system) start steps spans with
         | Some dates -> Some (with_dates options start steps ~chain:[] (Some dates))
         | None | (exception Dates.Contradiction) -> None)
     | exception (Timed_system.Broken | Dates.Contradiction) -> None

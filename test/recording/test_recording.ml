@@ -120,7 +120,8 @@ let fleet =
   in
   let plan name =
     let* least = time and* more = time and* ending = oneofl [ Scenario.Succeeds; Succeeds; May_fail 0.5; Fails ] in
-    return { Scenario.name; duration = Some { least; most = least +. more }; ending; place = None; only = []; charges = None }
+    let duration = Some { Scenario.least; most = least +. more } in
+    return { Scenario.name; duration; ending; place = None; only = []; charges = None }
   in
   let input key =
     let* after = opt time and* times = int_range 1 3 in

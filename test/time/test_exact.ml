@@ -381,7 +381,8 @@ let test_batteries_of ?charges cases ~print options ~at_first ~charge ~programs 
 
 let battery_options ?charges (ast, seed, (_, environment)) : Timed.options =
   let program = Posts.declared environment (Generate.compile ast) in
-  { environment; program; world = Generate.world; durations = durations ?charges seed; dates = Dated_code.named program }
+  { environment; program; world = Generate.world; durations = durations ?charges seed;
+    dates = Dated_code.named program }
 
 let test_batteries = test_batteries_of case ~print (battery_options ?charges:None)
 

@@ -640,7 +640,7 @@ let stop_twice folder port =
   stop {|{"all": true}|} >>= fun () ->
   Client.until first is_over >>= fun _ -> Client.leave first
 
-(* Layers and tiles are read in threads. The runtime of OCaml 4 switches threads by SIGVTALRM: taken for an interruption,
+(* Layers and tiles are read in threads. The runtime of OCaml 4 switches threads by SIGVTALRM: as an interruption,
    it stopped the run and ended the console. *)
 let threads_interrupt_nothing () =
   let interruption = Dolphin_app.Interruption.make () in
@@ -653,7 +653,8 @@ let threads_interrupt_nothing () =
     while Unix.gettimeofday () -. start < 0.3 do ignore (Sys.opaque_identity (ref 0)) done in
   Fun.protect ~finally:restore (fun () ->
       Dolphin_app.Interruption.on_signals interruption;
-      Lwt_main.run (Lwt.join [ Lwt_preemptive.detach busy (); Lwt_preemptive.detach busy () ] >>= fun () -> Lwt_unix.sleep 0.05);
+      let threads = Lwt.join [ Lwt_preemptive.detach busy (); Lwt_preemptive.detach busy () ] in
+      Lwt_main.run (threads >>= fun () -> Lwt_unix.sleep 0.05);
       holds "interrupted by a thread" false (Dolphin_app.Interruption.happened interruption);
       Unix.kill (Unix.getpid ()) Sys.sigusr1;
       Lwt_main.run (Lwt_unix.sleep 0.05);

@@ -67,7 +67,7 @@ A program and its fleet: each tells of the other's changes. What was opened last
   diagnostics of m x.dol
     1:19-1:26 the fleet says nothing of plan 'survy'
   hint: did you mean 'survey'?
-  names duration mayFail fails at only
+  names duration mayFail fails at only charges
   null
 
 An editor that dies ends the server.

@@ -275,7 +275,7 @@ The areas of a map, or of a list, keep vehicles out, each by itself; places and 
 What is wrong with a map that a fleet names is shown too.
 
   $ echo "fence outside map('some.geojson').spike" >> zones.fleet
-  $ sed -i '/goTo/d' fleet.dol
+  $ printf "v = pick { type 'UUV' }\nrelease v\n" > fleet.dol
   $ dolphin check fleet.dol --fleet zones.fleet
   warning: zones.fleet:3:19: some.geojson: 'bow' is null: feature 1 ('bow'): a polygon does not cross itself: its sides from corner 1 and from corner 3 meet
   warning: zones.fleet:3:19: some.geojson: feature 2 ('spike'): spikes are cut off, corners that repeat the one before are left out

@@ -92,13 +92,14 @@ let go_on ~port ~journal fd death =
     Unix.ftruncate fd past.kept;
     let recorder = ref None in
     let time = Replay.time past.replay in
-    let again = Udp_platform.open_again (options ~port ~keep:(keep_with recorder)) ~time past.history in
-    let platform = opened (Lwt_main.run again) in
+    (* Before the platform is opened, which listens for some seconds and may keep notes meanwhile. *)
     let its_recorder =
       Recorder.resume program past.replay ~seen:(Resumption.seen past) (writer fd death ~from:!counted)
     in
     recorder := Some its_recorder;
     Recorder.write its_recorder ~time (fun ~time -> Resumed { time; program = source; at = started });
+    let again = Udp_platform.open_again (options ~port ~keep:(keep_with recorder)) ~time past.history in
+    let platform = opened (Lwt_main.run again) in
     let world = Replay.world past.replay in
     let news = List.map (fun s -> { s with World.connected = false }) (World.vehicles world) in
     drive its_recorder platform

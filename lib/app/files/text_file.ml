@@ -64,6 +64,8 @@ let usual_permissions () =
 
 (* A link stays a link, to a file with the permissions that it had. *)
 let replace path ~permissions f =
+  (* An error that follows would name the temporary file. *)
+  Unix.access (Filename.dirname path) [ W_OK; X_OK ];
   let temporary, channel =
     Filename.open_temp_file ~mode:[ Open_binary ] ~temp_dir:(Filename.dirname path) ".dolphin" "" in
   match

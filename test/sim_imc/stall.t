@@ -42,3 +42,5 @@ With --imc-abort it is aborted, and rests.
   "did":"lost"
   "did":"stopped"
   "did":"aborted"
+
+  $ check-journals

@@ -344,10 +344,26 @@ let tick ~now ~clock x =
 (* It maneuvers, and not for a plan. *)
 let maneuvers_idly x = maneuvers ~since:neg_infinity x && not (is_busy x)
 
+let unnoted plan =
+  Printf.sprintf
+    "the vehicle runs a plan %s already, and the journal has no request for it: it is not known whether that is this \
+     run's"
+    plan
+
+(* No request is on record. The plan that runs may be this one all the same, if the end of the journal is lost. *)
+let adopt_unasked ~now ~clock (order : order) x =
+  match x.latest with
+  | Some r when r.state.state = Executing && Plan_report.names order.plan r ->
+    let attempt = Attempt.make ~now ~clock ~request:x.next_request ~before:x.latest order in
+    let x = { x with next_request = (x.next_request + 1) land 0xFFFF } in
+    let x, outputs = begin_stop ~now ~clock ~took_effect:true attempt x in
+    (x, Failed (unnoted order.plan) :: outputs)
+  | Some _ | None -> begin_attempt ~now ~clock order x
+
 let adopt ~now ~clock (order : order) ~stopped notes x =
   let is_at_work (r : Plan_report.t) = Plan_report.is_busy r && Plan_report.names order.plan r in
   match Durable_note.knowledge ~plan:order.plan notes, x.latest with
-  | None, _ -> if stopped then (x, []) else begin_attempt ~now ~clock order x
+  | None, _ -> if stopped then (x, []) else adopt_unasked ~now ~clock order x
   | Some { over = true; _ }, _ when stopped -> (x, [])
   | Some k, Some r when stopped ->
     let attempt = Attempt.adopted ~now ~clock order k in

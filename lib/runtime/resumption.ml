@@ -10,6 +10,7 @@ type t = {
   interrupted : bool;
   clock : float * string;
   kept : int;
+  notes : int;
 }
 
 type trouble = Over of Request.ending | Changed | No_run of Verdict.t
@@ -23,6 +24,7 @@ type reading = {
   its_clock : float * string;
   ran : string;  (* the hash of the program that ran last *)
   whole : int;  (* bytes, without [held] *)
+  notes_of_whole : int;
 }
 
 (* What a line adds to the history, which are latest first. *)
@@ -46,7 +48,7 @@ let take tell reader r (entry : Entry.t) after =
   | Header _ | Partial _ | Label _ | Vehicle _ | Transition _ | Note _ | Resumed _ | End _ ->
     Option.iter (fun (event, _) -> tell event r.after) r.held;
     tell entry after;
-    let r' = { r' with held = None; whole = Journal.whole reader } in
+    let r' = { r' with held = None; whole = Journal.whole reader; notes_of_whole = Journal.notes reader } in
     (match entry with
      | Resumed { time; at; program } -> { r' with its_clock = (time, at); ran = program.hash }
      | Header _ | Partial _ | Label _ | Vehicle _ | Event _ | Transition _ | Note _ | End _ -> r')
@@ -66,7 +68,8 @@ let finish r =
         pending = Replay.event r.after;
         interrupted = is_interrupted r;
         clock = r.its_clock;
-        kept = r.whole }
+        kept = r.whole;
+        notes = r.notes_of_whole }
 
 let read ?(tell = fun _ _ -> ()) ?(changed = false) program ~hash reader =
   (* That the program is another one explains whatever does not fit. *)
@@ -92,7 +95,7 @@ let read ?(tell = fun _ _ -> ()) ?(changed = false) program ~hash reader =
     tell entry after;
     go
       { its_header = header; after; reversed = []; held = None; its_clock = (0., header.started);
-        ran = header.program.hash; whole = Journal.whole reader }
+        ran = header.program.hash; whole = Journal.whole reader; notes_of_whole = 0 }
   | Line { number; _ } | Torn number -> Error (No_run (Unreadable { number; why = "not even its first line is whole" }))
   | End_of_file -> Error (No_run (Unreadable { number = 1; why = "the journal is empty" }))
   | Wrong { number; why } -> Error (No_run (Unreadable { number; why }))

@@ -13,6 +13,7 @@ type t = {
   interrupted : bool;  (** [pending] is an interruption that was asked for, not that of a program that is stuck *)
   clock : float * string;  (** a time of the run, and when that was, in UTC: when it began, or was resumed last *)
   kept : int;  (** so many bytes of the journal count; what follows is torn, or [pending]'s line *)
+  notes : int;  (** the [platform] lines among them *)
 }
 
 (** Why there is nothing to resume. *)

@@ -68,7 +68,10 @@ let to_json entry : Yojson.Safe.t =
   | End { time; transitions; ending } ->
     line "end" time (("transitions", `Int transitions) :: Request.ending_members ending)
 
-let to_string entry = Canonical.to_string (to_json entry)
+let to_string ?notes entry =
+  match notes, to_json entry with
+  | Some n, `Assoc members -> Canonical.to_string (`Assoc (members @ [ ("notes", `Int n) ]))
+  | (Some _ | None), json -> Canonical.to_string json
 
 (* {1 Reading} *)
 
@@ -164,9 +167,14 @@ let first_of_json json =
 
 let first_of_string line = first_of_json (Result.value (Host_value.parse line) ~default:`Null)
 
-let of_string line =
+let of_numbered_string line =
   match Host_value.parse line with
   | Error why -> Error ("this is no JSON: " ^ why)
-  | Ok (`Assoc (("format", _) :: _) as json) -> first_of_json json
-  | Ok (`Assoc found) -> of_members found
+  | Ok (`Assoc (("format", _) :: _) as json) -> Result.map (fun entry -> (entry, None)) (first_of_json json)
+  | Ok (`Assoc found) ->
+    let* entry = of_members found in
+    let* notes = optional (fun json -> Result.map Option.some (whole json)) ~default:None "notes" found in
+    Ok (entry, notes)
   | Ok _ -> Error "this is no JSON object"
+
+let of_string line = Result.map fst (of_numbered_string line)

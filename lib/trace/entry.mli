@@ -29,11 +29,14 @@ type t =
 val time : t -> float
 (** Seconds since the start; 0 for the first line. *)
 
-val to_string : t -> string
-(** One line, without its end. *)
+val to_string : ?notes:int -> t -> string
+(** One line, without its end; with the member [notes], if that is given. *)
 
 val of_string : string -> (t, string) result
 (** Or what is wrong, in a sentence without a full stop. Unknown members are ignored. *)
+
+val of_numbered_string : string -> (t * int option, string) result
+(** The same, with the member [notes]. *)
 
 val first_of_string : string -> (t, string) result
 (** The same for a first line, which is a header or that of no journal. *)

@@ -12,6 +12,7 @@ type t = {
   line : Buffer.t;  (* what chunks before this one had of the line *)
   mutable number : int;
   mutable whole : int;  (* bytes of the lines that had an end *)
+  mutable notes : int;  (* lines of the platform *)
   mutable ahead : item option;  (* read already, for [peek] *)
 }
 
@@ -19,7 +20,7 @@ let longest = 16 * 1024 * 1024
 
 let make input =
   { input; chunk = Bytes.create 65536; from = 0; until = 0; line = Buffer.create 1024; number = 0; whole = 0;
-    ahead = None }
+    notes = 0; ahead = None }
 
 let of_channel channel = make (input channel)
 
@@ -62,15 +63,27 @@ let rec read r =
       Unfinished text
 
 let whole r = r.whole
+let notes r = r.notes
+
+let one_more (entry : Entry.t) = match entry with Note _ -> 1 | _ -> 0
+
+let missing ~expected found =
+  Printf.sprintf
+    "%s of the platform before this line, not %d: the journal is damaged, and it is not known what vehicles were told"
+    (Phrase.count found "line") expected
 
 let read_next r =
   r.number <- r.number + 1;
   let number = r.number in
   let wrong why = Wrong { number; why } in
   let entry text ~otherwise =
-    match if number = 1 then Entry.first_of_string text else Entry.of_string text with
-    | Ok (Header _) when number > 1 -> wrong "a second header"
-    | Ok entry -> Line { number; entry }
+    let first text = Result.map (fun entry -> (entry, None)) (Entry.first_of_string text) in
+    match if number = 1 then first text else Entry.of_numbered_string text with
+    | Ok (Header _, _) when number > 1 -> wrong "a second header"
+    | Ok (_, Some expected) when expected <> r.notes -> wrong (missing ~expected r.notes)
+    | Ok (entry, _) ->
+      r.notes <- r.notes + one_more entry;
+      Line { number; entry }
     | Error why -> otherwise why
   in
   match read r with
@@ -109,3 +122,15 @@ let breaks_off channel =
   match next r with
   | Line { entry = Header _; _ } -> is_begun () && is_open ""
   | Line _ | Torn _ | End_of_file | Wrong _ -> false
+
+(* {1 Writing} *)
+
+type numbering = { mutable so_far : int; mutable written : int }
+
+let numbering ~notes = { so_far = notes; written = 0 }
+
+let line n (entry : Entry.t) =
+  let notes = if n.so_far = n.written then None else Some n.so_far in
+  match entry with
+  | Note _ -> n.so_far <- n.so_far + 1; Entry.to_string ?notes entry
+  | _ -> n.written <- n.so_far; Entry.to_string ?notes entry

@@ -23,9 +23,25 @@ val peek : t -> item
 val whole : t -> int
 (** [whole r] is the number of bytes of the lines read so far, without a torn last one. *)
 
+val notes : t -> int
+(** [notes r] is the number of [platform] lines read so far. A line whose member [notes] is another number is [Wrong]:
+    lines before it are missing, and with them what vehicles were told. *)
+
 val breaks_off : in_channel -> bool
 (** [breaks_off channel] is whether the rest of [channel] is the journal of a run that took at least one transition and
     has not ended. It reads [channel] to its end. What is no journal does not break off. *)
 
 val longest : int
 (** 16 MiB. *)
+
+(** {1 Writing} *)
+
+type numbering
+(** How many [platform] lines a journal has. *)
+
+val numbering : notes:int -> numbering
+(** of a journal that has [notes] of them *)
+
+val line : numbering -> Entry.t -> string
+(** The next line, without its end. It has the number of [platform] lines before it, as [notes], if it is one or the
+    first line after some. *)

@@ -57,11 +57,18 @@ let nobody_knows =
   "failed: the console died just as it asked for plan p, which the vehicle had run before: nobody knows whether it has \
    run again"
 
+let unnoted =
+  "failed: the vehicle runs a plan p already, and the journal has no request for it: it is not known whether that is \
+   this run's"
+
 (* The states of a vehicle with which nothing happens. *)
 let still state = [ state; state; state; state ]
 
 let cases =
   [ case "never asked for: it is started" [] (ready "q") [] [ "keep asked p"; "start p" ];
+    case "never asked for, and running all the same" [] (executing "p") [ executing "p"; ready ~outcome:Failure "p" ]
+      [ "keep asked p"; unnoted; "stop p"; "keep over" ];
+    case "never asked for, and the vehicle runs another's plan" [] (executing "r") [] [ "keep asked p"; "start p" ];
     case "never asked for, and not wanted any more" ~stopped:true [] (ready "q") [] [];
     case "it runs" [ asked ~before:another (); taken; runs ] (executing "p") (still (executing "p")) [ "keep runs" ];
     case "it runs, which nobody had seen" [ asked ~before:another () ] (executing "p") [] [ "keep runs" ];

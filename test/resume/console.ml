@@ -28,10 +28,10 @@ let die () =
 (* Writes straight to the file: what is written is there, whoever dies. *)
 let write_all fd text = ignore (Unix.write_substring fd text 0 (String.length text))
 
-let writer fd death ~from =
-  let count = ref from in
+let writer ?(notes = 0) fd death ~from =
+  let count = ref from and numbering = Journal.numbering ~notes in
   fun (entry : Entry.t) ->
-    let line = Entry.to_string entry ^ "\n" in
+    let line = Journal.line numbering entry ^ "\n" in
     match entry with
     | Vehicle _ -> write_all fd line
     | Header _ | Partial _ | Label _ | Event _ | Transition _ | Note _ | Resumed _ | End _ ->
@@ -94,7 +94,8 @@ let go_on ~port ~journal fd death =
     let time = Replay.time past.replay in
     (* Before the platform is opened, which listens for some seconds and may keep notes meanwhile. *)
     let its_recorder =
-      Recorder.resume program past.replay ~seen:(Resumption.seen past) (writer fd death ~from:!counted)
+      Recorder.resume program past.replay ~seen:(Resumption.seen past)
+        (writer ~notes:past.notes fd death ~from:!counted)
     in
     recorder := Some its_recorder;
     Recorder.write its_recorder ~time (fun ~time -> Resumed { time; program = source; at = started });

@@ -71,6 +71,58 @@ let at_each_byte () =
   in
   for length = 0 to String.length r.journal do read length done
 
+(* {1 Lines of the platform that are missing} *)
+
+(* The run's lines with some notes of the platform among them: each with whether it is such a note. *)
+let with_notes random (r : Runs.t) =
+  let numbering = Journal.numbering ~notes:0 in
+  let one line =
+    let entry = Result.get_ok (Entry.of_numbered_string line) |> fst in
+    let note _ =
+      let note = Entry.Note { time = Entry.time entry; vehicle = "v"; note = `Assoc [ ("asked", `String "p") ] } in
+      (Journal.line numbering note, true)
+    in
+    let whole = (Journal.line numbering entry, false) in
+    let number = match entry with Transition _ -> Random.State.int random 3 | _ -> 0 in
+    whole :: List.init number note
+  in
+  let header, rest = match Runs.lines r.journal with h :: rest -> (h, rest) | [] -> assert false in
+  (header, false) :: List.concat_map one rest
+
+let read_lines (r : Runs.t) lines =
+  Dolphin_runtime.Resumption.read r.program ~hash:r.hash (Journal.of_string (Runs.text lines))
+
+(* A run that breaks off, at a random line, without one of its notes is refused, unless nothing follows that note: then
+   the console may have died before it. *)
+let missing_notes () =
+  let random = Random.State.make [| 33 |] and r = Runs.run ~period:60. "tuple_space" in
+  let refused = ref 0 in
+  for _ = 1 to 300 do
+    let lines = with_notes random r in
+    let kept = 2 + Random.State.int random (List.length lines - 3) in
+    let lines = List.filteri (fun i _ -> i < kept) lines in
+    let notes = List.filter (fun i -> snd (List.nth lines i)) (List.init kept Fun.id) in
+    (match read_lines r (List.map fst lines) with
+     | Ok past -> if past.notes > List.length notes then Alcotest.fail "notes that are not there are counted"
+     | Error trouble -> Alcotest.failf "whole: %a" Dolphin_runtime.Resumption.pp_trouble trouble);
+    if notes <> [] then begin
+      let first = List.nth notes (Random.State.int random (List.length notes)) in
+      let also = Random.State.bool random in
+      let is_gone i = i = first || (also && i > first && List.mem i notes && Random.State.bool random) in
+      let gone = List.map is_gone (List.init kept Fun.id) in
+      let unless_gone (line, _) gone = if gone then None else Some line in
+      let left = List.filter_map Fun.id (List.map2 unless_gone lines gone) in
+      let follows = List.exists (fun i -> i > first && not (List.nth gone i)) (List.init kept Fun.id) in
+      match read_lines r left with
+      | Error (No_run (Unreadable _)) when follows -> incr refused
+      | Ok _ when not follows -> ()
+      | Ok _ -> Alcotest.failf "without line %d of %d it is resumed" first kept
+      | Error trouble -> Alcotest.failf "without line %d: %a" first Dolphin_runtime.Resumption.pp_trouble trouble
+    end
+  done;
+  if !refused < 100 then Alcotest.failf "only %d runs were refused" !refused
+
 let () = Alcotest.run "resume" 
     [ ( "resume",
-        [ case "after a sample of the lines of all examples" examples; case "cut at each byte" at_each_byte ] ) ]
+        [ case "after a sample of the lines of all examples" examples; case "cut at each byte" at_each_byte;
+          case "without some notes of the platform" missing_notes ] ) ]

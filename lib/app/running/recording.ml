@@ -33,9 +33,9 @@ let protected path f =
   try f () with Sys_error why -> raise (Broken ("the journal cannot be written: " ^ Text_file.named path why))
 
 (* Each line is out before what it tells of happens. *)
-let write_line file entry =
+let write_line file numbering entry =
   protected file.path (fun () ->
-      output_string file.channel (Entry.to_string entry);
+      output_string file.channel (Journal.line numbering entry);
       output_char file.channel '\n';
       flush file.channel)
 
@@ -100,7 +100,7 @@ let guarded make =
 
 (* The journal's file is ours from now on. What it has stays until it is begun: by [clear], which is given it, and by
    what [make] writes. *)
-let opened settings header summary ~check ~clear make =
+let opened ?(notes = 0) settings header summary ~check ~clear make =
   let with_file () =
     let open_checked path =
       let file = open_file path in
@@ -108,8 +108,9 @@ let opened settings header summary ~check ~clear make =
       file
     in
     let file = Option.map open_checked settings.journal in
+    let numbering = Journal.numbering ~notes in
     let write entry =
-      Option.iter (fun file -> write_line file entry) file;
+      Option.iter (fun file -> write_line file numbering entry) file;
       if settings.drawing <> None then Summary.add summary entry;
       Option.iter (fun follow -> follow entry) settings.follower
     in
@@ -158,7 +159,7 @@ let resume settings program ~source (run : Resumed.t) =
       (fun ~time -> Entry.Resumed { time; program = source; at = utc_now () });
     recorder
   in
-  opened { settings with journal = Some path } run.past.header run.summary ~check ~clear make
+  opened ~notes:run.past.notes { settings with journal = Some path } run.past.header run.summary ~check ~clear make
 
 let begin_ r = guarded (fun () -> ignore (Lazy.force r.recorder))
 

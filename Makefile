@@ -1,5 +1,5 @@
 # What takes more than building and testing. The rest: dune build, dune test.
-.PHONY: site nightly tlc crosscheck refinement mutate mutate-code coverage
+.PHONY: site nightly tlc crosscheck refinement mutate mutate-code coverage proofs
 
 # The documentation as a site, searchable, its links checked: _build/site/html.
 site:
@@ -8,6 +8,10 @@ site:
 # All that is too slow for every change, a line each; ONLY="mutate peers" picks. scripts/nightly tells more.
 nightly:
 	@scripts/nightly $(ONLY)
+
+# The proofs of proofs/, checked by Coq: docs/proofs.md.
+proofs:
+	@scripts/proofs
 
 # TLC, where `dolphin tla --run` finds it.
 tlc:

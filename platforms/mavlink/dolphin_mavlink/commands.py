@@ -1,5 +1,7 @@
 """Commands to a vehicle, each repeated until it is acknowledged. Pure."""
 
+import math
+
 from .modes import parameters_of
 from .transfer import Repeated
 from .wire import mavlink
@@ -15,6 +17,8 @@ class Commands:
         self._vehicle, self._repeated = vehicle, Repeated(round_trip, most=2.0)
         self.waiting = None
         self._modes_sent, self._modes_acknowledged, self._modes_before = 0, 0, 0
+        self._mode, self._mode_sent_at = None, {}  # the mode sent last; when each was sent last
+        self.mode_acknowledged_at = -math.inf  # when a mode, or a copy of one, was acknowledged last
 
     def once(self, command, *params):
         """A message with the command, which is not repeated."""
@@ -29,6 +33,7 @@ class Commands:
         main, sub = parameters_of(self._vehicle.autopilot, self._vehicle.frame, mode)
         self._modes_before = self._modes_sent
         self._modes_sent += 1
+        self._mode, self._mode_sent_at[mode] = mode, now
         flag = mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED
         return self.send(now, mavlink.MAV_CMD_DO_SET_MODE, flag, main, sub)
 
@@ -36,12 +41,22 @@ class Commands:
         out = self._repeated.tick(now)
         if out and self.waiting == mavlink.MAV_CMD_DO_SET_MODE:
             self._modes_sent += 1
+            self._mode_sent_at[self._mode] = now
         return out
+
+    def since_mode(self, now, mode):
+        """Seconds since it was ordered into `mode` last."""
+        return now - self._mode_sent_at.get(mode, -math.inf)
+
+    def since_other_mode(self, now, mode):
+        """Seconds since it was ordered into another mode than `mode` last."""
+        return min((now - at for sent, at in self._mode_sent_at.items() if sent != mode), default=math.inf)
 
     def acknowledged(self, now, message):
         """Whether the command that waits is answered for good."""
         if message.command == mavlink.MAV_CMD_DO_SET_MODE:
             self._modes_acknowledged += 1
+            self.mode_acknowledged_at = now
         if message.command != self.waiting or message.result == IN_PROGRESS:
             return False
         self._repeated.answered(now)

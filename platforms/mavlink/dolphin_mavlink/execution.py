@@ -9,6 +9,7 @@ The stages, in order:
     rewind   the mission begins with its first item
     note     Dolphin keeps a note: from now on the mission may have been begun
     arm      if the mission says so and the vehicle is not armed
+    settle   on a link that doubles or reorders: until no late copy of an order into another mode is to be expected
     mode     the mode that flies missions
     run      until the last item is reached
     stop     the mode that holds, until the vehicle confirms it
@@ -31,10 +32,14 @@ from .wire import mavlink
 
 WORDS = 1.5  # seconds in which the reason for a mode that was left may come, and another heartbeat
 AFTERWARDS = 4.0  # seconds in which word may come that the last item was reached
+LOST = 10.0  # seconds in which such words come even if the link loses many
+LATE = 5.0  # seconds by which a copy of an order may come late
+SETTLED = 1.0  # seconds after which few copies still come
 GRACE = 5.0  # seconds in which a mode that was accepted shows in heartbeats, and is asked for that is refused for now
 BACK = 5.0  # seconds in which a mode is put back
 SILENT = 3  # after so many commands without an answer the autopilot may not know it
 ACCEPTED = mavlink.MAV_RESULT_ACCEPTED
+OVER = ("MISSION_CURRENT", "GLOBAL_POSITION_INT")  # by these shows whether a mission is over
 TRANSFER = {
     "MISSION_COUNT",
     "MISSION_REQUEST",
@@ -62,7 +67,10 @@ class Execution:
         self._end_of_back, self._is_back, self._back_at = None, False, 0.0
         self._stage_at = self._asked_at = self._begun = 0.0
         self._beats = 0
-        self._left, self._left_since, self._left_mode = None, None, None  # a mode that was left: when a verdict falls
+        # A mode that was left: when a verdict falls, since when, for which mode, after how many heartbeats.
+        self._left, self._left_since, self._left_mode, self._left_beats = None, None, None, 0
+        self._in_mission_at = 0.0  # when it was in the mode of the mission last
+        self._rewinds_by_message = False
         self._known, self._asked_for = set(), set()  # the modes that it may be in; those that we asked for
         self._mode_at_stop, self._stop_accepted = None, None
         self._disarmed, self._lands = None, False  # since it is disarmed; whether it was at an item that lands it then
@@ -92,11 +100,11 @@ class Execution:
         self._stopping = True
         if self._resumes and self.stage in ("link", "verify"):
             return []  # first it must be known whether it is ours that flies
+        if self._left is not None:
+            return []  # first it must be known whether a hand is on it
         out = self._boarding.cancel() if self._boarding is not None else []
         if not self._mode_asked:
             return out + self._give_up(now, "stopped")
-        if self._left is not None:
-            return self._judge_left(now)
         return out + self._go_to_stop(now)
 
     def hear(self, now, message):
@@ -105,6 +113,8 @@ class Execution:
             return []
         kind = message.get_type()
         out = []
+        if self._left is not None and self.stage != "run" and kind != "HEARTBEAT":
+            return []  # nothing goes on while a hand may be on it; what is not answered is repeated
         if kind == "COMMAND_ACK":
             out = self._acknowledged(now, message)
         elif kind == "HEARTBEAT":
@@ -112,8 +122,7 @@ class Execution:
         elif kind == "MISSION_CURRENT":
             out = self._mission_news(now)
         elif kind == "MISSION_ITEM_REACHED":
-            if self.stage == "run":
-                self._progress.item_reached(message.seq)
+            out = self._item_reached(now, message.seq)
         elif self._boarding is not None and kind in TRANSFER:
             self._asked_at = now
             out = self._boarding.hear(now, message)
@@ -123,14 +132,17 @@ class Execution:
     def tick(self, now):
         if self.is_over:
             return []
-        if self._left is not None and (now >= self._left or self._has_restarted):
-            return self._judge_left(now)
+        if self._left is not None:
+            decided = self._is_left_for_good(now) or self._has_restarted
+            return self._judge_left(now) if decided else self._look(now)
         out = []
         if self.stage == "link":
             out = self._try(now)
         elif self._boarding is not None:
             out = self._boarding.tick(now)
             out += self._boarded(now)
+        elif self.stage == "settle":
+            out = self._begin_mission(now)
         elif self._commands.waiting is not None:
             out = self._repeat(now)
         return out + self._look(now) + self._silence(now)
@@ -211,12 +223,17 @@ class Execution:
         return self._send_command(now, mavlink.MAV_CMD_COMPONENT_ARM_DISARM, 1)
 
     def _begin_mission(self, now):
+        since = self._commands.since_other_mode(now, self.vehicle.modes.mission)
+        if since < SETTLED and self.vehicle.is_confused(now):
+            self.stage, self._commands.waiting = "settle", None
+            return []
         self.stage, self._mode_asked = "mode", True
         self._progress.begin()
         return self._set_mode(now, self.vehicle.modes.mission)
 
     def _run(self, now):
         self.stage, self._stage_at, self._commands.waiting = "run", now, None
+        self._in_mission_at = now
         self._beats = self.vehicle.heartbeats
         self.events.append(("taken",))
         if self.vehicle.home_is_item_0 and self._armed_by_us:
@@ -246,7 +263,7 @@ class Execution:
         if now - v.heard_at > 2.5:
             return []  # it would not be known what happened in the meantime
         out = self._commands.tick(now)
-        if out and self.stage == "rewind" and self._commands.times >= SILENT:
+        if out and self.stage == "rewind" and (self._rewinds_by_message or self._commands.times >= SILENT):
             out = out + [self._set_current()]
         return out
 
@@ -260,8 +277,9 @@ class Execution:
         if message.result == ACCEPTED:
             return self._accepted(now)
         if self.stage == "rewind":
-            self._commands.waiting = None
-            return [self._set_current()] + self._prepare(now)
+            self._rewinds_by_message = True  # until MISSION_CURRENT confirms it
+            self._commands.later(now)
+            return [self._set_current()]
         return self._denied(now, message.result)
 
     def _accepted(self, now):
@@ -350,6 +368,10 @@ class Execution:
             return self._upload(now)
         if v.mode not in self._known:
             return self._taken_over(now)
+        if self._left is not None:
+            out = self._is_back_again(now)
+            if self._stopping:
+                return out
         if v.armed and v.mode == self._first_mode and v.mode not in v.modes.hands_off and not self._armed_by_us:
             # It was not armed, and by now its pilot has armed it.
             v.pilot = v.mode
@@ -371,12 +393,16 @@ class Execution:
         if self._disarmed is not None:
             return []
         if v.mode == v.modes.mission:
-            self._asked_mode, self._left = None, None
+            self._asked_mode, self._in_mission_at = None, now
+            if self._left is not None:
+                out = self._is_back_again(now)
+                if self._stopping:
+                    return out
             if v.armed:
                 self._progress.flies_on()
                 return []
             return self._was_disarmed(now)
-        if self._asked_mode is not None and v.mode == self._mode_before:
+        if self._asked_mode is not None and v.mode == self._mode_before and not self._progress.has_begun:
             if now - self._stage_at > GRACE and v.heartbeats - self._beats >= 3:
                 return self._fail(f"its autopilot did not go into mode {v.modes.mission}: it is in mode {v.mode}")
             return []
@@ -441,19 +467,33 @@ class Execution:
 
     def _mission_news(self, now):
         v, progress = self.vehicle, self._progress
-        if self.stage == "rewind" and self._commands.times > SILENT and v.current == progress.first:
+        confirms = self._rewinds_by_message or self._commands.times > SILENT
+        if self.stage == "rewind" and confirms and v.current == progress.first:
             return self._accepted(now)
         if self.stage not in ("run", "mode"):
             return []
         if progress.current != v.current and self.stage == "run" and v.armed and self._disarmed is None:
             self.events.append(("progress", progress.share))
         progress.news(now)
+        if self.stage == "mode":
+            return self._begun_already(now)
         goes_on = v.mission_state not in (None, mavlink.MISSION_STATE_COMPLETE)
         if goes_on and v.armed and self._left is not None and now - self._left_since >= 1:
             self._left = now  # the mission is not over
         if progress.is_replaced and self.stage == "run":
             return self._fail("its mission was replaced by another station")
         return []
+
+    def _item_reached(self, now, seq):
+        if self.stage not in ("run", "mode"):
+            return []
+        self._progress.item_reached(seq)
+        return self._begun_already(now) if self.stage == "mode" else []
+
+    def _begun_already(self, now):
+        """Items that were reached since the mode was ordered acknowledge the order."""
+        ordered = self._commands.waiting == mavlink.MAV_CMD_DO_SET_MODE
+        return self._accepted(now) if ordered and self._progress.has_begun else []
 
     def _look(self, now):
         if self.stage == "back":
@@ -469,15 +509,44 @@ class Execution:
     def _taken_over(self, now):
         """The mode is neither ours nor the one before. The words that tell who it was may be on their way."""
         v = self.vehicle
-        if self._left is not None:
-            self._left_mode = v.mode
-            return []
         self._left_mode = v.mode
+        if self._left is not None:
+            return []
         # One that is not armed may have restarted: its clock tells once it is asked for it.
         may_be_over = (self.stage == "run" and v.mode in v.modes.after) or not v.armed
         self._left, self._left_since = now + (AFTERWARDS if may_be_over else WORDS), now
-        self._commands.waiting, self._boarding = None, None
+        self._left_beats = v.heartbeats
         return []
+
+    def _is_back_again(self, now):
+        """The heartbeat with the other mode was an old one, or a hand has given the vehicle back."""
+        self._left = None
+        if not self._stopping:
+            return []
+        self._stopping = False
+        return self.stop(now)
+
+    def _is_left_for_good(self, now):
+        """Whether what decides has been heard since: another heartbeat, and of a mission that may be over where in it
+        the vehicle is, and where."""
+        v = self.vehicle
+        if self.stage != "run" and now - self._left_since > self.timeout:
+            return True
+        if now < self._left or v.heartbeats == self._left_beats:
+            return False
+        may_be_over = self.stage == "run" and self._left_mode in v.modes.after and not self._progress.was_over()
+        if not may_be_over or now - self._left_since >= LOST:
+            return True
+        return all(v.heard.get(kind, 0.0) > self._left_since for kind in OVER)
+
+    @property
+    def _may_be_ours(self):
+        """Whether a late copy of an order of ours may be what took it out of its mission: while it was not seen in that
+        mode, a copy may have come, or the acknowledgement of one has."""
+        mode, in_mission = self._left_mode, self._in_mission_at
+        if self.stage != "run" or mode not in self._asked_for:
+            return False
+        return self._commands.since_mode(in_mission, mode) < LATE or self._commands.mode_acknowledged_at >= in_mission
 
     def _judge_left(self, now):
         v, mode = self.vehicle, self._left_mode
@@ -486,8 +555,7 @@ class Execution:
             return []
         if self._has_restarted:
             return self._fail(hands.restarted(v))
-        is_ours = mode in self._asked_for and self.stage == "run" and self._left_since - self._stage_at < 5
-        if is_ours and not hands.is_emergency(now, v):
+        if self._may_be_ours and not hands.is_emergency(now, v):
             return self._fail(f"left mode {v.modes.mission} for {mode}: by its pilot, or by a late copy of an order")
         v.pilot = mode
         why, v.hand = hands.named(now, v, mode)

@@ -7,6 +7,7 @@ from . import mission as missions
 from .wire import mavlink
 
 NEAR = {"plane": 150.0, "vtol": 150.0}  # metres within which a place counts as reached; others: 15
+APART = 5.0  # metres: no autopilot takes a place for reached from as far from the next one
 _ENDS_ON_THE_GROUND = (missions.LAND, missions.RETURN, missions.VTOL_LAND)
 
 
@@ -16,6 +17,8 @@ class Progress:
     def __init__(self, vehicle, mission):
         self._vehicle, self._mission = vehicle, mission
         self.current = None
+        self._at = None  # the item that it is at, by that or by the last one that it reached
+        self._is_past = False  # whether it is at the number after the last item, as MAVSDK's vehicle is at the end
         self._was_active, self._near_since, self._was_at_last = False, None, False
         self._reached, self._visits, self._reached_last = False, 0, None
         # What decides is believed when it is said twice.
@@ -23,12 +26,13 @@ class Progress:
         self._total, self._strange = None, 0
 
     def begin(self):
-        self.current, self._total = None, None
+        self.current, self._total, self._at, self._is_past = None, None, None, False
         self._was_active, self._reached, self._visits, self._was_at_last = False, False, 0, False
 
     def resume(self):
         """It has begun before."""
         self.current, self._was_active = self._vehicle.current, True
+        self._at = self.current
         self._was_at_last = self._at_last
 
     # Items
@@ -47,7 +51,12 @@ class Progress:
 
     @property
     def _at_last(self):
-        return self.current is not None and self.current >= self._last
+        return self._at is not None and self._at >= self._last
+
+    @property
+    def has_begun(self):
+        """Whether it was at an item after the first one since `begin`."""
+        return self._at is not None and self._at > self.first
 
     @property
     def share(self):
@@ -58,7 +67,8 @@ class Progress:
     def news(self, now):
         """The vehicle has told of its mission's state."""
         v = self._vehicle
-        self.current = v.current
+        self.current = self._at = v.current
+        self._is_past = not v.home_is_item_0 and v.current == len(self._mission.items)
         self._was_at_last = self._was_at_last or self._at_last
         if v.mission_state == mavlink.MISSION_STATE_ACTIVE:
             self._was_active = True
@@ -72,10 +82,13 @@ class Progress:
             self._total = v.total
 
     def flies_on(self):
-        """The vehicle reports that it is armed, after it has told where in its mission it is."""
+        """The vehicle reports that it is armed and flies its mission, after it has told where in it it is."""
         self._was_at_last = self._at_last
 
     def item_reached(self, seq):
+        if self._at is None or seq >= self._at:
+            self._at = seq + 1
+            self._was_at_last = self._was_at_last or self._at_last
         if seq >= self._last and (self._reached_last is None or self._reached_last < self._last):
             self._visits += 1
             self._reached = self._visits >= self._mission.visits
@@ -96,8 +109,24 @@ class Progress:
         return self._at_last and self._begun_without_end(now)
 
     def was_over(self):
-        """Whether a vehicle has left the mission because it was over."""
-        return self._reached or (self._was_at_last and self._is_near(self._last_item))
+        """Whether a vehicle that is in a mode that it takes after a mission has left the mission because it was over.
+        Each report may have been lost, the last ones too: then the place decides."""
+        is_complete = self._completes > 0 and (self._was_active or self.has_begun)
+        if self._reached or is_complete or self._is_past:
+            return True
+        if self._mission.visits > 1 or self._mission.endless or not self._is_near(self._last_item):
+            return False
+        return self._was_at_last or self._is_only_at_last()
+
+    def _is_only_at_last(self):
+        """Whether the vehicle is at the place of the last item, and at none of those since the item it was at."""
+        v, last = self._vehicle, self._last_item
+        if self._at is None or self._at <= self.first or not last.is_destination:
+            return False
+        far = geo.distance(v.place, last.place)
+        items = self._mission.items[self._at - self.first : self._mission.last]
+        others = [geo.distance(v.place, item.place) for item in items if item.is_destination]
+        return all(other > max(2 * far, APART) for other in others)
 
     def returns_by_itself(self):
         """Whether its mode is one that the mission's last item asks for."""

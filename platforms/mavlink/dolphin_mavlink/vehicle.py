@@ -8,6 +8,7 @@ import re
 from . import modes
 from .wire import mavlink, version_of
 
+CONFUSED = 60.0  # seconds for which a link is remembered to double or to reorder messages
 LINK_SILENCE = 5.0  # seconds without a heartbeat, after which the link counts as lost
 MOVE_SILENCE = 10.0  # seconds after which a vehicle may be heard from another address
 DEAF = 10.0  # seconds in which a vehicle answers the first requests, over slow links too
@@ -48,6 +49,7 @@ class Order:
 
     def __init__(self):
         self._last, self._at = None, -math.inf
+        self.confused_at = -math.inf  # when a copy, or an overtaken message, came last
 
     def is_new(self, now, seq):
         """Whether the message is later than all before it: neither a copy nor one that was overtaken."""
@@ -55,6 +57,7 @@ class Order:
         if 0 < ahead < 192:
             self._last, self._at = seq, now
             return True
+        self.confused_at = now
         return False
 
 
@@ -117,6 +120,11 @@ class Vehicle:
 
     def link(self, now):
         return now - self.heard_at <= LINK_SILENCE
+
+    def is_confused(self, now):
+        """Whether its link doubles or reorders messages: late copies of orders may then still arrive."""
+        order = self._orders.get(self.component)
+        return order is not None and now - order.confused_at <= CONFUSED
 
     def hear(self, now, message):
         """Takes in `message` of this system. Gives whether it is of the autopilot, and later than all before it."""

@@ -15,6 +15,7 @@ class Network:
         self.now, self.reports, self.reported_at = 0.0, [], []
         self.sent, self.sent_messages = 0, []  # of the station
         self.down = False  # whether the links are dead
+        self.loses = lambda message: False  # which messages of vehicles are lost
         self.vehicles = {v.system: v for v in vehicles}
         self._wires = {v.system: Wire(v.system, v.component, key) for v in vehicles}
         self._queue, self._number = [], 0
@@ -81,7 +82,13 @@ class Network:
     def say(self, vehicle, messages):
         wire = self._wires[vehicle.system]
         for message in messages:
-            self._transmit(wire.encode(message), lambda data, v=vehicle: self._to_station(v, data))
+            data = wire.encode(message)
+            if not self.loses(message):
+                self._transmit(data, lambda data, v=vehicle: self._to_station(v, data))
+
+    def repeat(self, message, system=1):
+        """A copy of what the station has sent arrives, however late."""
+        self._to_vehicle(self.vehicles[system], self._wire.encode(message))
 
     def inject(self, data, address="elsewhere"):
         """A datagram of somebody else."""

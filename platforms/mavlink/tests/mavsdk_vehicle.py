@@ -2,8 +2,9 @@
 
     mavsdk_vehicle.py PORT
 
-It flies a mission by reporting that each item is complete, ten a second. Ends when its input ends. Letters on its
-input: S, it takes 2 s for each item; R and L, somebody else sends it home, or to land.
+It flies a mission by reporting that each item is complete, ten a second, at the item's place. MAVSDK reports each item
+once. Ends when its input ends. Letters on its input: S, it takes 2 s for each item; R and L, somebody else sends it
+home, or to land.
 """
 
 import os
@@ -17,14 +18,22 @@ from mavsdk.plugins.action_server import ActionServer, AllowableFlightModes, Fli
 from mavsdk.plugins.mission_raw_server import MissionRawServer
 from mavsdk.plugins.telemetry_server import Heading, Position, TelemetryServer, VelocityNed
 
+HARBOUR = (41.185, -8.706)
+DESTINATIONS = range(16, 22)  # the commands of waypoints, loiters, landings
+
 
 class Flight:
     def __init__(self):
         self.items, self.armed, self.mode = [], False, FlightMode.HOLD
         self.seconds = 0.1
+        self.place = HARBOUR
 
     def flies(self):
         return self.armed and self.mode == FlightMode.MISSION and self.items
+
+    def reach(self, item):
+        if item.command in DESTINATIONS and (item.x, item.y) != (0, 0):
+            self.place = item.x / 1e7, item.y / 1e7
 
 
 def main(port):
@@ -68,10 +77,11 @@ def main(port):
     threading.Thread(target=obey, daemon=True).start()
     left = None
     while not ended.is_set():
-        telemetry.publish_position(Position(41.185, -8.706, 30.0, 30.0), VelocityNed(0, 0, 0), Heading(0))
+        telemetry.publish_position(Position(*flight.place, 30.0, 30.0), VelocityNed(0, 0, 0), Heading(0))
         if flight.flies():
             left = len(flight.items) if left is None else left
             if left > 0:
+                flight.reach(flight.items[-left])
                 missions.set_current_item_complete()
                 left -= 1
             else:

@@ -2,7 +2,7 @@
 
 type verdict = {
   found : Inline_plans.found;
-  answers : (string * string list) list;  (** by the name of the platform, what it finds wrong with the plan *)
+  answers : (string * string list) list;  (** by the name of the platform, the problems that it finds in the plan *)
 }
 
 val is_fine : verdict -> bool
@@ -10,10 +10,11 @@ val is_fine : verdict -> bool
 
 val ask : Interruption.t -> string list -> Inline_plans.found list -> (verdict list, Error.t) result
 (** [ask interruption commands plans] starts the adapters [commands], asks each about each of [plans], and ends them.
-    The error says which adapter cannot be spoken to, or does not answer; or it is {!Error.Interrupted}. *)
+    The error names the adapter that cannot be spoken to, or does not answer; or it is {!Error.Interrupted}. *)
 
 val lines : verdict -> string list
-(** What to print of it: ["survey: mavlink runs it"], ["survey: mavlink: maneuver 2.YoYo: an aircraft does not dive"].
+(** The lines to print of it: ["survey: mavlink runs it"], ["survey: mavlink: maneuver 2.YoYo: an aircraft does not
+    dive"].
 *)
 
 val to_json : Inline_plans.found -> Yojson.Safe.t

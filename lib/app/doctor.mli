@@ -1,9 +1,9 @@
-(** What this machine has of what Dolphin may want. *)
+(** The optional software and settings of this machine. *)
 
 type finding = {
   subject : string;  (** ["TLC"] *)
-  found : string;  (** what is there, or what is wrong *)
-  advice : string option;  (** what to do, if something is missing *)
+  found : string;  (** the installed version, or the fault *)
+  advice : string option;  (** the remedy, if it is missing *)
   is_needed : bool;  (** whether programs cannot be run without it *)
 }
 

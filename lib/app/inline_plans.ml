@@ -20,7 +20,7 @@ let started : Effect.t -> (Core.vehicle * Core.platform_task) option = function
   | Stop _ | Set_timer _ | Cancel_timer _ | Put_question _ | Withdraw_question _ | Look_for _ | Bind _ | Release _
   | Set_connection_timeout _ | Say _ | Ask _ | Call_host _ | End _ -> None
 
-(* Where vehicles are, as the run hears it, and how fast they go. *)
+(* The positions and speeds of vehicles, as the run hears them. *)
 let observed (fleet : Fleet_file.t) found =
   let positions = Hashtbl.create 16 in
   let speed v =

@@ -5,12 +5,12 @@ module Location = Dolphin_syntax.Location
 let program_column = "program"
 let widest = 40  (* characters of a cell *)
 
-(* Who a transition is about, what happened, and where the program says so, as far as it can be told. *)
+(* The vehicle of a transition, its deed, and its place in the program, as far as they are known. *)
 type row = {
   actor : string;
   text : string;
   at : Location.t option;
-  words : string;  (* what the log says, where the label says little *)
+  words : string;  (* the log's words, where the label is short *)
   assumed : World.assumption list;
 }
 
@@ -27,8 +27,7 @@ let code_for (label : Label.t) (c : Configuration.t) =
   | Executing (_, r) -> Residual.fold_active (fun found r -> found @ code r) [] r
   | Script _ | Waiting _ | Ended _ -> []
 
-(* Where the code of the step stands: the first that it has left behind; or all of it that it may be, if that is at one
-   place. *)
+(* The place of the step's code: the first that it has left behind; or all possible ones, if they are at one place. *)
 let site_of_code (label : Label.t) before (t : Transition.t) =
   let site (c : Core.closure) = c.lambda.lambda_site in
   let sites c = List.map site (code_for label c) in
@@ -148,7 +147,7 @@ let least_words = 24
 let narrowest = 12
 let width = width_of_all
 
-(* Who it is stands in a column of its own, where columns for all do not fit. *)
+(* The vehicle has a column of its own, if columns for all do not fit. *)
 let listing ~heads ~columns rows =
   let number = width heads in
   let cells widest head row =
@@ -160,7 +159,7 @@ let listing ~heads ~columns rows =
   | [] -> []
   | names :: lines -> names :: List.concat (List.map2 (fun line row -> line :: assumptions ~number row) lines rows)
 
-(* What the log says is not known to the reader of a narrow table, but names of vehicles and tasks must be. *)
+(* The reader of a narrow table does not need the log's words, but the names of vehicles and tasks. *)
 let lines ?(first = 1) ?heads ?columns ~source program run =
   let rows = rows program ~source run in
   let without_assumed = List.map (fun row -> { row with assumed = [] }) rows in

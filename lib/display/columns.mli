@@ -12,9 +12,9 @@ open Dolphin_semantics
 (** A line of the table. *)
 type row = {
   actor : string;  (** a vehicle, or ["program"] *)
-  text : string;  (** what it did *)
-  at : Dolphin_syntax.Location.t option;  (** where the program says so *)
-  words : string;  (** what the log says of it, where [text] is a label that says little; or [""] *)
+  text : string;  (** its deed *)
+  at : Dolphin_syntax.Location.t option;  (** its place in the program *)
+  words : string;  (** the log's words for it, where [text] is a short label; or [""] *)
   assumed : World.assumption list;
 }
 
@@ -26,12 +26,12 @@ val row : Core.program -> source:string -> Configuration.t option -> Transition.
     is [None]. *)
 
 val place : row -> string
-(** [place row] is where the program says so: ["mission.dol:9"], or [""]. *)
+(** [place row] is the place in the program: ["mission.dol:9"], or [""]. *)
 
 val lines :
   ?first:int -> ?heads:string list -> ?columns:int -> source:string -> Core.program -> Transition.t list -> string list
 (** [lines ~source program run] is the table of [run]; [source] is the text of [program]. Silent transitions have no
     row. Rows are numbered from [first], by default 1, or have [heads] instead, a text for each transition; of long
-    texts the beginning is shown. What a transition takes for granted of an open world stands below it. The table is
-    made to fit into [columns], if it is given: with what the log says of guards and timers in a last column, if there
-    is room for it; if the columns of all do not fit, who it is stands in each row instead. *)
+    texts the beginning is shown. The assumptions of a transition in an open world stand below it. The table is made
+    to fit into [columns], if it is given: with the log's words for guards and timers in a last column, if there is
+    room for it; if the columns of all do not fit, each row has the name of its vehicle instead. *)

@@ -2,7 +2,7 @@ open Dolphin_semantics
 module Phrase = Dolphin_trace.Phrase
 
 type t = {
-  before : Core.platform_task Vehicle_map.t;  (* A before the transition: what a vehicle that is stopped was doing *)
+  before : Core.platform_task Vehicle_map.t;  (* A before the transition: the tasks of stopped vehicles *)
   unheard : Core.vehicle list;  (* bound vehicles without a link *)
   unready : (Core.vehicle * string) list;  (* bound vehicles that cannot be given a plan, and why *)
   bound : Core.vehicle list;
@@ -34,7 +34,7 @@ let text_of l ~time actor text =
 let question l ~time prompt = text_of l ~time program ("asks: " ^ prompt)
 let remark l ~time text = { about = []; severity = Trouble; text = text_of l ~time program text }
 
-(* What happened: to whom, how bad it is, in which words. *)
+(* An entry: its subject, its severity, its words. *)
 type happening = { actor : string; others : Core.vehicle list; how : severity; words : string }
 
 let of_program ?(others = []) ?(how = Ordinary) words = { actor = program; others; how; words }
@@ -54,7 +54,7 @@ let tint ~colour { severity; text; _ } =
   | Said | Completed -> Tint.paint ~colour Tint.strong text
   | Ordinary -> text
 
-(* {1 What transitions say} *)
+(* {1 Transitions} *)
 
 let deed : Code.deed -> string = function
   | Posted pairs -> Format.asprintf "posts %a" Fmt.(list ~sep:(any ", ") Value.pp_tuple) pairs
@@ -80,7 +80,7 @@ let of_ending ~stuck : Configuration.ending -> happening = function
 
 let task_of l v = match Vehicle_map.find_opt v l.before with Some p -> Phrase.one_line p.Core.name | None -> "its task"
 
-(* Who did what, as far as the label tells. Ends and what leads to them are told by the effect [End]. *)
+(* The vehicle and its deed, as far as the label has them. The effect [End] reports ends and their causes. *)
 let of_label ?(stuck = false) (s : Transition.t) =
   let by_program ?how text = [ of_program ?how text ] in
   match s.label with
@@ -118,7 +118,7 @@ let words (t : Transition.t) =
     String.concat "; " (List.map (fun happening -> Phrase.one_line happening.words) (of_label t))
   | _ -> ""
 
-(* The first effects of a transition are those of the deeds in its label, which are told already. *)
+(* The first effects of a transition are those of the deeds in its label, which are reported already. *)
 let told_by_label (label : Label.t) =
   let has_effect : Code.deed -> bool = function
     | Posted _ | Consumed _ -> false
@@ -166,7 +166,7 @@ let link l ~time (state : World.vehicle_state) =
     ( { l with unheard = state.id :: l.unheard },
       [ line l ~time (of_vehicle ~how:Trouble state.id "loses its link") ] )
 
-(* Of a vehicle without a link nobody knows. *)
+(* The state of a vehicle without a link is unknown. *)
 let readiness l ~time (state : World.vehicle_state) =
   let before = List.assoc_opt state.id l.unready in
   if (not state.connected) || before = state.unready then (l, [])

@@ -1,4 +1,4 @@
-(** The log of a run, for people: when, who, what.
+(** The log of a run, for people: time, subject, event.
 
     {v
   0:00  program     picks noptilus-1, noptilus-2, noptilus-3
@@ -10,46 +10,46 @@
 open Dolphin_semantics
 
 type t
-(** What the log remembers of the run so far. *)
+(** The part of the run that the log remembers. *)
 
 val start : t
 (** Before the first line. *)
 
 (** {1 Lines} *)
 
-(** How much a line matters to whoever watches. *)
+(** How important a line is to a reader. *)
 type severity =
   | Trouble  (** a failure, a lost link, the end of a run that did not complete *)
-  | Said  (** what the program says *)
+  | Said  (** a message of the program *)
   | Completed  (** that the run did *)
   | Ordinary
 
 type line = {
-  about : Core.vehicle list;  (** whom it is about *)
+  about : Core.vehicle list;  (** its vehicles *)
   severity : severity;
   text : string;  (** which may have several lines *)
 }
 
 val is_shown : quiet:bool -> only:Core.vehicle list -> line -> bool
-(** [is_shown ~quiet ~only l] is whether [l] stays if only trouble and what the program says is wanted ([quiet]), and
-    only what is about the vehicles [only], unless that is [[]]. Trouble and the end always stay. *)
+(** [is_shown ~quiet ~only l] is whether [l] stays if only trouble and the program's messages are wanted ([quiet]),
+    and only lines about the vehicles [only], unless that is [[]]. Trouble and the end always stay. *)
 
 val tint : colour:bool -> line -> string
 (** Its text, coloured by its severity if [colour]. *)
 
 val transition : ?stuck:bool -> t -> time:float -> Transition.t -> t * line list
-(** [transition l ~time s] is the lines that tell of [s], in the order in which things happen, and the log after it.
-    What cannot be seen from outside has no line, nor has the question of an [ask], which {!question} tells. With
-    [~stuck:true] an interruption is told as what it is then: nobody's wish, but the end of a program that is stuck. *)
+(** [transition l ~time s] is the lines for [s], in the order of its effects, and the log after it. Silent steps have
+    no line, nor has the question of an [ask], which {!question} reports. With [~stuck:true] an interruption is
+    reported as the end of a stuck program, not as a person's wish. *)
 
 val news : t -> time:float -> World.vehicle_state -> t * line list
-(** [news l ~time state] tells of vehicles of the program that lose their link or have it back. *)
+(** [news l ~time state] is the lines for vehicles of the program that lose their link or have it back. *)
 
 val question : t -> time:float -> string -> string
 (** [question l ~time prompt] is the line that asks [prompt]; the answer is to follow it. *)
 
 val remark : t -> time:float -> string -> line
-(** [remark l ~time text] is a line about what is unusual. *)
+(** [remark l ~time text] is a line about an unusual event. *)
 
 val words : Transition.t -> string
-(** [words t] is what the log says of the deed, guard or timer that made [t]; [""] of other transitions. *)
+(** [words t] is the log's words for the deed, guard or timer that made [t]; [""] for other transitions. *)

@@ -1,4 +1,4 @@
-(** What became of a run, in a few lines: for its end. *)
+(** The outcome of a run, in a few lines: for its end. *)
 
 open Dolphin_semantics
 
@@ -8,5 +8,5 @@ val start : t
 val transition : t -> time:float -> Transition.t -> t
 
 val lines : t -> now:float -> journal:string option -> colour:bool -> string list
-(** [lines o ~now ~journal ~colour] says how the run ended and when, how many tasks it had and what became of them,
-    which ones failed and why, and where its journal is. Empty while it has not ended. *)
+(** [lines o ~now ~journal ~colour] states how the run ended and when, the number of its tasks and their outcomes,
+    the failed ones with their reasons, and the place of its journal. Empty while it has not ended. *)

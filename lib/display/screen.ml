@@ -7,7 +7,7 @@ type t = {
   mutable closed : bool;  (* nothing can be written any more *)
   mutable board : rows:int -> columns:int -> string list;
   mutable drawn : int list;  (* the lines of the board on the terminal, by their widths *)
-  mutable quiet : Terminal.quiet option;  (* what is typed is not shown *)
+  mutable quiet : Terminal.quiet option;  (* typed text is not shown *)
   mutable asking : bool;  (* the last line is a question, without its end *)
   pending : Buffer.t;  (* lines of the log that the terminal has not *)
   mutable due : bool;  (* whether a redraw is scheduled *)
@@ -16,7 +16,7 @@ type t = {
 
 let period = 0.1
 
-(* Seconds that nobody sets: when the system's time is set, the board is redrawn all the same. *)
+(* Seconds that are independent of the system's time: when that is set, the board is redrawn all the same. *)
 let now () = Int64.to_float (Mtime_clock.elapsed_ns ()) *. 1e-9
 
 let make ~live ~on_closed output =
@@ -40,7 +40,7 @@ let write s text = write_from s text 0
 
 (* {1 The terminal} *)
 
-(* What is typed would move the board, and is not shown while there is one. *)
+(* Echoed input would move the board, and is not shown while there is one. *)
 let hush s = if s.live && s.quiet = None then s.quiet <- Terminal.hush ()
 
 let unhush s =
@@ -68,7 +68,7 @@ let erase s ~columns =
 let rows_of_board rows = max 1 (rows - max 4 (rows / 3))
 
 (* The log's new lines, and the board below. A line of the board that is too long is cut by the terminal, for a line
-   that went on below would not be erased. In the background there is no board: the terminal is another's. *)
+   that went on below would not be erased. In the background the board is off: the terminal is another's. *)
 let draw s ~board =
   let rows, columns = Terminal.size s.output in
   let erased = erase s ~columns in
@@ -95,7 +95,7 @@ let redraw s =
 
 (* {1 Either} *)
 
-(* Nobody answers a question that is still open when the log goes on. *)
+(* A question that is still open when the log goes on stays unanswered. *)
 let give_up s =
   if s.asking then begin
     s.asking <- false;

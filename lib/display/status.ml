@@ -88,7 +88,7 @@ let place (at : Location.t) = Printf.sprintf "%s:%d" (Filename.basename (Locatio
 
 let shortened n text = if Phrase.width text <= n then text else fst (Phrase.split (max 0 (n - 3)) text) ^ "..."
 
-(* On a narrow terminal, what is lacking has a line of its own. *)
+(* On a narrow terminal, the missing condition has a line of its own. *)
 let of_waiting ~columns ({ what; at; lacking } : Waiting.t) =
   let at = Option.fold at ~none:"" ~some:(fun at -> place at ^ " ") in
   let head = indented (at ^ "waits for " ^ what) in

@@ -1,4 +1,4 @@
-(** What the vehicles of a program do right now, and what it waits for: the foot of a terminal. *)
+(** The present tasks of a program's vehicles, and the awaited events: the foot of a terminal. *)
 
 open Dolphin_semantics
 
@@ -17,7 +17,7 @@ val lines :
   t -> now:float -> estimate:(Core.vehicle -> string option) -> waiting:Waiting.t list -> rows:int -> columns:int ->
   colour:bool -> string list
 (** [lines b ~now ~estimate ~waiting ~rows ~columns ~colour] is at most [rows] lines of at most [columns] characters,
-    colours not counted: the time and how many vehicles there are; what the program waits for; then one for each bound
-    vehicle: its task, how far it is with it ([estimate]), for how long it has been running, its battery or that it has
-    no link, its position. Vehicles in trouble come first: without a link, with a failed task, with little left in
-    their batteries; then in pick order. Empty while no vehicle is bound and nothing is waited for. *)
+    colours not counted: the time and the number of vehicles; the awaited events; then one line for each bound
+    vehicle: its task, its progress ([estimate]), its running time, its battery or that it has no link, its position.
+    Vehicles in trouble come first: without a link, with a failed task, with little left in their batteries; then in
+    pick order. Empty while no vehicle is bound and nothing is waited for. *)

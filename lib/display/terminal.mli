@@ -4,7 +4,7 @@ val is_live : unit -> bool
 (** Whether standard output is a terminal on which lines can be redrawn. *)
 
 val size : Unix.file_descr -> int * int
-(** [size fd] is the rows and columns of the terminal [fd], 24 and 80 if it does not say. *)
+(** [size fd] is the rows and columns of the terminal [fd], 24 and 80 if it does not report them. *)
 
 val is_ours : Unix.file_descr -> bool
 (** [is_ours fd] is whether this process may use the terminal [fd] now: a job in the background may not. *)
@@ -18,4 +18,4 @@ val hush : unit -> quiet option
 (** [hush ()] keeps standard input from showing what is typed, if it is a terminal, and ours. *)
 
 val unhush : quiet -> unit
-(** What is typed is shown again; what was typed meanwhile is dropped: nobody meant it for what comes next. *)
+(** Typed text is shown again; text typed meanwhile is dropped: it was not meant for the next question. *)

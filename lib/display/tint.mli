@@ -1,4 +1,4 @@
-(** Colours of a terminal, by what they mean. *)
+(** Colours of a terminal, by their meaning. *)
 
 type t
 
@@ -6,10 +6,10 @@ val bad : t
 (** Red: trouble. *)
 
 val doubtful : t
-(** Yellow: what may become trouble. *)
+(** Yellow: possible trouble. *)
 
 val strong : t
-(** Bold: what the program says. *)
+(** Bold: messages of the program. *)
 
 val faint : t
 

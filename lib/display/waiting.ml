@@ -30,10 +30,10 @@ let rec conjuncts (e : Core.expression) =
   | Block [ e ] -> conjuncts e
   | _ -> [ e ]
 
-(* A guard runs whenever it may hold, so it does not run long. What takes longer is not told of. *)
+(* A guard runs whenever it may hold, so it does not run long. Longer waits are not reported. *)
 let fuel = 10_000
 
-(* Whether [e] holds in the place of the code of [guard]; [None] if that cannot be told. *)
+(* Whether [e] holds in the place of the code of [guard]; [None] if unknown. *)
 let holds program world (s : Shared.t) (guard : Core.closure) e =
   let context : Code.context =
     { program; world; allocation = s.allocation; bound = s.bound; held = lazy []; needed = lazy [];
@@ -44,8 +44,8 @@ let holds program world (s : Shared.t) (guard : Core.closure) e =
   | Decided (Finished x, _, _) -> Some (Value.truth x)
   | Decided ((Exhausted | Did _ | Waits _ | Halted _ | Left_off | Faulted _), _, _) | Open _ | Unclear _ -> None
 
-(* The shortest beginning of a conjunction that does not hold, by its last part: what a part consumes is missing in
-   those after it. *)
+(* The shortest prefix of a conjunction that does not hold, by its last part: later parts lack the pairs that earlier
+   ones consume. *)
 let missing program world s (guard : Core.closure) =
   let all = guard.lambda.code in
   let both (a : Core.expression) b : Core.expression =

@@ -1,4 +1,4 @@
-(** What a program waits for, besides its vehicles: for the person who asks why nothing happens. *)
+(** The events that a program awaits, besides its vehicles: the reason why it makes no step. *)
 
 open Dolphin_semantics
 
@@ -11,7 +11,7 @@ type t = {
 }
 
 val text : Core.program -> source:string -> Core.site -> string option
-(** [text program ~source site] is what stands at [site] of [source], the text of [program], in one line. *)
+(** [text program ~source site] is the text at [site] of [source], the text of [program], in one line. *)
 
 type question = {
   at : Dolphin_syntax.Location.t option;
@@ -19,8 +19,8 @@ type question = {
 }
 
 val question : Core.program -> source:string -> Configuration.t -> string -> question
-(** [question program ~source c prompt] is where [c] asks [prompt], and whether by [confirm]. *)
+(** [question program ~source c prompt] is the place where [c] asks [prompt], and whether by [confirm]. *)
 
 val list : Core.program -> source:string -> World.t -> Configuration.t -> t list
-(** [list program ~source world c] is what [c] waits for in [world], each place of the program once, leftmost first.
-    [source] is the text of [program]. The tasks of vehicles are not among it. *)
+(** [list program ~source world c] lists the guards that [c] awaits in [world], each place of the program once,
+    leftmost first. [source] is the text of [program]. The tasks of vehicles are not among it. *)

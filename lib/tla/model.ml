@@ -63,7 +63,7 @@ let ending : Environment.ending -> string = function
 (* A name that no program has. *)
 let nobody = "\000"
 
-(* The body of Ending(v, p); what holds for most comes last. *)
+(* The body of Ending(v, p); the most frequent case comes last. *)
 let endings (environment : Environment.options) world plans =
   let ids = List.map (fun (s : World.vehicle_state) -> s.id) (World.vehicles world) in
   let usual = match ids with id :: _ -> Environment.ending environment id nobody | [] -> Environment.Succeeds in
@@ -93,8 +93,8 @@ let late (environment : Environment.options) world =
 
 (* {1 Answers and replies} *)
 
-(* The body of a definition with the parameter [parameter]: [of_name] of each of [names], and of a name that nobody has
-   for all others. *)
+(* The body of a definition with the parameter [parameter]: [of_name] of each of [names], and of an unused name for
+   all others. *)
 let cases parameter names of_name =
   let clause name = Format.asprintf "%s = %a -> %a" parameter Tla.pp (Tla.String name) Tla.pp (of_name name) in
   let others = Format.asprintf "%a" Tla.pp (of_name nobody) in
@@ -122,7 +122,7 @@ let confirmations (environment : Environment.options) prompts =
   in
   cases "prompt" prompts (fun prompt -> Tla.Tuple (List.map reply (Environment.confirmations environment prompt)))
 
-(* [at] is a parameter of the definition: where the call is made. *)
+(* [at] is a parameter of the definition: the place of the call. *)
 let reply translation = function
   | Ok x -> Tla.Tuple [ String "value"; Translation.reply translation ~at:(Name "at") x ]
   | Error why -> Tla.strings [ "failure"; why ]
@@ -149,8 +149,8 @@ let inputs translation (program : Core.program) (environment : Environment.optio
 
 (* {1 The module} *)
 
-(* TLC computes anew, at each use, what a configuration puts in the place of a constant; other definitions it computes
-   once. So for large values a name is put there. *)
+(* TLC recomputes, at each use, the replacement of a constant in a configuration; other definitions it computes once.
+   So for large values a name is put there. *)
 let tables = [ "Fleet"; "Code"; "Lambdas"; "LambdaNames"; "Places"; "Distances"; "Plans" ]
 
 let small =

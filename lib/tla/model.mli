@@ -1,5 +1,6 @@
-(** The TLA+ model of one program in one world: what TLC needs to explore it, by the specification in [spec/]. There the
-    program is a table of expressions, which the specification runs itself. Only geometry is computed here. *)
+(** The TLA+ model of one program in one world: the input with which TLC explores it, by the specification in
+    [spec/]. There the program is a table of expressions, which the specification runs itself. Only geometry is
+    computed here. *)
 
 open Dolphin_semantics
 module Environment = Dolphin_environment.Environment
@@ -15,13 +16,13 @@ val of_program :
   World.t ->
   Core.program ->
   (file list, Dolphin_syntax.Diagnostic.t list) result
-(** [of_program ~plans ~prompts ~calls ~times ~environment w p] is the model of [p] in [w]: the specification's modules,
-    [MC.tla] with the program and the world as constants, and configurations, all for one directory. [MC.cfg] checks
-    the properties; [Told.cfg] does too, and tells runs by an [ALIAS]; [Graph.cfg] prints the graph; [Coverage.cfg] has
-    an action for each rule. With [times], also [MCTimed.tla] and [Timed.cfg], which prints when runs end, and tasks
-    start and end. An error is what cannot be translated, in the order of the text. [environment] is asked
-    about the plans, prompts and calls of the host that are listed here; what it says of a name that nobody has holds
-    for all others. *)
+(** [of_program ~plans ~prompts ~calls ~times ~environment w p] is the model of [p] in [w]: the specification's
+    modules, [MC.tla] with the program and the world as constants, and configurations, all for one directory.
+    [MC.cfg] checks the properties; [Told.cfg] does too, and prints runs by an [ALIAS]; [Graph.cfg] prints the graph;
+    [Coverage.cfg] has an action for each rule. With [times], also [MCTimed.tla] and [Timed.cfg], which prints when
+    runs end, and tasks start and end. An error lists the parts that cannot be translated, in the order of the text.
+    [environment] is asked about the plans, prompts and calls of the host that are listed here; its answer for a name
+    that is in no list holds for all others. *)
 
 val unfit_replies :
   environment:Environment.options -> calls:string list -> World.t -> Core.program -> (string * string) list

@@ -6,7 +6,7 @@ let check = "Run.cfg"
 let check_states = "RunStates.cfg"
 let graph = "Graph.cfg"
 
-(* What [dolphin explore] asks of a program comes first, in its order; the rest is asked of the specification. *)
+(* The questions of [dolphin explore] come first, in its order; the rest is asked of the specification. *)
 let properties ~strict =
   let invariant name = { name; of_runs = false } in
   List.map invariant [ "NoDeadlock"; "NoError"; "Assertions"; "EnoughVehicles" ]

@@ -1,4 +1,4 @@
-(** How TLC is to run a model, and what it is asked. *)
+(** The invocation of TLC on a model, and its questions. *)
 
 val main : string
 (** ["MC"], the name of the module. *)
@@ -16,7 +16,7 @@ val graph : string
     TLC must have one worker, for a state's lines to stay together. *)
 
 val properties : strict:bool -> property list
-(** What {!check} checks; with [strict] also that nothing halts, and that no tuples are left. *)
+(** The properties of {!check}; with [strict] also that no run halts, and that no tuples are left. *)
 
 val files : strict:bool -> Model.file list -> Model.file list
 (** [files ~strict model] is [model] with the configurations {!check} and {!check_states}. *)

@@ -4,7 +4,7 @@ val is_mathematics : string -> bool
 (** Whether this function of [Math] is exact on fractions. *)
 
 val is_refused_property : string -> bool
-(** Properties whose values are no fractions: coordinates, radians. *)
+(** Properties whose values are not fractions: coordinates, radians. *)
 
 val is_for_readings : string -> bool
 (** Whether the specification has this property or method, which is refused otherwise, of positions that may be

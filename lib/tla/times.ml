@@ -47,7 +47,7 @@ let bounds : Bounds.t -> Tla.t = function
   | Some_time -> Tuple [ Integer 0; Integer (-1) ]
   | Never -> Tuple []
 
-(* What holds for most comes last. *)
+(* The most frequent case comes last. *)
 let cases clauses usual =
   match List.filter (fun (_, value) -> value <> usual) clauses with
   | [] -> Format.asprintf "%a" Tla.pp usual

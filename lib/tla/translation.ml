@@ -11,7 +11,7 @@ type t = {
   world : World.t;
   describes_plans : bool;  (* by settings, not by name *)
   places : Places.t;
-  vehicles_at : Position.t list;  (* where vehicles may be: the first of [places] *)
+  vehicles_at : Position.t list;  (* possible places of vehicles: the first of [places] *)
   nodes : (int, Tla.t * site) Hashtbl.t;
   mutable lambdas : (lambda * int * Tla.t) list;  (* latest first *)
   mutable plans : Tla.t list;  (* latest first *)
@@ -68,7 +68,7 @@ let note_sensor t site sensor =
       (name_of_sensor sensor) s.id
   | None -> ()
 
-(* Likewise at the property or method [name] of a vehicle, if it is a sensor. *)
+(* The same at the property or method [name] of a vehicle, if it is a sensor. *)
 let note_member t site name =
   match Reading.subject name with
   | Some (Sensor sensor) -> note_sensor t site sensor

@@ -1,10 +1,10 @@
 (** Programs as tables of TLA+. Every expression and every closure has a number; expressions refer to their parts by
-    number. What [spec/DolphinMachine.tla] cannot run is refused, with its place in the program. *)
+    number. Code that [spec/DolphinMachine.tla] cannot run is refused, with its place in the program. *)
 
 open Dolphin_semantics
 
 type t
-(** Mutable: what has been translated so far. *)
+(** Mutable: the translation so far. *)
 
 val create : Core.program -> World.t -> t
 
@@ -28,7 +28,7 @@ val name_of_sensor : Core.sensor -> string
 (** Their names in the models, each another. *)
 
 val refusals : t -> Dolphin_syntax.Diagnostic.t list
-(** What cannot be translated, in the order of the text. *)
+(** The parts that cannot be translated, in the order of the text. *)
 
 (** {1:tables The tables} *)
 

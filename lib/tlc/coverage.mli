@@ -1,4 +1,4 @@
-(** What TLC's option [-coverage] says of the actions of a specification. *)
+(** The output of TLC's option [-coverage] about the actions of a specification. *)
 
 type count = {
   action : string;  (** the name of its definition *)
@@ -7,5 +7,5 @@ type count = {
 }
 
 val of_message : Message.t -> count option
-(** [of_message m] is what [m] counts, if it counts an action. Once a minute and at its end TLC tells what it
-    has counted so far, so the last count of an action is the whole. *)
+(** [of_message m] is the count in [m], if it counts an action. Once a minute and at its end TLC prints its counts so
+    far, so the last count of an action is the whole. *)

@@ -23,7 +23,7 @@ type t =
 
 (* {1 Words} *)
 
-(* Where [part] begins in [text]. *)
+(* The index of [part] in [text]. *)
 let find part text =
   let n = String.length part in
   let rec go i =
@@ -43,7 +43,7 @@ let leading_number text =
   let rec length i = if i < String.length text && is_of_number text.[i] then length (i + 1) else i in
   number (String.sub text 0 (length 0))
 
-(* The number at the end of what comes before [part]. *)
+(* The number at the end of the text before [part]. *)
 let number_before part text =
   let last_number text =
     let n = String.length text in

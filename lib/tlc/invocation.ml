@@ -17,8 +17,8 @@ let of_mode (i : Installation.t) = function
   | Server { host; port } ->
     [ "-Djava.rmi.server.hostname=" ^ host; port_option port; "-cp"; i.jar; "tlc2.tool.distributed.TLCServer" ]
 
-(* [-deadlock] says not to look for deadlocks: an end has no successor either, so models have an invariant for that. The
-   distributed server ignores CHECK_DEADLOCK in the configuration. *)
+(* [-deadlock] turns the search for deadlocks off: an end has no successor either, so models have an invariant for
+   that. The distributed server ignores CHECK_DEADLOCK in the configuration. *)
 let command ?(short = false) ?(coverage = false) i mode ~directory ~main ~configuration =
   java i ~short
   @ [ "-Djava.io.tmpdir=" ^ directory ]

@@ -8,7 +8,7 @@ type reader = Outside | Inside of { code : int; severity : severity; lines : str
 let start = Outside
 let mark = "@!@!@"
 
-(* [between prefix s] is what stands in [s] between [prefix] and a mark at the end. *)
+(* [between prefix s] is the part of [s] between [prefix] and a mark at the end. *)
 let between prefix s =
   let first = String.length prefix in
   let rest = String.length s - first - String.length mark in

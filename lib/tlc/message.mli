@@ -14,7 +14,7 @@ type t =
   | Line of string  (** a line outside of messages *)
 
 type reader
-(** What was read of a message that has not ended yet, if any. *)
+(** The part read of a message that has not ended yet, if any. *)
 
 val start : reader
 
@@ -23,7 +23,7 @@ val line : reader -> string -> reader * t list
     last one has ended ends that one. A carriage return at the end of a line does not count. *)
 
 val finish : reader -> t list
-(** [finish r] is what is left when the output ends: the message that was cut off, if any. *)
+(** [finish r] is the rest when the output ends: the message that was cut off, if any. *)
 
 val of_string : string -> t list
 (** All of an output. *)

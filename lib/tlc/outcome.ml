@@ -35,7 +35,7 @@ let start =
     printed = [];
     holds = false }
 
-(* Lines outside of messages matter only if there are no messages at all, and then only the last few. *)
+(* Lines outside of messages matter only if the output has no messages at all, and then only the last few. *)
 let most_printed = 20
 
 let keep line printed =
@@ -77,7 +77,7 @@ let verdict r =
 
 let finish r = { r.so_far with verdict = verdict r }
 
-(* Class files say for which version of Java they are, by a number that is 44 higher. *)
+(* Class files give their version of Java by a number that is 44 higher. *)
 let java_too_old lines =
   let version prefix line = Option.map (fun n -> n - 44) (Event.number_after prefix line) in
   let told line =

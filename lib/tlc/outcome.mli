@@ -1,20 +1,20 @@
-(** What TLC found, all told. *)
+(** The complete result of TLC. *)
 
 (** The states of a counter-example after the initial one. *)
 type step = { action : string option; state : string  (** as in {!Event.State} *) }
 
-(** How a counter-example goes on for ever, if it does. *)
+(** The cycle of a counterexample, if it has one. *)
 type repetition = Once | Stays | Back_to of int  (** that many steps from the start *)
 
-(** What is {!Event.Unnamed} comes with its last steps only. *)
+(** {!Event.Unnamed} comes with its last steps only. *)
 type counter_example = { violation : Event.violation; steps : step list; repetition : repetition }
 
 type verdict =
   | Holds
   | Violated of counter_example  (** the first that TLC came across: it looks no further *)
   | Unfinished  (** it ended, or was ended, before the search did *)
-  | Gave_up of string  (** an assertion of the model says so: why *)
-  | Failed of string list  (** what TLC, or Java, says went wrong *)
+  | Gave_up of string  (** an assertion of the model failed: its reason *)
+  | Failed of string list  (** the error message of TLC, or Java *)
 
 type t = {
   version : string option;
@@ -31,8 +31,8 @@ val start : reader
 val event : reader -> Event.t -> reader
 
 val finish : reader -> t
-(** What was found, when the output has ended. *)
+(** The result, when the output has ended. *)
 
 val java_too_old : string list -> (int * int) option
-(** [java_too_old lines] is the versions of Java that are needed and that is there, if [lines], of {!Failed}, say that
-    this is what went wrong. *)
+(** [java_too_old lines] is the required and the installed version of Java, if [lines], of {!Failed}, report this
+    fault. *)

@@ -1,14 +1,14 @@
 (** Dates that a model with time prints while TLC explores it, as [Timed.tla] has it: whenever a moment of a run is
-    found to be earlier or later than it ever was, a line says so, in one string literal of TLA+, of these fields with
-    tabulators between:
+    found to be earlier or later than it ever was, a line reports it, in one string literal of TLA+, of these fields
+    with tabulators between:
 
     {v
 T <tab> program <tab> date <tab> moment
     v}
 
-    A moment has one or more fields: how the run ends; what happens to a task, with the task's name, its vehicle and
-    its place in the program; ["goes on"], at the horizon; ["stuck"], where nothing more is to happen. Dates are in
-    ticks. *)
+    A moment has one or more fields: the end of the run; the event of a task, with the task's name, its vehicle and
+    its place in the program; ["goes on"], at the horizon; ["stuck"], where no further event is possible. Dates are
+    in ticks. *)
 
 type t
 

@@ -9,9 +9,9 @@ M <tab> mark                            something that can be seen of it
 E <tab> label <tab> state <tab> rules   a transition of it, and where it leads
     v}
 
-    Equal states have equal texts. A label may contain tabulators, other fields do not. Where a model has several
-    programs, [program] is the number of the one that the state is of, and is 1 if it is missing; the first state of
-    each program is its initial one. A mark becomes a transition from the state to itself, so that comparing graphs
+    Equal states have equal texts. A label may contain tabulators, other fields do not. If a model has several
+    programs, [program] is the number of the state's program, and is 1 if it is missing; the first state of each
+    program is its initial one. A mark becomes a transition from the state to itself, so that comparing graphs
     compares marks too: how a state has ended, and its A, B and N, which labels do not show. *)
 
 open Dolphin_lts
@@ -40,7 +40,7 @@ val label : rules:string -> string -> string
 
 val states : t -> int
 val transitions : t -> int
-(** Lines of each so far; marks are no transitions. *)
+(** Lines of each so far; marks are not transitions. *)
 
 val used : t -> string -> int
 (** [used g rule] is how many transitions so far have the rule of this name in their derivation. *)

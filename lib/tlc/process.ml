@@ -12,7 +12,7 @@ let rec wait pid =
 
 let kill pid signal = try Unix.kill pid signal with Unix.Unix_error _ -> ()
 
-(* Calls [line] for each whole line of what comes from [input], and gives what follows the last one. *)
+(* Calls [line] for each whole line of [input], and gives the text after the last one. *)
 let take_lines line pending chunk n =
   let rec go start =
     match Bytes.index_from_opt chunk start '\n' with

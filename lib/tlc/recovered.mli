@@ -5,14 +5,14 @@ module Environment := Dolphin_environment.Environment
 
 type run = {
   steps : Transition.t list;
-  cycle : Transition.t list;  (** goes on from there for ever, if there is any *)
+  cycle : Transition.t list;  (** goes on from there without end, if it does *)
 }
 
 type trouble =
-  | No_label of int  (** the state after so many steps does not say by which label it was reached *)
+  | No_label of int  (** the state after this number of steps does not name the label by which it was reached *)
   | No_such_run of { after : string list; label : string }
   (** the semantics can do [after], but then not [label]: the two statements of the semantics differ *)
-  | Does_not_return of string list  (** these labels, of the cycle, lead to another state than TLC says *)
+  | Does_not_return of string list  (** these labels, of the cycle, lead to another state than TLC reports *)
 
 val run :
   Environment.options -> Core.program -> World.t ->

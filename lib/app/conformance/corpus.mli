@@ -7,11 +7,11 @@ val load : string list -> (Case.t list, Error.t) result
     not cases. *)
 
 val with_implementation : name:string -> timeout:float -> string option -> (Dialogue.ask -> 'a) -> 'a
-(** [with_implementation ~name ~timeout command f] is [f ask], where [ask] asks the program that the shell command
-    [command] starts, which has [timeout] seconds for each reply, or without it this implementation, by the name [name].
+(** [with_implementation ~name ~timeout command f] is [f ask], where [ask] asks the program of the shell command
+    [command], which has [timeout] seconds for each reply, or without it this implementation, by the name [name].
     Signals that ask to stop then raise [Sys.Break]. *)
 
 type judged = { case : Case.t; verdict : Judge.verdict; passed : bool }
 
 val judge : Dialogue.ask -> (judged -> unit) -> Case.t list -> judged list * Matrix.t
-(** [judge ask tell cases] judges each of [cases], and [tell]s of it at once. *)
+(** [judge ask tell cases] judges each of [cases], and reports it at once by [tell]. *)

@@ -36,7 +36,7 @@ let rec write_all descriptor text from =
     Lwt_unix.write_string descriptor text from (String.length text - from) >>= fun n ->
     write_all descriptor text (from + n)
 
-(* What became of a process that says nothing more. *)
+(* The outcome of a process that has gone silent. *)
 let farewell process =
   Lwt.pick
     [ (Child.exited process.child >|= fun status -> Format.asprintf "it %a" Child.pp_status status);

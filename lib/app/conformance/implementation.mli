@@ -8,8 +8,8 @@ val make : timeout:float -> string -> t
     first asked, and again after it died or was given up. It has [timeout] seconds for each reply. *)
 
 val ask : t -> Dolphin_conformance.Dialogue.ask
-(** Its reply to a request, less what came wrong: a reply that is late, or no object, or another request's is an error,
-    and ends the process. @raise Invalid_argument if the request is no object. *)
+(** Its reply to a request; a reply that is late, not an object, or another request's is an error, and ends the
+    process. @raise Invalid_argument if the request is not an object. *)
 
 val close : t -> unit
 (** Ends the process. *)

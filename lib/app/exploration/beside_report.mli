@@ -6,6 +6,6 @@ val line : Program_file.t -> Side_by_side.pair -> string
 (** [line program pair] is both plans with their places in the text, and how near they come, in one line. *)
 
 val print : Program_file.t -> Side_by_side.pair list -> unit
-(** A line for each, after an empty one; nothing if there are none. *)
+(** A line for each, after an empty one; nothing without any. *)
 
 val json : Program_file.t -> Side_by_side.pair list -> Yojson.Safe.t

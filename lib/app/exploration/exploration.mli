@@ -3,19 +3,19 @@
 module Search := Dolphin_explore.Search
 module Property := Dolphin_explore.Property
 
-(** What is explored, and how far. [None] is no bound. *)
+(** The world of an exploration, and its bounds. [None] is without a bound. *)
 type settings = {
-  answers : string list;  (** what may be answered; [[]]: what the fleet answers *)
+  answers : string list;  (** the possible answers; [[]]: those of the fleet *)
   faults : Dolphin_environment.Faults.t;
   reduction : Dolphin_explore.Reduction.t;
   compress : bool;  (** less memory, more time *)
-  spill : string option;  (** the directory of what goes beyond [max_memory] *)
+  spill : string option;  (** the directory for data beyond [max_memory] *)
   walks : Dolphin_explore.Search.walks option;
-  bitstate : int option;  (** bytes of bits by which states are told apart, in place of their set *)
+  bitstate : int option;  (** bytes of bits that distinguish states, in place of their set *)
   workers : int;  (** processes that search, if there are many states *)
   max_states : int option;
   max_depth : int option;  (** transitions *)
-  max_memory : int option;  (** bytes; [None]: nine tenths of what is left to the process *)
+  max_memory : int option;  (** bytes; [None]: nine tenths of the memory left to the process *)
   timeout : float option;  (** seconds *)
   invariants : string list;  (** expressions ({!Dolphin_explore.Condition}) *)
   formulas : string list;  (** of linear temporal logic ({!Dolphin_explore.Temporal}) *)
@@ -24,14 +24,14 @@ type settings = {
 
 val invariants :
   Dolphin_semantics.Core.program -> string list -> (Dolphin_explore.Condition.t list, Error.t) result
-(** [invariants program texts] is what [texts] spell, or the first that is wrong: {!Error.Bad_input}. *)
+(** [invariants program texts] is the conditions that [texts] spell, or the first that is wrong: {!Error.Bad_input}. *)
 
 val explore :
   interrupted:(unit -> bool) -> progress:(Dolphin_checker.Limits.progress -> unit) -> settings -> Program_file.t ->
   Fleet_file.t -> (Search.outcome, Error.t) result
-(** [explore ~interrupted ~progress s program fleet] is what is found out about the runs of [program] in the world of
-    [fleet]. It ends early, as at a bound, once [interrupted ()]; [progress] is called now and then. The
-    error, {!Error.Bad_input}, is a wrong invariant or formula. *)
+(** [explore ~interrupted ~progress s program fleet] is the result about the runs of [program] in the world of
+    [fleet]. It ends early, as at a bound, once [interrupted ()]; [progress] is called now and then. The error,
+    {!Error.Bad_input}, is a wrong invariant or formula. *)
 
 (** {1:verdicts Verdicts} *)
 

@@ -9,7 +9,7 @@ let mebibytes bytes = bytes / 1024 / 1024
 let print_verdict program (property, (verdict : Search.verdict), remark) =
   match verdict with
   | (Holds | Inconclusive _) when remark -> ()
-  (* What is asked of tasks stands for both, unless vehicles are missing. *)
+  (* The verdict on tasks stands for both, unless vehicles are missing. *)
   | (Holds | Inconclusive _) when property = Property.Vehicles -> ()
   | Holds | Violated _ | By_design _ | Unreached _ | Inconclusive _ ->
     Format.printf "%s%a@." (if remark then "note: " else "") (Search.pp_verdict program) (property, verdict)

@@ -1,4 +1,4 @@
-(** What an exploration found, for people and for programs. *)
+(** The result of an exploration, for people and for programs. *)
 
 module Search := Dolphin_explore.Search
 

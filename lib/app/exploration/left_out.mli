@@ -1,9 +1,9 @@
-(** What a fleet says of its vehicles that [explore] and [time] leave out. *)
+(** The parts of a fleet file that [explore] and [time] leave out. *)
 
 val sentences : Dolphin_environment.Faults.t -> Fleet_file.t -> string list
 (** [sentences faults fleet] names the vehicles that join late in [fleet], and those that leave or lose their links,
-    each with the fault that would let them; none for what [faults] has. They have no full stop. *)
+    each with the fault that would let them; none for the faults in [faults]. They have no full stop. *)
 
 val of_time : Dolphin_environment.Faults.t -> Fleet_file.t -> string list
-(** Likewise, of [dolphin time], which knows when vehicles join, leave, and lose their links: none, unless [faults] has
-    [join] and not [loss]. *)
+(** The same for [dolphin time], which knows when vehicles join, leave, and lose their links: none, unless [faults]
+    has [join] and not [loss]. *)

@@ -34,7 +34,7 @@ let taken () = of_kib (entry "VmRSS:" "/proc/self/status")
 
 (* {1 Control groups} *)
 
-(* What a group leaves: pages of files that nobody uses are given back before anything is refused. *)
+(* The rest of a group: unused pages of files are given back before anything is refused. *)
 let group ~limit ~used ~unused folder =
   let file name = Filename.concat folder name in
   match number (file limit), number (file used) with
@@ -44,7 +44,7 @@ let group ~limit ~used ~unused folder =
 
 let rec up path = if path = "/" || path = "." || path = "" then [ "/" ] else path :: up (Filename.dirname path)
 
-(* All groups that the process is in have their say. A container may see its own group as the root. *)
+(* All groups of the process limit it. A container may see its own group as the root. *)
 let groups () =
   let of_line line =
     match String.split_on_char ':' line with

@@ -2,7 +2,7 @@ module Columns = Dolphin_display.Columns
 module Waiting = Dolphin_display.Waiting
 open Dolphin_semantics
 
-(* Of a terminal its own; of anything else what the user says. *)
+(* A terminal's own width; for other outputs, the user's. *)
 let columns () =
   if Unix.isatty Unix.stdout then Some (snd (Dolphin_display.Terminal.size Unix.stdout))
   else Option.bind (Sys.getenv_opt "COLUMNS") int_of_string_opt

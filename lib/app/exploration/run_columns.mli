@@ -3,8 +3,8 @@
 open Dolphin_semantics
 
 val print : Program_file.t -> steps:Transition.t list -> cycle:Transition.t list -> unit
-(** In columns (see {!Dolphin_display.Columns}), as many as the terminal or [COLUMNS] has; the cycle, if any, is what
-    comes after it for ever. Below stand the tuples that are left then. *)
+(** In columns (see {!Dolphin_display.Columns}), as many as the terminal or [COLUMNS] has; the cycle, if any, follows
+    it and repeats. Below stand the tuples that are left then. *)
 
 val columns : unit -> int option
 (** How many columns there are: of the terminal on standard output, or else of [COLUMNS]. *)
@@ -13,7 +13,7 @@ val say : string -> unit
 (** [say text] prints [text] in lines of at most {!columns}, a single one if these are not known. *)
 
 val text : Program_file.t -> steps:Transition.t list -> cycle:Transition.t list -> string
-(** What {!print} prints, in as many columns as it takes. *)
+(** The text of {!print}, in as many columns as it takes. *)
 
 val print_waiting : Program_file.t -> Transition.t list -> unit
-(** What the program waits for after this run, if it waits for conditions. *)
+(** The conditions that the program awaits after this run, if any. *)

@@ -9,7 +9,7 @@ let message text : string * json = ("message", `Assoc [ ("text", `String text) ]
 
 (* {1 Places} *)
 
-(* As in a URI: what is not unreserved, and no slash, is a percent sign with two digits. *)
+(* As in a URI: a character that is neither unreserved nor a slash is a percent sign with two digits. *)
 let uri path =
   let encoded = function
     | ('a' .. 'z' | 'A' .. 'Z' | '0' .. '9' | '-' | '.' | '_' | '~' | '/') as c -> String.make 1 c

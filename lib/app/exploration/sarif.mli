@@ -1,5 +1,5 @@
-(** What an exploration found, in the Static Analysis Results Interchange Format (SARIF 2.1.0, OASIS), which code hosts
-    and editors show beside the lines of a program. *)
+(** The result of an exploration in the Static Analysis Results Interchange Format (SARIF 2.1.0, OASIS), which code
+    hosts and editors show beside the lines of a program. *)
 
 val json : strict:bool -> version:string -> Program_file.t -> Dolphin_explore.Search.outcome -> Yojson.Safe.t
 (** [json ~strict ~version program o] is a log of one run of this [version] of dolphin, with a result for each property:

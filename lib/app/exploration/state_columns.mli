@@ -9,7 +9,7 @@ val create : unit -> t
 type state = {
   digest : string;  (** of [text]; 16 bytes *)
   parent : string;  (** the first 8 bytes of the digest of a state that leads here *)
-  kind : int;  (** a byte: what docs/successors.md says *)
+  kind : int;  (** a byte, as in docs/successors.md *)
   text : string;
 }
 
@@ -17,7 +17,7 @@ val add : t -> state -> unit
 val count : t -> int
 
 val states : t -> state list
-(** [states c] is what was added to [c], in that order. *)
+(** [states c] is the states added to [c], in that order. *)
 
 val write : out_channel -> t -> unit
 (** [write out c] writes how many bytes [c] takes, and [c]. *)

@@ -27,7 +27,7 @@ let explored ~limit environment (program : Program_file.t) world =
   | None -> Error (too_many program limit)
   | exception Dolphin_environment.Environment.Unclear fault -> Error (Program_file.unsettled program fault)
 
-(* States are described from where they were found, when they are written. *)
+(* States are described from their places of discovery, when they are written. *)
 let graph (program : Core.program) system builder =
   let text s = Format.asprintf "%a" (Configuration.pp program) (fst (Transition_system.state system s)) in
   Graph.Builder.finish ~doubles:true ~states:(Transition_system.states system) ~text builder

@@ -3,7 +3,7 @@
 type world = {
   set : (string * string) list;  (** parameters of the program *)
   fleet : string option;  (** the file; [None]: the one beside the program, or the built-in one *)
-  answers : string list;  (** what may be answered; [[]]: what the fleet answers *)
+  answers : string list;  (** the possible answers; [[]]: those of the fleet *)
   faults : Dolphin_environment.Faults.t;
   workers : int;  (** processes that search *)
   max_states : int;

@@ -72,7 +72,7 @@ let memory text =
   | _ -> amiss ()
   | exception Yojson.Json_error _ -> amiss ()
 
-(* What the environment remembers, on a line of its own, and [p]. *)
+(* The memory of the environment, on a line of its own, and [p]. *)
 let with_memory (p : _ Portable.part) : _ Portable.part =
   let write (x, e) = of_memory e ^ "\n" ^ p.write x in
   let read text =
@@ -213,7 +213,7 @@ let state t answer digest key visited =
   let rest () = if not (Space.is_end t.space key.(0)) then note answer digest (Breaks Property.No_deadlock) in
   Space.expand t.space key { visit; tick = ignore; rest }
 
-(* The numbers of what transitions lead to, if [wanted]. *)
+(* The numbers of the successors, if [wanted]. *)
 let expand_state t answer ~wanted { text; is_end } digest =
   let expanded () =
     let keys = ref [] in
@@ -265,7 +265,7 @@ let at_piece t (piece : Coverage.piece) =
   let place = Option.value (Program_file.at t.program piece.site) ~default:"?" in
   Printf.sprintf "%s: %s" place piece.what
 
-(* What may go wrong with a text that is no state, and with one that is. *)
+(* The possible errors of a text that is not a state, and of one that is. *)
 let guarded ~named f =
   match f () with
   | x -> Ok x
@@ -414,7 +414,7 @@ let add_all buffer add items =
   add_number buffer (List.length items);
   List.iter add items
 
-(* As kinds number them; deadlocks and invariants, which no kind says, come after these. *)
+(* As kinds number them; deadlocks and invariants, which have no kind, come after these. *)
 let number_of_breach = function
   | Breaks No_deadlock -> 6
   | Breaks property -> number_of_property (Some property)
@@ -444,7 +444,7 @@ let write_batch output b =
   Array.iter (State_columns.write output) b.blocks;
   write_targets output b.targets
 
-(* What a batch cannot be answered for, in its place. *)
+(* The reason why a batch has no answer, in its place. *)
 let write_inconclusive output why =
   let buffer = Buffer.create 256 in
   Buffer.add_char buffer '\001';

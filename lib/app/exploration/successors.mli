@@ -1,7 +1,7 @@
-(** The states of a program's state space one by one, for searches that other programs make: a state in, what follows
-    it out. States are texts that are the same in every process. docs/successors.md has the protocol. *)
+(** The states of a program's state space one by one, for searches that other programs make: a state in, its
+    successors out. States are texts that are the same in every process. docs/successors.md has the protocol. *)
 
-(** What is asked of the states. *)
+(** The questions about the states. *)
 type settings = {
   answers : string list;  (** as in {!Exploration.settings}, like all of these *)
   faults : Dolphin_environment.Faults.t;
@@ -20,25 +20,25 @@ val make :
     formulas and limits of [o] do not count. *)
 
 val greeting : t -> string
-(** What states belong to, on one line of JSON: the version, digests of program and fleet, what was asked. *)
+(** The owner of states, on one line of JSON: the version, digests of program and fleet, the questions. *)
 
 (** {1:batches Batches} *)
 
 (** A state that is asked about. *)
 type source = {
   text : string;
-  is_end : bool;  (** as its kind said: nothing follows it *)
+  is_end : bool;  (** as its kind has it: an end without successors *)
 }
 
 val before : source
 (** Its text is [""]: one transition leads from it, to the initial state. *)
 
-(** What a state may do that is wrong. *)
+(** The violations of a state. *)
 type breach =
   | Breaks of Dolphin_explore.Property.t
   | Makes_false of int  (** the invariant at this place of those that were asked, from 0 *)
 
-(** What follows the states of a batch. *)
+(** The successors of the states of a batch. *)
 type batch = {
   transitions : int;
   blocks : State_columns.t array;
@@ -50,15 +50,16 @@ type batch = {
   broken : (breach * string) list;
   (** each with the least digest of the states that do so: of those in the batch, for deadlocks and invariants; of those
       that they lead to, for all others *)
-  parts : string list;  (** that states in [blocks] name, and that were neither told nor given before *)
+  parts : string list;  (** that states in [blocks] name, and that were neither sent nor given before *)
   places : (string * string) list;  (** which place of the script comes after which: {!Dolphin_explore.Space.place} *)
   goes_round : bool;  (** whether so far rounds of some task were seen to repeat *)
   unreached : string list;  (** the pieces of the program that none of the states so far reaches *)
-  trouble : string option;  (** why an invariant cannot be told *)
+  trouble : string option;  (** why an invariant cannot be evaluated *)
 }
 
 val kind : is_end:bool -> Dolphin_explore.Property.t option -> int
-(** [kind ~is_end broken] is what columns say of a state that is reached: whether it is an end, and what it breaks. *)
+(** [kind ~is_end broken] is the kind in columns of a state that is reached: whether it is an end, and its
+    violations. *)
 
 val is_end : int -> bool
 (** [is_end k] is whether kind [k] is that of an end. *)
@@ -71,9 +72,9 @@ val give : t -> string list -> (unit, Error.t) result
     name. *)
 
 val expand : ?partitions:int -> ?targets:bool -> t -> source list -> (batch, Error.t) result
-(** [expand t states] is what follows [states], by default in one partition and without targets. The error is
-    {!Error.Bad_input} where one is no state, or names a part that [t] does not know; {!Error.Inconclusive} where nobody
-    can list what follows it, a part is too large to be written, or two parts have the same name. *)
+(** [expand t states] is the successors of [states], by default in one partition and without targets. The error is
+    {!Error.Bad_input} if one is not a state, or names a part that [t] does not know; {!Error.Inconclusive} if its
+    successors cannot be listed, a part is too large to be written, or two parts have the same name. *)
 
 (** {1:runs Runs} *)
 

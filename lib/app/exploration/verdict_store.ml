@@ -14,7 +14,7 @@ let directory () =
   in
   Option.map (fun cache -> List.fold_left Filename.concat cache [ "dolphin"; "explore" ]) cache
 
-(* Where there is one, this link leads to the file that runs, although there may be another one now at its path. *)
+(* On systems with this link, it leads to the file that runs, although there may be another one now at its path. *)
 let running = "/proc/self/exe"
 
 let executable () =
@@ -34,7 +34,7 @@ let path t = Filename.concat t.directory (Digest.to_hex (Digest.string t.inputs)
 
 (* {1 Files}
 
-   The digest of what follows it: the inputs, and what was found. *)
+   The digest of the rest: the inputs, and the result. *)
 
 let read path =
   match open_in_bin path with

@@ -1,7 +1,7 @@
 open Dolphin_syntax
 module Imc_xml = Dolphin_imc_definition.Imc_xml
 
-(* Where a line begins, in bytes. *)
+(* The offset of a line, in bytes. *)
 let rec offset source ~line from =
   if line <= 1 then from
   else

@@ -12,7 +12,7 @@ let of_path path =
 let over layers d = { d with layers }
 let path d = d.path
 
-(* What goes wrong is the picture's. *)
+(* Failures are the picture's. *)
 let trouble e = Error.Unavailable (Format.asprintf "the picture cannot be written: %a" Error.pp e)
 let check d = Result.map_error trouble (Text_file.check d.path)
 

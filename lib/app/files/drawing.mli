@@ -3,8 +3,8 @@
 type t
 
 val of_path : string -> (t, string) result
-(** [of_path path] is the picture in the file [path], whose name ends in [.svg] or [.html]. The error says that it does
-    not. *)
+(** [of_path path] is the picture in the file [path], whose name ends in [.svg] or [.html]. The error reports that it
+    does not. *)
 
 val over : Dolphin_trace.Layer.t list -> t -> t
 (** [over layers d] is [d] with [layers] below the ways of the run. *)

@@ -1,9 +1,9 @@
-(** Fleets: which one a program is run with, and what is in it. *)
+(** Fleets: the fleet of a program, and its contents. *)
 
 type t = {
   path : string option;  (** [None]: the built-in fleet *)
   source : string;
-  (** its text, and behind it what tells apart the contents of its maps; [""] for the built-in fleet *)
+  (** its text, followed by digests of its maps; [""] for the built-in fleet *)
   scenario : Dolphin_scenario.Scenario.t;
   warnings : Dolphin_syntax.Diagnostic.t list;  (** of the maps that it names *)
 }
@@ -13,8 +13,8 @@ val choose : program:string -> string option -> string option
     there is one. *)
 
 val load : ?may_read:(string -> (unit, string) result) -> string option -> (t, Error.t) result
-(** [load ~may_read path] is the fleet in the file [path], or with [None] the built-in one. [may_read] says of each map
-    that it names whether it may be read, by default all. *)
+(** [load ~may_read path] is the fleet in the file [path], or with [None] the built-in one. [may_read] decides for
+    each map that it names whether it may be read, by default all. *)
 
 val load_for : program:string -> string option -> (t, Error.t) result
 (** [load_for ~program named] is [load (choose ~program named)]. *)

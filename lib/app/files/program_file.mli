@@ -5,7 +5,7 @@ open Dolphin_syntax
 type t = {
   path : string;
   source : string;
-  (** the text, and behind it that of the files that it includes, and what tells apart the contents of its maps *)
+  (** the text, followed by that of the files that it includes, and by digests of its maps *)
   parameters : Parameters.t list;  (** with the values that the text gives them *)
   set : (string * string) list;  (** those that were set, each with the text of its value *)
   program : Dolphin_semantics.Core.program;
@@ -16,9 +16,9 @@ type t = {
 
 val load :
   ?set:(string * string) list -> ?may_read:(string -> (unit, string) result) -> string -> (t, Error.t) result
-(** [load ~set ~may_read path] is the program in the file [path], parsed and elaborated, with what it includes
-    ({!Dolphin_syntax.Include}) and its parameters [set] ({!Dolphin_syntax.Parameters.set}); none by default. [may_read]
-    says of each file that the text names whether it may be read, by default all. *)
+(** [load ~set ~may_read path] is the program in the file [path], parsed and elaborated, with its included files
+    ({!Dolphin_syntax.Include}) and its parameters [set] ({!Dolphin_syntax.Parameters.set}); none by default.
+    [may_read] decides for each file that the text names whether it may be read, by default all. *)
 
 val within : Fleet_file.t -> t -> (t, Error.t) result
 (** [within fleet p] is [p] with the fences and warnings of [fleet], besides its own; or which of its plans break one of
@@ -39,10 +39,10 @@ val parse : string -> (Ast.program, Error.t) result
 (** [parse path] is the syntax tree of the program in the file [path], which need not elaborate. *)
 
 val header : t -> Dolphin_trace.Header.source
-(** The program as journals name it: by its path, the digest of its text, and what was set. *)
+(** The program as journals name it: by its path, the digest of its text, and its parameters. *)
 
 val at : t -> Dolphin_semantics.Core.site -> string option
-(** [at p site] is where that is, ["missions/survey.dol:3:10"], if it is known. *)
+(** [at p site] is the place of [site], ["missions/survey.dol:3:10"], if it is known. *)
 
 val line : t -> Dolphin_semantics.Core.site -> string
 (** [line p site] is the same in short, ["survey.dol:3"]; [""] if it is not known. *)

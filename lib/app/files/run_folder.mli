@@ -7,7 +7,7 @@ open Dolphin_trace
 type state =
   | Ended of Request.ending
   | Going_on  (** its console lives *)
-  | Broken_off  (** its console died, and nobody resumed it *)
+  | Broken_off  (** its console died, and it was not resumed *)
 
 type run = {
   name : string;  (** of its file, without the ending [.run] *)
@@ -19,17 +19,17 @@ type run = {
 
 val fresh : program:string -> (string, Error.t) result
 (** [fresh ~program] is the path of a new journal of a run of [program] that starts now: of a file that is there from
-    now on, empty, and removed when the process ends if it still is. The folder is made if it is not there. The error,
-    {!Error.Unavailable}, says why that is not possible. *)
+    now on, empty, and removed when the process ends if it still is. The folder is made if it is not there. The
+    error, {!Error.Unavailable}, gives the reason. *)
 
 val writable : unit -> (string, Error.t) result
 (** The folder, which may be yet to be made, if it can be written to. *)
 
 val list : ?except:string -> unit -> (run list, Error.t) result
-(** The runs in the folder, latest first, but for the one with the path [except], which this process writes: to read it
-    would give its lock away. Files that are no journals are left out; a folder that is not there yet has
-    none. The error, {!Error.Unavailable}, says why nobody knows: nothing names the folder, or it cannot be read. *)
+(** The runs in the folder, latest first, but for the one with the path [except], which this process writes: to read
+    it would give its lock away. Files that are not journals are left out; a folder that does not exist yet has none.
+    The error, {!Error.Unavailable}, gives the reason: the folder is not named, or it cannot be read. *)
 
 val find : string -> (string, Error.t) result
-(** [find name] is the path of the run of this name, or of the only one whose name begins so; [find "latest"] is that of
-    the latest. The error says that there is no such run, or several, or is that of {!list}. *)
+(** [find name] is the path of the run of this name, or of the only one whose name begins so; [find "latest"] is that
+    of the latest. The error reports that there is no such run, or several, or is that of {!list}. *)

@@ -8,5 +8,5 @@ val formatted : file:string -> string -> (string, Error.t) result
 (** [formatted ~file source] is {!Dolphin_syntax.Formatting.program}. *)
 
 val replace : string -> string -> (unit, Error.t) result
-(** [replace path text] makes [text] the contents of the file [path], at once: whoever reads it sees the old contents or
-    the new. *)
+(** [replace path text] makes [text] the contents of the file [path], at once: readers see the old contents or the
+    new. *)

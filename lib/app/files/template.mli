@@ -1,4 +1,4 @@
-(** A mission to start from: what [dolphin new] writes. Its files are those of [templates/mission]. *)
+(** A mission to start from: the files that [dolphin new] writes. Its files are those of [templates/mission]. *)
 
 val write : string -> (unit, Error.t) result
 (** [write folder] makes [folder], which must not be there or be empty, with the mission in it. The error is

@@ -5,7 +5,7 @@ let named path why =
 
 let bad path why = Error (Error.Bad_input (named path why))
 
-(* No program or fleet is larger: what is, was named by mistake. *)
+(* No program or fleet is larger: a larger file was named by mistake. *)
 let most_bytes = 64 * 1024 * 1024
 
 let read_all path channel =

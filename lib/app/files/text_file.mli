@@ -11,7 +11,7 @@ val read_named : may_read:(string -> (unit, string) result) -> string -> (string
     words. *)
 
 val read_input : unit -> (string, Error.t) result
-(** [read_input ()] is what standard input has up to its end, at most 64 MB. *)
+(** [read_input ()] is the text of standard input up to its end, at most 64 MB. *)
 
 val named : string -> string -> string
 (** [named path why] is the reason [why] of a [Sys_error], with the name of the file, [path], before it if it lacks it:
@@ -25,5 +25,5 @@ val check : string -> (unit, Error.t) result
 (** [check path] fails with {!Error.Unavailable} if it is clear already that {!write} will. It writes nothing. *)
 
 val write : string -> (out_channel -> unit) -> (unit, Error.t) result
-(** [write path f] replaces the file [path], if it is there, by what [f] writes, and only when all is written: a failure
-    leaves it as it was. Devices and pipes are written to directly. The error is {!Error.Unavailable}. *)
+(** [write path f] replaces the file [path], if it exists, by the output of [f], and only when all is written: a
+    failure leaves it as it was. Devices and pipes are written to directly. The error is {!Error.Unavailable}. *)

@@ -28,7 +28,7 @@ let write program fleet path run =
 
 (* {1 Pictures} *)
 
-(* The kinds of vehicles; where they are does not change, for nobody knows where it would. *)
+(* The kinds of vehicles; their places do not change, for new ones are not recorded. *)
 let tell_fleet (fleet : Fleet_file.t) add =
   let tell state = add (Entry.Vehicle { time = 0.; state }) in
   List.iter tell (World.vehicles (Scenario_world.world fleet.scenario))

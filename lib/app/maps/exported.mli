@@ -1,4 +1,4 @@
-(** What a run or a plan leaves on a map, for other programs. *)
+(** The traces of a run or a plan on a map, for other programs. *)
 
 type t = {
   title : string;
@@ -9,12 +9,12 @@ type t = {
 }
 
 val of_run : Dolphin_trace.Summary.t -> t
-(** [of_run run] has the track of each vehicle that the program held, and where its tasks started. The rows are the
-    samples, in order of time. *)
+(** [of_run run] has the track of each vehicle that the program held, and the starting places of its tasks. The rows
+    are the samples, in order of time. *)
 
 val of_plans : title:string -> Inline_plans.found list -> t
-(** [of_plans ~title plans] has the way of each plan that the program describes, and where each of its maneuvers ends.
-    The rows are the way points. Plans that vehicles know by name are left out. *)
+(** [of_plans ~title plans] has the way of each plan that the program describes, and the end of each of its
+    maneuvers. The rows are the way points. Plans that vehicles know by name are left out. *)
 
 val to_string : Dolphin_maps.Map_format.t -> t -> string
 

@@ -113,7 +113,7 @@ let log_of_end ~started (run : Summary.t) =
     let words = Option.fold message ~none:how ~some:(fun m -> how ^ ": " ^ m) in
     [ said ~started run.duration (if how = "completed" then info else error) "program" words ]
 
-(* What happens at one time stands in this order. *)
+(* Events of one time stand in this order. *)
 let log_of_run ~started (run : Summary.t) =
   let each f = List.concat_map f run.vehicles in
   let hold words time (v : Summary.vehicle) =

@@ -1,9 +1,9 @@
-(** Who is out there, listed on standard output: a table that changes on a terminal, else lines. *)
+(** The reachable vehicles, listed on standard output: a table that changes on a terminal, else lines. *)
 
 type t = {
   head : unit -> string;  (** above the table, on a terminal *)
-  lines : json:bool -> string list;  (** what is known now *)
-  patience : float;  (** so many seconds after the start everybody was heard of *)
+  lines : json:bool -> string list;  (** the present list *)
+  patience : float;  (** the seconds from the start after which every vehicle was heard *)
 }
 
 val show : t -> Interruption.t -> as_json:bool -> once:bool -> seconds:float option -> unit Lwt.t

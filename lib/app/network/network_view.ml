@@ -14,7 +14,7 @@ let plan_of network (s : Station.system) =
 
 let mode definition n = Node.mode ~names:(Option.fold definition ~none:[] ~some:Compatibility.modes) n
 
-(* What it sends, if there is a definition to read it by: the last of each kind, and how often it came. *)
+(* Its messages, if there is a definition to read them by: the last of each kind, and their number. *)
 let messages network (n : Node.t) definition =
   let shown (id, (e : Received.entry)) : Yojson.Safe.t =
     let last =

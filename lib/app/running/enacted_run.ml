@@ -5,7 +5,7 @@ open Lwt.Infix
 module Simulator = Dolphin_platform_sim.Simulator
 module Scenario_world = Dolphin_environment.Scenario_world
 
-(* Each transition with what causes it, as the configuration before it has it. *)
+(* Each transition with its cause, as the configuration before it has it. *)
 let steps (program : Core.program) (witness : Witness.t) transitions =
   let caused (c, made) (step : Witness.step) (transition : Transition.t) =
     let cause =

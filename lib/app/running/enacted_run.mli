@@ -1,5 +1,5 @@
-(** A counterexample, carried out on the simulated fleet: {!Dolphin_runtime.Enactment}. Vehicles move, and nothing
-    happens but what the counterexample says. No journal is kept: it is no run that could be resumed. *)
+(** A counterexample, carried out on the simulated fleet: {!Dolphin_runtime.Enactment}. Vehicles move, and the only
+    events are those of the counterexample. No journal is kept: such a run cannot be resumed. *)
 
 open Dolphin_runtime
 open Dolphin_trace

@@ -1,4 +1,4 @@
-(** What ends a run before its time: Ctrl-C, a button of a console, or whatever else asks it to. *)
+(** Reasons to end a run early: Ctrl-C, a button of a console, or any other request. *)
 
 type t
 
@@ -21,12 +21,11 @@ val happened : t -> bool
 (** Whether it has happened. *)
 
 val unless : t -> (unit -> 'a Lwt.t) -> 'a option Lwt.t
-(** [unless i f] is what [f ()] resolves with. If [i] happens before, [f ()] is cancelled: [None], once it has cleared
-    up. *)
+(** [unless i f] is the result of [f ()]. If [i] happens before, [f ()] is cancelled: [None], once it has cleared up. *)
 
 val is_unasked : t -> Dolphin_semantics.Configuration.t -> bool
-(** [is_unasked i c] is whether an interruption of [c] now is nobody's wish: the driver interrupts stuck programs by
-    itself. The end of what [onInterrupt] executes is none. *)
+(** [is_unasked i c] is whether an interruption of [c] now comes from no person: the driver interrupts stuck programs
+    by itself. The end of the task of [onInterrupt] is not such an interruption. *)
 
 val on_signals : ?goes_on:(unit -> bool) -> ?again:(unit -> 'a) -> t -> unit
 (** From now on SIGINT, SIGTERM, SIGQUIT and SIGHUP make it happen. If it has happened already and [goes_on ()], which

@@ -18,11 +18,11 @@ let is_there () =
   | _ -> true
   | exception Unix.Unix_error (EINTR, _, _) -> false
 
-(* The terminal once more, so that to read never waits, whoever else reads there. *)
+(* The terminal once more, so that to read never waits, even with another reader. *)
 let open_input () =
   try Unix.openfile "/dev/stdin" [ O_RDONLY; O_NONBLOCK; O_CLOEXEC; O_NOCTTY ] 0 with Unix.Unix_error _ -> Unix.stdin
 
-(* At once, so that what is there before a question is told before it. *)
+(* At once, so that lines from before a question are reported before it. *)
 let read k =
   let text = Bytes.create 4096 in
   match Unix.read k.input text 0 (Bytes.length text) with
@@ -71,7 +71,7 @@ let start ~other =
   Lwt.async (fun () -> listen k);
   k
 
-(* A line that is there was typed before now; what was begun is forgotten. *)
+(* A complete line was typed before now; the rest of a line is forgotten. *)
 let rec settle k =
   if Terminal.is_ours Unix.stdin && not k.over then
     if is_there () then begin

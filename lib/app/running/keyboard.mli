@@ -1,4 +1,4 @@
-(** The lines that somebody types at the terminal of a run: the answers to its questions, and all others. *)
+(** The lines typed at the terminal of a run: the answers to its questions, and all others. *)
 
 type t
 
@@ -10,4 +10,4 @@ val settle : t -> unit
     that was begun is forgotten. *)
 
 val answer : t -> (string, string) result Lwt.t
-(** [answer k] is the next line that is typed, or why there is none. It may be cancelled. *)
+(** [answer k] is the next line that is typed, or the reason why there is none. It may be cancelled. *)

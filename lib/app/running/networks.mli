@@ -27,19 +27,18 @@ type estimate = {
 type opened = {
   part : Several.part;
   estimates : unit -> estimate list;
-  leave : unit -> unit Lwt.t;  (** closes it and stops nothing: vehicles go on with what they do *)
+  leave : unit -> unit Lwt.t;  (** closes it and stops nothing: vehicles go on with their tasks *)
 }
 
-(** What a run gives its platforms. *)
+(** The arguments that a run gives its platforms. *)
 type surroundings = {
   program : string;  (** the name of its file *)
   run : string;  (** the run's identity; [""] if it has none *)
   note : Core.vehicle option -> string -> unit;
   keep : time:float -> Core.vehicle -> Yojson.Safe.t -> unit;
   sync : (unit -> unit Lwt.t) option;
-  past : (float * History.t) option;  (** of a run that is resumed: the time, and what happened *)
+  past : (float * History.t) option;  (** of a run that is resumed: the time, and its history *)
 }
 
 val open_ : choice -> surroundings -> (opened, string) result Lwt.t
-(** The error says which one cannot be had; the others are left then, and so are those that are open if it is
-    cancelled. *)
+(** The error names the unavailable one; the others are left then, and so are those that are open if it is cancelled. *)

@@ -25,7 +25,7 @@ let same found text =
   let confirmation = Answer.confirmation in
   found = text || (confirmation found <> None && confirmation found = confirmation text)
 
-(* It gave this answer before, or somebody else did. *)
+(* It gave this answer before, or another source did. *)
 let count fleet (prompt, text) =
   let rec find n =
     match Scenario.answer fleet.scenario prompt n with

@@ -1,12 +1,13 @@
-(** Who answers a program's questions: those who started it, then the fleet, then a person. *)
+(** The sources of answers to a program's questions: the command line, then the fleet, then a person. *)
 
-(** The person, and what they see. *)
+(** The person, and the display for them. *)
 type person = {
   asked : string -> unit;  (** shows the question *)
   answer : string -> (string, string) result Lwt.t;
-  (** [answer prompt] is what they answer to the question just shown, or why nobody does. It may be cancelled. *)
-  answered : string -> unit;  (** shows the answer that somebody else gave *)
-  refused : string -> unit;  (** tells why an answer was no good; the question is asked again *)
+  (** [answer prompt] is their answer to the question just shown, or the reason why there is none. It may be
+      cancelled. *)
+  answered : string -> unit;  (** shows the answer that another source gave *)
+  refused : string -> unit;  (** reports why an answer was refused; the question is asked again *)
 }
 
 val nobody : person
@@ -18,9 +19,9 @@ val console :
   answers:string list ->
   scenario:Dolphin_scenario.Scenario.t ->
   Dolphin_runtime.Console.t
-(** [console person ~answered ~answers ~scenario] answers with each of [answers] in turn, then with what [scenario] has
-    for the prompt, then as [person] does. It does not show what the program says: fronts read that in the transitions.
-    [answered] is the questions that were answered before, with the answers: what the fleet gave of these it does not
-    give again.
+(** [console person ~answered ~answers ~scenario] answers with each of [answers] in turn, then with the answers of
+    [scenario] for the prompt, then as [person] does. It does not show the program's messages: fronts read them in the
+    transitions. [answered] is the questions that were answered before, with the answers: it does not give the fleet's
+    ones among these again.
 
-    An answer of the fleet that is refused would be refused for ever: it is not given twice. *)
+    An answer of the fleet that is refused would be refused each time: it is not given twice. *)

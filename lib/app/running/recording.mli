@@ -1,4 +1,4 @@
-(** What is kept of a run while it lasts: its journal, its picture, and whatever else follows it line by line. *)
+(** The records of a run while it lasts: its journal, its picture, and any other follower of its lines. *)
 
 open Dolphin_trace
 
@@ -23,9 +23,9 @@ exception Broken of string
 (** The journal cannot be written any more: why, in a sentence without a full stop. *)
 
 val start : settings -> Header.t -> Dolphin_semantics.Core.program -> (t, Error.t) result
-(** [start s header program] opens the journal's file, which stays as it is until {!begin_}. The error says why that is
-    not possible: it would overwrite the program or the fleet, or the journal of a run that broke off, or another
-    console writes it. *)
+(** [start s header program] opens the journal's file, which stays as it is until {!begin_}. The error gives the
+    reason: it would overwrite the program or the fleet, or the journal of a run that broke off, or another console
+    writes it. *)
 
 val resume : settings -> Dolphin_semantics.Core.program -> source:Header.source -> Resumed.t -> (t, Error.t) result
 (** [resume s program ~source run] opens the journal that goes on with [run]: its own file, or if [s] names another one,
@@ -33,13 +33,13 @@ val resume : settings -> Dolphin_semantics.Core.program -> source:Header.source 
 
 val begin_ : t -> (unit, Error.t) result
 (** [begin_ r] begins the journal, if nothing of it has been written yet: with its header, or where it broke off. The
-    error, {!Error.Unavailable}, says why it cannot be written. *)
+    error, {!Error.Unavailable}, gives the reason why it cannot be written. *)
 
 val note : t -> time:float -> vehicle:string -> Yojson.Safe.t -> unit
 (** [note r ~time ~vehicle json] keeps what the platform wants to find again of a vehicle. It may raise {!Broken}. *)
 
 val sync : t -> (unit -> unit Lwt.t) option
-(** Resolves once all that was kept before is on the disk, and may fail with {!Broken}; [None]: there is no journal. *)
+(** Resolves once all earlier lines are on the disk, and may fail with {!Broken}; [None]: no journal is kept. *)
 
 val journal : t -> string option
 (** The path of the journal, if there is one. *)
@@ -49,9 +49,9 @@ val observer : ?unasked:(Dolphin_semantics.Configuration.t -> bool) -> t -> Dolp
     {!Recorder.transition}. *)
 
 val close : t -> unit
-(** [close r] gives the journal's file up, as it is; where it was not there before and the journal was not begun, it is
-    removed. It may be called again, and after {!finish}. *)
+(** [close r] gives the journal's file up, as it is; if the file is new and the journal was not begun, it is removed.
+    It may be called again, and after {!finish}. *)
 
 val finish : t -> time:float -> stuck:bool -> (unit, Error.t) result
-(** [finish r ~time ~stuck] ends the journal of a run that is over, and draws it. The error, {!Error.Unavailable}, says
-    what could not be written. *)
+(** [finish r ~time ~stuck] ends the journal of a run that is over, and draws it. The error, {!Error.Unavailable},
+    names the output that could not be written. *)

@@ -3,7 +3,7 @@ open Dolphin_runtime
 module Scenario = Dolphin_scenario.Scenario
 module Reply = Dolphin_scenario.Reply
 
-(* What the scenario replies to a call, this time, after the calls that it was asked for before. *)
+(* The scenario's reply to a call, this time, after the calls before. *)
 let in_turn scenario =
   let times = Hashtbl.create 8 in
   fun call ->

@@ -91,7 +91,7 @@ let log_start (settings : settings) (program : Program_file.t) (fleet : Fleet_fi
 
 (* {1 What a run needs} *)
 
-(* One run: what it was started with, and what it resumes. *)
+(* One run: its arguments, and the run that it resumes. *)
 type t = {
   front : front;
   settings : settings;
@@ -100,12 +100,12 @@ type t = {
   program : Program_file.t;
   scenario : Dolphin_scenario.Scenario.t;
   resumed : Resumed.t option;
-  fenced : Fence_guard.past option;  (* of what it resumes, if there are fences *)
+  fenced : Fence_guard.past option;  (* of the run that it resumes, if it has fences *)
 }
 
 let history r = Option.fold r.resumed ~none:[] ~some:(fun (resumed : Resumed.t) -> resumed.past.history)
 
-(* What a host remembers died with it, and only its people can know what that was. *)
+(* The memory of a host died with it, and only its authors can know its content. *)
 let start_host r =
   let is_answered (_, reply) = reply <> None in
   let calls = List.length (List.filter is_answered (History.replies (history r))) in
@@ -120,7 +120,7 @@ let start_host r =
      | Ok host -> Ok (Some host)
      | Error why -> Error (Error.Unavailable ("the supplier cannot be started: " ^ why)))
 
-(* What the platform knows of it: nothing of plans that were not started because of a fence. *)
+(* The platform's part of it, without plans that were not started because of a fence. *)
 let past_of_platform r =
   Option.fold r.fenced ~none:(history r) ~some:(fun (past : Fence_guard.past) -> past.history)
 
@@ -165,7 +165,7 @@ let open_simulated r =
     let made = Simulator.Paced.create_again ~speed ~seed scenario (past_of_platform r) in
     Result.map (fun made -> paced (rebuilt made)) made
 
-(* What the time of a run is now whose console died: it went on. Clocks may have been set meanwhile, but runs never go
+(* The present time of a run whose console died: it went on. Clocks may have been set meanwhile, but runs never go
    back. *)
 let time_of_run ({ past; _ } : Resumed.t) =
   let time, at = past.clock in
@@ -208,7 +208,7 @@ let not_there_yet r ~time =
     Some (Printf.sprintf "the pick gave up at %s, and %s: 'timeout' lets a pick wait longer" (Phrase.time time)
             (Dolphin_display.Wording.vehicles late))
 
-(* Notes in [unmet] what to say of a pick that ends the program. *)
+(* Notes in [unmet] the message about a pick that ends the program. *)
 let watching_picks r unmet : Observer.t =
   let transition ~time ~cause:_ (t : Transition.t) =
     match t.label, t.next.control with
@@ -313,7 +313,7 @@ let run_on r recording ~interruption (Platform (_, fleet) as platform) =
       | Ok () -> drive r recording host ~interruption platform
       | Error _ as error -> close_host host >>= fun () -> give_up error)
 
-(* What is told of a run that was interrupted while its platform was opened. *)
+(* The message about a run that was interrupted while its platform was opened. *)
 let unbegun r =
   match r.resumed with
   | None -> "interrupted before the run began: nothing was started"
@@ -347,7 +347,7 @@ let start front ~interruption (settings : settings) program (fleet : Fleet_file.
 
 let ( let* ) = Result.bind
 
-(* What plans were kept to is part of what happened. *)
+(* The fences of plans are part of the record. *)
 let fleet_of_network ~named (resumed : Resumed.t) =
   match resumed.past.header.fleet, named with
   | Some _, _ -> Resumed.fleet resumed ~named

@@ -1,9 +1,9 @@
 (** Runs of programs, on the simulated fleet or on the vehicles of a network: to start one, to follow it, to stop it, to
     resume it after its console died.
 
-    Whoever shows runs to people is a {!front}: the terminal ({!Terminal_run}), or a server that sends the lines of the
-    journal ({!Recording.settings}) to a browser. A front decides nothing about the run; it answers the program's
-    questions if nobody else does, and may stop the run by its {!Interruption}. Several runs may go on side by side. *)
+    Code that shows runs to people is a {!front}: the terminal ({!Terminal_run}), or a server that sends the lines of
+    the journal ({!Recording.settings}) to a browser. A front decides nothing about the run; it answers the program's
+    remaining questions, and may stop the run by its {!Interruption}. Several runs may go on side by side. *)
 
 open Dolphin_runtime
 open Dolphin_trace
@@ -46,11 +46,11 @@ type view = {
 
 type front = {
   replayed : Entry.t -> Replay.t -> unit;
-  (** gets each line of the journal of a run that is resumed, with what it led to, before all else *)
+  (** gets each line of the journal of a run that is resumed, with its result, before all else *)
   notice : string -> unit;  (** shows a sentence, before the run begins or after its end *)
   opened : view -> unit;  (** The run begins; the view is valid from now on. *)
   remark : string -> unit;  (** shows what is unusual about a vehicle *)
-  observer : Observer.t;  (** gets each transition, and what is known of vehicles *)
+  observer : Observer.t;  (** gets each transition, and the known state of vehicles *)
   person : Questions.person;
   wants_telemetry : bool;  (** whether positions and batteries are wanted even if the program does not look at them *)
 }
@@ -81,5 +81,5 @@ val resume :
 (** {1:outcomes Outcomes} *)
 
 val explain : Program_file.t -> Driver.outcome -> Error.t option
-(** [explain program outcome] is what went wrong in a run with this outcome, if anything but a [halt] or an interruption
-    did: {!Error.Bad_text} with the place of the fault, or of the conditions that cannot come true any more. *)
+(** [explain program outcome] is the fault in a run with this outcome, other than a [halt] or an interruption:
+    {!Error.Bad_text} with the place of the fault, or of the conditions that cannot come true any more. *)

@@ -64,7 +64,7 @@ let status t ?id () =
 
 let usage = "a request is an object with a request, as in {\"request\": \"status\"}"
 
-(* What a line asks for; [follow] is begun by whoever writes the reply. *)
+(* The request of a line; the code that writes the reply begins [follow]. *)
 let perform t (line : Lines.line) =
   let bad ?id code message = Lwt.return (`Reply (wrong ?id code message)) in
   match line with
@@ -96,8 +96,8 @@ type client = { socket : Lwt_unix.file_descr; lines : Lines.t; writing : Lwt_mut
 let write client text = Lwt_mutex.with_lock client.writing (fun () -> Writer.write client.socket text)
 let say client json = write client (Yojson.Safe.to_string json ^ "\n")
 
-(* The whole lines of the journal from [offset] on, at most so many bytes of them, and where they end. A line that is
-   longer than that is read in one piece. *)
+(* The whole lines of the journal from [offset] on, up to a number of bytes, and their end. A line that is longer
+   than that is read in one piece. *)
 let rec journal_from fd offset size =
   let buffer = Bytes.create size in
   ignore (Unix.lseek fd offset SEEK_SET);
@@ -154,7 +154,7 @@ let admit t socket =
   in
   Lwt.async (fun () -> Lwt.finalize (fun () -> quietly whole) leave)
 
-(* Where descriptors have run out, others may be closed meanwhile. *)
+(* If descriptors have run out, others may be closed meanwhile. *)
 let rec accept t =
   Lwt.catch
     (fun () -> Lwt_unix.accept ~cloexec:true t.listening >|= fun (socket, _) -> admit t socket)
@@ -165,7 +165,7 @@ let rec accept t =
 
 (* {1 Opening and closing} *)
 
-(* Nobody else may even see it: the mask is there before the socket is. *)
+(* Other users may not even see it: the mask is set before the socket exists. *)
 let bind path =
   let fd = Lwt_unix.socket ~cloexec:true PF_UNIX SOCK_STREAM 0 in
   let mask = Unix.umask 0o177 in
@@ -206,7 +206,7 @@ let open_ run ~journal =
 
 let journal_grew t = Lwt_condition.broadcast t.grown ()
 
-(* How long clients that read slowly may take for what is left. *)
+(* The time that clients with slow reading have for the rest. *)
 let patience = 0.5
 
 let rec replied t = if t.owed = 0 then Lwt.return_unit else Lwt_unix.sleep 0.01 >>= fun () -> replied t

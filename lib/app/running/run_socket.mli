@@ -1,13 +1,13 @@
-(** The socket of a run, beside its journal: how other programs post to the run, follow and stop it. docs/socket.md has
-    the protocol. Whoever connects, and whatever they send, the run goes on as without them, but for what they post. *)
+(** The socket of a run, beside its journal: how other programs post to the run, follow and stop it. docs/socket.md
+    has the protocol. Clients and their messages do not change the run, but for the pairs that they post. *)
 
 open Dolphin_semantics
 open Dolphin_runtime
 
 val beside : string -> string
-(** [beside journal] is where the socket of the run with this journal is. *)
+(** [beside journal] is the place of the socket of the run with this journal. *)
 
-(** What clients may do. *)
+(** The permissions of clients. *)
 type run = {
   program : Program_file.t;
   inputs : Inputs.t;
@@ -22,7 +22,7 @@ val open_ : run -> journal:string -> (t, string) result
     by this process. The error is a sentence: the run goes on without. *)
 
 val journal_grew : t -> unit
-(** Followers are told. *)
+(** Followers get a message. *)
 
 val close : t -> unit Lwt.t
 (** [close s] gives followers what is left of the journal, as far as they read on, and removes the socket. *)
@@ -35,7 +35,7 @@ val connect : journal:string -> (connection, string) result
 (** [connect ~journal] is a connection to the run with this journal, or a sentence why there is none. *)
 
 val ask : connection -> (string * Yojson.Safe.t) list -> (Yojson.Safe.t, string) result
-(** [ask c request] is the reply to [request]; the error is what it says is wrong. *)
+(** [ask c request] is the reply to [request]; the error is its error text. *)
 
 val post : connection -> string -> Core.value -> (float, string) result
 (** [post c key x] posts a pair: at which time of the run it was taken. *)

@@ -19,11 +19,11 @@ type t = {
   mutable configuration : Configuration.t;
   mutable world : World.t;
   mutable view : Run.view;
-  mutable keyboard : Keyboard.t option;  (* if somebody may type *)
+  mutable keyboard : Keyboard.t option;  (* if there is keyboard input *)
   mutable answered : bool;  (* the latest answer stands behind its question *)
 }
 
-(* That nobody reads the log any more is no trouble: whoever did has gone, as [head] does. *)
+(* Ignore EPIPE: the reader of the log has gone, as [head] does. *)
 let trouble_of_log : Unix.error -> Error.t option = function
   | EPIPE | EIO | EBADF -> None
   | error -> Some (Error.Unavailable ("the log cannot be written: " ^ Unix.error_message error))
@@ -45,7 +45,8 @@ let see_vehicle t state =
   t.board <- Status.news t.board state;
   t.world <- World.add state t.world
 
-(* What was not typed behind the question of a task: it was answered elsewhere, or after other lines. *)
+(* The answer to the question of a task, if it was not typed behind it: it was answered elsewhere, or after other
+   lines. *)
 let tell_answer t ~time cause =
   match (cause : Transition.event option) with
   | Some (Confirmed (_, Ok yes)) ->
@@ -110,10 +111,10 @@ let rec refresh t =
 
 (* {1 The person} *)
 
-(* What is typed at a terminal stands there already. *)
+(* Text typed at a terminal stands there already. *)
 let echo text = if Unix.isatty Unix.stdin then None else Some text
 
-(* Whoever types a line that answers no question means an input. *)
+(* A line that answers no question is an input. *)
 let offer t text =
   let program = t.program.program in
   let post (key, x) =
@@ -140,7 +141,7 @@ let rec typed_answer t keyboard =
   | Ok text when is_input t text -> offer t text; typed_answer t keyboard
   | reply -> Lwt.return reply
 
-(* For who types: what is read as an answer. *)
+(* For the typist: the form of an answer. *)
 let with_what_it_takes t prompt =
   let { Program_file.program; source; _ } = t.program in
   let yes_or_no = " (yes or no)" in

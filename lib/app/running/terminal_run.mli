@@ -3,19 +3,19 @@
 
 open Dolphin_runtime
 
-(** What is shown. *)
+(** The amount of output. *)
 type show = {
-  quiet : bool;  (** of the log only trouble and what the program says; a summary at the end, terminal or not *)
+  quiet : bool;  (** of the log only trouble and the program's messages; a summary at the end, terminal or not *)
   only : string list;  (** of the log only what is about these vehicles, and trouble; [[]]: all *)
   colour : bool option;  (** [None]: on a terminal, unless the environment has NO_COLOR *)
-  journal : string option;  (** where the journal is, for the summary *)
+  journal : string option;  (** the place of the journal, for the summary *)
 }
 
 val run :
   notice:(string -> unit) -> again:(unit -> unit) -> show -> Program_file.t ->
   (Run.front -> interruption:Interruption.t -> (Driver.outcome, Error.t) result Lwt.t) ->
   (Driver.outcome, Error.t) result
-(** [run ~notice ~again show program f] is the result of [f], {!Run.start} or {!Run.resume} of [program] with the rest
-    of its arguments, whose front is the terminal. [notice] is that of the front. The first signal interrupts the run,
-    the second one calls [again], which is to end the process, straight from its handler. It is an error if the log
-    cannot be written, but not if nobody reads it any more: then the run is interrupted. *)
+(** [run ~notice ~again show program f] is the result of [f], {!Run.start} or {!Run.resume} of [program] with the
+    rest of its arguments, whose front is the terminal. [notice] is that of the front. The first signal interrupts
+    the run, the second one calls [again], which is to end the process, straight from its handler. It is an error if
+    the log cannot be written, but not if its reader has gone: then the run is interrupted. *)

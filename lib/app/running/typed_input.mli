@@ -7,8 +7,8 @@ val read : string -> ((string * Core.value) list, string) result
     so does [yes], as [no] for [false]. Values are data, written as in fleets. Or what is wrong with it. *)
 
 val declared : Core.program -> questions:string list -> string -> (unit, string) result
-(** [declared p ~questions key] is why nobody can post pairs with this key to a run of [p] now, if so: it is no input
-    that [p] declares, and none of the prompts of [questions], those that stand. *)
+(** [declared p ~questions key] is the reason why pairs with this key cannot be posted to a run of [p] now, if any:
+    it is neither an input that [p] declares, nor one of the prompts of the open [questions]. *)
 
 val fits : Core.program -> string -> Core.value -> (unit, string) result
 (** [fits p key x] is why [x] cannot be posted with a key that is {!declared}, if so: questions take yes or no. *)

@@ -3,7 +3,7 @@ module Witness = Dolphin_trace.Witness
 module Log = Dolphin_display.Log
 module Scenario_world = Dolphin_environment.Scenario_world
 
-(* The columns of the time, which there is none of. *)
+(* The columns of the time, which these runs lack. *)
 let time_columns = 9
 
 let without_time number text =

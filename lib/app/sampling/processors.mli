@@ -1,4 +1,4 @@
-(** What this machine computes with. *)
+(** The processors of this machine. *)
 
 val count : unit -> int
-(** How many processors this process may use; 1 if the system does not say. *)
+(** The number of processors that this process may use; 1 if the system does not report it. *)

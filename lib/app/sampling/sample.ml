@@ -64,7 +64,7 @@ type seen = {
 
 let none = { began = 0; ended = 0; failed = 0; stopped = 0 }
 
-(* With [f] of what is known of [key], where it stands or in front. *)
+(* With [f] of the value of [key], at its place or in front. *)
 let update key start f xs =
   if List.mem_assoc key xs then List.map (fun (k, x) -> if k = key then (k, f x) else (k, x)) xs
   else (key, f start) :: xs

@@ -1,11 +1,11 @@
-(** One simulated run, and what is counted of it. *)
+(** One simulated run, and its counts. *)
 
 open Dolphin_semantics
 
 (** How a run ended. Two runs ended alike if these are equal. *)
 type ending =
   | Completed
-  | Halted of string  (** what it said *)
+  | Halted of string  (** its messages *)
   | Failed of Fault.t
   | Stuck of Core.site option  (** in rounds that begin there, or for nothing can happen any more *)
 

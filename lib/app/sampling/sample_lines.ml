@@ -12,7 +12,7 @@ let header ~version ~answers (program : Program_file.t) (fleet : Fleet_file.t) =
        (("dolphin", `String "runs") :: Provenance.members ~version program fleet
         @ [ ("answers", Field.texts answers) ]))
 
-(* The place is for people; the number of the site is what is read. *)
+(* The place is for people; the number of the site is read. *)
 let place p site : Field.members =
   Option.fold (Program_file.at p site) ~none:[] ~some:(fun at -> [ ("at", `String at) ]) @ [ ("site", `Int site) ]
 
@@ -99,7 +99,7 @@ let to_sample members =
   let* handlers = Field.optional (Field.list to_handler) ~default:[] "handlers" members in
   Ok (seed, { Sample.seconds; ending; tasks; handlers })
 
-type before = Nothing | Header | Run of int  (* what stood there last, the header once left aside *)
+type before = Nothing | Header | Run of int  (* the last line there, the header once left aside *)
 
 let follows before seed =
   match before with

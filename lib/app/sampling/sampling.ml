@@ -105,7 +105,7 @@ let is_known (settings : settings) tally j =
 
 type course = Counting of int | Stopped of stop * float  (* before this look; after one of this level *)
 
-(* What to do after a run was counted. The last run is a look too. *)
+(* The action after a run was counted. The last run is a look too. *)
 let after_run (settings : settings) tally j =
   let is_last = Some tally.count = settings.runs in
   let at_level = match settings.until with None -> level | Some _ -> Share.level_of_look ~level j in

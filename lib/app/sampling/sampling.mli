@@ -1,4 +1,4 @@
-(** Many simulated runs of a program, and what is counted of all of them. *)
+(** Many simulated runs of a program, and the counts over all of them. *)
 
 type settings = {
   seed : int;  (** of the first run; the others have the numbers that follow *)
@@ -11,7 +11,7 @@ type settings = {
 val level : float
 (** 0.95: the probability with which intervals contain what they are estimates of. *)
 
-(** Why there are no more runs. *)
+(** The reason for the end of the runs. *)
 type stop =
   | All  (** there are as many as were asked for *)
   | Known  (** the share of runs that complete is known as well as was asked for *)
@@ -52,11 +52,11 @@ val run :
   interrupted:(unit -> bool) -> progress:(int -> unit) -> each:(seed:int -> Sample.t -> unit) -> settings ->
   Program_file.t -> Fleet_file.t -> (t, Error.t) result
 (** [run ~interrupted ~progress ~each s program fleet] is the runs with the seeds from [s.seed] on; which ones
-    depends neither on [s.jobs] nor on chance, unless [interrupted ()] becomes true. [progress] is told how many there
-    are, [each] each run, in the order of seeds, but not those that are known after others that an interruption left
-    out. When it is over, no process is left. *)
+    depends neither on [s.jobs] nor on chance, unless [interrupted ()] becomes true. [progress] gets their number,
+    [each] each run, in the order of seeds, but not those after runs that an interruption left out. When it is over,
+    no process is left. *)
 
 val count :
   answers:string list -> (add:(seed:int -> Sample.t -> unit) -> (unit, Error.t) result) -> (t, Error.t) result
-(** [count ~answers read] is likewise of the runs that [read ~add] gives to [add], in the order of their seeds, without
-    gaps. They were made with [answers]. *)
+(** [count ~answers read] counts in the same way the runs that [read ~add] gives to [add], in the order of their
+    seeds, without gaps. They were made with [answers]. *)

@@ -1,4 +1,5 @@
-(** What [dolphin exec --runs] says, as a picture: when runs that complete are over, how many in each span of time. *)
+(** The result of [dolphin exec --runs], as a picture: when runs that complete are over, with their number in each
+    span of time. *)
 
 val svg : Program_file.t -> Sampling.t -> string
 (** A document of its own, in the style of {!Dolphin_trace.Picture}. *)

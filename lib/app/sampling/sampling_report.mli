@@ -1,4 +1,4 @@
-(** What [dolphin exec --runs] says. *)
+(** The output of [dolphin exec --runs]. *)
 
 val time : float -> string
 (** Seconds as {!Dolphin_time.Bounds.pp_time} has them. *)
@@ -9,7 +9,8 @@ val percent : float -> string
 val ending : Program_file.t -> Sample.ending -> string
 
 val lines : columns:int -> Program_file.t -> Sampling.t -> string list
-(** For people: how many runs ended how, when they were over, what became of tasks, and which handlers ran. *)
+(** For people: the endings of runs with their numbers, their times, the outcomes of tasks, and the handlers that
+    ran. *)
 
 val print : Program_file.t -> Sampling.t -> unit
 (** {!lines}, as wide as the terminal. *)

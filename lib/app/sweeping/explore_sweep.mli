@@ -3,6 +3,6 @@
 module Search := Dolphin_explore.Search
 
 val print : strict:bool -> Sweep.t -> Search.outcome Sweep.row list -> unit
-(** The table, and what breaks with the value below the fewest; if none holds, with the last value. *)
+(** The table, and the fault of the value below the fewest; if none holds, of the last value. *)
 
 val to_json : Sweep.t -> Search.outcome Sweep.row list -> Yojson.Safe.t

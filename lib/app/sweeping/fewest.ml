@@ -91,7 +91,7 @@ let verdict : t -> Sweep.verdict = function
   | Least _ | Interrupted _ -> Inconclusive
   | None_does { all; unsure } -> if is_open all || unsure <> [] then Inconclusive else Violated
 
-(* {1 What is said} *)
+(* {1 Output} *)
 
 let told = function
   | Property (property, _) -> Property.name property ^ ": violated"

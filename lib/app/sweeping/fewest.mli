@@ -2,11 +2,11 @@
 
 module Timing = Dolphin_time.Timing
 
-(** What stands against a fleet. *)
+(** Reasons against a fleet. *)
 type trouble =
   | Property of Dolphin_explore.Property.t * Dolphin_explore.Search.outcome  (** is violated *)
   | Time of Timing.shortfall * Timing.outcome
-  | Bound of Dolphin_checker.Limits.bound  (** met by the exploration: nobody knows *)
+  | Bound of Dolphin_checker.Limits.bound  (** met by the exploration: unknown *)
 
 type vehicles = Dolphin_semantics.Core.vehicle list
 
@@ -15,10 +15,10 @@ type t =
       vehicles : vehicles;
       outcome : Timing.outcome;  (** with these *)
       without : (Dolphin_semantics.Core.vehicle * trouble) list;  (** each of them *)
-      unsure : vehicles list;  (** fleets that are smaller, of which nobody knows *)
+      unsure : vehicles list;  (** smaller fleets with an unknown answer *)
     }
   | None_does of { all : trouble; unsure : vehicles list }
-  (** no part of the fleet is known to do, nor all of it: what stands against [all] of it *)
+  (** no subset of the fleet is known to suffice, nor all of it: the reasons against [all] of it *)
   | Interrupted of int  (** no fleet of fewer vehicles than this will do, of those that are known *)
 
 val find :
@@ -31,7 +31,7 @@ val find :
 val verdict : t -> Sweep.verdict
 
 val print : ?deadline:int -> Program_file.t -> Fleet_file.t -> t * int -> unit
-(** The fleet; what breaks without each of its vehicles; a run that breaks it without the first of them, and one that
+(** The fleet; the fault without each of its vehicles; a run with the fault without the first of them, and one that
     ends last with all. *)
 
 val to_json : ?deadline:int -> Program_file.t -> t * int -> Yojson.Safe.t

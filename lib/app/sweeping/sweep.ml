@@ -66,7 +66,7 @@ let verdict rows =
   | Some { is_least; _ } -> if is_least then Holds else Inconclusive
   | None -> if List.for_all (fun r -> r.verdict = Violated) rows then Violated else Inconclusive
 
-(* {1 What is said} *)
+(* {1 Output} *)
 
 let name s row = Printf.sprintf "%s=%d" s.parameter row.value
 

@@ -1,6 +1,6 @@
 (** One question for several values of a parameter of a program: [--set n=1..8]. *)
 
-(** What is asked. *)
+(** The question. *)
 type t = { parameter : string; values : int list; load : int -> (Program_file.t, Error.t) result }
 
 type question = One of Program_file.t | Several of t
@@ -14,13 +14,13 @@ val within : Fleet_file.t -> question -> (question, Error.t) result
 
 type verdict = Dolphin_checker.Verdict.t = Holds | Violated | Inconclusive
 
-(** What was found for a value. *)
+(** The answer for a value. *)
 type 'a row = { value : int; program : Program_file.t; found : 'a; verdict : verdict }
 
 val rows :
   t -> interrupted:(unit -> bool) -> (Program_file.t -> ('a * verdict, Error.t) result) ->
   ('a row list, Error.t) result
-(** [rows s ~interrupted ask] is what [ask] says of each value, in their order, up to the first one at which
+(** [rows s ~interrupted ask] is the answers of [ask] for each value, in their order, up to the first one at which
     [interrupted ()], if any. *)
 
 (** The least value for which all holds. *)
@@ -35,7 +35,7 @@ val fewest : 'a row list -> 'a fewest option
 val verdict : 'a row list -> verdict
 (** [Holds] if the {!fewest} is known; [Violated] if none holds; else [Inconclusive]. *)
 
-(** {1:report What is said} *)
+(** {1:report Output} *)
 
 val name : t -> 'a row -> string
 (** ["n=3"]. *)

@@ -21,7 +21,7 @@ val run :
 val slacks :
   interrupted:(unit -> bool) -> progress:(Dolphin_checker.Limits.progress -> unit) -> settings -> Program_file.t ->
   Fleet_file.t -> Timing.outcome -> Timing.slacks
-(** {!Timing.slacks} of what {!run} found, with the same settings. *)
+(** {!Timing.slacks} of the result of {!run}, with the same settings. *)
 
 val duration : string -> (int, string) result
 (** [duration text] is the milliseconds that [text] spells, as fleets do: ["40.min"], ["90.seconds"], seconds without a

@@ -46,6 +46,6 @@ let check ?tolerance (p : Program_file.t) (fleet : Fleet_file.t) path =
      | _ -> ());
     match Replay.feed !replay entry with
     | Ok next -> replay := next; Option.iter (take (Dolphin_trace.Entry.time entry)) (Replay.latest next)
-    | Error _ -> ()  (* told by who has checked that it is a run *)
+    | Error _ -> ()  (* reported after the check that it is a run *)
   in
   Result.map (fun () -> List.rev !findings) (Journal_file.iter line path)

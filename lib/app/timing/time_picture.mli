@@ -1,4 +1,4 @@
-(** What [dolphin time] says, as a picture: for each task a bar from its earliest start to its latest end. *)
+(** The result of [dolphin time], as a picture: for each task a bar from its earliest start to its latest end. *)
 
 module Timing = Dolphin_time.Timing
 

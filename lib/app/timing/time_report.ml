@@ -13,7 +13,7 @@ let time ms = Format.asprintf "%a" Bounds.pp_time ms
 
 let moments : Timed_system.moment list = [ Starts; Ends; Fails; Stopped ]
 
-(* What is awaited, and for whom it is to say how long it takes. *)
+(* The awaited events, and the party that defines their durations. *)
 let item (p : Program_file.t) (pending : Timed.pending) =
   match pending.item, pending.task with
   | Task v, Some task ->
@@ -86,7 +86,7 @@ let print_chain p (run : Timing.run) =
   if run.chain <> [] then
     say "its end depends on: %s" (String.concat ", then " (List.map link run.chain))
 
-(* Where a run goes round: in endless [repeat]s of a task, or through the script. *)
+(* The cycle of a run: endless [repeat]s of a task, or the script. *)
 let goes_round p (run : Timing.run) =
   let is_round (t : Transition.t) =
     List.exists (fun (r : Rule.t) -> match r with Repeat_2 | Repeat_again -> true | _ -> false) t.rules in
@@ -191,7 +191,7 @@ let print_unknown p (o : Timing.outcome) =
 (* To a tenth of a percent, rounded down: never more than there is. *)
 let share x = Printf.sprintf "%g %%" (Float.floor ((x *. 1000.) +. 1e-6) /. 10.)
 
-(* A bound that is of no run that is known is said to be one. *)
+(* A bound without a known run is marked as one. *)
 let battery (b : Timing.battery) =
   match b.lowest with
   | _ when Timing.runs_empty b -> "runs empty"

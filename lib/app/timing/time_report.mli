@@ -1,17 +1,17 @@
-(** What [dolphin time] says. *)
+(** The output of [dolphin time]. *)
 
 module Timing = Dolphin_time.Timing
 
 val print : ?deadline:int -> ?slacks:Timing.slacks -> Program_file.t -> Timing.outcome -> unit
-(** For people: when runs are over and when tasks start and end, with their slacks if asked for, what is left in
-    batteries, the run that ends last, breaks the [deadline] or empties one, in columns with times, what its end depends
-    on, and what nobody knows. *)
+(** For people: when runs are over and when tasks start and end, with their slacks if asked for, the charge left in
+    batteries, the run that ends last, breaks the [deadline] or empties a battery, in columns with times, the
+    durations that determine its end, and the unknown ones. *)
 
 val print_run : ?deadline:int -> Program_file.t -> Timing.outcome -> unit
-(** Only the run, after a blank line and a word on what it is. *)
+(** Only the run, after a blank line and its title. *)
 
 val print_failing : Program_file.t -> Timing.run -> unit
-(** Likewise, a run that fails. *)
+(** A run that fails, in the same form. *)
 
 val time : int -> string
 (** Milliseconds as {!Dolphin_time.Bounds.pp_time} has them. *)
@@ -22,7 +22,7 @@ val window : Timing.window -> string
 val moments : Dolphin_time.Timed_system.moment list
 
 val item : Program_file.t -> Dolphin_time.Timed.pending -> string
-(** What is awaited: ["mission.dol:3:10: survey on noptilus-1"]. *)
+(** The awaited event: ["mission.dol:3:10: survey on noptilus-1"]. *)
 
 val write_shown :
   ?deadline:int -> Program_file.t -> Fleet_file.t -> string -> Timing.outcome -> (unit, Error.t) result

@@ -15,7 +15,7 @@ let unfit_replies (program : Program_file.t) (fleet : Fleet_file.t) ~environment
   let refusal (call, why) = Dolphin_syntax.Diagnostic.error (List.assoc call named) why in
   List.map refusal (Model.unfit_replies ~environment ~calls:(calls fleet) world program.program)
 
-(* So many ticks are looked at: a run may go on for ever. *)
+(* The number of ticks that are explored: a run may go on without end. *)
 let horizon = 1_000
 
 let times ~tick ~faults ~plans program scenario world : Dolphin_tla.Times.t =

@@ -20,14 +20,14 @@ let properties : (string * Property.t) list =
 
 let phrase name = match List.assoc_opt name properties with Some p -> Property.name p | None -> name
 
-(* There is one temporal property: TLC does not say which is violated. *)
+(* With a single temporal property: TLC does not name the violated one. *)
 let violated : Event.violation -> string = function
   | Invariant name | Property name -> name
   | Temporal -> "Termination"
   | Deadlock -> "NoDeadlock"
   | Unnamed -> ""
 
-(* Whether a run shows what is said to be violated: where labels leave a choice, such a run is wanted. *)
+(* Whether a run shows the reported violation: if labels leave a choice, such a run is wanted. *)
 let shows name options program world ((c, e) : Dolphin_explore.Labelled.state) (steps : Transition.t list) =
   match List.assoc_opt name properties, List.rev steps with
   | Some No_deadlock, _ -> Environment.is_stuck options program e (Environment.choices options program world e c)
@@ -88,8 +88,8 @@ let length (c : Outcome.counter_example) =
   | Back_to k ->
     Printf.sprintf "after %s, %s that can repeat for ever" (steps k) (steps (List.length c.steps - k + 1))
 
-(* TLC stops at the first violation, except of temporal properties: these it checks when it has all states, and now and
-   then before. What is asked of the specification rather than of the program is only shown where it does not hold. *)
+(* TLC stops at the first violation, except of temporal properties: these it checks when it has all states, and now
+   and then before. Properties of the specification rather than of the program are only shown if they do not hold. *)
 let print_verdicts names (program : Program_file.t) (o : Outcome.t) =
   let broken = match o.verdict with Violated c -> Some (violated c.violation, length c) | _ -> None in
   let all_states = match o.verdict with Violated { violation = Temporal; _ } -> o.queue = 0 | _ -> false in

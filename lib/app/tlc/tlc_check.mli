@@ -4,7 +4,7 @@ open Dolphin_tlc
 
 type settings = {
   mode : Invocation.mode;
-  directory : string option;  (** where the model is kept; otherwise it is gone afterwards *)
+  directory : string option;  (** the folder of the model; otherwise it is removed afterwards *)
   strict : bool;  (** also that nothing halts and that no tuples are left *)
   notice : string -> unit;  (** shows how workers join a server *)
 }
@@ -13,6 +13,6 @@ val run :
   Installation.t -> settings -> Dolphin_tla.Model.file list -> Dolphin_environment.Environment.options ->
   Program_file.t ->
   Dolphin_semantics.World.t -> (Exploration.verdict, Error.t) result
-(** [run installation s model options program world] runs TLC on [model], that of [program] in [world], and prints what
-    it found on standard output: whether each property holds; of the first that is violated a run, in columns, recovered
-    by its labels. An interrupted check is {!Error.Inconclusive}; what was found before is printed. *)
+(** [run installation s model options program world] runs TLC on [model], that of [program] in [world], and prints
+    what it found on standard output: whether each property holds; of the first that is violated a run, in columns,
+    recovered by its labels. An interrupted check is {!Error.Inconclusive}; earlier results are printed. *)

@@ -3,7 +3,7 @@ open Dolphin_lts
 module Run = Dolphin_tla.Run
 module Reference = Dolphin_explore.Reference
 
-(* What TLC counts must be what was printed: one line for each state, and one for each transition. *)
+(* TLC's counts must equal the printed ones: one line for each state, and one for each transition. *)
 let is_complete printed (o : Outcome.t) =
   o.queue = 0 && o.distinct = Printed_graph.states printed && o.generated = 1 + Printed_graph.transitions printed
 

@@ -39,7 +39,7 @@ let rec remove path =
     Unix.rmdir path
   | _ -> Unix.unlink path
 
-(* A new directory for nobody else. *)
+(* A new private directory. *)
 let temporary_directory () =
   let rec attempt n =
     let name = Printf.sprintf "dolphin-tlc-%d-%d" (Unix.getpid ()) n in

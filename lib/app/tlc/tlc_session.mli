@@ -6,10 +6,10 @@ type model = (string * string) list
 (** Files: name and contents. *)
 
 val installation : string option -> (Installation.t, Error.t) result
-(** [installation jar] is where Java and TLC are; the error, {!Error.Unavailable}, says what is missing. *)
+(** [installation jar] is the places of Java and TLC; the error, {!Error.Unavailable}, names the missing one. *)
 
 val write : directory:string -> model -> (unit, Error.t) result
-(** [write ~directory m] writes the files of [m], making the directory if there is none. *)
+(** [write ~directory m] writes the files of [m], and makes the directory if necessary. *)
 
 val in_directory : string option -> model -> (string -> ('a, Error.t) result) -> ('a, Error.t) result
 (** [in_directory directory m f] is [f d] where [d] is a directory with the files of [m]: the one that is given, or a

@@ -1,4 +1,4 @@
-(** A run that is taken by hand: where it has been, where it is, and what lies ahead of it if it was gone back, or if a
+(** A run that is taken by hand: its past, its present state, and the steps ahead of it after going back, or when a
     recorded run is followed. Its steps are those of {!Dolphin_environment.Environment.choices}, and no others. *)
 
 open Dolphin_semantics
@@ -7,7 +7,7 @@ open Dolphin_environment
 type world = { program : Core.program; world : World.t; options : Environment.options }
 
 type choice = Transition.t * Environment.t
-(** A step, and what the outside remembers after it. *)
+(** A step, and the memory of the environment after it. *)
 
 type t
 
@@ -21,7 +21,7 @@ val length : t -> int
 (** How many steps were taken. *)
 
 val ahead : t -> choice list
-(** What {!next} takes, one after the other. *)
+(** The steps that {!next} takes, one after the other. *)
 
 val before : t -> Configuration.t option
 (** The configuration before the latest step. *)
@@ -30,8 +30,8 @@ val steps : t -> Transition.t list
 (** The steps that were taken, the first one first. *)
 
 val choices : t -> choice Seq.t
-(** What may happen now, computed on demand.
-    @raise Environment.Unclear each time it is gone through, if nobody could list that. *)
+(** The possible steps now, computed on demand.
+    @raise Environment.Unclear each time it is gone through, if the steps cannot be listed. *)
 
 val is_stuck : t -> bool
 (** Whether nothing is owed in the state where the run is: {!Environment.is_stuck}.
@@ -43,7 +43,7 @@ val is_next : t -> choice -> bool
 (** {1:moves Moves} *)
 
 val take : choice -> t -> t
-(** [take x r] is [r] after [x], one of its {!choices}. What was ahead stays if [x] is its first step. *)
+(** [take x r] is [r] after [x], one of its {!choices}. The steps ahead stay if [x] is the first of them. *)
 
 val undo : t -> t option
 (** [undo r] is [r] without its latest step, which is ahead now. *)
@@ -52,7 +52,7 @@ val next : t -> t option
 (** [next r] is [r] after the first step ahead. *)
 
 val goto : int -> t -> t option
-(** [goto n r] is [r] after [n] steps, back or ahead; [None] if there are not so many. *)
+(** [goto n r] is [r] after [n] steps, back or ahead; [None] if there are fewer. *)
 
 val recorded : Dolphin_trace.Witness.t -> t -> (t, string) result
 (** [recorded w r] is the run without steps, with those of [w] and its cycle, once around, ahead; or which step of [w]

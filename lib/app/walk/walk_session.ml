@@ -86,7 +86,7 @@ let say s text = List.iter s.print (Walk_view.wrapped ~columns:(s.columns ()) ~h
 let view s : Walk_view.t = { program = s.program; columns = s.columns () }
 let show s lines = List.iter s.print lines
 
-(* So many choices are shown unless all are asked for: a pick may have millions. *)
+(* The number of choices that are shown unless all are asked for: a pick may have millions. *)
 let most = 20
 
 let rec take_while_shown n (choices : Course.choice Seq.t) =

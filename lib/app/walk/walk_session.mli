@@ -9,4 +9,4 @@ val run :
     is {!Error.Bad_input}: it records none, or not one of this program in this world. *)
 
 val help : (string * string) list
-(** What may be typed, and what it does. *)
+(** The commands of a walk. *)

@@ -36,7 +36,7 @@ let of_control v (c : Configuration.t) =
   | Executing (_, r) -> item v "task" (Format.asprintf "%a" Residual.pp r)
   | Ended ending -> item v "end" (of_ending ending)
 
-(* Who is in reach at a pick is not known before its choice. *)
+(* The vehicles in reach at a pick are not known before its choice. *)
 let waiting v (c : Configuration.t) =
   let all = Waiting.list v.program.program ~source:v.program.source (World.at Any World.empty) c in
   match c.control with

@@ -1,10 +1,9 @@
-(** What a walk shows, as lines for a terminal. *)
+(** The display of a walk, as lines for a terminal. *)
 
 type t = { program : Program_file.t; columns : int  (** of the terminal *) }
 
 val state : t -> Course.t -> string list
-(** [state v r] is the state that [r] is in: A, B, N, what is left of the task, what is waited for, which vehicles are
-    lost. *)
+(** [state v r] is the present state of [r]: A, B, N, the rest of the task, the awaited events, the lost vehicles. *)
 
 val variables : t -> Course.t -> string list
 (** Its global variables. *)

@@ -27,7 +27,7 @@ module Make (S : System.S) = struct
         expand_all t ~is_plain look enough
     end
 
-  (* Once there is no memory nothing can be added, not even what waits; and what waits for the disk takes long. *)
+  (* Without memory nothing can be added, not even waiting states; and writing to the disk takes long. *)
   let run_by expand_all t =
     let give_up bound =
       States.forget_waiting t.states;
@@ -92,7 +92,7 @@ module Make (S : System.S) = struct
 
   type arrival = { into : int; action : int; valuation : int; via : S.via }
 
-  (* What a system numbers may grow by looking at a state again, too. *)
+  (* Looking at a state again may also enlarge a system's numberings. *)
   let rec arrivals_with tick t i =
     let found = ref [] in
     let put key action via valuation =

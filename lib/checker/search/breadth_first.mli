@@ -4,9 +4,9 @@
     Under a monitor, each state is kept once for each set of automaton states that runs to it may be in: the product of
     the system with the negation of a formula. Runs that cannot violate the formula any more are not followed.
 
-    What is said of fairness is the caller's: here every cycle is a run. *)
+    Fairness is judged by the caller: here every cycle is a run. *)
 
-(** What is found of a property. *)
+(** The findings about a property. *)
 type 'run verdict =
   | Holds  (** all states were searched *)
   | Violated of 'run
@@ -22,7 +22,7 @@ type lasso = {
 type violation =
   | Whatever_follows of int list  (** every run that starts through these states violates it, or may rest in the last *)
   | Around of { stem : int list; cycle : (int * int) list }
-  (** [cycle] is arrivals in states, with valuations, that go on for ever after [stem] and come back to its last *)
+  (** [cycle] is arrivals in states, with valuations, that repeat without end after [stem] and come back to its last *)
 
 module Make (S : System.S) : sig
   type t
@@ -34,32 +34,33 @@ module Make (S : System.S) : sig
       {!States.create}, [false] by default. [spill] is a directory where states go, if they are not compressed, once
       three quarters of [limits.max_memory] are taken; it is for {!run} alone, not for {!run_walks} or
       {!run_bitstate}. [workers], 1 by default, is how many processes {!run} uses from [fork_from] states on, 100,000
-      by default: then the numbers of states depend on which of them comes first, and so does which of several shortest
-      runs is shown. It uses one where states are compressed or may go to disk, and with [look] or [enough]. Under
-      a monitor there may be no state at all; nor is there one if the system cannot say what it is: then the search is
-      {!stopped}. [phase] says what is being done, in reports of progress. [started] is as for {!Limits.guard}. *)
+      by default: then the numbers of states depend on which of them comes first, and so does which of several
+      shortest runs is shown. It uses one where states are compressed or may go to disk, and with [look] or [enough].
+      Under a monitor there may be no state at all; nor is there one if the system cannot list its successors: then
+      the search is {!stopped}. [phase] is the present phase, in reports of progress. [started] is as for
+      {!Limits.guard}. *)
 
   val close : t -> unit
   (** [close t] gives back what [t] has on disk. Only what needs no state may be asked of it then: {!count}, {!memory},
       {!stopped} and the like. *)
 
   val run : ?watcher:Watcher.t -> ?look:(int -> unit) -> ?enough:(unit -> bool) -> t -> unit
-  (** [run t] expands all states, until a bound is met, [enough ()] says so, or it {!is_violated}. [watcher] sees each
-      of them; [look i] is called before state [i] is expanded, in order, in one process. What [S.expand], [look] and
-      [enough] raise is raised, {!Limits.Stop} apart. *)
+  (** [run t] expands all states, until a bound is met, [enough ()] is true, or it {!is_violated}. [watcher] sees
+      each of them; [look i] is called before state [i] is expanded, in order, in one process. Exceptions of
+      [S.expand], [look] and [enough] pass through, {!Limits.Stop} apart. *)
 
   val run_walks : ?look:(int -> unit) -> ?enough:(unit -> bool) -> t -> walks:int -> seed:int -> unit
-  (** [run_walks t ~walks ~seed] is {!run} along random walks, as many as [walks], in place of all states: at each state
-      one of the transitions is taken, any as likely as another; the states that the others lead to are seen, but not
-      expanded. A walk ends where there is no transition, or after [max_depth] of them, 10,000 by default. Unless all
-      states have been expanded, it is stopped by {!Limits.Sampled} at the latest. [look i] is called before state [i]
-      is expanded first. There must be no monitor. *)
+  (** [run_walks t ~walks ~seed] is {!run} along random walks, as many as [walks], in place of all states: at each
+      state one of the transitions is taken, any as likely as another; the states that the others lead to are seen,
+      but not expanded. A walk ends at a state without transitions, or after [max_depth] of them, 10,000 by default.
+      Unless all states have been expanded, it is stopped by {!Limits.Sampled} at the latest. [look i] is called
+      before state [i] is expanded first. The search must be without a monitor. *)
 
   val run_bitstate : ?look:(int -> unit) -> ?enough:(unit -> bool) -> t -> bytes:int -> unit
-  (** [run_bitstate t ~bytes] is {!run}, depth first and by {!Bitstate}, in an array of so many bytes: what is a state
-      already is told by bits of a hash alone, and only the states on runs that are shown are kept. So it is stopped by
+  (** [run_bitstate t ~bytes] is {!run}, depth first and by {!Bitstate}, in an array of [bytes] bytes: bits of a hash
+      alone distinguish states, and only the states on runs that are shown are kept. So it is stopped by
       {!Limits.Hashed} at the latest: [max_depth] is how deep it goes, and no bound that stops it. [look] is given
-      {!here}. There must be no monitor. *)
+      {!here}. The search must be without a monitor. *)
 
   val here : int
   (** Stands, for {!run_bitstate}'s [look], for the state that it is at: {!load} knows it. *)
@@ -69,10 +70,10 @@ module Make (S : System.S) : sig
       with the run to it. *)
 
   val bitstate : t -> Bitstate.summary option
-  (** What {!run_bitstate} came to. *)
+  (** The outcome of {!run_bitstate}. *)
 
   val sample : t -> Sample.summary option
-  (** What the random walks came to. *)
+  (** The outcome of the random walks. *)
 
   val expand : t -> int -> int
   (** [expand t i] expands state [i], and is the number of its transitions: for tests, in place of {!run}. States come
@@ -101,7 +102,7 @@ module Make (S : System.S) : sig
   (** Bytes, as [max_memory] counts them. *)
 
   val deadlock : t -> int option
-  (** The first state that is no end, and where a run may rest. *)
+  (** The first state that is not an end, and where a run may rest. *)
 
   val broken : t -> S.property -> int option
   (** The first state that breaks the property by being reached. *)
@@ -117,15 +118,15 @@ module Make (S : System.S) : sig
   val never : t -> S.property -> int list verdict
 
   val termination : t -> exact:(int -> bool) -> lasso verdict
-  (** That there is no cycle; otherwise a cycle with a shortest run to it and the shortest way around. The run comes
+  (** The absence of a cycle; otherwise a cycle with a shortest run to it and the shortest way around. The run comes
       back to a state with [exact], for states that stand for others do not; such a state is on every cycle. *)
 
   val formula : t -> violation verdict
   (** That no run violates the formula of the monitor. *)
 
   val ticker : t -> string -> unit -> unit
-  (** [ticker t phase] is to be called at each state by what searches the states again: now and then it looks at the
-      limits, and reports progress in [phase].
+  (** Code that searches the states again calls [ticker t phase] at each state: now and then it looks at the limits, and
+      reports progress in [phase].
       @raise Limits.Stop *)
 
   (** {1:states States} *)

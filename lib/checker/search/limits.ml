@@ -70,13 +70,13 @@ let started g = g.started
 
 type measures = { states : int; expanded : int; depth : int; used : int; growth : int }
 
-(* What the process takes is not what it uses: code and what is free in the heap are beyond that, and memory that it
-   has not written to yet is less. *)
+(* The size of the process differs from its use of memory: code and free parts of the heap are beyond that, and
+   memory that it has not written to yet is less. *)
 let ask_taken g ~used =
   match g.limits.memory_taken () with Some taken -> g.unseen <- taken - used | None -> ()
 
 let weigh_own g ~used growth =
-  (* A part is for what grows between two looks. *)
+  (* A part is for growth between two looks. *)
   let bound = Option.map (fun most -> most - (most / 32)) g.limits.max_memory in
   let is_beyond () = exceeds bound (used + g.unseen + growth) in
   if is_beyond () then begin
@@ -91,8 +91,8 @@ let ask_sometimes g now ~used =
     ask_taken g ~used
   end
 
-(* A system that has given all its memory kills without a word. So a part of what could be had is left alone: for
-   others, and for what grows between two looks. *)
+(* A system that has given all its memory kills without a word. So a part of the available memory is left alone: for
+   others, and for growth between two looks. *)
 let weigh g ~used growth =
   weigh_own g ~used growth;
   match g.limits.memory_left () with

@@ -1,4 +1,4 @@
-(** How far a search goes, and who is told. *)
+(** The limits of a search, and its progress reports. *)
 
 type t = {
   max_states : int option;
@@ -17,7 +17,7 @@ type t = {
 }
 
 and progress = {
-  phase : string;  (** what is being done *)
+  phase : string;  (** the present phase *)
   states : int;
   rate : float;  (** states a second, since the start *)
   frontier : int;  (** states still to be expanded *)
@@ -38,7 +38,7 @@ type bound =
   | Time
   | Interruption
   | Sampled  (** random walks have left out some states *)
-  | Hashed  (** states were told apart by bits of a hash, which may have left out some *)
+  | Hashed  (** states were distinguished by bits of a hash, which may have left out some *)
   | Unsettled of string  (** something that was asked has no answer, for this reason *)
 
 exception Stop of bound

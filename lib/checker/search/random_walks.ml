@@ -1,8 +1,8 @@
 module Make (S : System.S) = struct
   open Search_state.Make (S)
 
-  (* Any of the transitions is as likely as another; each state that one leads to is seen. The result is where it goes
-     on, or -1. *)
+  (* Any of the transitions is as likely as another; each state that one leads to is seen. The result is the next
+     state, or -1. *)
   let rec random_step t sample i =
     t.next <- i;
     fetch t i;

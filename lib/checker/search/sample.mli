@@ -1,4 +1,4 @@
-(** Random walks through a state graph: what they draw, and an estimate of what they did not visit. The states that a
+(** Random walks through a state graph: their choices, and an estimate of the unvisited states. The states that a
     visited one leads to are {e seen}. *)
 
 type t

@@ -31,14 +31,14 @@ module Make (S : System.S) = struct
     mutable transitions : int;
     mutable work : int;  (* visits and expansions *)
     mutable allocated : float;  (* words by the last look around *)
-    mutable deadlock : int;  (* the first state that is one, or -1; likewise *)
+    mutable deadlock : int;  (* the first such state, or -1; the fields below too *)
     mutable violation : int;
     broken : (S.property, int) Hashtbl.t;
     mutable stopped : Limits.bound option;
     mutable sample : Sample.t option;
     mutable deep : deep option;
     mutable guard : Limits.guard;
-    mutable spill : string option;  (* where states will go when there is too little memory *)
+    mutable spill : string option;  (* the store for states when memory runs short *)
     mutable workers : int;
     fork_from : int;  (* states *)
     mutable shared : shared option;
@@ -125,7 +125,7 @@ module Make (S : System.S) = struct
     in
     Option.iter to_disk t.spill
 
-  (* What is left is for the parents of states on disk. *)
+  (* The rest is for the parents of states on disk. *)
   let before_spilling (limits : Limits.t) =
     { limits with max_memory = Option.map (fun n -> n / 4 * 3) limits.max_memory }
 
@@ -135,7 +135,7 @@ module Make (S : System.S) = struct
       incr ticks;
       if !ticks land 0xFF = 0 then look_around t phase
 
-  (* What is pushed is added in batches: close to the bound, one by one. The initial state is always there. *)
+  (* Pushed states are added in batches: close to the bound, one by one. The initial state is always there. *)
   let batch = 256
 
   let count_states t =
@@ -199,7 +199,7 @@ module Make (S : System.S) = struct
     let words = S.words t.system in
     let bytes = States.bytes t.states in
     t.states <- States.rewrite t.states ~words (if before = 0 then rewritten else with_set);
-    (* Whoever spills has no memory for what was before. *)
+    (* A search that spills has no memory for its earlier states. *)
     if States.is_on_disk t.states && bytes >= large then Gc.full_major ();
     t.key <- Array.make words 0;
     fun old ->
@@ -217,7 +217,7 @@ module Make (S : System.S) = struct
     t.from <- first land mask t;
     t.key.(0) <- first land lnot (mask t)
 
-  (* Whether there is room to write the states anew. *)
+  (* Whether the states can be rewritten within memory. *)
   let rec weigh_rewriting t =
     let bytes = States.bytes_to_rewrite t.states ~words:(States.words t.states + 1) in
     try Limits.weigh t.guard ~used:(memory t) bytes

@@ -32,14 +32,14 @@ module Make (S : System.S) : sig
     mutable transitions : int;
     mutable work : int;  (** visits and expansions *)
     mutable allocated : float;  (** words by the last look around *)
-    mutable deadlock : int;  (** the first state that is one, or -1; likewise *)
+    mutable deadlock : int;  (** the first such state, or -1; the fields below too *)
     mutable violation : int;
     broken : (S.property, int) Hashtbl.t;
     mutable stopped : Limits.bound option;
     mutable sample : Sample.t option;
     mutable deep : deep option;
     mutable guard : Limits.guard;
-    mutable spill : string option;  (** where states will go when there is too little memory *)
+    mutable spill : string option;  (** the store for states when memory runs short *)
     mutable workers : int;
     fork_from : int;  (** states *)
     mutable shared : shared option;
@@ -125,7 +125,7 @@ module Make (S : System.S) : sig
   val flush : t -> unit
 
   val widen : t -> unit
-  (** Makes the fields of vectors as wide as they must be now, and writes all states anew. *)
+  (** Makes the fields of vectors as wide as they must be now, and rewrites all states. *)
 
   val widened : t -> int array -> int array
   (** {!widen}; the function that it gives does the same to a vector as it was before. *)

@@ -1,4 +1,4 @@
-(** What can be explored: a transition system whose states are vectors of words. Types only. {!Breadth_first} knows a
+(** Systems to explore: a transition system whose states are vectors of words. Types only. {!Breadth_first} knows a
     system by nothing else.
 
     {b What is equal.} States are equal if their vectors are. The vector that an expansion hands over is the one of a
@@ -8,8 +8,8 @@
     by the rest of the vector, and a zone is a word of the vector by its number, as {!Interner} gives it. A state
     that a later one includes stays in the store; the system may expand it to nothing but a transition to that one. *)
 
-(** What an expansion calls for each transition. ['via] says how the state that a transition leads to became the one
-    that stands for it: a permutation, for example. *)
+(** The visitor that an expansion calls for each transition. ['via] is how the successor of a transition became its
+    representative: a permutation, for example. *)
 type 'via visitor = {
   visit : int array -> int -> 'via -> unit;
   (** [visit key action via]: some transition, whose action has number [action], leads to the state in the first words
@@ -18,8 +18,8 @@ type 'via visitor = {
   (** looks at the limits, which takes about a microsecond: to be called between transitions that take longer to find.
       @raise Limits.Stop *)
   rest : unit -> unit;
-  (** a run may stay in the state for ever, for no transition need happen; the vector that is expanded must be as it
-      was handed over *)
+  (** a run may stay in the state without end, for no transition need happen; the vector that is expanded must be as
+      it was handed over *)
 }
 
 module type S = sig
@@ -45,29 +45,29 @@ module type S = sig
       [old] are not. *)
 
   val numbers : t -> int array -> (int -> unit) -> unit
-  (** [numbers t key f] gives [f] the numbers, one after the other, that tell the state [key] from all others: the same
-      after {!widen}. There is no monitor. *)
+  (** [numbers t key f] gives [f] the numbers, one after the other, that distinguish the state [key] from all others:
+      the same after {!widen}. The search has no monitor. *)
 
   (** {1:transitions Transitions} *)
 
   val initial : t -> via visitor -> unit
   (** [initial t v] visits the initial state.
       @raise Outgrown
-      @raise Limits.Stop with [Unsettled] if the system cannot say what it is: then the search has no state. *)
+      @raise Limits.Stop with [Unsettled] if the initial state cannot be determined: then the search has no state. *)
 
   val expand : t -> int array -> via visitor -> int
-  (** [expand t key v] visits the states that transitions of the state [key] lead to. It may change [key]. The result
-      is the number of transitions: one of them may be visited more often, if several states together stand for where
-      it leads.
+  (** [expand t key v] visits the states that transitions of the state [key] lead to. It may change [key]. The result is
+      the number of transitions: one of them may be visited more often, if several states together stand for its
+      successor.
       @raise Outgrown when some have been visited: it is called again after {!widen}.
-      @raise Limits.Stop with [Unsettled] if the system cannot say what follows [key]. *)
+      @raise Limits.Stop with [Unsettled] if the system cannot list the successors of [key]. *)
 
   (** {1:workers Several processes}
 
-      A system may be searched by processes that were forked from one: each has a [t] of its own then. So that vectors
-      mean the same in all of them, whatever numbers something calls {!Numbering.give} first; [expand] may raise
-      {!Numbering.Closed}, and is called again once numberings are open. Which numbers it gives then depends on the
-      state, and on what was numbered before, and on nothing else. *)
+      A system may be searched by processes that were forked from one: each has a [t] of its own then. So that
+      vectors mean the same in all of them, whatever numbers something calls {!Numbering.give} first; [expand] may
+      raise {!Numbering.Closed}, and is called again once numberings are open. The numbers that it gives then depend
+      on the state and on earlier numberings, and on nothing else. *)
 
   val numbering : t -> Numbering.t
 
@@ -75,20 +75,20 @@ module type S = sig
   (** @raise Outgrown if a number that has been given does not fit *)
 
   type findings
-  (** What has been found by expanding, beside states: data without functions, which does not change. *)
+  (** The findings of expansions, beside states: data without functions, which does not change. *)
 
   val findings : t -> findings
   (** [findings t] takes no time. *)
 
   val add_findings : t -> findings -> unit
-  (** [add_findings t f] adds what another process has found to what [t] has. *)
+  (** [add_findings t f] adds the findings of another process to those of [t]. *)
 
   (** {1:properties Properties}
 
       To be quick, the search asks them of a state's first word, reserved bits included. *)
 
   val broken : t -> int -> property option
-  (** [broken t w] is what is violated when a state with first word [w] is reached. *)
+  (** [broken t w] is the properties that reaching a state with first word [w] violates. *)
 
   val is_end : t -> int -> bool
   (** [is_end t w] is whether a run may rest in a state with first word [w] without being in a deadlock. *)
@@ -96,7 +96,7 @@ module type S = sig
   (** {1:cycles Cycles} *)
 
   val may_cycle : t -> bool
-  (** Once all states are expanded: [false] only if there is no cycle. *)
+  (** Once all states are expanded: [false] only if the graph has no cycle. *)
 
   val is_anchor : t -> int -> bool
   (** Every cycle goes through a state with [is_anchor t w] for its first word [w]. *)

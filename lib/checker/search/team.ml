@@ -59,7 +59,7 @@ let has_filled = 2
 type reason = Done | Full
 type block = { segment : int; mutable first : int; upto : int }
 
-(* When it is full the workers end, and it begins anew. *)
+(* When it is full the workers end, and it begins again. *)
 let log_words = 1 lsl 22
 
 let create states numbering ~workers ~look =
@@ -282,7 +282,7 @@ let become t w =
   Sys.set_signal Sys.sigint Signal_ignore;
   Sys.set_signal Sys.sigterm Signal_default
 
-(* Nothing of what the leader has not written yet is written, and nothing is done that it does at its end. *)
+(* The leader's unwritten output is not written, and its exit actions do not run. *)
 let live ~work ~report out =
   let status =
     match
@@ -333,7 +333,7 @@ let rec has_said other ~until =
   | ready, _, _ -> ready <> []
   | exception Unix.Unix_error (EINTR, _, _) -> has_said other ~until
 
-(* What the others report who do within so many seconds. *)
+(* The reports of the others that arrive within the given number of seconds. *)
 let hear t ~within =
   let until = Unix.gettimeofday () +. within in
   let report other =

@@ -1,14 +1,14 @@
-(** Processes that search together: a leader and workers that it forks, with memory that they share. What they search is
-    no concern of this module.
+(** Processes that search together: a leader and workers that it forks, with memory that they share. This module does
+    not depend on the object of their search.
 
     All go through the levels of a search in step. A level is a part of each worker's segment of states; each worker
-    takes blocks of its own part, and then of others' parts. {!meet} is where all wait for all.
+    takes blocks of its own part, and then of others' parts. At {!meet} each process waits for all others.
 
     {b Numberings.} While there are workers, numberings are closed ({!Numbering}). A process that needs a new number
-    calls {!learn}: one at a time they learn, which is to do something that gives the number, and then tell the others
-    what they did it with. Before it learns, and between levels, each process has learnt all that others told before, in
-    the same order. So a number is the same in all of them, if what is learnt gives the same numbers wherever the same
-    was learnt before.
+    calls {!learn}: one process at a time computes the number, and then sends the others the key for it. Before it
+    learns, and between levels, each process has repeated all earlier learning steps of the others, in the same order.
+    So a number is the same in all of them, if what is learnt gives the same numbers wherever the same was learnt
+    before.
 
     {b Giving up.} Whatever else comes up in the midst of a level is left to the leader: the workers end, and the leader
     goes on alone from there. *)
@@ -19,9 +19,9 @@ exception Over
 (** In a worker, and in the leader while it waits: the level need not be ended. *)
 
 val create : (unit -> Shared_states.t) -> Numbering.t -> workers:int -> look:(unit -> unit) -> t
-(** [create s n ~workers ~look] is a leader, who is one of [workers], without the others. [s ()] is what they search.
-    [look ()] is called now and then while the leader waits; what it raises is raised.
-    @raise Out_of_memory if the system does not grant so many addresses *)
+(** [create s n ~workers ~look] is a leader, one of [workers], without the others. [s ()] is the system that they
+    search. [look ()] is called now and then while the leader waits; its exceptions pass through.
+    @raise Out_of_memory if the system does not grant the addresses *)
 
 val close : t -> unit
 
@@ -36,7 +36,7 @@ type block = { segment : int; mutable first : int; upto : int }
 (** Places of a worker's segment from [first] on, before [upto]. *)
 
 val take : t -> block option
-(** [take t] is what this process expands next; [None] if nothing is left of the level, or it need not be ended. *)
+(** [take t] is the next block for this process; [None] if nothing is left of the level, or it need not be ended. *)
 
 val leave : t -> block -> unit
 (** [leave t block] leaves [block] to the leader, and all others end as soon as they have expanded what they took. *)
@@ -45,33 +45,34 @@ val give_up : t -> unit
 (** [give_up t] is that the level need not be ended: all end as soon as they have expanded what they took. *)
 
 val left : t -> block list
-(** What was left, after {!lead}. *)
+(** The unexpanded rest, after {!lead}. *)
 
 (** {1 Meeting} *)
 
 type reason =
-  | Done  (** there is no block to take *)
+  | Done  (** no block is left to take *)
   | Full  (** the table has to grow *)
 
 val meet : t -> deepen:(unit -> unit) -> reason -> bool
 (** [meet t ~deepen reason] waits for all others. It is [false] if there is nothing to do any more. The leader calls
-    [deepen ()] before a level begins; what it raises is raised. *)
+    [deepen ()] before a level begins; its exceptions pass through. *)
 
 (** {1 Learning} *)
 
 val learn : t -> words:int -> (int array -> unit) -> int array -> unit
-(** [learn t ~words f key] does [f] with what others have learnt, and then with [key], whose first [words] words it
-    tells the others. Numberings are open meanwhile. What [f] raises for [key] is raised, and nobody learns any more.
-    @raise Over if nobody learns any more *)
+(** [learn t ~words f key] applies [f] to the keys that others have learnt, and then to [key], whose first [words] words
+    it sends to the others. Numberings are open meanwhile. Exceptions of [f key] pass through, and no process learns any
+    more.
+    @raise Over if learning has ended *)
 
 val catch_up : t -> words:int -> (int array -> unit) -> unit
-(** [catch_up t ~words f] does [f] with what others have learnt. *)
+(** [catch_up t ~words f] applies [f] to the keys that others have learnt. *)
 
 (** {1 Processes} *)
 
 val lead : t -> work:(unit -> unit) -> report:(unit -> string) -> string list * (exn * Printexc.raw_backtrace) option
-(** [lead t ~work ~report] forks workers, and is what each of them [report]s after its [work], which this process does
-    as well; and what [work] raises here, if it does. In that case the others end what they are at, or are killed
+(** [lead t ~work ~report] forks workers, and is the [report] of each after its [work], which this process does as well;
+    and the exception of [work] here, if it raises one. In that case the others end what they are at, or are killed
     within a second and report nothing. When it returns all of them have ended.
     @raise Limits.Stop if a worker ends otherwise than after its report *)
 
@@ -83,10 +84,11 @@ val look : t -> unit
     @raise Limits.Stop if a worker has ended *)
 
 val tell : t -> expanded:int -> transitions:int -> heap:int -> unit
-(** [tell t ~expanded ~transitions ~heap] says what a worker has done since it was forked, and the bytes of its heap. *)
+(** [tell t ~expanded ~transitions ~heap] records the work of a worker since it was forked, and the bytes of its
+    heap. *)
 
 val told : t -> int * int
-(** The sums of what those have told last who have not ended, of expanded states and of transitions. *)
+(** The sums of the last records of running workers, of expanded states and of transitions. *)
 
 val heaps_of_others : t -> int
-(** Likewise of bytes. *)
+(** The same sum of bytes. *)

@@ -6,7 +6,7 @@ module Make (S : System.S) = struct
     | Some states -> states
     | None -> invalid_arg "Together.shared_states"
 
-  (* What a worker has found, and the leader has not. *)
+  (* The findings of a worker that the leader lacks. *)
   type report = {
     found : S.findings;
     by_worker : int * int;  (* expanded states, transitions *)
@@ -54,7 +54,7 @@ module Make (S : System.S) = struct
 
   let catch_up t { team; _ } = Team.catch_up team ~words:(States.words t.states) (numbering t ignore)
 
-  (* What is found while something is learnt in vain may be told by numbers that no other process knows. *)
+  (* Findings made during a vain learning step may use numbers that no other process knows. *)
   let learn t ({ team; _ } as shared) key =
     let findings = S.findings t.system in
     try Team.learn team ~words:(States.words t.states) (numbering t t.visitor.tick) key
@@ -129,7 +129,7 @@ module Make (S : System.S) = struct
     in
     go ()
 
-  (* In this process alone, where anything may come up. It may have given numbers in vain, that do not fit. *)
+  (* In this process alone, since it may meet any case. It may have given numbers in vain, that do not fit. *)
   let expand_left t shared (block : Team.block) =
     (match S.check_fit t.system with () -> () | exception S.Outgrown -> outgrow t);
     for p = block.first to block.upto - 1 do

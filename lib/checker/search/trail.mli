@@ -1,4 +1,4 @@
-(** What a depth-first search keeps: the {e path} to the state that it is at, and the states that {e wait}. *)
+(** The data of a depth-first search: the {e path} to its present state, and the states that {e wait}. *)
 
 type entry = {
   state : int array;

@@ -1,4 +1,4 @@
-(** What is said of a question about all runs, in one word. *)
+(** The verdict on a question about all runs, in one word. *)
 
 type t =
   | Holds

@@ -1,7 +1,7 @@
 type t = {
   directory : string;
   file : Unix.file_descr;
-  buffer : Bytes.t;  (* what is still to be written *)
+  buffer : Bytes.t;  (* still to be written *)
   mutable filled : int;  (* bytes of it *)
   mutable written : int;  (* bytes of the file *)
 }

@@ -14,6 +14,6 @@ val append : t -> int -> unit
 (** [append f x] appends the word [x]. *)
 
 val read : t -> at:int -> Bytes.t -> words:int -> unit
-(** [read f ~at b ~words] reads so many words, from the one at place [at] on. *)
+(** [read f ~at b ~words] reads [words] words, from the one at place [at] on. *)
 
 val close : t -> unit

@@ -1,6 +1,6 @@
 open Bigarray
 
-(* The table is in parts, each as long as the memory. A state is in the part and from the slot on that its hash says;
+(* The table is in parts, each as long as the memory. The hash of a state determines its part and its first slot;
    behind the last slot of a part comes its first one. *)
 type t = {
   file : Disk_file.t;

@@ -1,11 +1,11 @@
-(** Where the states of a file are, by their hash: a hash table in a file, which is made part by part in memory. *)
+(** The places of a file's states, by their hash: a hash table in a file, which is made part by part in memory. *)
 
 type t
 
 val create :
   directory:string -> states:int -> memory:(int, Bigarray.int_elt, Bigarray.c_layout) Bigarray.Array1.t ->
   ((int -> int -> unit) -> unit) -> t
-(** [create ~directory ~states ~memory each] is for so many states: [each f] calls [f i h] for each state [i] with its
+(** [create ~directory ~states ~memory each] is for [states] states: [each f] calls [f i h] for each state [i] with its
     hash [h]. The length of [memory], which is written over, is a power of 2.
     @raise Disk_file.Failed *)
 

@@ -31,8 +31,8 @@ let bits_for n =
   let rec from bits = if 1 lsl bits > n then bits else from (bits + 1) in
   from 1
 
-(* The table is in segments, none of which is ever given back: what is freed between things that stay is seldom of use
-   to anything else. *)
+(* The table is in segments, none of which is ever given back: memory freed between long-lived blocks is seldom of
+   use. *)
 let segment_bits = 12
 let segment_mask = (1 lsl segment_bits) - 1
 

@@ -11,7 +11,7 @@ val add : t -> int -> int
 (** [add t x] is [i] if [x] is member [i] already, and [-1 - i] if it becomes member [i] now. *)
 
 val find : t -> int -> int
-(** [find t x] is the index of [x], or [-1] if [x] is no member. *)
+(** [find t x] is the index of [x], or [-1] if [x] is not a member. *)
 
 val get : t -> int -> int
 (** [get t i] is member [i]. *)

@@ -1,9 +1,9 @@
-(** Whether new numbers may be given to what a system meets.
+(** Whether a system may give new numbers to new parts.
 
-    A number stands for what was met first, second and so on; so it means nothing to another process that has met other
-    things. Processes that search one system together close its numberings, and give numbers one at a time, in one
-    order ({!Team}). Whatever gives numbers that end up in a state, in the way that it is stored, or in what is told of
-    a search, calls {!give} first; {!Interner} does. *)
+    A number stands for the first, second ... part met; so it means nothing to another process that has met other
+    parts. Processes that search one system together close its numberings, and give numbers one at a time, in one
+    order ({!Team}). Code that gives numbers for use in a state, in its stored form, or in reports of a search, calls
+    {!give} first; {!Interner} does. *)
 
 type t
 (** All numberings of a system. *)

@@ -7,10 +7,10 @@ type t = {
   file : Disk_file.t;
   parents : Parents.t;
   mutable count : int;
-  pushed : Packed.t;  (* what may be new *)
+  pushed : Packed.t;  (* candidates for new states *)
   capacity : int;  (* states of [pushed] when it is full *)
-  mutable is_empty : bool;  (* [pushed], with what waits there *)
-  mutable first_parent : int;  (* of what is pushed: parents are kept there less this one *)
+  mutable is_empty : bool;  (* [pushed], with its waiting states *)
+  mutable first_parent : int;  (* for pushed states: parents are kept there less this one *)
   window : Bytes.t;  (* some states of the file, as they are read one after the other *)
   mutable window_from : int;
   mutable window_states : int;

@@ -1,8 +1,8 @@
-(** A set of states as {!States} describes it, on disk: what is pushed is kept in memory, in a {!Packed} set, until
-    that is full, or a {!flush}. Then all states on disk are read once, in order; what is not among them is new, and is
-    appended. So what a level of the search finds takes memory, and the levels before take none but two bits a state for
-    the parent. A state that is asked for ({!find}) is found by an index, on disk too, which is made when one is asked
-    for the first time. *)
+(** A set of states as {!States} describes it, on disk: pushed states are kept in memory, in a {!Packed} set, until
+    that is full, or a {!flush}. Then all states on disk are read once, in order; states not among them are new, and
+    are appended. So what a level of the search finds takes memory, and the levels before take none but two bits a
+    state for the parent. A state that is asked for ({!find}) is found by an index, on disk too, which is made when
+    one is asked for the first time. *)
 
 type t
 
@@ -11,8 +11,8 @@ exception Failed of string
 
 val of_packed : Packed.t -> directory:string -> tick:(unit -> unit) -> t
 (** [of_packed s ~directory ~tick] is the states of [s], to which nothing waits to be added, in a file of [directory]
-    that has no name. [s] is used up: its memory is for what will be pushed, and no more is taken. [tick] is called now
-    and then while the disk is read; what it raises is raised, and nothing that has been pushed is lost then.
+    that has no name. [s] is used up: its memory is for later pushed states, and no more is taken. [tick] is called now
+    and then while the disk is read; its exceptions pass through, and no pushed state is lost then.
     @raise Failed *)
 
 val words : t -> int

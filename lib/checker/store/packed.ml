@@ -89,8 +89,8 @@ let set_table t slots =
   t.most <- Slot.most slots;
   fill t
 
-(* The old table is given back before there is a new one: the states can fill it again. If there is no memory for the
-   new one, there is for one like the old one. *)
+(* The old table is given back before there is a new one: the states can fill it again. If memory does not suffice
+   for the new one, it does for one like the old one. *)
 let resize t slots =
   let before = t.mask + 1 in
   t.table <- fresh_table 1;
@@ -185,7 +185,7 @@ let clear t =
   Waiting.clear t.waiting;
   Array1.fill t.table 0
 
-(* Where states wait to be added, others' states stand meanwhile. *)
+(* The places of waiting states hold others' states meanwhile. *)
 let members t source ~first ~n f =
   number_all t;
   let waiting = t.waiting and key = Array.make t.words 0 in

@@ -1,6 +1,6 @@
-(** A set of states as {!States} describes it, uncompressed: 8 bytes a word, a quarter of a byte for the parent, and 11
-    to 23 bytes in the hash table. The table holds states of one word themselves, which is faster than their numbers,
-    until the number of a state is asked for the first time; then it is built anew with numbers. *)
+(** A set of states as {!States} describes it, uncompressed: 8 bytes a word, a quarter of a byte for the parent, and
+    11 to 23 bytes in the hash table. The table holds states of one word themselves, which is faster than their
+    numbers, until the number of a state is asked for the first time; then it is rebuilt with numbers. *)
 
 type t
 

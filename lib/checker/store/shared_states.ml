@@ -29,9 +29,9 @@ let chunk_bits = 16
 let chunk_states = 1 lsl chunk_bits
 let chunk_mask = chunk_states - 1
 
-(* {1 What processes tell each other}
+(* {1 Communication between processes}
 
-   What several of them write to is on lines of its own in their caches. *)
+   Words that several of them write have cache lines of their own. *)
 
 let line = 16
 let next_chunk = 0
@@ -142,7 +142,7 @@ let added t i word ~parent ~fresh =
   t.own <- t.own + 1;
   fresh i word
 
-(* A state is written before its slot says so. If another process takes the slot, what it has put there is looked at. *)
+(* A state is written before its slot refers to it. If another process takes the slot, its entry is read. *)
 let rec add_at t keys at h ~parent ~fresh slot =
   let slot = probe t t.table keys at (Slot.tag h) slot in
   if Array1.unsafe_get t.table slot = 0 then begin

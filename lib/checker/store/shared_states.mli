@@ -1,16 +1,16 @@
-(** A set of states as {!States} describes it, which processes share: each of [workers] of them, that were forked after
-    {!of_packed}, adds states at the same time, and what one of them adds none of the others does. There is one hash
-    table for all; a slot is taken by compare-and-swap. Each worker appends the states that it adds to a segment of its
-    own. So numbers are not given in order of insertion, and some are left out: {!iter} knows which there are. Those of
-    worker 0 go on from those that were there before. 8 bytes a word, little more than one for
-    the parent, and 11 to 23 in the table. *)
+(** A set of states as {!States} describes it, which processes share: each of [workers] of them, forked after
+    {!of_packed}, adds states at the same time, and each state is added once. There is one hash table for all; a slot
+    is taken by compare-and-swap. Each worker appends the states that it adds to a segment of its own. So numbers are
+    not given in order of insertion, and some are left out: {!iter} knows which there are. Those of worker 0 go on
+    from those that were there before. 8 bytes a word, little more than one for the parent, and 11 to 23 in the
+    table. *)
 
 type t
 
 val of_packed : Packed.t -> workers:int -> t
 (** [of_packed s ~workers] is the states of [s] with the same numbers and parents, as worker 0 sees them. Nothing may
     wait to be added.
-    @raise Out_of_memory if the system does not grant so many addresses *)
+    @raise Out_of_memory if the system does not grant the addresses *)
 
 val become : t -> int -> unit
 (** [become t w] makes this process worker [w]. *)
@@ -39,7 +39,7 @@ val begin_growing : t -> unit
 val fill_part : t -> unit
 
 val find : t -> int array -> int
-(** As {!States.find}, once there are no other workers. *)
+(** As {!States.find}, once the other workers are gone. *)
 
 val load : t -> int -> int array -> unit
 val parent : t -> int -> int

@@ -41,7 +41,7 @@ val bytes_to_rewrite : t -> words:int -> int
 (** [bytes_to_rewrite t ~words] is the most memory that {!rewrite} may take beside what is in use. *)
 
 val forget_waiting : t -> unit
-(** Drops what has been pushed and not been added: for when there is no memory. *)
+(** Drops the states that have been pushed and not been added: for lack of memory. *)
 
 val rewrite : t -> words:int -> (int array -> int array -> unit) -> t
 (** [rewrite t ~words f] is the states of [t] in a new encoding, with the same numbers and parents: [f old fresh] puts
@@ -53,17 +53,17 @@ val rewrite : t -> words:int -> (int array -> int array -> unit) -> t
 val is_on_disk : t -> bool
 
 val spill : t -> directory:string -> tick:(unit -> unit) -> t
-(** [spill t ~directory ~tick] is [t] on disk, in a file of [directory] without a name. [t] is not compressed, nothing
-    waits to be added, and [t] is used up. From now on {!push} adds what is new only where there is no more room in the
-    memory that [t] had, or at {!flush}: that reads all states that there are. [tick] is called meanwhile; it may raise
-    something: then what has been pushed still waits. *)
+(** [spill t ~directory ~tick] is [t] on disk, in a file of [directory] without a name. [t] is not compressed,
+    nothing waits to be added, and [t] is used up. From now on {!push} adds new states only when the memory that [t]
+    had is full, or at {!flush}: that reads all states. [tick] is called meanwhile; it may raise something: then what
+    has been pushed still waits. *)
 
 (** {1:shared Shared} *)
 
 val share : t -> workers:int -> t
-(** [share t ~workers] is [t], with the same numbers, for so many processes ({!Shared_states}). [t] is not compressed,
+(** [share t ~workers] is [t], with the same numbers, for [workers] processes ({!Shared_states}). [t] is not compressed,
     nothing waits to be added, and [t] is used up.
-    @raise Out_of_memory if the system does not grant so many addresses; [t] is as it was then *)
+    @raise Out_of_memory if the system does not grant the addresses; [t] is as it was then *)
 
 val is_shareable : t -> bool
 val shared : t -> Shared_states.t option

@@ -119,7 +119,7 @@ let bytes_to_grow t ~by = sum (Integer_set.bytes_to_grow ~by) t.root
 let bytes_to_rewrite t = 8 * count t
 let forget_waiting t = t.waiting <- 0
 
-(* The tops stay where they are: there are many of them. What is below is made anew. *)
+(* The tops stay where they are: there are many of them. The part below is rebuilt. *)
 let rewrite t ~words f =
   let renewed = of_top t.top t.parents ~words in
   let old = Array.make t.words 0 and fresh = Array.make words 0 in

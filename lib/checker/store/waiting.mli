@@ -6,7 +6,7 @@
 type t = private { words : int; keys : int array; hashes : int array; parents : int array; mutable length : int }
 
 val most : int
-(** So many may wait. *)
+(** The limit on waiting states. *)
 
 val create : words:int -> t
 

@@ -1,4 +1,4 @@
-(** What is left in batteries. docs/time.md says why it is never less than what is said. *)
+(** Least charges of batteries. docs/time.md shows why they are lower bounds. *)
 
 open Dolphin_semantics
 module Scenario = Dolphin_scenario.Scenario
@@ -18,12 +18,12 @@ val left : Scenario.vehicle -> turn list -> until:int -> float
     [until]. *)
 
 val spans : Timed.options -> Scenario.vehicle -> Timed.state -> Timed.step list -> Dates.span list
-(** [spans o v s steps] is what makes the battery of [v] low at the end of [steps] from [s], the last first: that it is
-    long where it is drained, and short where it is charged. *)
+(** [spans o v s steps] is the spans that make the battery of [v] low at the end of [steps] from [s], the last first:
+    long ones where it is drained, and short ones where it is charged. *)
 
 type way = Timed_system.edge list
 
 val least : Timed_system.t -> Scenario.vehicle list -> (Scenario.vehicle * float * way option) list
 (** [least system vs] is, for each of [vs], a bound: no run of [system], whose goal is [Latest] and whose search has
-    come to its end, has less left in its battery at any time. Some run may have more, at its lowest. With it comes what
-    the bound is of, which may be no run. [[]] if it is not known when the last run is over. *)
+    come to its end, has less left in its battery at any time. Some run may have more, at its lowest. With it comes
+    the way of the bound, which may belong to no run. [[]] if it is not known when the last run is over. *)

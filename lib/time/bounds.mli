@@ -2,7 +2,7 @@
 
 type t =
   | Within of { least : int; most : int }  (** [0 <= least <= most]; both ends included *)
-  | Some_time  (** nobody knows when, if at all: at any moment from the beginning on *)
+  | Some_time  (** unknown, if at all: at any moment from the beginning on *)
   | Never
 
 val at_once : t

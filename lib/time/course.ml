@@ -70,7 +70,7 @@ let supposing c s text holds =
 
 (* {2 Whether a look is one at what the battery shows now}
 
-   What is open may be kept in a variable, and be compared later. It is compared too where the battery shows this or
+   An open value may be kept in a variable, and be compared later. It is compared too where the battery shows this or
    that number: one on each side of all that it is compared with. *)
 
 let a_little = 1e-6
@@ -88,7 +88,7 @@ let is_now c s =
   in
   List.for_all (fun x -> is_clear (x -. a_little) && is_clear (x +. a_little)) numbers
 
-(* A step is told once, with one of the looks that lead to it: what it shows is what it needs. *)
+(* A step is reported once, with one of the looks that lead to it: the values that it shows are those that it needs. *)
 let seen c s (step : Timed.step) =
   let of_assumption found : World.assumption -> range = function
     | Claim (text, holds) -> (

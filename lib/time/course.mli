@@ -1,5 +1,5 @@
-(** The course of one vehicle's battery in runs with time: when it falls and when it rises, and what the program's looks
-    at it say of it. docs/time.md has the reasons. *)
+(** The course of one vehicle's battery in runs with time: when it falls and when it rises, and the bounds that the
+    program's looks at it imply. docs/time.md has the reasons. *)
 
 open Dolphin_semantics
 
@@ -12,10 +12,10 @@ val may_do : t -> Timed.state -> Dolphin_scenario.Battery.doing list
 (** {!Timed.may_do} of its vehicle: it works or charges from the start of a task until its end, whichever it is. *)
 
 val turns : t -> Timed.state -> Timed.step -> bool
-(** [turns c s step] is whether the battery may fall or rise otherwise from [step] of [s] on, or [step] depends on what
-    it shows. *)
+(** [turns c s step] is whether the battery may fall or rise otherwise from [step] of [s] on, or [step] depends on
+    its reading. *)
 
-(** {1:looks What looks say} *)
+(** {1:looks Bounds from looks} *)
 
 (** From 0 to 1: no less and no more is in the battery when it is looked at. *)
 type range = { above : float; below : float }
@@ -23,14 +23,14 @@ type range = { above : float; below : float }
 val anything : range
 
 val seen : t -> Timed.state -> Timed.step -> range
-(** [seen c s step] is what the battery shows if [step] is taken from [s], whatever else does. *)
+(** [seen c s step] is the readings of the battery with which [step] is possible from [s]. *)
 
 val waited : t -> Timed.state -> float
-(** [waited c s] is what it shows at the least as long as time passes in [s], because some guard does not hold: 0 if
-    nobody looks. *)
+(** [waited c s] is its least reading as long as time passes in [s], because some guard does not hold: 0 without a
+    look. *)
 
 val is_heard : t -> bool
-(** [is_heard c] is whether what it shows says how full it is: not where its link may be lost. *)
+(** [is_heard c] is whether its reading is its charge: not where its link may be lost. *)
 
 val is_newly_bound : t -> Timed.step -> bool
 (** [is_newly_bound c step] is whether it is bound or released with [step]. *)

@@ -3,7 +3,7 @@
 type 'a bound = {
   sooner : int;
   later : int;
-  by : int;  (** the date [later] is at most so much after [sooner]; it may be negative *)
+  by : int;  (** the date [later] is at most this much after [sooner]; it may be negative *)
   due_to : 'a option;  (** why *)
 }
 
@@ -16,14 +16,14 @@ val at_least : ?due_to:'a -> int -> after:int -> int -> 'a bound
 exception Contradiction
 
 val latest : int -> 'a bound list -> int option array * 'a bound option array
-(** [latest n bounds] is the latest dates 0 to [n] that meet [bounds], date 0 being 0; [None] if there is no latest.
-    With each comes the last bound on a shortest way there. (Bellman and Ford)
+(** [latest n bounds] is the latest dates 0 to [n] that meet [bounds], date 0 being 0; [None] without latest ones. With
+    each comes the last bound on a shortest way there. (Bellman and Ford)
     @raise Contradiction if no dates meet [bounds] *)
 
 val earliest : int -> 'a bound list -> int option array
-(** Likewise the earliest ones. *)
+(** The earliest ones in the same way. *)
 
-(** What the time between two dates, by their numbers, should be. *)
+(** The intended time between two dates, by their numbers. *)
 type span = Long of int * int | Short of int * int
 
 val stretched : int -> 'a bound list -> span list -> int option array

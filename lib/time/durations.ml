@@ -14,7 +14,7 @@ type t = {
 
 let tolerance = 0.1
 
-(* Where a way ends depends on where it begins if ways from different places end at different ones. *)
+(* The end of a way depends on its beginning if ways from different places end at different ones. *)
 let moves (p : Core.platform_task) =
   let last place (leg : Inline_plan.leg) = List.fold_left (fun _ waypoint -> Some waypoint) place leg.waypoints in
   let ends plan from = List.fold_left last None (Inline_plan.path ~from ~speed:1. plan) in
@@ -28,7 +28,7 @@ let moves (p : Core.platform_task) =
 
 (* {1 Inline plans} *)
 
-(* From an unknown place, nobody knows how long a way takes. *)
+(* From an unknown place, the duration of a way is unknown. *)
 let inline (v : Scenario.vehicle) from plan =
   let here = Option.value from ~default:Place.apdl in
   let { Inline_plan.moving; staying; _ } = Inline_plan.extent ~from:here ~speed:v.speed plan in

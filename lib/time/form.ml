@@ -13,7 +13,7 @@ let numbers = Lists.create
 
 (* {1 Trees} *)
 
-(* What is closed has a number of its own: it has no names and no items. *)
+(* A closed part has a number of its own: it has neither names nor items. *)
 type tree =
   | Closed of int
   | Open of { head : int; item : int option; names : int list; ordered : bool; parts : tree list }
@@ -36,13 +36,13 @@ let rec shape ~color ~name = function
     let own = List.fold_left (fun h n -> mix h (name n)) (mix head (Option.fold item ~none:0 ~some:color)) names in
     { hash = mix 3 (List.fold_left add own inside); named = names; in_order = ordered; inside }
 
-(* [note n h] is called for each name [n], with what is around it. *)
+(* [note n h] is called for each name [n], with its surroundings. *)
 let rec around note at s =
   let at = mix at s.hash in
   List.iteri (fun i n -> note n (mix at i)) s.named;
   List.iteri (fun i part -> around note (mix at (if s.in_order then i else part.hash)) part) s.inside
 
-(* Colours tell names apart that play different parts: first by [orbits], then by what is around them. *)
+(* Colours distinguish names with different roles: first by [orbits], then by their surroundings. *)
 let colours ~orbits ~color ~placed tree =
   let count colours = List.length (List.sort_uniq Int.compare (Array.to_list colours)) in
   let rec refine colours before =

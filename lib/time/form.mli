@@ -1,5 +1,5 @@
-(** Trees as numbers, which are equal for trees that differ only in names and in the order of what is in no order. Names
-    that are alike are told apart by what is around them: that finds no canonical order in all cases, so that trees
+(** Trees as numbers, which are equal for trees that differ only in names and in the order of unordered parts. Names
+    that are alike are distinguished by their surroundings: that finds no canonical order in all cases, so that trees
     may have different numbers although they are equal but for names. *)
 
 type numbers
@@ -20,7 +20,7 @@ type t = {
 
 val make :
   numbers -> orbits:int array -> colors:int array -> colored:bool -> placed:(int * int) list -> int list -> tree -> t
-(** [make ns ~orbits ~colors ~colored ~placed constants t] is the form of [t] with what else is equal: [constants], and
-    names with a place each. Names are places in [orbits]; those of different orbits, which are below twice the number
-    of names, are never taken for each other. Of what differs in names alone, the order is by the colors of items, which
-    are part of the number if it is [colored]. *)
+(** [make ns ~orbits ~colors ~colored ~placed constants t] is the form of [t] with other data for equality:
+    [constants], and names with a place each. Names are places in [orbits]; those of different orbits, which are
+    below twice the number of names, are never taken for each other. Among parts that differ in names alone, the
+    order is by the colors of items, which are part of the number if it is [colored]. *)

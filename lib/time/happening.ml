@@ -12,7 +12,7 @@ let deadlines (s : Timed.state) =
 
 let task v (p : Core.platform_task) = { name = p.name; vehicle = v; site = p.task_site }
 
-(* What happens to tasks with [step]. *)
+(* The events of tasks with [step]. *)
 let tasks (before : Timed.state) (step : Timed.step) =
   let tr = step.transition in
   let running v moment =

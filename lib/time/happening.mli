@@ -1,8 +1,8 @@
-(** What happens with steps that dates are asked for. *)
+(** The subjects of steps that dates are asked for. *)
 
 open Dolphin_semantics
 
-(** What happens to a task. *)
+(** The events of a task. *)
 type moment = Starts | Ends | Fails | Stopped
 
 type task = Likeness.label = { name : string; vehicle : Core.vehicle; site : Core.site }
@@ -11,7 +11,7 @@ val deadlines : Timed.state -> (Residual.timer * Core.site) list
 (** [deadlines s] is the [within] that have begun in [s], each with its timer. *)
 
 val tasks : Timed.state -> Timed.step -> (moment * task) list
-(** [tasks s step] is what happens to tasks with [step] of [s]. *)
+(** [tasks s step] is the events of tasks with [step] of [s]. *)
 
 val missed : Timed.state -> Timed.step -> Core.site option
 (** [missed s step] is the [within] that is missed with [step] of [s]. *)

@@ -29,7 +29,7 @@ let only_ends : Residual.t -> Timed.item option = function
 
 let certainly_succeeds i v (p : Core.platform_task) = not (Environment.may_fail i.options.environment v p.name)
 
-(* [named] is what each component names. *)
+(* [named] is the names in each component. *)
 let is_named_again v named = List.length (List.filter (String.equal v) named) > 1
 
 let of_state i (s : Timed.state) =

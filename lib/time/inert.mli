@@ -1,13 +1,13 @@
-(** Ends of tasks that nothing waits for but the end of the whole executed task. When they come matters to nothing else:
-    docs/time.md says why they need not be followed one by one. *)
+(** Ends of tasks that nothing waits for but the end of the whole executed task. No other step depends on their
+    dates: docs/time.md shows why they need not be followed one by one. *)
 
 open Dolphin_semantics
 
 type t
 
 val names_are_free : Timed.options -> bool
-(** [names_are_free o] is whether it matters to no step which vehicle is held or lost, or comes late, and nobody posts,
-    or interrupts, and no link comes or goes during tasks. *)
+(** [names_are_free o] is whether no step depends on which vehicle is held or lost, or comes late, and there are no
+    posts from outside, no interruptions, and no changes of links during tasks. *)
 
 val create : Timed.options -> t
 
@@ -15,8 +15,7 @@ type item = { awaited : Timed.item; least : int; most : int }
 (** Its bounds, from its beginning. *)
 
 val of_state : t -> Timed.state -> item list
-(** [of_state i s] is what is awaited in [s] whose end leaves less of [s] and changes nothing else, in ascending
-    order. *)
+(** [of_state i s] is the awaited events of [s] whose end only shortens [s], in ascending order. *)
 
 val is_rest : Timed.state -> item list -> bool
 (** [is_rest s items] is whether nothing is left of the executed task but [items], one at least. *)

@@ -3,8 +3,8 @@ module Battery = Dolphin_scenario.Battery
 
 type t = { least : float; way : Timed_system.edge list option }
 
-(* What is known where a state is entered: what the battery had, from [low] to [high], when its course turned last; and
-   what it has now, at the least. By: the edge that lowered it last. *)
+(* The knowledge where a state is entered: the range of the charge, from [low] to [high], when its course turned
+   last; and its least charge now. By: the edge that lowered it last. *)
 type known = { low : float; high : float; entry : float; by : Timed_system.edge option }
 
 let slightly = 1e-9
@@ -21,7 +21,7 @@ type context = {
   fastest : float;  (* at which it changes in any state, a second *)
 }
 
-(* By how much it may differ from what is seen. *)
+(* The greatest difference from the reading. *)
 let blur c = slightly +. (c.fastest *. age)
 
 let fastest vehicle stays =
@@ -32,7 +32,7 @@ let fastest vehicle stays =
 let rates c = List.map (Battery.rate c.vehicle)
 let after rate ms from = cut (from +. (rate *. seconds ms))
 
-(* What is left at the least, when the course has gone on for [least] to [most], in a state in which guards wait. *)
+(* The least charge, when the course has gone on for [least] to [most], in a state in which guards wait. *)
 let lowest c ~may_do ~least ~most ~waited (k : known) =
   let rate = List.fold_left Float.min infinity (rates c may_do) in
   if rate >= 0. then Float.max k.entry (after rate least k.low)
@@ -70,7 +70,7 @@ let most_rounds = 30
 
 let empty = { low = 0.; high = 1.; entry = 0.; by = None }
 
-(* What is known of each state. Edges lead to states in [order] mostly. *)
+(* The knowledge about each state. Edges lead to states in [order] mostly. *)
 let solve c n successors order =
   let known = Array.make n None in
   let is_changed = ref true and round = ref 0 in

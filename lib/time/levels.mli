@@ -1,12 +1,12 @@
-(** What is left in one vehicle's battery at the least, by its course in all states of a search: with charge, and with
-    what the program sees of it. docs/time.md says why it is never less. *)
+(** The least charge of one vehicle's battery, by its course in all states of a search: with charging, and with the
+    program's looks at it. docs/time.md shows why it is a lower bound. *)
 
 module Scenario = Dolphin_scenario.Scenario
 
 type t = {
   least : float;  (** no run has less at any time *)
   way : Timed_system.edge list option;
-  (** what leads there, and on to an end; it may be of no run. [None]: that is not known *)
+  (** the moves that lead there, and on to an end; they may belong to no run. [None]: that is not known *)
 }
 
 val of_vehicle : Timed_system.t -> Scenario.vehicle -> t option

@@ -18,7 +18,7 @@ type execution = {
   renamed : int list;  (* the places of pairs that some automorphism renames *)
 }
 
-(* What no step of a task changes, by number. *)
+(* The parts that no step of a task changes, by number. *)
 module Constants = Hashtbl.Make (struct
     type t = Configuration.t * Timed.state
 
@@ -30,7 +30,7 @@ module Constants = Hashtbl.Make (struct
     let hash ((c, _) : t) = Configuration.hash c
   end)
 
-(* What a part of a residual is, without what it consists of: code by the number of its skeleton. *)
+(* The kind of a part of a residual, without its own parts: code by the number of its skeleton. *)
 type head =
   | Task of { runs : bool; ending : Environment.ending; takes : takes; charges : float option; orbit : int }
   | Action of int
@@ -82,7 +82,7 @@ let orbit e label =
 
 (* {1 Residuals as trees} *)
 
-(* Names are pairs of N: their places, or below 0 if they may not be renamed. Items are places in what is awaited. *)
+(* Names are pairs of N: their places, or below 0 if they may not be renamed. Items are places in the awaited events. *)
 type spelling = {
   t : t;
   orbit : label -> int;
@@ -269,7 +269,7 @@ let find_execution t (s : Timed.state) m r =
     let of_label l = form by_key (fun l' -> (2 * Bool.to_int (l = l')) + is_apart l') in
     let orbits, members = classes of_label (labels r) in
     let places = List.mapi (fun place _ -> place) numbers in
-    (* A pair that is told apart from all others has an orbit of its own. *)
+    (* A pair that is distinguished from all others has an orbit of its own. *)
     let apart place p orbit = if p = place then orbit + Array.length by_key else orbit in
     let of_place place = form (Array.mapi (apart place) by_key) is_apart in
     let pair_orbits, same = classes of_place places in

@@ -1,6 +1,6 @@
 (** States of an executing task that are alike: equal but for names on which nothing depends (of vehicles, plans,
-    timers, places in the text), the order of what stands side by side, and which of several pairs of N they name.
-    docs/time.md says why one of them is enough. *)
+    timers, places in the text), the order of parallel parts, and the pairs of N that they name. docs/time.md shows
+    why one of them is enough. *)
 
 open Dolphin_semantics
 
@@ -27,13 +27,13 @@ val orbit : execution -> label -> label list
 (** [orbit e l] is the platform tasks that automorphisms make of [l], itself included. *)
 
 val leaves_alike : t -> execution -> Timed.state -> bool
-(** [leaves_alike t e s] is whether automorphisms leave N as it is in [s], where the task is over: of those pairs that
-    they rename into each other, it has none, or each equally often and in no order. *)
+(** [leaves_alike t e s] is whether automorphisms leave N as it is in [s], where the task is over: of those pairs
+    that they rename into each other, it has none, or each equally often and without order. *)
 
 (** {1:forms Forms} *)
 
 type spelled
-(** A state of an execution without names, but for the order of what differs in names alone. *)
+(** A state of an execution without names, but for the order of the parts that differ in names alone. *)
 
 val spell : t -> execution -> Inert.item list -> Timed.state -> spelled
 (** [spell t e inert s] is for a state [s] of [e]. *)
@@ -42,9 +42,9 @@ val execution_of : spelled -> execution
 
 type form = {
   number : int;  (** states with the same one are alike *)
-  items : Timed.item list;  (** what is awaited, inert ends apart, in an order that alikeness keeps *)
+  items : Timed.item list;  (** the awaited events, inert ends apart, in an order that alikeness keeps *)
 }
 
 val form : color:(Timed.item -> int) -> colored:bool -> spelled -> form
-(** [form ~color ~colored s] is that of a state. Of what differs in names alone, the order is by [color], which is part
-    of the number if it is [colored]. *)
+(** [form ~color ~colored s] is that of a state. Among parts that differ in names alone, the order is by [color],
+    which is part of the number if it is [colored]. *)

@@ -1,4 +1,4 @@
-(** When the links of a fleet's vehicles come and go, as its file says: one change after another. *)
+(** When the links of a fleet's vehicles come and go, by its file: one change after another. *)
 
 open Dolphin_semantics
 
@@ -33,7 +33,7 @@ val may_go : t -> Core.vehicle -> bool
 (** [may_go l v] is whether the link of [v] goes after there was one. *)
 
 val words : t -> int -> string
-(** What change [k] is: ["b joins"], ["b's link goes"], ["b's link is back"]. *)
+(** Change [k] in words: ["b joins"], ["b's link goes"], ["b's link is back"]. *)
 
 val next : t -> int -> matters:(Core.vehicle -> bool) -> int
 (** [next l k ~matters] is the first change from [k] on of a vehicle that [matters], or [count l]. *)

@@ -11,5 +11,5 @@ val graph : int -> (int * int * 'edge) list -> 'edge graph option
     is led to from 0. *)
 
 val ways : 'edge graph -> ('edge -> int) -> int array * (int -> 'edge list)
-(** [ways g length] is how long the longest way from 0 to each vertex is, or less than 0 if there is none; and such a
-    way to a vertex. Lengths are 0 or more, and a way with an edge of [max_int] is [max_int] long. *)
+(** [ways g length] is the length of the longest way from 0 to each vertex, or less than 0 for unreachable ones; and
+    such a way to a vertex. Lengths are 0 or more, and a way with an edge of [max_int] is [max_int] long. *)

@@ -5,7 +5,7 @@ type t = {
   tolerance : int;
   state : Timed.state;
   began : (Timed.item * int) list;
-  told : Timed.item list;  (* of what is said to be late *)
+  told : Timed.item list;  (* of the late events *)
   silent : Core.vehicle list;  (* whose links are *)
   ordered : Core.vehicle list;  (* whose orders wait for the link *)
   back : (Core.vehicle * int) list;  (* since when there is a link again *)
@@ -13,7 +13,7 @@ type t = {
 
 type finding = { pending : Timed.pending; began : int; seen : int; too_early : bool }
 
-(* A run tells itself what is heard of its vehicles. *)
+(* A run itself records the news of its vehicles. *)
 let start ~tolerance (options : Timed.options) =
   let options = { options with durations = { options.durations with links = Links.none } } in
   let state = Timed.initial options in

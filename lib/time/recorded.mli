@@ -1,5 +1,5 @@
-(** A run with dates, as a journal has it, compared with the bounds on its tasks and timers. That it is a run at all is
-    for others to say. *)
+(** A run with dates, as a journal has it, compared with the bounds on its tasks and timers. Other modules check that
+    it is a run at all. *)
 
 open Dolphin_semantics
 
@@ -14,17 +14,17 @@ type finding = {
 }
 
 val start : tolerance:int -> Timed.options -> t
-(** [start ~tolerance o] is before the first transition. So many milliseconds more or less are nothing: links and clocks
-    are not exact. *)
+(** [start ~tolerance o] is before the first transition. Differences up to this number of milliseconds do not count:
+    links and clocks are not exact. *)
 
 val with_tolerance : int -> t -> t
 (** [with_tolerance ms r] is [r], with this one from now on. *)
 
 val heard : t -> date:int -> Core.vehicle -> bool -> t
-(** [heard r ~date v connected] is [r] after the news whether there is a link to [v]. What happens without one is told
-    when it is back: tasks may end later by that much, and those whose order waited for it begin then. *)
+(** [heard r ~date v connected] is [r] after the news whether there is a link to [v]. Events without a link are
+    reported when it is back: tasks may end later by that much, and tasks whose order waited for it begin then. *)
 
 val transition : t -> date:int -> on:Transition.event option -> Transition.t -> t * finding list
-(** [transition r ~date ~on t] is [r] after [t], on the event [on], [date] milliseconds after the start; and what is
-    wrong with it, each thing once. Tasks must end within their bounds, and fail by their end; if the link was lost, by
-    any time. Timers expire when they are due. *)
+(** [transition r ~date ~on t] is [r] after [t], on the event [on], [date] milliseconds after the start; and its
+    faults, each once. Tasks must end within their bounds, and fail by their end; if the link was lost, by any time.
+    Timers expire when they are due. *)

@@ -1,4 +1,4 @@
-(* A state, and what stands for it; what is awaited there, in an order in which it corresponds. *)
+(* A state, and its representative; its awaited events, in corresponding order. *)
 type here = {
   state : Timed.state;
   known_items : Timed.item list;  (* of the representative *)
@@ -25,7 +25,7 @@ let both_ended (a : Timed.state) (b : Timed.state) =
     true
   | (Script _ | Waiting _ | Executing _ | Ended _), _ -> false
 
-(* The form of what [known] leads to, if that belongs to an execution. *)
+(* The form of the successor of [known], if that belongs to an execution. *)
 let known_form successors here execution (known : Timed.step) =
   let form likeness e =
     let spelled = Likeness.spell likeness e (Successors.inert successors known.next) known.next in
@@ -33,7 +33,7 @@ let known_form successors here execution (known : Timed.step) =
   in
   Option.bind (Successors.likeness successors) (fun likeness -> Option.map (form likeness) execution)
 
-(* What is awaited after [step], in the order of [items] after [known], if both lead to states that are alike. *)
+(* The awaited events after [step], in the order of [items] after [known], if both lead to states that are alike. *)
 let correspondence here (known : Timed.step) form items { Successors.step; spelled; inert = _ } =
   if not (same_due here known step && known.transition.rules = step.transition.rules) then None
   else

@@ -3,7 +3,7 @@ type t = { dates : int array; chain : link list }
 
 let find item (s : Timed.state) = List.find_opt (fun (p : Timed.pending) -> p.item = item) s.pending
 
-(* The bounds of step [k], taken from [s], where [begun] says with which step each item began. *)
+(* The bounds of step [k], taken from [s], where [begun] maps each item to the step with which it began. *)
 let bounds_of steps_of k (s : Timed.state) begun (step : Timed.step) =
   let from item = List.assoc item begun and due_to item = find item s in
   let at_most (item, most) = Dates.at_most ?due_to:(due_to item) k ~after:(from item) most in

@@ -1,6 +1,6 @@
 (** Dates for the steps of a run: all as late, or as early, as the run allows. *)
 
-(** What a date depends on: the duration of what was awaited. *)
+(** The cause of a date: the duration of an awaited event. *)
 type link = {
   pending : Timed.pending;
   from : int;  (** it began with this step, from 1; 0: at the start *)
@@ -10,7 +10,7 @@ type link = {
 
 type t = {
   dates : int array;  (** of each step, in milliseconds since the start *)
-  chain : link list;  (** what the last date depends on: durations, one after the other, that add up to it *)
+  chain : link list;  (** the durations, one after the other, that add up to the last date *)
 }
 
 val make : Timed_system.goal -> Successors.t -> Timed.state -> Timed.step list -> t option
@@ -31,5 +31,5 @@ val walk : walk -> int -> Timed.step -> walk
 (** [walk w k s] is [w] after step [s], number [k] of the run. *)
 
 val bounds : (Timed.state -> Timed.step list) -> walk -> int -> Timed.step -> Timed.pending Dates.bound list
-(** [bounds steps w k s] is those of the date of [s], number [k] of a run that is as far as [w]; [steps] is what may
-    happen in a state. *)
+(** [bounds steps w k s] is those of the date of [s], number [k] of a run that is as far as [w]; [steps] is the
+    possible steps in a state. *)

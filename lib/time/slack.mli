@@ -2,7 +2,7 @@
 
 type t =
   | Any  (** however long it takes *)
-  | By of int  (** so many milliseconds, and not one more *)
+  | By of int  (** this number of milliseconds, and not one more *)
 
 val of_task :
   latest:(Timed.options -> Timed_system.date option) -> Timed.options -> int -> Timed_system.task -> t option

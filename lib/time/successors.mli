@@ -1,9 +1,9 @@
-(** What follows states, which is found once: the searches for the latest and for the earliest dates meet the same
-    states, and so do the runs that are shown. *)
+(** The successors of states, computed once: the searches for the latest and for the earliest dates meet the same
+    states, and so do displayed runs. *)
 
 type t
 
-(** What is left out: docs/time.md. *)
+(** The reductions: docs/time.md. *)
 type reduction = Nothing | Inert_ends | Inert_ends_and_likeness
 
 val create : ?course:Course.t -> reduction -> Timed.options -> t
@@ -29,7 +29,7 @@ val all : t -> Timed.state -> successor list
     @raise Dolphin_environment.Environment.Unclear *)
 
 val followed : t -> Timed.state -> successor list
-(** [followed t s] is {!Timed.steps} of [s], likewise. *)
+(** [followed t s] is {!Timed.steps} of [s], reduced in the same way. *)
 
 val steps : t -> Timed.state -> Timed.step list
 (** Those of {!followed}. *)

@@ -381,13 +381,13 @@ let step o s (choice : Environment.choice) =
 
 let taken o s ~on transition = step o s { transition; outside = s.outside; on }
 
-(* What never happens is no step, and what may happen at once bounds nothing. *)
+(* An impossible event is not a step, and an event possible at once bounds nothing. *)
 let is_possible step = match step.due with Some (_, Never) -> false | Some (_, (Within _ | Some_time)) | None -> true
 
 let starts_without_moving step =
   match step.transition.effects with [ Start (_, p) ] -> Durations.moves p = None | _ -> false
 
-(* {2 What is none of the program} *)
+(* {2 Steps outside of the program} *)
 
 let is_of_program step = step.transition.rules <> []
 
@@ -405,8 +405,8 @@ let date_step o s =
   in
   Option.map reached (next_date o s.configuration s.date)
 
-(* The link of [v] comes or goes. What waits for it goes on, and is new: the order is carried out, and what is over is
-   told. *)
+(* The link of [v] comes or goes. The items waiting for it go on, as new ones: the order is carried out, and the end
+   is reported. *)
 let link_step o s =
   let changed (v, _) =
     let goes_on p = p.item = Task v && is_silent o s v && p.progress <> Under_way in
@@ -432,7 +432,7 @@ let unheard_ends o s =
 
 (* {2 Who is there} *)
 
-(* What is to be assumed of the whole fleet in [s]. *)
+(* The assumptions about the whole fleet in [s]. *)
 let attendance o s =
   let links = links o in
   let silent = Links.silent links s.changes in

@@ -1,5 +1,5 @@
-(** Runs with time: the transition function with a clock for everything that is awaited. docs/semantics.md has the
-    rules; nothing here says what a transition does, only when it may be taken. *)
+(** Runs with time: the transition function with a clock for each awaited event. docs/semantics.md has the rules;
+    this module defines when a transition may be taken, and the transition function its effect. *)
 
 open Dolphin_semantics
 open Dolphin_environment
@@ -12,7 +12,7 @@ type options = {
   dates : (int list, Core.site) result;  (** {!Dated_code.named} of the program *)
 }
 
-(** What is awaited. *)
+(** The awaited events. *)
 type item =
   | Task of Core.vehicle
   | Timer of Residual.timer
@@ -25,7 +25,7 @@ type item =
   | Silence of Core.vehicle  (** that a task, or an order, is given up, as nothing is heard of its vehicle *)
   | Course of Core.vehicle
   (** never in a {!state}: since when the battery of a vehicle that is observed goes as it does ({!Course}) *)
-  | Date of int  (** that so many seconds have passed since the start, at which code may come to do something else *)
+  | Date of int  (** the date, in seconds since the start, at which code may take another branch *)
 
 (** Of a task whose vehicle nothing is heard of. *)
 type progress =
@@ -37,7 +37,7 @@ type pending = {
   item : item;
   bounds : Bounds.t;  (** from when it began *)
   task : Core.platform_task option;  (** of a [Task] *)
-  prompt : string option;  (** of a [Question], or an [Answer]; of [Links], what changes *)
+  prompt : string option;  (** of a [Question], or an [Answer]; of [Links], the change *)
   progress : progress;
 }
 
@@ -47,9 +47,9 @@ type state = private {
   outside : Environment.t;
   pending : pending list;  (** in ascending order of [item] *)
   elsewhere : (Core.vehicle * Dolphin_geo.Position.t option) list;
-  (** where vehicles are that are not where they were at the start; [None]: nobody knows *)
+  (** the places of vehicles that have left their starting places; [None]: unknown *)
   patience : (Core.vehicle option * Bounds.t) list;
-  (** how long the link of a vehicle, or of all others, may be silent, where the program said so; [[]] if none is lost
+  (** how long the link of a vehicle, or of all others, may be silent, by the program; [[]] if none is lost
   *)
   date : int;  (** as code reads it: the latest that it names, of those that have passed *)
   changes : int;  (** the changes of links before this one are over, or do not matter *)
@@ -73,14 +73,13 @@ val hash : state -> int
 
 module Table : Hashtbl.S with type key = state
 
-(** What may happen. That a link comes or goes, that a task is over of which nothing is heard, and that a date passes
-    that code names, are no transitions of the semantics, which knows no time: they are steps that leave the
-    configuration as it is. *)
+(** The possible steps. Three steps are not transitions of the semantics, which knows no time: a link comes or goes,
+    a task is over whose end is not heard, and a date passes that code names. They leave the configuration as it is. *)
 type step = {
   transition : Transition.t;
   next : state;
-  due : (item * Bounds.t) option;  (** when: so long after [item] began; [None]: at any moment *)
-  fresh : item list;  (** what begins with it, of [next.pending], in ascending order *)
+  due : (item * Bounds.t) option;  (** when: this long after [item] began; [None]: at any moment *)
+  fresh : item list;  (** the events whose wait begins with it, of [next.pending], in ascending order *)
   urgent : bool;  (** whether no time passes while it is possible *)
 }
 
@@ -88,33 +87,33 @@ val is_of_program : step -> bool
 (** Whether it is a transition of the semantics. *)
 
 val steps : options -> state -> step list
-(** [steps o s] is what may happen in [s]. If some step is urgent, only what needs no event; of [START]s only
-    the first, unless it matters where its vehicle is: docs/time.md says why that is enough.
+(** [steps o s] is the possible steps in [s]. If some step is urgent, only steps without an event; of [START]s only the
+    first, unless its vehicle's place matters: docs/time.md shows why that is enough.
     @raise Environment.Unclear *)
 
 val all_steps : options -> state -> step list
-(** Likewise, with each [START]. *)
+(** The same, with each [START]. *)
 
 val enough : options -> ('a -> step) -> 'a list -> 'a list
 (** [enough o step_of xs] is those of [xs], which belong to {!all_steps}, that belong to {!steps}. *)
 
 val taken : options -> state -> on:Transition.event option -> Transition.t -> step
-(** [taken o s ~on t] is the transition [t] of [s] as a step, whether or not it is among {!steps}; what the outside
-    remembers stays as it is. *)
+(** [taken o s ~on t] is the transition [t] of [s] as a step, whether or not it is among {!steps}; the memory of the
+    environment stays as it is. *)
 
 val transitions : options -> state -> step list -> Transition.t option list
-(** [transitions o s steps] is the transitions of [steps], which are one after the other from [s], in the whole fleet:
-    each [pick] and [recruit] also assumes who is late and who is missing. [None] where it is none of the semantics. *)
+(** [transitions o s steps] is the transitions of [steps], consecutive from [s], in the whole fleet: each [pick] and
+    [recruit] also assumes the late and the missing vehicles. [None] if it is not one of the semantics. *)
 
 val holds_up : step list -> (item * int) list
-(** [holds_up steps] is until when time may pass in a state with [steps], none of which is urgent: not longer than so
-    many milliseconds after each [item] began. *)
+(** [holds_up steps] is the limit on the passage of time in a state with [steps], none of which is urgent: at most
+    these milliseconds after each [item] began. *)
 
 val may_change_during_tasks : options -> bool
 (** Whether links may come or go while a task executes, and that matters. *)
 
 val may_wait_for_recruits : options -> bool
-(** Whether nobody knows how long a vehicle that a [recruit] asks for stays away. *)
+(** Whether it is unknown how long a vehicle that a [recruit] asks for stays away. *)
 
 val is_stuck : options -> state -> step list -> bool
-(** [is_stuck o s steps] is whether [s], with [steps], is no end and nothing that must happen is left to happen. *)
+(** [is_stuck o s steps] is whether [s], with [steps], is not an end and no step that must happen is left. *)

@@ -1,10 +1,10 @@
 open Dolphin_semantics
 module Limits = Dolphin_checker.Limits
 
-(* Of the inert ends to come: whether it is said which is the last. *)
+(* Of the inert ends to come: whether the last one is decided. *)
 type rest = No_rest | Unsaid | Said
 
-(* A step, with what is inert after it, and what of this has begun with it. *)
+(* A step, with the inert items after it, and those of them that have begun with it. *)
 type arrow = {
   step : Timed.step;
   inert : Inert.item list;
@@ -12,7 +12,7 @@ type arrow = {
   spelled : Likeness.execution -> Likeness.spelled;
 }
 
-(* A state without its clocks, with what follows from it alone, and the numbers of the states with clocks. *)
+(* A state without its clocks, with the data that follow from it alone, and the numbers of the states with clocks. *)
 type t = {
   state : Timed.state;
   execution : Likeness.execution option;  (* if states that are alike are kept once *)
@@ -20,7 +20,7 @@ type t = {
   rest : rest;
   inert : Inert.item list;
   follows : (arrow list * (Timed.item * int) list) Lazy.t;  (* and until when time may pass *)
-  clocks : (Timed.item * int) list;  (* what began at one time has one clock *)
+  clocks : (Timed.item * int) list;  (* waits that began at one time share one clock *)
   rest_clock : int option;  (* how long ago the last of the inert ends was: less than 0 as it is to come *)
   mutable here : int list;
 }
@@ -70,7 +70,7 @@ let fresh t before (step : Timed.step) =
   | Some _ | None -> step.fresh
 let is_among items (i : Inert.item) = List.exists (fun (j : Inert.item) -> j.awaited = i.awaited) items
 
-(* What is inert stays so until all is over, and is so from its beginning. *)
+(* An inert item stays so until all is over, and is so from its beginning. *)
 let arrow inert_before { Successors.step; inert; spelled } =
   let inert = Lazy.force inert in
   let begun = List.filter (fun i -> not (is_among inert_before i)) inert in
@@ -174,7 +174,7 @@ let enabling place zone (step : Timed.step) =
       | None -> Some zone)
   | Some (_, (Some_time | Never)) | None -> Some zone
 
-(* Numbers from 1 for what is in [xs], in the order in which it is met. *)
+(* Numbers from 1 for the items of [xs], in the order of occurrence. *)
 let numbered xs =
   let number (known, numbers) x =
     match List.assoc_opt x known with
@@ -184,9 +184,9 @@ let numbered xs =
   let known, numbers = List.fold_left number ([], []) xs in
   (List.rev_map fst known, List.rev numbers)
 
-(* The place of [state] by what is said of the rest, if there is one, with what [zone] becomes there, where [fresh]
-   begins, and the clocks were those of [clocks] and [rest_clock] before; and what is awaited in [state], in the order
-   of its form. *)
+(* The place of [state] by the decision on the rest, if there is one, with the value of [zone] there, where [fresh]
+   begins, and the clocks were those of [clocks] and [rest_clock] before; and the awaited events of [state], in the
+   order of its form. *)
 let reached t ~clocks ~rest_clock ~fresh ~has_rest spelled state inert zone =
   let awaited = with_clocks state inert and course = Option.to_list (course_item t) in
   let with_clocks = awaited @ course in
@@ -218,7 +218,7 @@ let reached t ~clocks ~rest_clock ~fresh ~has_rest spelled state inert zone =
 
 (* {1 The rest} *)
 
-(* Those valuations in which the last end to come is one of [begun], as [last] says, or of those before. *)
+(* Those valuations in which the last end to come is one of [begun], as [last] has it, or of those before. *)
 let with_begun place begun last zone =
   match place.rest_clock with
   | None -> Some zone
@@ -229,7 +229,7 @@ let with_begun place begun last zone =
     in
     List.fold_left bound (Some zone) begun
 
-(* Which of those that begin may be the last, and what is said after it. *)
+(* Those of the beginning ones that may be the last, and the decision after it. *)
 let lasts place begun =
   match place.rest, begun with
   | rest, [] -> [ (None, rest) ]
@@ -261,7 +261,7 @@ let ends_later clock zone =
 
 (* {1 Executions} *)
 
-(* What is left in N when a task is over must be the same in all states that are alike. *)
+(* The rest of N when a task is over must be the same in all states that are alike. *)
 let check_left t before (next : Timed.state) =
   match likeness t, before.execution, next.configuration.control with
   | Some likeness, Some e, (Script _ | Waiting _) when not (Likeness.leaves_alike likeness e next) -> raise Broken

@@ -1,25 +1,25 @@
 (** States of runs with time without the values of their clocks, and how zones of these become others. docs/time.md has
     the reasons. *)
 
-(** A step, with what is inert after it, and what of this has begun with it. *)
+(** A step, with the inert items after it, and those of them that have begun with it. *)
 type arrow = {
   step : Timed.step;
   inert : Inert.item list;
   begun : Inert.item list;
-  spelled : Likeness.execution -> Likeness.spelled;  (** what it leads to, as {!Successors.type-successor} has it *)
+  spelled : Likeness.execution -> Likeness.spelled;  (** its successor, as {!Successors.type-successor} has it *)
 }
 
-(** Of the inert ends to come, the {e rest}: whether it is said which is the last. *)
+(** Of the inert ends to come, the {e rest}: whether the last one is decided. *)
 type rest = No_rest | Unsaid | Said
 
 type t = private {
   state : Timed.state;
   execution : Likeness.execution option;  (** if it stands for all states that are alike *)
-  items : Timed.item list;  (** what is awaited, in the order of {!Likeness.type-form} *)
+  items : Timed.item list;  (** the awaited events, in the order of {!Likeness.type-form} *)
   rest : rest;
   inert : Inert.item list;
   follows : (arrow list * (Timed.item * int) list) Lazy.t;
-  clocks : (Timed.item * int) list;  (** what began at one time has one clock *)
+  clocks : (Timed.item * int) list;  (** waits that began at one time share one clock *)
   rest_clock : int option;  (** since when the last of the rest is over: less than 0 as it is to come *)
   mutable here : int list;  (** the numbers of the states of a search that are here *)
 }
@@ -34,10 +34,10 @@ val places : Successors.t -> filled:(Zone.t -> Zone.t) -> note:(Timed.state -> u
     [filled]. Zones have a clock for the course of [successors] besides. *)
 
 val course_item : places -> Timed.item option
-(** What the clock of the course is for. *)
+(** The purpose of the course's clock. *)
 
 val fresh : places -> Timed.state -> Timed.step -> Timed.item list
-(** [fresh ps s step] is what begins with [step] of [s], the course included if it turns. *)
+(** [fresh ps s step] is the waits that begin with [step] of [s], the course included if it turns. *)
 
 val successors : places -> Successors.t
 val add : t -> int -> unit
@@ -54,12 +54,12 @@ val arrows : places -> t -> arrow list
 val steps : places -> t -> Timed.step list
 
 val followed : places -> Timed.state -> Timed.step list
-(** [followed ps s] is the steps of [s] that are no inert ends. *)
+(** [followed ps s] is the steps of [s] that are not inert ends. *)
 
 (** {1:zones Zones} *)
 
 val settled : places -> t -> Zone.t -> Zone.t option
-(** [settled ps p z] is [z] with what it becomes as time passes in [p], filled. *)
+(** [settled ps p z] is [z] after time has passed in [p], filled. *)
 
 val enabling : t -> Zone.t -> Timed.step -> Zone.t option
 (** [enabling p z s] is those valuations of [z] in which [s] may be taken. *)
@@ -67,15 +67,16 @@ val enabling : t -> Zone.t -> Timed.step -> Zone.t option
 val reached :
   places -> clocks:(Timed.item * int) list -> rest_clock:int option -> fresh:Timed.item list -> has_rest:bool ->
   Likeness.spelled option -> Timed.state -> Inert.item list -> Zone.t -> rest -> t * Timed.item list * Zone.t
-(** [reached ps ~clocks ~rest_clock ~fresh ~has_rest spelled s inert z rest] is the place of [s]; what is awaited in
-    [s], in the order of the place's [items]; and what [z] becomes there, if [fresh] begins, and the
-    clocks were those of [clocks] and [rest_clock]. [has_rest] is whether [rest] is not [No_rest]: without [rest], it is
-    the work that is the same for all that may be said of it. *)
+(** [reached ps ~clocks ~rest_clock ~fresh ~has_rest spelled s inert z rest] is the place of [s]; the awaited events
+    of [s], in the order of the place's [items]; and the value of [z] there, if [fresh] begins, and the clocks were
+    those of [clocks] and [rest_clock]. [has_rest] is whether [rest] is not [No_rest]: without [rest], it is the work
+    that is the same for all decisions about it. *)
 
 (** {1:rest The rest} *)
 
 val lasts : t -> Inert.item list -> (Timed.item option * rest) list
-(** [lasts p begun] is which of [begun], which begin with a step of [p], may be the last, and what is said after it. *)
+(** [lasts p begun] is those of [begun], which begin with a step of [p], that may be the last, and the decision after
+    it. *)
 
 val with_begun : t -> Inert.item list -> Timed.item option -> Zone.t -> Zone.t option
 (** [with_begun p begun last z] is those valuations in which the last end of the rest is not before that of any of

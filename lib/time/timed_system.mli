@@ -1,16 +1,17 @@
-(** Runs with time as a transition system for {!Dolphin_checker.Breadth_first}: a state is a {!Timed.state} with a zone
-    of its clocks. docs/time.md says why what is found is exact. *)
+(** Runs with time as a transition system for {!Dolphin_checker.Breadth_first}: a state is a {!Timed.state} with a
+    zone of its clocks. docs/time.md shows why the results are exact. *)
 
 open Dolphin_semantics
 
-(** What is asked: how late things may happen, or how early. Dates that do not matter to it are filled up, so that more
-    states include each other. *)
+(** The question: latest dates, or earliest dates. Dates that do not matter to it are filled up, so that more states
+    include each other. *)
 type goal = Latest | Earliest
 
 include Dolphin_checker.System.S with type via = unit and type property = unit
 
 exception Broken
-(** Something that was taken for inert is not ({!Inert}), or for alike ({!Likeness}): what was found does not count. *)
+(** An event taken for inert is not ({!Inert}), or one taken for alike ({!Likeness}): the results so far do not
+    count. *)
 
 type reduction = Successors.reduction = Nothing | Inert_ends | Inert_ends_and_likeness
 
@@ -23,7 +24,7 @@ val create : ?working:bool -> goal -> Successors.t -> t
 (** A date in milliseconds since the start. *)
 type date = At of int | Unbounded
 
-(** What happens to a task. *)
+(** The events of a task. *)
 type moment = Happening.moment = Starts | Ends | Fails | Stopped
 
 val moment_name : moment -> string
@@ -42,7 +43,7 @@ val ending_name : ending -> string
 (** In lower case: ["completed"]. *)
 
 val endings : t -> (ending * (date * int)) list
-(** Likewise the ends of runs, with the number of the state there. *)
+(** The ends of runs, with the number of the state there. *)
 
 (** {1:forever Runs without end}
 
@@ -60,7 +61,7 @@ val stuck : t -> int option
 (** The first state in which nothing happens any more although the run is not over. *)
 
 val unknown : t -> Timed.pending list
-(** What was awaited that takes some time, nobody knows how long: each once. *)
+(** The awaited events of unknown duration: each once. *)
 
 (** {1:runs Runs} *)
 
@@ -68,16 +69,16 @@ val unknown : t -> Timed.pending list
 type move =
   | Step of {
       step : Timed.step;
-      begun : Inert.item list;  (** what is inert from here on *)
+      begun : Inert.item list;  (** the inert items from here on *)
       last : Timed.item option;  (** which of them is the last of the rest to end, if it is one of them *)
-      items : Timed.item list;  (** what is awaited then, in the order of {!Likeness.type-form} *)
+      items : Timed.item list;  (** the awaited events then, in the order of {!Likeness.type-form} *)
     }
   | Rest of {
       steps : Timed.step list;  (** all that is inert ends, in any order *)
       later : bool;  (** whether at the last end of it, and not at once *)
     }
 
-(** A move that leads to what the state [into] stands for. *)
+(** A move to the state whose representative is [into]. *)
 type arrival = {
   move : move;
   into : Timed.state;
@@ -91,14 +92,15 @@ val path : t -> int -> arrival list
 (** The course that is observed, until a move. *)
 type passage = {
   may_do : Dolphin_scenario.Battery.doing list;
-  least : int;  (** it has gone on for so many milliseconds at the least *)
+  least : int;  (** its least duration in milliseconds *)
   most : int option;  (** and at the most; [None]: no bound *)
   turns : bool;  (** whether the move turns it *)
-  seen : Course.range;  (** what the battery shows if the move is made *)
+  seen : Course.range;  (** the battery's values if the move is made *)
   binds : bool;  (** whether its vehicle is bound or released with it in the course of the run *)
 }
 
-(** A move from one state to what another stands for, and how long vehicles were under way with what it ends. *)
+(** A move from one state to a state represented by another, and the time that vehicles were under way with the tasks
+    that it ends. *)
 type edge = { source : int; target : int; by : move; working : Working.t; passage : passage option }
 
 val edges : t -> edge list option
@@ -106,8 +108,8 @@ val edges : t -> edge list option
     than a million. *)
 
 val along : t -> edge list -> arrival list
-(** [along t edges] is the moves along [edges], which are one after the other. Where a state stands for others it may be
-    that no run takes them all. *)
+(** [along t edges] is the moves along [edges], which are one after the other. If a state stands for others, possibly
+    no run takes them all. *)
 
 val ends : t -> (int * date) list
 (** The states in which runs are over, each with its date. *)
@@ -115,12 +117,12 @@ val ends : t -> (int * date) list
 val count : t -> int
 
 val state : t -> int -> Timed.state
-(** [state t n] is what state [n], below {!count}, is. *)
+(** [state t n] is the state number [n], below {!count}. *)
 
 (** The course that is observed, in a state. *)
 type stay = {
   may_do : Dolphin_scenario.Battery.doing list;
-  most : int option;  (** it goes on for so many milliseconds at the most, to the end of what is spent there *)
+  most : int option;  (** its greatest duration in milliseconds, to the end of the time that is spent there *)
   waited : float;  (** {!Course.waited} *)
 }
 
@@ -130,8 +132,8 @@ val stay : t -> int -> stay option
 (** [stay t n] is for state [n]; [None]: nothing is observed. *)
 
 val deadlines : t -> (Core.site * (date * arrival list) option) list
-(** The [within] that begin in some run, by their places, each with when it is missed, at the earliest or at the latest,
-    and what leads there; [None]: never. *)
+(** The [within] that begin in some run, by their places, each with the earliest or latest date at which it is
+    missed, and the moves that lead there; [None]: never. *)
 
 val start : t -> Timed.state
 

@@ -104,7 +104,7 @@ let is_sooner a b = is_later b a
 let window earliest latest =
   match earliest with At earliest -> Some { earliest; latest } | Unbounded -> None
 
-(* What is known under one name in both lists. *)
+(* Entries with one name in both lists. *)
 let windows early late =
   let both (name, latest) =
     let earliest = List.assoc_opt name early in
@@ -141,10 +141,10 @@ let is_empty share = share < slightly
 (* In a run whose dates are known. *)
 let left v run = Batteries.left v run.turns ~until:(List.fold_left max 0 run.dates)
 
-(* What was found of a battery: a bound, and the ways of a search that it may be of. *)
+(* The findings about a battery: a bound, and the ways of a search that may have it. *)
 type bounded = { bound : float; of_ways : (Timed_system.t * Timed_system.edge list) list }
 
-(* The same, from a search of its own that observes [v]: with charge, and with what is seen of the battery. *)
+(* The same, from a search of its own that observes [v]: with charging, and with the looks at the battery. *)
 let observed ~reduction ~started limits options (v : Scenario.vehicle) =
   let course = Course.create options v.id in
   let search = search ~started limits (Successors.create ~course reduction options) Latest "batteries" in
@@ -185,7 +185,7 @@ let lowest options (v : Scenario.vehicle) known { bound; of_ways } =
   in
   lowest known (List.concat_map of_way of_ways)
 
-(* Of programs that look at sensors no run is shown: what they see does not follow from the time. *)
+(* For programs that look at sensors no run is shown: their readings do not follow from the time. *)
 let battery options ~observed ~last ~is_known ~charges (v : Scenario.vehicle) first =
   let is_shown = is_known && not options.Timed.program.reads_sensors in
   let improved known found = if is_shown then lowest options v known found else None in
@@ -219,7 +219,8 @@ let batteries options system ~observed ~tasks ~last ~is_known vehicles =
   in
   List.filter_map of_vehicle vehicles
 
-(* A search that observes a battery has more states than one that does not. More than so many times are not worth it. *)
+(* A search that observes a battery has more states than one that does not. The number of times that are worth
+   computing. *)
 let most_observed = 10
 
 let find ~(reduction : reduction) ~started ?deadline ~vehicles limits options =
@@ -341,7 +342,7 @@ let slacks ?(workers = 1) limits options o =
     { known = List.filter_map (fun (i, slack) -> Option.map (fun slack -> (tasks.(i), slack)) slack) found; cut_short }
   | Some _, _, _ | None, Some _, _ | None, None, (Some Unbounded | None) -> { known = []; cut_short = None }
 
-(* Of what has no latest date it is not known. *)
+(* Unknown for events without a latest date. *)
 let is_late ?deadline o = match deadline, latest o with Some n, Some (At m) -> m > n | _ -> false
 
 let runs_empty b = match b.lowest with Some (share, _) -> is_empty share | None -> false

@@ -12,7 +12,7 @@ type run = {
   steps : Transition.t list;
   dates : int list;  (** of each step, in milliseconds; [[]] if they have no latest dates *)
   turns : Batteries.turn list;  (** then, too, when vehicles set out and cease to be under way *)
-  cycle : Transition.t list;  (** what comes after it, for ever *)
+  cycle : Transition.t list;  (** the cycle after it *)
   chain : Schedule.link list;  (** the durations that add up to its last date *)
 }
 
@@ -41,7 +41,7 @@ type outcome = {
   last : run option;  (** one that ends last, if all end *)
   first : run option;  (** one that ends first *)
   endless : (run * [ `Cycle | `In_no_time | `Stuck ]) option;  (** one that never ends *)
-  unknown : Timed.pending list;  (** what takes some time, nobody knows how long *)
+  unknown : Timed.pending list;  (** the events of unknown duration *)
   deadlines : (Core.site * (window * run) option) list;
   (** the [within] of the program, each with when it is missed, and a run in which it is; [None]: it is kept *)
   late : run option;  (** one that is not over at the deadline *)
@@ -61,8 +61,8 @@ type outcome = {
 val run :
   ?reduction:reduction -> ?deadline:int -> ?vehicles:Dolphin_scenario.Scenario.vehicle list ->
   Dolphin_checker.Limits.t -> Timed.options -> outcome
-(** [run ~deadline ~vehicles limits o] is what there is to know, within [limits]; [deadline] is in milliseconds; of
-    [vehicles], by default none, the batteries are looked at. The [reduction], all by default, makes no difference to
+(** [run ~deadline ~vehicles limits o] is the complete result, within [limits]; [deadline] is in milliseconds; of
+    [vehicles], by default none, the batteries are analysed. The [reduction], all by default, makes no difference to
     the answers, but for how close the bounds of batteries are. *)
 
 val latest : outcome -> date option
@@ -74,9 +74,10 @@ type slacks = {
 }
 
 val slacks : ?workers:int -> Dolphin_checker.Limits.t -> Timed.options -> outcome -> slacks
-(** [slacks limits o outcome] is the slack of each task of [outcome], which is of [o], by searches of their own; without
-    those that are not found within [limits], each search for itself but for the time. None is known if it is not known
-    that all runs end by some date. [workers] processes look for them, by default 1, as {!Share_out.all} says. *)
+(** [slacks limits o outcome] is the slack of each task of [outcome], which is of [o], by searches of their own;
+    without those that are not found within [limits], each search for itself but for the time. None is known if it is
+    not known that all runs end by some date. [workers] processes look for them, by default 1, as in
+    {!Share_out.all}. *)
 
 type verdict = Dolphin_checker.Verdict.t = Holds | Violated | Inconclusive
 
@@ -89,16 +90,16 @@ type shortfall =
   | Empty  (** a battery, in some run *)
   | Too_near  (** plans, in some run *)
   | Unknown
-  (** a bound was met, nobody knows how long it takes, a battery may be empty, or it is not known how near plans come *)
+  (** a bound was met, a duration is unknown, a battery may be empty, or the distance between plans is unknown *)
 
 val shortfall : ?deadline:int -> outcome -> shortfall option
 (** [shortfall ~deadline o] is the first of these that is so; [None]: all runs end in time, none fails, and each
-    [within] is kept, no battery runs empty, and no plans come too near. Nobody need know how long all takes if there is
-    no [deadline]. *)
+    [within] is kept, no battery runs empty, and no plans come too near. Without a [deadline] durations may be
+    unknown. *)
 
 val in_time : ?deadline:int -> outcome -> verdict
-(** [in_time ~deadline o]: [Violated] if some run never ends, or ends after [deadline]; else [Inconclusive] if a bound
-    was met, or nobody knows when the last run is over; else [Holds]. *)
+(** [in_time ~deadline o]: [Violated] if some run never ends, or ends after [deadline]; else [Inconclusive] if a
+    bound was met, or the latest end is unknown; else [Holds]. *)
 
 val runs_empty : battery -> bool
 (** In some run. *)

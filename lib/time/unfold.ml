@@ -4,7 +4,7 @@ open Dolphin_semantics
    [over], if it is over. *)
 type ending = { item : Inert.item; began : int; rest : int; is_last : bool; mutable over : int option }
 
-(* What is known when some moves have been gone through. *)
+(* The state of the unfolding after some moves. *)
 type progress = {
   walk : Schedule.walk;
   bounds : Timed.pending Dates.bound list;
@@ -105,7 +105,7 @@ let steps successors start events =
   in
   go [] start [] events
 
-(* Later than all that has a latest date. What comes after something without one has none. *)
+(* Later than all that has a latest date. The rest after a state without one has none. *)
 let far = max_int / 2
 
 let in_dates system (goal : Timed_system.goal) moves =

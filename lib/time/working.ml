@@ -12,7 +12,7 @@ let is_mapped execution label =
 
 (* {1 Of whole executions} *)
 
-(* How long the tasks of [v] in [r] take, where one takes [cost]. *)
+(* The time that the tasks of [v] in [r] take, where one takes [cost]. *)
 let rec longest cost v (r : Residual.t) =
   let sum rs = List.fold_left (fun n r -> n ++ longest cost v r) 0 rs in
   let bodies = List.map (fun (b : Residual.branch) -> b.body) in

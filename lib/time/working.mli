@@ -3,12 +3,12 @@
 open Dolphin_semantics
 
 type t = (Core.vehicle * int) list
-(** Milliseconds, in all, for each vehicle; {!unknown} if there is no bound. *)
+(** Milliseconds, in all, for each vehicle; {!unknown} without a bound. *)
 
 val unknown : int
 
 val of_step :
   Timed.options -> Timed_place.t -> Zone.t -> Timed_place.arrow -> Likeness.execution option -> t
-(** [of_step o before zone arrow e] is what is counted with [arrow], which is taken in [zone] of [before] and leads to
-    the execution [e]: of the tasks that it ends, the greatest values of their clocks. Inert ends are counted as they
+(** [of_step o before zone arrow e] is the count for [arrow], which is taken in [zone] of [before] and leads to the
+    execution [e]: of the tasks that it ends, the greatest values of their clocks. Inert ends are counted as they
     begin; tasks that automorphisms map to others, all at the beginning of the execution, as often as they may run. *)

@@ -26,7 +26,7 @@ val equal : t -> t -> bool
 
 val delayed : t -> t -> int
 (** [delayed z z'] is the most milliseconds by which all dates of [z] may be put off such that it is a {!subset} of
-    [z'], which has as many clocks: negative if there is no such number, and [max_int] if there is no most. *)
+    [z'], which has as many clocks: negative without such a number, and [max_int] without a greatest one. *)
 
 val earliest_date : t -> int
 (** Of a zone that does not reach down. *)
@@ -45,7 +45,7 @@ val least : int -> t -> int
     Each as a set of valuations; [None] is the empty one. *)
 
 val delay : t -> t
-(** [delay z] is what [z] becomes by the passing of any time. *)
+(** [delay z] is [z] after the passing of any time. *)
 
 val at_least : int -> int -> t -> t option
 (** [at_least i n z] is those of [z] with clock [i] at [n] or more. *)

@@ -1,12 +1,12 @@
 open Dolphin_semantics
 
-(* Who comes after all others, in this order, and who does not come. *)
+(* The vehicles that come after all others, in this order, and the missing ones. *)
 type t = { coming : Core.vehicle list; missing : Core.vehicle list }
 
-(* What the attendance of a pick is chosen from. All in the order of the fleet, and no vehicle among them that stands
-   outside of the region wherever it may be seen. *)
+(* The possible attendances of a pick. All in the order of the fleet, and no vehicle among them that stands outside
+   of the region wherever it may be seen. *)
 type company = {
-  wanted : Core.vehicle list;  (* whom the pick would take if they are there *)
+  wanted : Core.vehicle list;  (* the vehicles that the pick would take if they are there *)
   always : Core.vehicle list;  (* those of them that it would take wherever they may be seen *)
   silent : Core.vehicle list;  (* those of them that are lost *)
   unsure : Core.vehicle list;  (* others of them that may be late or missing *)
@@ -49,11 +49,11 @@ let up_to n : int Seq.t = Seq.unfold (fun i -> if i > n then None else Some (i, 
 let costs company = up_to company.most_new
 (* {1 Lists of vehicles}
 
-   What is bound is those that come in the order of the fleet, and then those that are late. In one way only, if those
-   that are late are as few as can be: the first of them comes before the last of the others in the fleet. So a list is
-   made vehicle by vehicle, and from the first one on that comes before the one ahead of it in the fleet, all are late.
-   Of vehicles that are alike, the first that is left is next: the list that has others in its place is an image of
-   it. *)
+   The bound vehicles are those that come in the order of the fleet, and then the late ones. In one way only, if
+   those that are late are as few as can be: the first of them comes before the last of the others in the fleet. So a
+   list is made vehicle by vehicle, and from the first one on that comes before the one ahead of it in the fleet, all
+   are late. Of vehicles that are alike, the first that is left is next: the list that has others in its place is an
+   image of it. *)
 
 type list_of_bound = {
   on_time : Core.vehicle list;  (* latest first, as are [coming] *)
@@ -105,7 +105,7 @@ let with_latecomers company n news : (Core.vehicle list * Core.vehicle list) Seq
   let is_hopeless l =
     let found = number_of_new company l.coming and missing = n - length l in
     let may_be_late = List.filter (is_unsure company) l.left in
-    (* So many of those that are passed need not be bound. *)
+    (* The number of passed vehicles that need not be bound. *)
     let spare = List.length l.left - missing in
     spare < 0
     || found > news
@@ -118,7 +118,7 @@ let with_latecomers company n news : (Core.vehicle list * Core.vehicle list) Seq
   let is_right (_, coming) = number_of_new company coming = news in
   Seq.filter is_right (Seq.filter_map whole (lists company ~is_hopeless n (nobody company)))
 
-(* Too few of [n] come if so many are missing: those first whose absence counts for nothing. *)
+(* Too few of [n] come if this number are missing: those first whose absence counts for nothing. *)
 let too_few company n =
   let least = List.length company.always - (n - 1) in
   let is_always v = List.mem v company.always in
@@ -130,7 +130,7 @@ let too_few company n =
     let for_nothing = List.filteri (fun i _ -> i < least) for_nothing in
     Seq.map (fun counted -> for_nothing @ counted) (Sublists.of_length (max 0 more) unknown)
 
-(* Who comes to a pick of all vehicles, and in which order. Those that are left are missing, and may be. *)
+(* The vehicles that come to a pick of all vehicles, in their order. Those that are left are missing, and may be. *)
 let of_all company news =
   let may_miss v = is_unsure company v || List.mem v company.silent in
   let is_hopeless l =

@@ -1,10 +1,10 @@
-(** Who comes to a pick, where some vehicles may be late or missing: whatever can come of it, by as few late and missing
-    vehicles as can be, and nothing twice. docs/explorer.md says why this is enough. *)
+(** The attendance of a pick, with late or missing vehicles: each possible result, by as few late and missing
+    vehicles as can be, and nothing twice. docs/explorer.md shows why this is enough. *)
 
 open Dolphin_semantics
 
 type t = {
-  coming : Core.vehicle list;  (** who comes after all others, in this order *)
+  coming : Core.vehicle list;  (** those that come after all others, in this order *)
   missing : Core.vehicle list;
 }
 
@@ -21,10 +21,11 @@ val company :
   World.t ->
   Settings.pick ->
   company
-(** [company ~alike faults ~may_be_late ~lost ~late ~bound w q] is those that [q] may look for in [w] while [bound] are
-    in B. The [lost] may be missing, others only as [faults] has it; [late] are those that were late before. Two
-    vehicles for which [alike] is the same [Some] may be exchanged: of what differs only in these, one is given. They
-    are of the same kind, may both be late, neither is lost or was late, and no other stands between them in [w]. *)
+(** [company ~alike faults ~may_be_late ~lost ~late ~bound w q] is those that [q] may look for in [w] while [bound]
+    are in B. The [lost] may be missing, others only as [faults] has it; [late] are those that were late before. Two
+    vehicles for which [alike] is the same [Some] may be exchanged: of attendances that differ only in these, one is
+    given. They are of the same kind, may both be late, neither is lost or was late, and no other stands between them
+    in [w]. *)
 
 val unsure : company -> Core.vehicle list
 (** Those that are not lost, and may be late or missing. *)
@@ -40,12 +41,12 @@ val costs : company -> int Seq.t
     Each with exactly [n] that count, computed on demand. *)
 
 val with_latecomers : company -> int -> int -> (Core.vehicle list * Core.vehicle list) Seq.t
-(** [with_latecomers c count n] is those who may be bound by a pick of [count] vehicles, some of them late: first who
-    comes in the order of the fleet, then who is late, which is somebody. *)
+(** [with_latecomers c count n] is the vehicles that a pick of [count] vehicles may bind with some of them late:
+    first those that come in the order of the fleet, then the late ones, at least one. *)
 
 val too_few : company -> int -> Core.vehicle list Seq.t
-(** [too_few c count] is who is missing if fewer than [count] come, and some of those that come otherwise are missing:
-    each choice of those that count, as few as can be; none if more would have to miss than may. *)
+(** [too_few c count] is the missing vehicles if fewer than [count] come: each choice of those that count, as few as
+    can be; none if more would have to miss than may. *)
 
 val of_all : company -> int -> t Seq.t
 (** [of_all c n] is the ways to attend a pick of all vehicles. *)

@@ -45,8 +45,8 @@ let may_fail options v name =
 
 (* {1 What the outside remembers} *)
 
-(* Counted is only what has a bound, [asked] and [called] only as far as answers and replies depend on it: what makes no
-   difference must not tell states apart. Vehicles, prompts and calls are in ascending order. *)
+(* Only bounded faults are counted, [asked] and [called] only as far as answers and replies depend on them: data
+   without influence must not distinguish states. Vehicles, prompts and calls are in ascending order. *)
 type memory = {
   failed : int;
   losses : int;
@@ -88,8 +88,8 @@ let hash e =
 let lost e = e.lost
 let late e = e.late
 
-(* Who is lost and was late comes first, then who is lost: so the order in which [f] meets them does not depend on their
-   names, but among those of which the same is remembered. *)
+(* Lost and late vehicles come first, then lost ones: so the order in which [f] meets them does not depend on their
+   names, but among those with the same memory. *)
 let renamed f e =
   let all vs = List.sort String.compare (List.map f vs) in
   let both = List.filter (fun v -> List.mem v e.late) e.lost in
@@ -105,7 +105,7 @@ let heard_of v e = if List.mem v e.lost then { e with lost = less v e.lost } els
 
 let failure = "failure"
 let loss = "connection lost"
-(* Where losses are counted, another loss of a lost vehicle is none. *)
+(* With counted losses, another loss of a lost vehicle does not count. *)
 let endings_remember options =
   match options.faults.loss with
   | Never | At_most 0 -> false
@@ -138,11 +138,11 @@ let task_ends options e v (p : Core.platform_task) : (Transition.event * t) list
 
 let times name counted = Option.value (List.assoc_opt name counted) ~default:0
 
-(* What may come this time, of [rounds] of which the last is for all later times. *)
+(* The possible values this time, of [rounds] of which the last is for all later times. *)
 let this_time name counted rounds =
   match List.length rounds with 0 -> [] | n -> List.nth rounds (min (times name counted) (n - 1))
 
-(* [counted] after one more time, as far as [rounds] tell times apart. *)
+(* [counted] after one more time, as far as [rounds] distinguish times. *)
 let once_more name counted rounds =
   let n = times name counted + 1 in
   if n >= List.length rounds then counted
@@ -180,7 +180,7 @@ let replied options e site call : ((Transition.event, Transition.refusal) result
     List.map (fun reply -> (event reply, e)) replies
 
 (* After an answer that was refused the question is asked again, [e] being remembered, and [before] when it was asked
-   first. Who has nothing else to say has said nothing. *)
+   first. An empty text is absent. *)
 let after_refusal options program ~before e (c : Configuration.t) why =
   match c.control with
   | Waiting (_, Ask prompt) when times prompt before.asked < List.length (options.answers prompt) - 1 ->
@@ -257,8 +257,9 @@ let in_world options program world e c : choice Seq.t =
 
 (* {1 Who is there} *)
 
-(* The ways to have too few vehicles differ in the text only, and in who was late, which matters if anything follows: of
-   those with more the ones with fewer are enough. Other transitions come twice only where sensors are open. *)
+(* The ways to have too few vehicles differ in the text only, and in the late vehicles, which matters if anything
+   follows: of those with more the ones with fewer are enough. Other transitions come twice only where sensors are
+   open. *)
 let once world (pick : Settings.pick) choices () =
   let too_few_came = ref [] in
   let is_first { transition; outside; _ } =
@@ -273,9 +274,9 @@ let once world (pick : Settings.pick) choices () =
   let choices = Seq.filter is_first choices in
   if World.is_open world then Transition.distinct (fun c -> c.transition) choices () else choices ()
 
-(* What may be assumed of those vehicles that are never among the first [n] of theirs that are left: they are seen
-   outside of the region, so that what holds then holds of [world]; or are missing, where they never are. Then the first
-   [n] of theirs are within it, and the pick does not fail. *)
+(* The assumptions about those vehicles that are never among the first [n] of the remaining ones of their class: they
+   are seen outside of the region, so that what holds then holds of [world]; or are missing, where they never are.
+   Then the first [n] of theirs are within it, and the pick does not fail. *)
 let hidden alike n world (pick : Settings.pick) bound =
   let seen = Hashtbl.create 8 and bound = Vehicle_set.of_list bound in
   let is_hidden (s : World.vehicle_state) =
@@ -299,7 +300,7 @@ let assuming assumed choice =
   let t = choice.transition in
   { choice with transition = { t with assumed = assumed @ t.assumed } }
 
-(* Where late vehicles are remembered, it matters which of those that are alike was late. *)
+(* With remembered late vehicles, it matters which one of a class was late. *)
 let picking ?alike options program world e (c : Configuration.t) (pick : Settings.pick) =
   let company_in world =
     let alike = match options.faults.join with At_most _ -> None | Never | Any_number -> alike in

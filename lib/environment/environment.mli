@@ -1,18 +1,18 @@
-(** The outside of an explored program: what may happen to a configuration besides its own steps. Everything that
-    [Transition] offers may happen in any order, restricted as {!options} say. What sensors show is the world's, which
-    may leave it open. *)
+(** The outside of an explored program: the possible events of a configuration besides its own steps. Everything that
+    [Transition] offers may happen in any order, restricted by {!options}. Readings of sensors are the world's, which
+    may leave them open. *)
 
 open Dolphin_semantics
 
 (** How a platform task may end. *)
 type ending = Succeeds | May_fail | Fails
 
-(** Pairs that somebody may post with one key. *)
+(** Pairs that people or programs may post with one key. *)
 type input = {
   key : string;
   rounds : Core.value list list;
-  (** for the first time, the second and so on: what may be posted then; the last item is for all later times. At least
-      one item, each with at least one value *)
+  (** for the first time, the second and so on: the possible pairs then; the last item is for all later times. At
+      least one item, each with at least one value *)
   times : int;  (** how often in one run, at most *)
   certain : bool;  (** as often as that, sooner or later; otherwise perhaps never *)
 }
@@ -24,11 +24,11 @@ type options = {
   (** the names of plans whose [endings] may be others than those of all that are not named here *)
   may_be_late : Core.vehicle -> bool;  (** the vehicles that may be late, or missing, if any may *)
   answers : string -> string list list;
-  (** by prompt, for the first time it is asked, the second and so on: what may be answered then. The last item is for
-      all later times. Where there is none, nobody answers. *)
+  (** by prompt, for the first time it is asked, the second and so on: the possible answers then. The last item is
+      for all later times. Prompts without any stay unanswered. *)
   replies : string -> (Core.value, string) result list list;
-  (** likewise, by the name of a call ({!Machine.name_of_call}): what the supplier may reply, or why it does not. Tasks
-      come from the place of the call. Where there is none, the call fails ({!no_reply}). *)
+  (** the same by the name of a call ({!Machine.name_of_call}): the supplier's possible replies, or the reason for
+      none. Tasks come from the place of the call. Without any, the call fails ({!no_reply}). *)
   inputs : input list;  (** those with keys that the program does not declare do not count *)
   faults : Faults.t;
   who_is_lost_matters : bool;
@@ -37,16 +37,16 @@ type options = {
 }
 
 exception Unclear of Fault.t
-(** Nobody could list the outcomes of a step in an open world: see {!Transition.internal_all}. The exploration cannot go
-    on. This is the one exception here that is no broken invariant. It passes through whatever expands states, memoised
-    steps included; whoever explores handles it where the exploration ends. *)
+(** The outcomes of a step in an open world cannot be listed: see {!Transition.internal_all}. The exploration cannot
+    go on. This is the one exception here that does not mean a broken invariant. It passes through the expansion of
+    states, memoised steps included; callers handle it where the exploration ends. *)
 
 val clear : ('a, Fault.t) result -> 'a
 (** [clear (Ok x)] is [x].
     @raise Unclear *)
 
 val default : options
-(** Tasks succeed, nothing is lost, nobody is late, nobody answers, replies, posts or interrupts. *)
+(** Tasks succeed; there are no losses, late vehicles, answers, replies, posts or interruptions. *)
 
 val ending : options -> Core.vehicle -> string -> ending
 (** [ending o v name] is how [v] may end the plan of this name, faults included. *)
@@ -80,7 +80,7 @@ val late : t -> Core.vehicle list
 val renamed : (Core.vehicle -> Core.vehicle) -> t -> t
 (** [renamed f e] is [e] with each vehicle [v] in it as [f v]; [f] is injective. *)
 
-(** What it is, as plain data. *)
+(** Its value, as plain data. *)
 type memory = {
   failed : int;
   losses : int;
@@ -98,17 +98,17 @@ val of_memory : memory -> t
 (** {1:happens What may happen} *)
 
 val failure : string
-(** Why a task fails, where it fails: ["failure"]. *)
+(** The reason of failing tasks: ["failure"]. *)
 
 val loss : string
 (** Why it does where the connection is lost: ["connection lost"]. *)
 
 val confirmations : options -> string -> (bool, string) result list
-(** [confirmations o prompt] is how the question of a task may be answered, whether by yes: as any of the answers that
-    are given for [prompt]; if there are none, by yes and by no. If none of them is yes or no, nobody answers. *)
+(** [confirmations o prompt] is the possible answers to the question of a task, whether yes: any of the answers that
+    are given for [prompt]; without any, yes and no. If none of them is yes or no, the question stays unanswered. *)
 
 val no_reply : string -> string
-(** [no_reply call] is why [call] fails where [replies] has nothing for it: what the fleet lacks. *)
+(** [no_reply call] is the reason why [call] fails without an entry in [replies]: the fleet's missing entry. *)
 
 val task_ends : options -> t -> Core.vehicle -> Core.platform_task -> (Transition.event * t) list
 (** [task_ends o e v p] is the events that may end [p] on [v]; each of them is among [task_ends o initial v p], perhaps
@@ -118,7 +118,7 @@ val endings_remember : options -> bool
 (** Whether the memory after an end that [task_ends] gives may differ from that before it although the task succeeds. *)
 
 val inputs : options -> Core.program -> t -> (string * Core.value * t) list
-(** [inputs o p e] is what may be posted, each pair with the memory after it. *)
+(** [inputs o p e] is the possible posts, each pair with the memory after it. *)
 
 val upcoming : options -> Core.program -> t -> (string * Core.value) list
 (** [upcoming o p e] is all pairs that may be posted now or later. *)
@@ -129,7 +129,7 @@ val owes : options -> Core.program -> t -> bool
 (** A transition that may happen. *)
 type choice = {
   transition : Transition.t;
-  outside : t;  (** what is remembered after it *)
+  outside : t;  (** the memory after it *)
   on : Transition.event option;  (** the event that it answers; [None]: the program's own *)
 }
 
@@ -142,8 +142,8 @@ val choices :
   ?alike:(Core.vehicle -> Core.vehicle option) -> options -> Core.program -> World.t -> t -> Configuration.t ->
   (Transition.t * t) Seq.t
 (** [choices o p w e c] is every transition of [c], computed on demand: its own, leftmost first, then those on events,
-    in the order of [Transition.awaited], the inputs, and last the interruption, if there are any. What a transition
-    takes for granted, of sensors and of who is there, is among its [assumed]. At a pick, of those that differ only by
+    in the order of [Transition.awaited], the inputs, and last the interruption, if there are any. The assumptions of a
+    transition, on sensors and on present vehicles, are among its [assumed]. At a pick, of those that differ only by
     exchanging vehicles that are [alike] ({!Attendance.company}) one is given.
     @raise Unclear (each time it is gone through) if [w] is open and the outcomes of a step cannot be listed. *)
 
@@ -152,7 +152,8 @@ val find : ('choice -> bool) -> 'choice Seq.t -> 'choice option
     computed. *)
 
 val may_interrupt : options -> Machine.t -> bool
-(** [may_interrupt o m] is whether somebody may interrupt a run whose script stands at [m]: nobody does it twice. *)
+(** [may_interrupt o m] is whether a person may interrupt a run whose script stands at [m]: a run is interrupted at
+    most once. *)
 
 val may_leave : options -> Core.program -> bool
 (** [may_leave o p] is whether an interruption may come that makes [p] execute what it declares by [onInterrupt]. *)

@@ -1,4 +1,4 @@
-(** What may go wrong in a world that is explored, beyond what its scenario says: [--faults]. *)
+(** The possible faults in an explored world, beyond those of its scenario: [--faults]. *)
 
 (** How often something may happen in one run. *)
 type limit = Never | At_most of int | Any_number
@@ -8,8 +8,8 @@ val is_possible : limit -> bool
 
 type t = {
   fail : limit;
-  (** failures of platform tasks that would succeed, or might. If not [Never], every task that may succeed may fail too,
-      and only so many do in one run. *)
+  (** failures of platform tasks that would succeed, or might. If not [Never], every task that may succeed may fail
+      too, up to this number of times in one run. *)
   loss : limit;
   (** how often the connection of a vehicle that runs a task may be lost for longer than its timeout. It is counted once
       until the vehicle is heard of again. *)
@@ -20,7 +20,8 @@ type t = {
 val none : t
 
 val of_string : string -> (t, string) result
-(** [of_string text] is what [text] spells: ["fail"], ["fail=1,loss=2"], ["all,interrupt"]; or what is wrong with it. *)
+(** [of_string text] is the faults that [text] spells: ["fail"], ["fail=1,loss=2"], ["all,interrupt"]; or the error
+    in it. *)
 
 val pp : Format.formatter -> t -> unit
 (** As {!of_string} reads it. *)

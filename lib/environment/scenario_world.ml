@@ -37,8 +37,8 @@ let is_unsteady (v : Scenario.vehicle) = v.joins > 0. || v.leaves <> None || v.d
 let input (i : Scenario.input) : Environment.input =
   { key = i.key; rounds = i.rounds; times = i.times; certain = i.after <> None }
 
-(* What is not started, or stopped, because it breaks a fence is to the program a task that fails. Which plans these are
-   depends on where vehicles are. *)
+(* A task that is not started, or stopped, because it breaks a fence is to the program a task that fails. The
+   affected plans depend on the vehicles' places. *)
 let ending_within (fences : Fences.t) (scenario : Scenario.t) v name : Environment.ending =
   match ending scenario v name with
   | Succeeds when not (Fences.is_none fences && scenario.fences = []) -> May_fail

@@ -1,6 +1,6 @@
 type doing = Rests | Works | Charges of float
 
-type t = { vehicle : Entry.vehicle; since : float; left : float; rate : float (* what it gains a second *) }
+type t = { vehicle : Entry.vehicle; since : float; left : float; rate : float (* its gain in a second *) }
 
 let full = 1.
 let hour = 3600.

@@ -3,14 +3,14 @@
 
 type t
 
-(** What a vehicle does, as far as its battery is concerned. *)
+(** The activity of a vehicle, as far as its battery is concerned. *)
 type doing =
   | Rests
   | Works  (** it runs a plan that drains *)
   | Charges of float  (** it runs a plan with [charges]: an hour of it gives this share *)
 
 val start : Entry.vehicle -> t
-(** At rest, at time 0, with what the scenario says is left then. *)
+(** At rest, at time 0, with the scenario's charge. *)
 
 val turn : t -> at:float -> doing -> t
 (** [turn b ~at doing] is [b] of a vehicle that does this from [at] on. *)
@@ -26,8 +26,8 @@ val is_steady : t -> at:float -> bool
 (** Whether it does not change any more from [at] on. *)
 
 val rate : Entry.vehicle -> doing -> float
-(** What it gains in a second: less than 0 if it falls. *)
+(** Its gain in a second: less than 0 if it falls. *)
 
 val least : Entry.vehicle -> working:float -> until:float -> float
-(** [least v ~working ~until] is what is left at the time [until] of a vehicle that was under way for [working] seconds
-    before, and was never charged: below 0 by what is missing. It is less if [working] or [until] is more. *)
+(** [least v ~working ~until] is the charge at the time [until] of a vehicle that was under way for [working] seconds
+    before, and was never charged: below 0 by the missing charge. It is less if [working] or [until] is more. *)

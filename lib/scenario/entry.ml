@@ -1,4 +1,4 @@
-(** What a scenario is made of: the entries of a fleet file. A types-only module; {!Scenario} includes it. *)
+(** The parts of a scenario: the entries of a fleet file. A types-only module; {!Scenario} includes it. *)
 
 (** Nothing is heard of a vehicle for a while; both in seconds, [lasts] more than 0. *)
 type drop = { from : float;  (** since the start *) lasts : float }
@@ -10,7 +10,7 @@ type vehicle = {
   position : Dolphin_geo.Position.t;  (** at the start *)
   speed : float;  (** metres per second, more than 0 *)
   battery : float;  (** at the start, from 0 to 1 *)
-  tells_battery : bool;  (** whether it ever tells what is left *)
+  tells_battery : bool;  (** whether it ever reports its charge *)
   drain : float;  (** the share of the battery that an hour's work takes; rest takes a quarter of that *)
   charge : float;  (** the share that an hour's rest gives, instead; 0: it does not charge *)
   joins : float;  (** seconds since the start *)
@@ -19,8 +19,7 @@ type vehicle = {
   batteries : float list;
   (** if not empty, all that the battery ever shows: at least two, [battery] first. If empty, it shows what is left. *)
   shows : (string * float list) list;
-  (** what it measures, by quantity; if several values, all that it ever shows of it. If none, there are samples of
-      it *)
+  (** its measurements, by quantity; if several values, all that it ever shows. If none, there are samples of it *)
   places : Dolphin_geo.Position.t list;
   (** if not empty, all places where it is ever seen: at least two, [position] first. If empty, it is seen where it
       is. *)
@@ -34,36 +33,36 @@ type ending =
   | May_fail of float  (** how often, from 0 to 1; the explorer takes both outcomes *)
   | Fails
 
-(** What becomes of the platform tasks of one name. *)
+(** The outcome of the platform tasks of one name. *)
 type plan = {
   name : string;
   duration : duration option;  (** [None]: any time *)
   ending : ending;
-  place : Dolphin_geo.Position.t option;  (** where it is run; [None]: wherever the vehicle is *)
+  place : Dolphin_geo.Position.t option;  (** its place; [None]: that of the vehicle *)
   only : string list;  (** types and ids of the vehicles that know it; others refuse. [[]]: all know it *)
   charges : float option;
   (** the share of the battery that an hour of it gives, at least 0; [None]: it drains the battery *)
 }
 
-(** What is typed when a program asks [prompt]: the text of an expression, such as ["2"] or ["'x8-02'"]. *)
+(** The answer when a program asks [prompt]: the text of an expression, such as ["2"] or ["'x8-02'"]. *)
 type answer = { prompt : string; texts : string list  (** one for each asking, at least one *) }
 
-(** What the supplier replies to [call], named as in labels ({!Dolphin_semantics.Machine.name_of_call}). *)
+(** The supplier's reply to [call], named as in labels ({!Dolphin_semantics.Machine.name_of_call}). *)
 type reply = {
   call : string;
   rounds : Reply.t list list;
-  (** for the first call, the second and so on, at least one: what it may reply then, at least one *)
+  (** for the first call, the second and so on, at least one: the possible replies then, at least one *)
 }
 
-(** What people or programs post with [key] while a run goes on. *)
+(** The posts of people or programs with [key] while a run goes on. *)
 type input = {
   key : string;
   rounds : Dolphin_semantics.Core.value list list;  (** for the first time, the second and so on, as of {!reply} *)
   times : int;  (** how often, at least 1 *)
-  after : float option;  (** seconds since the start, or since the time before; [None]: nobody knows when, if at all *)
+  after : float option;  (** seconds since the start, or since the time before; [None]: unknown, if at all *)
 }
 
-(** What is measured at a place, from a time on. *)
+(** A measurement at a place, from a time on. *)
 type sample = { quantity : string; value : float; place : Dolphin_geo.Position.t; time : float  (** in seconds *) }
 
 type t = {
@@ -73,6 +72,6 @@ type t = {
   replies : reply list;
   inputs : input list;
   samples : sample list;  (** of the fields of quantities *)
-  fences : Dolphin_semantics.Fences.fence list;  (** what every program's vehicles must keep to *)
+  fences : Dolphin_semantics.Fences.fence list;  (** the fences of every program's vehicles *)
 }
 (** Vehicles, plans, prompts and calls are unique by their names; all are in the order of the file. *)

@@ -114,7 +114,7 @@ let plan_settings = words plan_table
 
 type 'entry named = { entry : 'entry; name_at : Location.t }
 
-(* What has been read, latest first. *)
+(* The entries read so far, latest first. *)
 type state = {
   source : string;
   vehicles : vehicle named list;
@@ -124,7 +124,7 @@ type state = {
   inputs : input list;
   samples : sample list;
   fences : Fences.fence list;
-  constants : Constants.t;                      (* what fences may name: maps, and no variables *)
+  constants : Constants.t;                      (* the names that fences may use: maps, and no variables *)
   unplaced : int;                               (* vehicles without a position *)
   faults : Diagnostic.t list;
 }
@@ -166,7 +166,7 @@ let plan state (name : string located) body =
     else [] in
   { (add_faults state (faults @ both)) with plans = { entry = p; name_at = name.at } :: state.plans }
 
-(* An answer is what a person would type: the very text of the expression. *)
+(* An answer is the text that a person would type: the very text of the expression. *)
 let spelling state (e : expression) =
   let start = e.at.Location.start.pos_cnum in
   String.sub state.source start (e.at.Location.stop.pos_cnum - start)
@@ -324,7 +324,7 @@ let repeated what name named =
   in
   List.fold_left check [] (List.rev named)
 
-(* Nothing says what is measured. *)
+(* The quantity is missing. *)
 let unmeasured state =
   let is_sampled q = List.exists (fun s -> s.quantity = q) state.samples in
   let of_vehicle { entry = (v : vehicle); name_at } =

@@ -1,5 +1,5 @@
-(** Fleet files, from the text to the entries. The grammar of programs is theirs too; what each setting takes is in
-    one table for vehicles and one for plans. *)
+(** Fleet files, from the text to the entries. The grammar of programs is theirs too; one table for vehicles and one
+    for plans gives the arguments of each setting. *)
 
 open Dolphin_syntax
 

@@ -10,13 +10,13 @@ type t =
   (** in metres, seconds, metres per second, degrees or shares of 1; [None]: without a unit *)
   | Text of string
   | Position of Dolphin_geo.Position.t
-  | Unknown  (** the word [unknown]: what a vehicle does not tell *)
+  | Unknown  (** the word [unknown]: a value that a vehicle does not report *)
 
 val dimension : string -> dimension option
-(** [dimension name] is what unit [name] measures: [Some] for each of {!Dolphin_semantics.Operators.unit_names}. *)
+(** [dimension name] is the dimension of unit [name]: [Some] for each of {!Dolphin_semantics.Operators.unit_names}. *)
 
 val read : Ast.expression -> (t, Diagnostic.t) result
 (** [read e] is the value that [e] spells: [2], [-8.7], [30.seconds], ['x8-02'], [Location.APDL]. *)
 
 val describe : t -> string
-(** [describe x] is what [x] is: ["a time"], ["the number 3"], ["the text 'x'"]. *)
+(** [describe x] is [x] in words: ["a time"], ["the number 3"], ["the text 'x'"]. *)

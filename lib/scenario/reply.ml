@@ -8,7 +8,7 @@ type t = (Core.value, string) result
 let ( let* ) = Result.bind
 let error ?hint at fmt = Format.kasprintf (fun message -> Result.Error (Diagnostic.error ?hint at message)) fmt
 
-(* Why a supplier that is not said to give a reason gives no reply. *)
+(* The reason of a supplier that gives neither a reply nor a reason. *)
 let failure = "failure"
 
 (* {1 Reading} *)

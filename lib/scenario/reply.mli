@@ -1,4 +1,4 @@
-(** What a supplier replies to the calls of a program, as a fleet file says it: a value as a supplier can send it
+(** A supplier's reply to the calls of a program, as a fleet file gives it: a value as a supplier can send it
     ({!Dolphin_json.Host_value}), or the reason why there is none. *)
 
 open Dolphin_syntax

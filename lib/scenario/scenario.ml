@@ -16,7 +16,7 @@ let equal_input (a : input) (b : input) =
 let equal_fence (a : Fences.fence) (b : Fences.fence) =
   Fences.equal_rule a.rule b.rule && a.margin = b.margin && a.text = b.text
 
-(* The rest is plain data without functions or cycles, and without numbers that are none. *)
+(* The rest is plain data without functions, cycles or NaN. *)
 let equal (a : t) (b : t) =
   a.vehicles = b.vehicles && a.plans = b.plans && a.answers = b.answers && List.equal equal_reply a.replies b.replies
   && List.equal equal_input a.inputs b.inputs && a.samples = b.samples && List.equal equal_fence a.fences b.fences

@@ -1,5 +1,5 @@
-(** A world to run programs in: its vehicles, how plans end on them, what people answer and what a supplier replies. It
-    is the contents of a fleet file, [*.fleet]; {!section:grammar} has its syntax. *)
+(** A world to run programs in: its vehicles, the endings of plans on them, the answers of people and the replies of
+    a supplier. It is the contents of a fleet file, [*.fleet]; {!section:grammar} has its syntax. *)
 
 (** {1:types What there is} *)
 
@@ -13,14 +13,14 @@ val read :
   ?chart:(string -> (Dolphin_semantics.Chart.t, string) result) -> file:string -> string ->
   (t, Dolphin_syntax.Diagnostic.t list) result
 (** [read ~chart ~file source] is the scenario that [source] describes, or what is wrong with it: at least one
-    diagnostic and at most {!Dolphin_syntax.Parse.most_faults}, in the order of the text. [file] is only a name. [chart]
-    is what [map] makes of a file in a fence; by default no file can be read. No text makes it raise. *)
+    diagnostic and at most {!Dolphin_syntax.Parse.most_faults}, in the order of the text. [file] is only a name.
+    [chart] reads the file of a [map] in a fence; by default no file can be read. No text makes it raise. *)
 
 val vehicles_at : file:string -> string -> (string * Dolphin_syntax.Location.t) list
-(** [vehicles_at ~file source] is where [source], which {!read} reads, names each vehicle, by their ids. *)
+(** [vehicles_at ~file source] is the places in [source], which {!read} reads, that name each vehicle, by their ids. *)
 
 val replies_at : file:string -> string -> (string * Dolphin_syntax.Location.t) list
-(** Likewise of replies, by the names of their calls. *)
+(** The same for replies, by the names of their calls. *)
 
 val pp : Format.formatter -> t -> unit
 (** As a fleet file: [read ~file (Fmt.str "%a" pp s)] is [Ok s]. *)
@@ -29,11 +29,10 @@ val equal : t -> t -> bool
 (** Wherever fences stand. *)
 
 val default : t
-(** The fleet that stands in where none is given: three UUVs, [noptilus-1] to [noptilus-3], and the UAV [x8-02], off
-    Leixões. *)
+(** The default fleet: three UUVs, [noptilus-1] to [noptilus-3], and the UAV [x8-02], off Leixões. *)
 
 val beside : string -> string
-(** [beside program] is where the fleet of the program in file [program] is looked for: the same name, ending in
+(** [beside program] is the default place of the fleet of the program in file [program]: the same name, ending in
     [.fleet]. *)
 
 (** {1:questions Questions} *)
@@ -46,33 +45,33 @@ val knows : plan -> vehicle -> bool
     to case). *)
 
 val answer : t -> string -> int -> string option
-(** [answer s prompt n] is what is typed when [prompt] is asked for the [n]-th time, from 0. The last text answers all
-    later ones. [None] if the scenario has nothing for that prompt. *)
+(** [answer s prompt n] is the answer to [prompt] when it is asked for the [n]-th time, from 0. The last text answers
+    all later ones. [None] if the scenario has nothing for that prompt. *)
 
 val reply : t -> string -> int -> Reply.t option
-(** [reply s call n] is what the supplier replies to [call] the [n]-th time, from 0: the first of what it may reply
-    then, the last time standing for all later ones. [None] if the scenario has nothing for that call. *)
+(** [reply s call n] is the supplier's reply to [call] the [n]-th time, from 0: the first of the possible ones, the
+    last time standing for all later ones. [None] if the scenario has nothing for that call. *)
 
 val rounds : t -> string -> Reply.t list list option
 (** [rounds s call] is all that it may reply. *)
 
 val posted : input -> int -> Dolphin_semantics.Core.value
-(** [posted i n] is what is posted for the [n]-th time, from 0: the first of what may be posted then. *)
+(** [posted i n] is the pair posted for the [n]-th time, from 0: the first of the possible ones. *)
 
 val silences : vehicle -> (float * float) list
 (** [silences v] is the spans of time, from and until, in which nothing is heard of [v]: before it joins, while its link
     drops, and after it leaves, until [infinity]. They are in order and apart: none empty, none touches the next. *)
 
 val readings : sample list -> vehicle -> Dolphin_geo.Position.t -> time:float -> (string * float) list
-(** [readings samples v p ~time] is what [v] measures at [p], by quantity, in order: of the field what is there; if [v]
-    shows several values, the nearest of them. *)
+(** [readings samples v p ~time] is the measurements of [v] at [p], by quantity, in order: the value of the field
+    there; if [v] shows several values, the nearest of them. *)
 
 val fields_still_from : t -> float
 (** The time from which no field changes any more. *)
 
 val states : t -> Dolphin_semantics.World.vehicle_state list
-(** [states s] is what can be known of the vehicles at the start; those that join later, or whose link drops right then,
-    are not connected. *)
+(** [states s] is the knowledge about the vehicles at the start; those that join later, or whose link drops right
+    then, are not connected. *)
 
 (** {1:grammar The fleet file}
 
@@ -92,7 +91,7 @@ answer 'Radius of operation area? (km)', 2
 reply 'queue.await', task('survey1'), either(task('survey2'), fails('the queue is closed'))
     v}
 
-    [vehicle ID, { ... }]. Settings in any order, each at most once unless said otherwise:
+    [vehicle ID, { ... }]. Settings in any order, each at most once unless stated otherwise:
     - [type TEXT]: must be there.
     - [payload TEXT, ...]: may stand again. Default: none.
     - [at LATITUDE, LONGITUDE], in degrees, [at LATITUDE, LONGITUDE, HEIGHT], in metres, or [at Location.APDL]. Default:
@@ -101,33 +100,33 @@ reply 'queue.await', task('survey1'), either(task('survey2'), fails('the queue i
       vehicle is at the first place at the start, and is only ever seen at one of them.
     - [speed NUMBER]: m/s. Default: 18 for a UAV, 1.5 for others.
     - [battery SHARE, ...]. Default: [100.percent]. Of several, the first is at the start, and no others are ever shown.
-    - [battery unknown]: it never tells its battery, which is full at the start.
-    - [drain SHARE]: an hour's work takes so much, an hour's rest a quarter of it. Default: [10.percent].
-    - [charge SHARE]: an hour's rest gives so much instead. Default: it does not charge.
-    - [shows QUANTITY, NUMBER, ...]: what it measures, as [reading] shows it; once for each quantity. Of several values
-      no others are ever shown: in the simulator the one that is nearest to the field's. Else it shows the field's
-      value. Without a field it shows the first. Default: it measures nothing.
+    - [battery unknown]: it never reports its battery, which is full at the start.
+    - [drain SHARE]: an hour's work takes this share, an hour's rest a quarter of it. Default: [10.percent].
+    - [charge SHARE]: an hour's rest gives this share instead. Default: it does not charge.
+    - [shows QUANTITY, NUMBER, ...]: its measurements, as [reading] shows them; once for each quantity. Of several
+      values no others are ever shown: in the simulator the one that is nearest to the field's. Else it shows the
+      field's value. Without a field it shows the first. Default: it measures nothing.
     - [joins TIME], [leaves TIME]. Default: there from the start, and for good.
     - [drops FROM, LASTING]: its link drops; may stand again. Default: never.
 
-    [plan NAME], [plan NAME, { ... }]. What of it concerns plans that are described in the program itself is only how
-    they end, who knows them, and whether they charge; their way says how long they take.
+    [plan NAME], [plan NAME, { ... }]. For plans that are described in the program itself it gives only their ending,
+    the vehicles that know them, and whether they charge; their way determines their duration.
     - [duration TIME] or [duration SHORTEST, LONGEST]. Default: any time; the simulator draws from 1 to 3 minutes.
     - [mayFail], [mayFail SHARE]: it fails now and then, or so often ([mayFail] alone: [10.percent]); [fails]: always.
       Default: it succeeds.
-    - [at ...]: where it is run, as for vehicles. Default: where the vehicle is.
+    - [at ...]: its place, as for vehicles. Default: the vehicle's place.
     - [only TEXT, ...]: types or ids of the vehicles that know it. Default: all do.
-    - [charges SHARE]: an hour of it gives so much, and drains nothing, as at a dock. Default: it drains the battery.
+    - [charges SHARE]: an hour of it gives this share, and drains nothing, as at a dock. Default: it drains the battery.
 
-    [answer PROMPT, EXPRESSION, ...]. What is typed when the program asks PROMPT: the expressions one after another, the
-    last for good. Any expression will do here, for it is only kept as text.
+    [answer PROMPT, EXPRESSION, ...]. The answers to the program's question PROMPT: the expressions one after another,
+    the last for good. Any expression will do here, for it is only kept as text.
 
-    [reply CALL, REPLY, ...]. What the supplier replies where the program calls it, when no supplier is there: the
-    replies one after another, the last for good. CALL is as labels name it: ['getSupplier'], or an object and its
-    method or property, ['queue.await']. REPLY is as {!Reply.read} says.
+    [reply CALL, REPLY, ...]. The supplier's replies to calls of the program, without a supplier process: the replies
+    one after another, the last for good. CALL is as labels name it: ['getSupplier'], or an object and its method or
+    property, ['queue.await']. REPLY is as in {!Reply.read}.
 
     [field QUANTITY, NUMBER, at(...)], [field QUANTITY, NUMBER, at(...), after TIME]. A sample of a quantity, at a place
-    and from a time on: {!Field.value} is what the quantity is elsewhere. Stands as often as there are samples.
+    and from a time on: {!Field.value} is the quantity elsewhere. Stands as often as there are samples.
 
     [fence inside AREA, margin: LENGTH] and its like: as in programs
     ({!Dolphin_semantics.Fence_declarations}), without variables. Every program is kept to it.

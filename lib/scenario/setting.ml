@@ -100,7 +100,7 @@ let position = function
 
 (* {1 Blocks} *)
 
-(* A line of a block: its word, and what follows it. *)
+(* A line of a block: its word, and its arguments. *)
 let line (s : statement) =
   match s.it with
   | Expression { it = Variable word; at } -> Ok ({ it = word; at }, [])

@@ -4,7 +4,7 @@ open Dolphin_syntax
 
 type value = Literal.t Ast.located
 
-(** A setting of a ['draft], what the block describes as far as it has been read. *)
+(** A setting of a ['draft], the description of the block as far as it has been read. *)
 type 'draft t = {
   word : string;
   takes : string;  (** for messages: ["a time, as in joins 30.seconds"] *)
@@ -16,7 +16,7 @@ type 'draft t = {
 val block :
   what:string -> 'draft t list -> 'draft -> Ast.statement list -> 'draft * string list * Diagnostic.t list
 (** [block ~what settings draft body] is [draft] after the settings in [body], the words that stood in it, whether
-    well used or not, and all that is wrong with it. [what] is what the block describes, with an article. *)
+    well used or not, and all that is wrong with it. [what] is the subject of the block, with an article. *)
 
 (** {1:values Values} *)
 

@@ -75,7 +75,7 @@ let to_string ?notes entry =
 
 (* {1 Reading} *)
 
-(* What no vehicle can have shown is not read: a share is from 0 to 1, metres are near the earth. *)
+(* Impossible values of a vehicle are not read: a share is from 0 to 1, metres are near the earth. *)
 let between low high json =
   let* x = number json in
   if x >= low && x <= high then Ok x else Error (Printf.sprintf "%g, not from %g to %g" x low high)

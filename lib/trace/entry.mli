@@ -2,8 +2,8 @@
 
 open Dolphin_semantics
 
-(** The way of a plan that a vehicle starts: of one that the program describes, from where the vehicle was last heard
-    of, perhaps without points that are on the way between others; of another, only the vehicle knows it. *)
+(** The way of a plan that a vehicle starts: of one that the program describes, from the vehicle's last known place,
+    perhaps without points that are on the way between others; of another, only the vehicle knows it. *)
 type way = Path of Dolphin_geo.Position.t list  (** not empty *) | By_name
 
 type t =
@@ -11,8 +11,8 @@ type t =
   | Partial of { observed : string list }
   (** the first line of a trace that has only labels, of these kinds; [[]]: of all *)
   | Label of { time : float; label : string }  (** in such a trace, in place of a transition *)
-  | Vehicle of { time : float; state : World.vehicle_state }  (** what is known of a vehicle *)
-  | Event of { time : float; event : Event.t }  (** what the transition that follows is caused by *)
+  | Vehicle of { time : float; state : World.vehicle_state }  (** a vehicle as it is known *)
+  | Event of { time : float; event : Event.t }  (** the cause of the next transition *)
   | Transition of {
       time : float;
       index : int;  (** from 0 *)
@@ -20,8 +20,7 @@ type t =
       ways : (Core.vehicle * way) list;  (** of the plans that it starts; for pictures, it means nothing else *)
     }
   | Note of { time : float; vehicle : Core.vehicle; note : Yojson.Safe.t }
-  (** What the platform keeps of a vehicle for a resumption of the run: an object. It means nothing to the
-      semantics. *)
+  (** The platform's data about a vehicle for a resumption of the run: an object. It means nothing to the semantics. *)
   | Resumed of { time : float; program : Header.source; at : string  (** in UTC *) }
   (** The console died, and another one resumed the run here, with this program. *)
   | End of { time : float; transitions : int; ending : Request.ending }  (** the last line of a run that ended *)
@@ -44,7 +43,7 @@ val first_of_string : string -> (t, string) result
 (** {1:states What is known of vehicles} *)
 
 val of_state : World.vehicle_state -> Dolphin_json.Field.members
-(** The members of a [vehicle] line that say what is known. *)
+(** The members of a [vehicle] line with its known state. *)
 
 val to_state : Dolphin_json.Field.members -> (World.vehicle_state, string) result
-(** What {!of_state} writes. *)
+(** Reads the output of {!of_state}. *)

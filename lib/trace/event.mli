@@ -1,4 +1,4 @@
-(** What happened outside, as journals have it: the events of {!Dolphin_semantics.Transition.event}. *)
+(** The events from outside, as journals have them: the events of {!Dolphin_semantics.Transition.event}. *)
 
 open Dolphin_semantics
 
@@ -21,19 +21,19 @@ val of_event : ?stuck:bool -> Transition.event -> t
 
      @raise Invalid_argument for a reply that no host process can give: a closure, for example. *)
 
-(** Why one is no event for the transition function. *)
+(** Why one is not an event for the transition function. *)
 type fault =
-  | No_value of string  (** the reply is no value: why *)
-  | Refused of Transition.refusal  (** it is an answer, and nobody asks, or it is no expression *)
+  | No_value of string  (** the reply is not a value: why *)
+  | Refused of Transition.refusal  (** it is an answer without a question, or it is not an expression *)
 
 val to_event : Core.program -> Configuration.t -> t -> (Transition.event, fault) result
-(** [to_event p c h] is the event, for [c]: tasks in a reply come from where the script of [c] stands. *)
+(** [to_event p c h] is the event, for [c]: tasks in a reply come from the place of the script of [c]. *)
 
 val members : t -> Dolphin_json.Field.members
 (** As journals and the step protocol have it. *)
 
 val of_members : Dolphin_json.Field.members -> (t, string) result
-(** What {!members} writes, or why it is none. *)
+(** Reads the output of {!members}, or gives the reason why it cannot. *)
 
 val pp : Format.formatter -> t -> unit
 (** ["the end of noptilus-1's task"]. *)

@@ -1,4 +1,4 @@
-(** What a journal begins with: of which program, on which fleet, how and when. *)
+(** The beginning of a journal: its program, its fleet, its options and its time. *)
 
 (** A file as it was when the run began. *)
 type source = {
@@ -24,22 +24,22 @@ val source : ?set:(string * string) list -> path:string -> string -> source
 (** [source ~set ~path text] is the file [path] whose contents are [text]; nothing is [set] by default. *)
 
 val of_source : source -> Yojson.Safe.t
-(** Its path, its hash, and what was set. *)
+(** Its path, its hash, and its parameters. *)
 
 val to_source : Yojson.Safe.t -> (source, string) result
-(** What {!of_source} writes. *)
+(** Reads the output of {!of_source}. *)
 
 val of_utc : string -> float option
-(** [of_utc "2026-03-01T12:00:00Z"] is that time in seconds since the beginning of 1970; [None] for what is none. *)
+(** [of_utc "2026-03-01T12:00:00Z"] is that time in seconds since the beginning of 1970; [None] for any other text. *)
 
 val version : int
 (** Of the format: 1. *)
 
 val format_members : Dolphin_json.Field.members
-(** What first lines begin with. *)
+(** The beginning of first lines. *)
 
 val check_format : Yojson.Safe.t -> (unit, string) result
-(** Refuses what is no journal, and journals of other versions. *)
+(** Refuses files that are not journals, and journals of other versions. *)
 
 val to_json : t -> Yojson.Safe.t
 (** The first line of a journal. *)

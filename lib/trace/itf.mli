@@ -2,15 +2,13 @@
     record 015 has the format.
 
     Each state has five variables: [control], [A] (from vehicles to the plans that they run), [B] (the vehicles in pick
-    order),
-    [N] (from each key to its values, the oldest first where order matters) and [store] (from global variables to
-    values). [control] says what the program does, and what is left of the task that runs. The label and the rules
-    of the transition that led to a state are in its ["#meta"].
+    order), [N] (from each key to its values, the oldest first where order matters) and [store] (from global variables
+    to values). [control] has the program's present step, and the rest of the task that runs. The label and the rules of
+    the transition that led to a state are in its ["#meta"].
 
-    Integers are ["#bigint"]s. What the format has no words for, like numbers with a fraction and tasks, is
-    ["#unserializable"]
-    text. A run that goes on for ever has ["loop"]: the state that follows the last one again; ["back"] in the trace's
-    ["#meta"] is the label and the rules of the transition that leads there. *)
+    Integers are ["#bigint"]s. Values without a form in the format, like numbers with a fraction and tasks, are
+    ["#unserializable"] text. A run without end has ["loop"]: the state that follows the last one again; ["back"] in
+    the trace's ["#meta"] is the label and the rules of the transition that leads there. *)
 
 open Dolphin_semantics
 

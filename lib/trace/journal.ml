@@ -9,7 +9,7 @@ type t = {
   chunk : bytes;
   mutable from : int;
   mutable until : int;
-  line : Buffer.t;  (* what chunks before this one had of the line *)
+  line : Buffer.t;  (* the part of the line in earlier chunks *)
   mutable number : int;
   mutable whole : int;  (* bytes of the lines that had an end *)
   mutable notes : int;  (* lines of the platform *)
@@ -91,7 +91,7 @@ let read_next r =
   | Whole text -> entry text ~otherwise:wrong
   | Unfinished "" -> if number = 1 then wrong "the journal is empty" else End_of_file
   | Unfinished text ->
-    (* What is left of a line never is a whole line of JSON. *)
+    (* The rest of a line is never a whole line of JSON. *)
     let first = "this is no journal, or not even its first line was written to its end" in
     entry text ~otherwise:(fun _ -> if number = 1 then wrong first else Torn number)
 

@@ -3,7 +3,7 @@
 type t
 
 val of_channel : in_channel -> t
-(** The channel is in binary mode, and read by nobody else. Reading may raise [Sys_error]. *)
+(** The channel is in binary mode, and has no other reader. Reading may raise [Sys_error]. *)
 
 val of_string : string -> t
 (** Reads the journal that the text is. *)
@@ -12,7 +12,7 @@ type item =
   | Line of { number : int;  (** from 1 *) entry : Entry.t }
   | Torn of int  (** the last line, of this number, was not written to its end: the console died *)
   | End_of_file
-  | Wrong of { number : int; why : string }  (** a line that is no line of a journal *)
+  | Wrong of { number : int; why : string }  (** a line that is not a line of a journal *)
 
 val next : t -> item
 (** The first line is a header, and no other one is: else it is [Wrong]. *)
@@ -24,12 +24,12 @@ val whole : t -> int
 (** [whole r] is the number of bytes of the lines read so far, without a torn last one. *)
 
 val notes : t -> int
-(** [notes r] is the number of [platform] lines read so far. A line whose member [notes] is another number is [Wrong]:
-    lines before it are missing, and with them what vehicles were told. *)
+(** [notes r] is the number of [platform] lines read so far. A line whose member [notes] is another number is
+    [Wrong]: lines before it are missing, and with them commands to vehicles. *)
 
 val breaks_off : in_channel -> bool
-(** [breaks_off channel] is whether the rest of [channel] is the journal of a run that took at least one transition and
-    has not ended. It reads [channel] to its end. What is no journal does not break off. *)
+(** [breaks_off channel] is whether the rest of [channel] is the journal of a run that took at least one transition
+    and has not ended. It reads [channel] to its end. A file that is not a journal does not break off. *)
 
 val longest : int
 (** 16 MiB. *)

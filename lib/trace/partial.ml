@@ -30,7 +30,7 @@ let is_hidden p label = p.observed <> [] && not (List.mem (kind label) p.observe
 
 (* {1 Steps} *)
 
-(* What follows [prefix] in [label], less its closing parenthesis. *)
+(* The part after [prefix] in [label], less its closing parenthesis. *)
 let inside prefix label =
   let n = String.length prefix and length = String.length label in
   let fits = length > n && String.sub label 0 n = prefix && label.[length - 1] = ')' in
@@ -50,7 +50,7 @@ let value_of p text =
   in
   Option.bind (Result.to_option (Answer.event p.program text)) answered
 
-(* The input that [label] tells of. *)
+(* The input in [label]. *)
 let input p label : Transition.event option =
   let of_key key =
     let prefix = Printf.sprintf "input %s:" key in
@@ -109,7 +109,7 @@ let events p (c : Configuration.t) label =
 
 exception Enough
 
-(* When what is hidden happened is not known. What depends on more than a comparison of the date cannot be told. *)
+(* When what is hidden happened is not known. A dependence on more than a comparison of the date cannot be judged. *)
 let undated p = if p.program.reads_now then { p with world = World.at Any p.world } else p
 let dated time p = if p.program.reads_now then { p with world = World.at (Exactly (World.whole time)) p.world } else p
 let told = function Ok x -> x | Error (_ : Fault.t) -> raise Enough
@@ -202,7 +202,7 @@ let finish p (ending : Request.ending) =
   let what = Printf.sprintf "a run that ended %s" ending.how in
   Result.map (fun p -> { p with over = true; lines = p.lines - 1 }) (after p choose what)
 
-(* What was hidden may have happened before this was known, or will after. *)
+(* Hidden events may have occurred before this was known, or will after. *)
 let see p (state : World.vehicle_state) =
   if World.find state.id p.world = Some state then Ok p
   else

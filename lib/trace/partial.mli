@@ -8,10 +8,10 @@ type t
 val start : observed:string list -> most:int -> World.t -> Core.program -> t
 (** [start ~observed ~most world program] is before the first line. Of the labels of the kinds [observed], such as
     ["start"] and ["done"], the trace has each that there was, in order; the others are hidden. With [[]] it has all.
-    Answers, replies of the host and interruptions are never hidden. [world] is what is known of vehicles from the
+    Answers, replies of the host and interruptions are never hidden. [world] is the vehicles known from the
     beginning. At most [most] configurations are visited between two lines. *)
 
-(** Why there is no step like that of a line. *)
+(** Why no step fits a line. *)
 type mismatch = { reason : string;  (** without a full stop *) possible : string list  (** labels that could come *) }
 
 type trouble = Impossible of mismatch | Too_many  (** more than [most] configurations: it is not known *)

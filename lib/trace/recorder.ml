@@ -1,6 +1,6 @@
 open Dolphin_semantics
 
-(* A vehicle as it was last written, and what was told since. *)
+(* A vehicle as it was last written, and its reports since. *)
 type vehicle = {
   mutable written : World.vehicle_state;
   mutable written_at : float;
@@ -32,7 +32,7 @@ let resume ?(period = 5.) program replay ~seen write =
   { program; period; write; vehicles; behind = []; configuration = Replay.configuration replay;
     transitions = Replay.transitions replay; time = Replay.time replay }
 
-(* Metres. Who is fast has more samples, or its way could not be drawn. *)
+(* Metres. A fast vehicle has more samples, or its way could not be drawn. *)
 let nearby = 10.
 
 (* Journals never go back in time, whatever clocks do. *)

@@ -1,4 +1,4 @@
-(** Makes the journal of a run from what a {!Dolphin_runtime.Observer} gets.
+(** Makes the journal of a run from the calls that a {!Dolphin_runtime.Observer} gets.
 
     News of a vehicle become a line at once if the vehicle is new or its link came or went. New positions and battery
     levels become one only every few seconds or every ten metres, or before a transition that may depend on them. So at
@@ -15,8 +15,8 @@ val make : ?period:float -> Core.program -> Header.t -> (Entry.t -> unit) -> t
 
 val resume :
   ?period:float -> Core.program -> Replay.t -> seen:(float * World.vehicle_state) list -> (Entry.t -> unit) -> t
-(** [resume program replay ~seen write] continues the journal that [replay] has read to its end; [seen] is what it says
-    of each vehicle, and when. What the journal has is not written again. *)
+(** [resume program replay ~seen write] continues the journal that [replay] has read to its end; [seen] is its state
+    of each vehicle, with the time. Lines of the journal are not written again. *)
 
 val write : t -> time:float -> (time:float -> Entry.t) -> unit
 (** [write r ~time line] writes [line ~time], at [time] or, if that is later, the time of the line before. *)
@@ -31,5 +31,5 @@ val news : t -> time:float -> World.vehicle_state -> unit
 (** [news r ~time state] writes what is known of a vehicle now, or keeps it to be written later. *)
 
 val finish : t -> time:float -> stuck:bool -> unit
-(** The run is over. With [~stuck:true] its interruption was nobody's wish, but the end of a program that was stuck.
+(** The run is over. With [~stuck:true] its interruption was the end of a stuck program, and not a person's wish.
     Nothing is written of a run that did not end: of one that an exception broke. *)

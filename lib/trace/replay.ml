@@ -4,13 +4,13 @@ module Location = Dolphin_syntax.Location
 type t = {
   program : Core.program;
   hash : string;  (* of its text *)
-  places : bool;  (* whether transitions are said to be where they are in that text *)
+  places : bool;  (* whether the places of transitions refer to that text *)
   configuration : Configuration.t;
   world : World.t;
   transitions : int;
   time : float;
   event : Event.t option;  (* whose transition comes next *)
-  stuck : Residual.t option;  (* what the run was stuck in, if it was interrupted for that *)
+  stuck : Residual.t option;  (* the place where the run was stuck, if it was interrupted for that *)
   idle : bool;  (* the run was interrupted when it could do nothing by itself *)
   latest : (Transition.event option * Transition.t) option;  (* of the latest line, if that was a transition *)
   ending : Request.ending option;

@@ -52,7 +52,7 @@ let ending_of_members found =
   let* message = optional (nullable text) ~default:None "message" found in
   if List.mem how' how then Ok { how = how'; message } else Error (Printf.sprintf "no run ends %S" how')
 
-(* A timer may be set for ever: JSON has no number for that. *)
+(* A timer may be infinite: JSON has no number for that. *)
 let of_seconds seconds : Yojson.Safe.t = if Float.is_finite seconds then Canonical.number seconds else `Null
 
 let to_seconds json = Result.map (Option.value ~default:infinity) (nullable number json)

@@ -1,5 +1,5 @@
-(** What a transition asks of the outside, as journals have it: {!Dolphin_semantics.Effect.t} with texts for what a
-    reader need not take apart. *)
+(** The requests of a transition to the outside, as journals have them: {!Dolphin_semantics.Effect.t} with texts for
+    parts that a reader need not take apart. *)
 
 open Dolphin_semantics
 
@@ -22,7 +22,7 @@ type t =
   | End of ending
 
 val of_effect : Effect.t -> t
-(** What an effect asks of the outside. *)
+(** The request of an effect to the outside. *)
 
 val ending : Configuration.ending -> ending
 (** How a run ended, in words. *)

@@ -26,7 +26,7 @@ let site_of_control : Configuration.control -> Core.site option = function
   | Ended (Failed fault) when fault.site <> Fault.unknown_site -> Some fault.site
   | Ended (Completed | Halted _ | Failed _ | Interrupted) -> None
 
-(* Tasks are at home where they are made; other steps of an executing task, where it is executed. *)
+(* The place of a task is that where it is made; of other steps of an executing task, that of its execution. *)
 let site (before : Configuration.t) (t : Transition.t) =
   let of_task v (c : Configuration.t) =
     Option.map (fun (p : Core.platform_task) -> p.task_site) (Vehicle_map.find_opt v c.shared.allocation)
@@ -87,7 +87,7 @@ let less xs ys =
 
 let show_pair pair = Format.asprintf "%a" Value.pp_tuple pair
 
-(* What was posted and consumed on balance. Labels have all that code did with N, except that of error handlers. *)
+(* The pairs posted and consumed on balance. Labels have all that code did with N, except that of error handlers. *)
 let tuple_changes (before : Configuration.t) (t : Transition.t) =
   let balance posted consumed =
     let posted = List.map show_pair posted and consumed = List.map show_pair consumed in
@@ -152,7 +152,7 @@ let to_allocated json =
   let* changes = members json in
   Results.map_values (nullable text) changes
 
-(* What came to B or N, and what went. *)
+(* The additions to B or N, and the removals. *)
 let of_difference name ~come:(come, xs) ~gone:(gone, ys) : members =
   match unless_empty come texts xs @ unless_empty gone texts ys with
   | [] -> []
@@ -186,7 +186,7 @@ let of_members found =
 
 (* {1 Comparison} *)
 
-(* Which file it is depends on how one came to it: on links, say. *)
+(* The path may lead to different files: through links, say. *)
 let same_place at at' =
   let in_file { line; column; file = _ } = (line, column) in
   Option.map in_file at = Option.map in_file at'

@@ -1,9 +1,9 @@
-(** A transition, as journals have it: what can be told from outside, as plain texts. *)
+(** A transition, as journals have it: its visible parts, as plain texts. *)
 
 open Dolphin_semantics
 module Location = Dolphin_syntax.Location
 
-(** Where the program says something. *)
+(** The place of a message in the program. *)
 type place = {
   file : string option;  (** one that the program includes, seen from the program's folder; [None]: the program *)
   line : int;
@@ -21,7 +21,7 @@ type t = {
   label : string;
   at : place option;  (** of the code that takes it *)
   choice : int;  (** see {!section:choice} *)
-  allocated : (string * string option) list;  (** where A changed: the vehicle's task now, or none *)
+  allocated : (string * string option) list;  (** changes of A: the vehicle's task now, or none *)
   bound : string list;  (** that joined B *)
   released : string list;  (** that left it *)
   posted : string list;  (** pairs ["k:x"] of N that are new, by key and value *)
@@ -42,11 +42,11 @@ val same : places:bool -> t -> t -> bool
     [at] line and column count. *)
 
 val difference : places:bool -> t -> t -> string option
-(** [difference ~places expected found] is in what [found] is not {!same} as [expected], in a sentence without a full
-    stop. *)
+(** [difference ~places expected found] is the difference if [found] is not {!same} as [expected], in a sentence
+    without a full stop. *)
 
 val members : t -> Dolphin_json.Field.members
 (** As journals have it. *)
 
 val of_members : Dolphin_json.Field.members -> (t, string) result
-(** What {!members} writes, or why it is none. *)
+(** Reads the output of {!members}, or gives the reason why it cannot. *)

@@ -71,7 +71,7 @@ let of_cause : Event.t option -> _ = function
   | Some (Recruited { vehicle; _ }) -> [ (Program, "recruits " ^ vehicle) ]
   | Some (Timer _) | None -> []
 
-(* Conditions and timers are seen by what comes of them; where nothing does, they are named. *)
+(* Conditions and timers are seen by their consequences; those without any are named. *)
 let of_label (s : Step.t) =
   let starts prefix =
     let n = String.length prefix in
@@ -144,7 +144,7 @@ let of_entry t (entry : Entry.t) =
 
 let clock_width = 8
 
-(* What stands in the column of [v] beside others' doings: whether it is at work. *)
+(* The column of [v] beside others' steps: whether it is at work. *)
 let print_columns ppf picked rows =
   let cells_of actor row = List.filter_map (fun (who, text) -> if who = actor then Some text else None) row.cells in
   let widest_cell limit actor name =

@@ -10,11 +10,11 @@
 
 val print : Format.formatter -> Entry.t list -> unit
 (** [print ppf entries] prints a whole journal. With more vehicles than fit side by side there is one column for all,
-    and one for who it is. *)
+    and one for the vehicle. *)
 
 val most_columns : int
-(** So many vehicles fit: 8. *)
+(** The number of vehicles that fit: 8. *)
 
 val print_transitions : Format.formatter -> Entry.t -> unit
-(** [print_transitions ppf entry] prints a transition in full, on one line: index, time, place, rules, label; and what
-    is no transition, not at all. *)
+(** [print_transitions ppf entry] prints a transition in full, on one line: index, time, place, rules, label; other
+    entries not at all. *)

@@ -35,7 +35,7 @@ let confirmations (c : Configuration.t) (t : Transition.t) : Transition.event li
   in
   List.filter_map to_question (Transition.awaited c)
 
-(* Events that the transition may be an answer to: those awaited, and those that its label tells of. *)
+(* Events that the transition may be an answer to: the awaited ones, and those in its label. *)
 let candidates program (c : Configuration.t) (t : Transition.t) : Transition.event list =
   let of_awaited : Transition.awaited -> Transition.event option = function
     | End_of v -> Some (Vehicle_done v)
@@ -78,7 +78,7 @@ let step program world c (t : Transition.t) =
         match t.label, List.find_opt event (candidates program c t) with
         | _, Some e -> Event (Event.of_event e)
         | No_answer, None ->
-          (* Nobody answered for another reason: an answer that was refused. *)
+          (* The question stayed unanswered for another reason: an answer that was refused. *)
           let why = match t.next.control with Ended (Failed fault) -> fault.message | _ -> "" in
           let prompt =
             match c.control with Waiting (_, Ask prompt) -> Printf.sprintf "no answer to '%s': " prompt | _ -> ""
@@ -100,7 +100,7 @@ let rec steps program world c = function
 
 type misfit = { number : int; why : string }
 
-(* Why there is no such step: it does not fit, or what sensors show leaves it open. *)
+(* Why there is no such step: it does not fit, or sensors leave it open. *)
 type obstacle = Unfit of string | Unsettled of string
 
 let chosen program world c i =

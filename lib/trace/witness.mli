@@ -12,16 +12,16 @@ type cause =
 
 type step = {
   cause : cause;
-  assumed : World.assumption list;  (** what the step assumes of an open world *)
+  assumed : World.assumption list;  (** the assumptions of the step about an open world *)
   label : string;
 }
 
 type t = {
   program : Header.source;
   fleet : Header.source option;
-  property : string;  (** what the run breaks *)
+  property : string;  (** the violated property *)
   steps : step list;
-  cycle : step list;  (** repeats for ever after the steps; empty if the run ends *)
+  cycle : step list;  (** repeats without end after the steps; empty if the run ends *)
 }
 
 val version : int

@@ -8,7 +8,7 @@ type quantity = {
 
 (* {1 Batteries} *)
 
-(* Times and charges; what a vehicle has not told is not drawn. *)
+(* Times and charges; values that a vehicle has not reported are not drawn. *)
 let charges v = List.filter_map (fun s -> Option.map (fun battery -> (s.time, battery)) s.battery) v.samples
 
 let all known summary = List.concat_map (fun v -> List.map snd (known v)) summary.vehicles

@@ -1,4 +1,4 @@
-(** What vehicles tell of themselves over time, one curve each. *)
+(** The reports of vehicles over time, one curve each. *)
 
 type quantity
 

@@ -14,7 +14,7 @@ let places layer = List.map (fun (_, outline) -> List.concat (rims outline)) lay
 
 (* {1 What is near the map}
 
-   A coast may be that of a continent: what runs outside of the map is drawn by few points. *)
+   A coast may be that of a continent: parts outside of the map are drawn by few points. *)
 
 let margin = 40.
 

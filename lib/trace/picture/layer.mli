@@ -13,8 +13,8 @@ val places : t -> Position.t list list
 val draw :
   project:(Position.t -> float * float) -> thin:((float * float) list -> (float * float) list) ->
   left:float -> right:float -> top:float -> bottom:float -> int -> t -> Svg.t list
-(** [draw ~project ~thin ~left ~right ~top ~bottom i layer] is what of [layer], the [i]th of its picture, is near these
-    bounds; of ways [thin] leaves out what is too fine to be seen. *)
+(** [draw ~project ~thin ~left ~right ~top ~bottom i layer] is the part of [layer], the [i]th of its picture, near
+    these bounds; of ways [thin] leaves out details too fine to be seen. *)
 
 val key : int -> string
 (** The class of the [i]th layer's line in a legend. *)

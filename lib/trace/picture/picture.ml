@@ -54,7 +54,7 @@ let map_width = 500.
 let map_height summary = Float.max 330. (Tracks.height_for (List.length summary.vehicles))
 let gap = 46.  (* between charts one below the other *)
 
-(* The line below the map that says what lines mean. *)
+(* The legend of lines below the map. *)
 let legend_height = 16.
 
 let panels summary ~y =
@@ -101,7 +101,7 @@ let sheet ~alone ~title ~width ~height parts =
 
 let to_file document = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" ^ Svg.to_string document
 
-(* Where the map begins, and what stands above. *)
+(* The beginning of the map, and the part above it. *)
 let timeline summary =
   let top = margin +. 60. in
   let timeline, height = Timeline.draw summary ~x:margin ~y:top ~width:(width -. (2. *. margin)) in

@@ -1,4 +1,4 @@
-(** A run as a picture: who ran what when, where the vehicles went, what became of their batteries. *)
+(** A run as a picture: the tasks of vehicles over time, their ways, their batteries. *)
 
 val svg : Summary.t -> string
 (** A document of its own, without references to anything outside. It follows the viewer's choice of light or dark, and

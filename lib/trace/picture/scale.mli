@@ -1,4 +1,4 @@
-(** Axes: where the round numbers are. *)
+(** Axes: the places of round numbers. *)
 
 val step : most:int -> float -> float
 (** [step ~most span] is the least of 1, 2 and 5 times a power of ten that divides [span] into at most [most] parts. *)

@@ -1,7 +1,7 @@
-(** A run as pictures show it: which vehicle ran which task from when to when, what the program did, where the vehicles
-    were. A summary is made from the lines of a journal. *)
+(** A run as pictures show it: the tasks of each vehicle with their times, the steps of the program, the places of
+    vehicles. A summary is made from the lines of a journal. *)
 
-(** What times are: seconds since the start, or numbers of steps, of a run that has no times. *)
+(** The unit of times: seconds since the start, or numbers of steps, for a run without times. *)
 type clock = Seconds | Steps
 
 type ending =
@@ -16,7 +16,7 @@ type task = {
   from : float;
   until : float;
   ending : ending;
-  way : Entry.way option;  (** [None]: the journal does not say *)
+  way : Entry.way option;  (** [None]: not in the journal *)
 }
 
 type sample = { time : float; position : Dolphin_geo.Position.t; battery : float option }
@@ -32,7 +32,7 @@ type vehicle = {
   samples : sample list;
 }
 
-(** What the program did that a picture shows. *)
+(** The steps of the program that a picture shows. *)
 type activity =
   | Posted of string
   | Consumed of string
@@ -56,7 +56,7 @@ type builder
 (** A summary in the making. It is mutable. *)
 
 val create : ?clock:clock -> ?most_samples:int -> unit -> builder
-(** [create ()] has no lines yet; their times are [Seconds] unless [clock] says otherwise. Memory is bounded: of each
+(** [create ()] has no lines yet; their times are [Seconds] unless [clock] is another. Memory is bounded: of each
     vehicle [most_samples], by default a few thousand, are kept, evenly spread. *)
 
 val add : builder -> Entry.t -> unit
@@ -80,4 +80,4 @@ val is_invented : t -> task -> bool
 (** Whether the vehicle's way is the simulator's invention: it does not know the plan, only its name. *)
 
 val places : vehicle -> (task * Dolphin_geo.Position.t) list
-(** [places v] is where [v] was at the start of each of its tasks. *)
+(** [places v] is the place of [v] at the start of each of its tasks. *)

@@ -48,4 +48,4 @@ val fit : ?size:float -> float -> string -> string
 (** [fit ~size width text] is [text], cut to [width] with an ellipsis if it is wider; [""] if nothing of it fits. *)
 
 val to_string : t -> string
-(** The text of the element and of what is inside. *)
+(** The text of the element and its children. *)

@@ -1,7 +1,7 @@
 open Summary
 
 (* Everything is placed on this. *)
-(* [moment] is how times are told. *)
+(* [moment] is the format of times. *)
 type frame = { left : float; right : float; seconds : float; moment : float -> string }
 
 let at f time = f.left +. ((f.right -. f.left) *. time /. f.seconds)
@@ -57,7 +57,7 @@ let place f activities =
       levels := max !levels (i + 1);
       (x, i, from < x -. 6., activity, text, time)
   in
-  (* Where there are too many for labels, one mark stands for those that it would cover. *)
+  (* If there is no room for all labels, one mark stands for those that it would cover. *)
   let covered = Hashtbl.create 8 in
   let add marks ((x, _, _, activity, text, _) as mark) =
     let kind = sort activity in
@@ -140,7 +140,7 @@ let lane_height = 12.
 let legible_height = 12.
 let size_below = 10.
 
-(* [x] is where the first bar begins, [width] that of the names with ", " between them; the names are reversed. *)
+(* [x] is the beginning of the first bar, [width] that of the names with ", " between them; the names are reversed. *)
 type group = { x : float; width : float; names : string list }
 
 let width_below = Svg.width ~size:size_below
@@ -195,7 +195,7 @@ let draw_row f i v ~y ~row =
     @ List.map silence v.silent @ below @ [ name ] in
   (Style.group i parts, if below = [] then row else row +. lane_height)
 
-(* One below the other from [y] on, and where they end. *)
+(* One below the other from [y] on, and their end. *)
 let draw_rows f vehicles ~y ~row =
   let add (i, y, rows) v =
     let drawn, height = draw_row f i v ~y ~row in

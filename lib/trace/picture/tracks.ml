@@ -160,7 +160,7 @@ let way summary m i v =
   in
   Style.group i (List.map seen (List.concat_map (parts is_invented) runs) @ jumps runs @ starts @ ends)
 
-(* More names than that are not told apart on a map: the timeline has them. *)
+(* Further names are not distinguished on a map: the timeline has them. *)
 let most_names = 60
 
 let line_height = 13.
@@ -241,7 +241,7 @@ let map_of summary ~x ~y ~width ~height =
   let positions = List.concat_map of_vehicle summary.vehicles in
   fit (positions @ in_view positions (around summary)) ~x ~y ~width ~height
 
-(* Where it stays, the first and the last moment are enough. *)
+(* For a vehicle at rest, the first and the last moment are enough. *)
 let over_time m v =
   let point s = (s.time, project m s.position) in
   let far (_, (x, y)) (_, (x', y')) = Float.abs (x -. x') +. Float.abs (y -. y') >= near_enough in

@@ -53,11 +53,15 @@ class Commands:
         return min((now - at for sent, at in self._mode_sent_at.items() if sent != mode), default=math.inf)
 
     def acknowledged(self, now, message):
-        """Whether the command that waits is answered for good."""
-        if message.command == mavlink.MAV_CMD_DO_SET_MODE:
+        """Whether the command that waits is answered for good. An acknowledgement of a mode does not name the mode: it
+        may answer an earlier order, and the one that waits is then still repeated."""
+        if message.result == IN_PROGRESS:
+            return False
+        is_mode = message.command == mavlink.MAV_CMD_DO_SET_MODE
+        if is_mode:
             self._modes_acknowledged += 1
             self.mode_acknowledged_at = now
-        if message.command != self.waiting or message.result == IN_PROGRESS:
+        if message.command != self.waiting or (is_mode and not self.is_last_mode):
             return False
         self._repeated.answered(now)
         return True

@@ -36,7 +36,8 @@ LOST = 10.0  # seconds in which such words come even if the link loses many
 LATE = 5.0  # seconds by which a copy of an order may come late
 SETTLED = 1.0  # seconds after which few copies still come
 GRACE = 5.0  # seconds in which a mode that was accepted shows in heartbeats, and is asked for that is refused for now
-BACK = 5.0  # seconds in which a mode is put back
+BACK = 15.0  # seconds in which a mode is put back, on links that lose many messages too
+REFUSED = 5.0  # seconds for that if its autopilot refuses it
 SILENT = 3  # after so many commands without an answer the autopilot may not know it
 ACCEPTED = mavlink.MAV_RESULT_ACCEPTED
 OVER = ("MISSION_CURRENT", "GLOBAL_POSITION_INT")  # by these shows whether a mission is over
@@ -64,7 +65,7 @@ class Execution:
         self._next_after_note = None
         self._mode_before, self._asked_mode, self._mode_asked = None, None, False
         self._first_mode, self._refusal_of = None, None  # where it was while it was not armed; what was refused
-        self._end_of_back, self._is_back, self._back_at = None, False, 0.0
+        self._end_of_back, self._is_back, self._is_back_refused, self._back_at = None, False, False, 0.0
         self._stage_at = self._asked_at = self._begun = 0.0
         self._beats = 0
         # A mode that was left: when a verdict falls, since when, for which mode, after how many heartbeats.
@@ -298,15 +299,15 @@ class Execution:
             if self.vehicle.armed or self._armed_by_us:
                 return self._run(now)
             return self._arm(now)
-        if self.stage == "stop" and self._commands.is_last_mode:
-            # All that was sent before is acknowledged: this acknowledgement is the hold's. Heartbeats after it tell.
-            self._stop_accepted = now
+        if self.stage == "stop":
+            self._stop_accepted = now  # heartbeats after it decide
         if self.stage == "back":
             self._is_back = True
         return []
 
     def _denied(self, now, result):
         if self.stage in ("stop", "back"):
+            self._is_back_refused = self.stage == "back"
             self._commands.later(now)  # heartbeats decide, and it is repeated
             return []
         if self.stage == "hold" and self.vehicle.idle_mission:
@@ -336,7 +337,8 @@ class Execution:
 
     def _look_back(self, now):
         """Whether the mode is put back, or is another's by now, and the reason has come."""
-        if not self._is_back and now - self._back_at < max(BACK, 3 * self._round_trip.seconds):
+        patience = REFUSED if self._is_back_refused else BACK
+        if not self._is_back and now - self._back_at < max(patience, 3 * self._round_trip.seconds):
             return
         if self._refusal_of is None:
             self._end(*self._end_of_back)

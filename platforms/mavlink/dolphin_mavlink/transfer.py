@@ -22,6 +22,7 @@ _REFUSALS = {
 LONGEST = 10.0  # seconds: round trips that are longer are not told from losses
 ITEM_PATIENCE = 1.5  # seconds: earlier repeats of an item keep a vehicle from asking for it (MAVSDK's timer)
 SILENCE = 5.0  # seconds without a word, on a link that is not slower, after which the vehicle has given a transfer up
+ASKED_AGAIN = 0.5  # seconds: MAVSDK's vehicle gives a download up after 2.5 s without a question
 ERRORS = 5  # so many errors end a transfer that has not got under way: fewer may answer the one before
 COPY = 0.1, 0.9  # seconds, by the round trip, within which a second request for an item is taken for the first one
 
@@ -52,11 +53,12 @@ class RoundTrip:
         """A question had no answer in time: the link has lost it, or is slower than it was."""
         self._backoff = min(1.5 * self._backoff, 40.0)
 
-    def patience(self, most):
-        """After so many seconds without an answer, one asks again: `most`, unless the link is known to be slower."""
+    def patience(self, most, measured=2.0):
+        """Seconds without an answer after which a question is repeated: `most`, on a link that was measured to be fast
+        `measured`, and more if it is known to be slower."""
         known = max(0.25, min(4 * self.seconds, max(2.0, 1.5 * self.seconds)))
         if self._is_measured:
-            most = min(most, max(2.0, 3 * self.seconds))
+            most = min(most, max(measured, 3 * self.seconds))
         return min(known * self._backoff, max(known, most))
 
     @property
@@ -70,10 +72,11 @@ class RoundTrip:
 
 
 class Repeated:
-    """A message that is sent until it is answered, at the latest every `most` seconds if the link is not slower."""
+    """A message that is sent until it is answered, at the latest every `most` seconds if the link is not slower, and
+    every `measured` seconds if it was measured to be fast."""
 
-    def __init__(self, round_trip, most=8.0):
-        self._round_trip, self._most = round_trip, most
+    def __init__(self, round_trip, most=8.0, measured=2.0):
+        self._round_trip, self._most, self._measured = round_trip, most, measured
         self.messages, self.sent_at, self.times = [], 0.0, 0
         self._due, self._least = 0.0, 0.0
 
@@ -84,7 +87,7 @@ class Repeated:
         return self.messages
 
     def _sent(self, now):
-        self.sent_at, self._due = now, now + max(self._least, self._round_trip.patience(self._most))
+        self.sent_at, self._due = now, now + max(self._least, self._round_trip.patience(self._most, self._measured))
 
     def answered(self, now):
         if self.times == 1:
@@ -203,7 +206,7 @@ class Download:
 
     def __init__(self, target, round_trip, window=1, most=65535):
         self._target, self._window, self._most = target, window, most
-        self._repeated = Repeated(round_trip)
+        self._repeated = Repeated(round_trip, measured=ASKED_AGAIN)
         self._count, self._got, self._asked = None, {}, 0
         self._round_trip, self._errors, self._heard_at = round_trip, 0, 0.0
         self._asked_at = {}  # when each item was asked for that was asked for once
@@ -225,6 +228,9 @@ class Download:
                 # It is not what was sent, whatever it holds.
                 return self._end([None] * message.count)
             return self._next(now)
+        if kind == "MISSION_COUNT" and not self._got and now - self._repeated.sent_at >= COPY[0]:
+            self._heard_at = now
+            return self._repeated.again(now)  # the vehicle repeats it: our question was lost
         if kind in ("MISSION_ITEM_INT", "MISSION_ITEM") and self._count is not None:
             if message.seq < self._count and message.seq not in self._got:
                 self._heard_at = now

@@ -15,7 +15,7 @@ class Network:
         self.now, self.reports, self.reported_at = 0.0, [], []
         self.sent, self.sent_messages = 0, []  # of the station
         self.down = False  # whether the links are dead
-        self.loses = lambda message: False  # which messages of vehicles are lost
+        self.loses = lambda message: False  # which messages are lost
         self.vehicles = {v.system: v for v in vehicles}
         self._wires = {v.system: Wire(v.system, v.component, key) for v in vehicles}
         self._queue, self._number = [], 0
@@ -132,4 +132,6 @@ class Network:
                     self.sent_messages.append(message)
                     vehicle = self.vehicles[address[1]]
                     data = self._wire.encode(message, version)
+                    if self.loses(message):
+                        continue
                     self._transmit(data, lambda data, v=vehicle: self._to_vehicle(v, data))

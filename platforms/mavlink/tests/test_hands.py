@@ -210,6 +210,23 @@ class Copies(Case):
                     wires.repeat(modes_sent(wires)[0])
                     self.assertIn(LATE_COPY, wires.run_to_end("r", 60)["why"])
 
+    def test_an_acknowledgement_of_an_earlier_order_ends_no_stop(self):
+        """The order to hold is lost, and the acknowledgement of the second order to begin is late."""
+        for kind, px4 in (("copter", False), ("copter", True), ("rover", False), ("plane", False)):
+            for seconds in (0.5, 2.0, 5.0):
+                with self.subTest(kind=kind, px4=px4, seconds=seconds):
+                    vehicle, wires = flown(kind, px4)
+                    mission = vehicle.modes.mission
+                    wires.loses = lambda m: m.get_type() == "COMMAND_ACK" and vehicle.mode == mission
+                    self.assertTrue(wires.run(60, lambda: wires.said("taken")))
+                    until = wires.now + seconds
+                    wires.loses = lambda m: m.get_type() == "COMMAND_LONG" and wires.now < until
+                    wires.stop("r")
+                    ack = mavlink.MAVLink_command_ack_message(SET_MODE, 0, 0, 0, 255, 190)
+                    wires.say(vehicle, [ack])
+                    self.ends(wires, "r", "stopped", seconds=30)
+                    self.assertEqual(vehicle.mode, vehicle.modes.hold)
+
     def test_a_link_that_doubles_and_reorders(self):
         """By up to 0.3 s, and loses nothing: no mission is begun before a late copy has arrived."""
         for kind, px4 in (("copter", False), ("copter", True), ("rover", False)):

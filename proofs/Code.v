@@ -82,6 +82,7 @@ Class Code {L : Names} := {
 
   fit : filter -> world -> list vehicle -> list vehicle;
   fit_law : forall q w B v, In v (fit q w B) -> ~ In v B;
+  fit_once_law : forall q w B, NoDup (fit q w B);
 
   (** The best choice of vehicles of B for a task, or why there is none. More vehicles never hurt. *)
   assign : world -> list vehicle -> option (list vehicle) -> task -> (nat -> vehicle) + message;

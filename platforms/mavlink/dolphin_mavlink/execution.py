@@ -421,6 +421,8 @@ class Execution:
             return []  # it has not heard us yet: it is repeated
         if not v.armed:
             return self._finish_stop()
+        if self._commands.since_mode(now, v.modes.mission) < SETTLED and v.is_confused(now):
+            return []  # a late copy of the order to begin may still arrive
         if v.mode == self.stop_mode:
             # Was it in this mode when the mission was to begin, that order may still be on its way.
             if self._stop_accepted is not None or self._mode_at_stop != self.stop_mode:

@@ -37,7 +37,7 @@ So do SIGQUIT, SIGUSR1, SIGUSR2, signals of timers and limits, and real-time sig
 once: only requests to end can end it at once.
 
   $ for number in 3 10 12 14 16 24 25 27 29 30 34 50 64; do
-  >   dolphin exec long.dol --speed 1 > again.txt & run=$!
+  >   rm -f again.txt; dolphin exec long.dol --speed 1 > again.txt & run=$!
   >   signal $number 'starts right' again.txt || echo "$number: $?, $(tail -1 again.txt | cut -c 10-)"
   > done
   3: 130, program     is interrupted
@@ -54,7 +54,7 @@ once: only requests to end can end it at once.
   50: 130, program     is interrupted
   64: 130, program     is interrupted
   $ sed 's/^vs/onInterrupt task("left")\nvs/' long.dol > home.dol; cp long.fleet home.fleet
-  $ dolphin exec home.dol --speed 1 > again.txt & run=$!
+  $ rm -f again.txt; dolphin exec home.dol --speed 1 > again.txt & run=$!
   $ until grep -qs 'starts right' again.txt; do sleep 0.05; done; kill -ALRM $run
   $ until grep -qs 'onInterrupt' again.txt; do sleep 0.05; done; kill -ALRM $run; kill -XCPU $run; sleep 0.2
   $ signal INT 'executes onInterrupt' again.txt
@@ -81,7 +81,7 @@ A script that loops without any effect can be interrupted, so can one that waits
      0:00  program     is interrupted
   $ echo "x = ask 'Well?'" > ask.dol
   $ mkfifo silence; exec 3<> silence
-  $ dolphin exec ask.dol <&3 > log.txt & run=$!
+  $ rm -f log.txt; dolphin exec ask.dol <&3 > log.txt & run=$!
   $ signal INT asks log.txt
   [130]
   $ cat log.txt
@@ -115,7 +115,7 @@ waiting.
   > sleep 30
   > EOF
   $ echo 'supplier = getSupplier()' > supplier.dol
-  $ dolphin exec supplier.dol --supplier 'sh stubborn.sh' > log.txt & run=$!
+  $ rm -f log.txt; dolphin exec supplier.dol --supplier 'sh stubborn.sh' > log.txt & run=$!
   $ until [ -e trapped ]; do sleep 0.05; done; kill -INT $run; signal INT 'is interrupted' log.txt
   [130]
 

@@ -80,6 +80,7 @@ A definition that is none, one that contradicts itself, and one of another proto
 
 One that has vanished, and one that returns.
 
+  $ rm -f vehicles.txt
   $ dolphin sim pair.fleet --imc --announce 0.3 --contact 0.2 --discovery-ports 22320-22324 --port 22330 --for 90 \
   >   --vanish x8-02=0 --vanish noptilus-1=0,1 > vehicles.txt & vehicles=$!
   $ until [ -s vehicles.txt ]; do sleep 0.05; done

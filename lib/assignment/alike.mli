@@ -1,5 +1,5 @@
-(** Problems whose leaves are all alike, as tasks by name for any vehicle are: in time and memory by the leaves and the
-    candidates, where others need a matrix of both. *)
+(** Problems whose leaves are all alike, as tasks by name for any vehicle are: in time and memory by the leaves and
+    the candidates, while other solvers need a matrix of both. *)
 
 val solve : restricted:(int array -> Cotree.t) -> Part.candidates array -> int array -> int array option
 (** [solve ~restricted candidates leaves] is the vehicle of each of [leaves], as {!Part.make} takes them, in the best

@@ -18,15 +18,15 @@
     without a [Disjoint] inside, whose branches can, all at once, be served by one vehicle each. The number of vehicles
     is then that of the branches, the rest is assignment of least cost, and pick order is decided on the dual solution.
     A problem also falls apart, exactly, where candidates do not overlap: parts that want boats and parts that want
-    aircraft are solved each for itself; where all leaves of such a tree are alike, the cheapest vehicles do; and leaves
+    aircraft are solved separately; if all leaves of such a tree are alike, the cheapest vehicles suffice; and leaves
     that may share and have the same candidates at the same costs are one.
 
-    What remains goes through branch and bound, with assignment problems on the cliques of the tree as bounds; where
-    branches that exclude each other need several vehicles each, over the ways to split them up. Whether
-    an allocation exists is searched to the end, however long. To better one that was found is limited to {!effort}
-    steps; beyond, the best so far is given, and {!type-solution.proven} says so. *)
+    The rest goes through branch and bound, with assignment problems on the cliques of the tree as bounds; if
+    branches that exclude each other need several vehicles each, over the ways to split them up. Whether an
+    allocation exists is searched to the end, however long. Improvements of a found allocation are limited to
+    {!effort} steps; beyond, the best so far is given, and {!type-solution.proven} reports it. *)
 
-(** The shape of a task. Nodes without children are served by nobody. *)
+(** The shape of a task. Nodes without children need no vehicle. *)
 type 'a tree =
   | Leaf of 'a
   | Disjoint of 'a tree list  (** branches of [|]: no vehicle in two branches *)
@@ -34,9 +34,9 @@ type 'a tree =
 
 type leaf = {
   candidates : (int * float) array;
-  (** The vehicles that may do it, in any order, each by its place in pick order from 0, with what it costs:
-      metres, not negative; more than 10⁹ counts as 10⁹, an infinite distance included. Of a vehicle that is
-      listed twice the lower cost counts. *)
+  (** The vehicles that may do it, in any order, each by its place in pick order from 0, with its cost: metres, not
+      negative; more than 10⁹ counts as 10⁹, an infinite distance included. Of a vehicle that is listed twice the
+      lower cost counts. *)
 }
 
 (** Why there is no allocation. Leaves are numbered from 0, left to right. *)
@@ -59,9 +59,9 @@ val solve : vehicles:int -> leaf tree -> (int array, failure) result
 (** [solve ~vehicles tree] is [(solve_within ~effort ~vehicles tree).vehicles]. *)
 
 val solve_within : effort:int -> vehicles:int -> leaf tree -> (solution, failure) result
-(** [solve_within ~effort ~vehicles tree] is the best allocation of [vehicles] vehicles to the leaves of [tree], or
-    the best that [effort] steps have found, or why there is none. It depends on its arguments only: steps are counted,
-    time is not. Trees may be deep: the stack does not grow with the nesting.
+(** [solve_within ~effort ~vehicles tree] is the best allocation of [vehicles] vehicles to the leaves of [tree], or the
+    best that [effort] steps have found, or the reason why there is none. It depends on its arguments only: steps are
+    counted, time is not. Trees may be deep: the stack does not grow with the nesting.
 
     @raise Invalid_argument if a candidate is not from 0 to [vehicles - 1], or a cost is negative or not a number. *)
 

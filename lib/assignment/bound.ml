@@ -12,7 +12,7 @@ let match_clique search clique weight =
 
 let nothing_matched search = Array.make search.rows (-1)
 
-(* What is still available in the matching of a larger problem is still of least cost, hence only cliques that lost a
+(* The still available part of the matching of a larger problem has least cost too, hence only cliques that lost a
    pair are solved again. *)
 let relax search weights matched =
   let is_intact = Array.for_all (fun row -> matched.(row) >= 0 && is_available search row matched.(row)) in

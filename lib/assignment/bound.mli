@@ -1,5 +1,5 @@
-(** What no completion of a search can better: bounds from below on its weight and on its vehicles. Each adds its steps
-    to those of the search. *)
+(** Bounds that no completion of a search can better: lower bounds on its weight and on its vehicles. Each adds its
+    steps to those of the search. *)
 
 val match_clique : Search.t -> int array -> (int -> int -> int) -> (int array, int list) result
 (** [match_clique search clique weight] is the columns of the rows of [clique], by their place in it, all different and
@@ -9,11 +9,11 @@ val nothing_matched : Search.t -> int array
 (** For {!relax}: no row has a column. *)
 
 val relax : Search.t -> int array -> int array -> (unit, int list) result
-(** [relax search weights matched] changes [matched] to the columns with which the cliques cost least, each for itself,
-    from what is available. Rows in different cliques may still exclude each other, so that the cost is a bound only.
-    [matched] was so changed with the same weights and fewer rows assigned, or is {!nothing_matched}. The error is
-    rows with too few vehicles. *)
+(** [relax search weights matched] changes [matched] to the columns with which the cliques cost least, each for
+    itself, among the available ones. Rows in different cliques may still exclude each other, so that the cost is a
+    bound only. [matched] was so changed with the same weights and fewer rows assigned, or is {!nothing_matched}. The
+    error is rows with too few vehicles. *)
 
 val least_vehicles : Search.t -> int array -> int
-(** [least_vehicles search sizes] is a number of columns: no completion of what is assigned has fewer in use. [sizes]
-    are {!Search.domain_sizes}, and {!relax} has found no error. *)
+(** [least_vehicles search sizes] is a number of columns: every completion of the present assignment has at least as
+    many in use. [sizes] are {!Search.domain_sizes}, and {!relax} has found no error. *)

@@ -168,7 +168,7 @@ let solve ~restricted ~spent ~budget candidates part =
   let search = Search.make ~spent part in
   let weights = Heuristic.sharing_weights search in
   match any_allocation search weights ~ceiling:max_int with
-  | Undecided -> assert false (* there is no ceiling *)
+  | Undecided -> assert false (* without a ceiling *)
   | Impossible (Some leaves) -> Error leaves
   | Impossible None -> Error (smaller_conflict ~restricted ~spent ~budget candidates part)
   | Found allocation ->

@@ -8,7 +8,7 @@ val solve :
   Part.candidates array ->
   Part.t ->
   (int array * bool, int list) result
-(** [solve ~restricted ~spent ~budget candidates part] is an allocation of [part], the column of each row, and whether
-    it is proven to be the best; or leaves that cannot all be served. To find an allocation, or that there is none,
-    takes as many steps as it takes; to better it, or to find fewer leaves to blame, about [budget]. [restricted] and
-    [candidates] are those that [part] was made from, by {!Part.make}. Adds its steps to [spent]. *)
+(** [solve ~restricted ~spent ~budget candidates part] is an allocation of [part], the column of each row, and
+    whether it is proven to be the best; or leaves that cannot all be served. Finding an allocation, or that none
+    exists, is unlimited; improving it, or finding fewer leaves to blame, takes about [budget] steps. [restricted]
+    and [candidates] are those that [part] was made from, by {!Part.make}. Adds its steps to [spent]. *)

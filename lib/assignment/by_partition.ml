@@ -10,7 +10,7 @@ let rec partitions = function
     in
     List.concat_map (fun blocks -> ([ row ] :: blocks) :: join [] blocks) (partitions rows)
 
-(* A set of rows that share a vehicle, and what it costs by column. *)
+(* A set of rows that share a vehicle, and its cost by column. *)
 type block = { members : int list; costs : int array }
 
 (* A branch: its partitions into blocks, the fewest blocks first; how many these are; and costs by column that bound

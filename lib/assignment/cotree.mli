@@ -26,7 +26,7 @@ val restriction : t -> int array -> t
     the array of them, which is ascending. In it every inner node has two children at least, of another kind. The
     function takes time by the leaves given to it and the nodes above them, not by all of [cotree]. *)
 
-(** {1:walk What it says of leaves} *)
+(** {1:walk Properties of leaves} *)
 
 val bottom_up : t -> leaf:(int -> 'a) -> inner:(int -> kind -> 'a list -> 'a) -> 'a array
 (** [bottom_up cotree ~leaf ~inner] is, by node, [leaf row] for leaf [row], and [inner node kind results] for others,

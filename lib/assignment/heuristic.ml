@@ -33,7 +33,7 @@ let greedy search weights =
   release search;
   if is_served then Some allocation else None
 
-(* Cliques are served anew with the vehicles in use, then vehicles change places with others, until nothing gets
+(* Cliques are served again with the vehicles in use, then vehicles change places with others, until nothing gets
    better. *)
 let polish search allocation =
   let cost = search.part.cost in
@@ -47,7 +47,7 @@ let polish search allocation =
     in
     match Bound.match_clique search clique weight with
     | Ok columns -> Array.iteri (fun place column -> assign search clique.(place) column) columns
-    | Error _ -> assert false (* what was there is one way *)
+    | Error _ -> assert false (* the old assignment is one way *)
   in
   let replace column =
     let rows = List.filter (fun row -> search.assigned.(row) = column) (List.init search.rows Fun.id) in

@@ -14,7 +14,7 @@ type square = { rows : int; columns : int; cost : int array; nothing : int array
 
 let square ~rows ~columns cost = { rows; columns; cost; nothing = Array.make columns 0 }
 
-(* The array that has a row of the matrix, and where the row begins in it. *)
+(* The array that has a row of the matrix, and the beginning of the row in it. *)
 let row_in m row = if row < m.rows then (m.cost, row * m.columns) else (m.nothing, 0)
 
 (* Each row that has one takes a free column among its cheapest: so dear searches start from few rows only. *)
@@ -41,9 +41,9 @@ let take_cheapest m ~rows dual column_of row_of =
 
 (* {1 Duals to start from}
 
-   An auction with steps that become smaller, after Bertsekas (1988): a row bids for its cheapest column as much as it
-   would cost to take the second cheapest, and a step more. The duals are those of a matching that is at most a step
-   for each row dearer than the best; what is missing to the best, the searches below find. *)
+   An auction with steps that become smaller, after Bertsekas (1988): a row bids for its cheapest column as much as
+   it would cost to take the second cheapest, and a step more. The duals are those of a matching that is at most a
+   step for each row dearer than the best; the searches below close the gap to the best. *)
 
 (* One round with this [step], of [most] bids: whether every row has a column. *)
 let auction ~spent ~most m dual step =
@@ -254,7 +254,7 @@ let in_pick_order ~rows ~columns cost { column_of; row_of; dual } =
       Queue.add next queue
     end
   in
-  (* Who can take the column [wanted], among those that can be reached by giving up columns; breadth first. *)
+  (* The rows that can take the column [wanted], among those that can be reached by giving up columns; breadth first. *)
   let rec last_taker row wanted =
     match Queue.take_opt queue with
     | None -> None

@@ -3,12 +3,12 @@
     A matrix is a flat array, row by row. Costs are whole numbers, not negative, or {!forbidden}. *)
 
 val forbidden : int
-(** The cost of what is not allowed. Sums of allowed costs stay far below. *)
+(** The cost of forbidden pairs. Sums of allowed costs stay far below. *)
 
 val add : int -> int -> int
 (** [add a b] is [a + b], or {!forbidden} if either is. *)
 
-(** A matching of all rows, with what proves that it costs least. *)
+(** A matching of all rows, with a proof that it costs least. *)
 type t = private {
   column_of : int array;  (** by row *)
   row_of : int array;  (** by column, -1 for none *)

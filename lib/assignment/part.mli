@@ -1,11 +1,11 @@
-(** A problem cut down to what has to be decided together: leaves whose candidates overlap, each group of leaves that
-    are one as a row, each vehicle that any of them may take as a column.
+(** A problem cut down to the parts that have to be decided together: leaves whose candidates overlap, each group of
+    leaves that are one as a row, each vehicle that any of them may take as a column.
 
     Rows and columns keep the order of leaves and vehicles, so that what comes first by number also comes first in pick
     order. Costs are whole millimetres. *)
 
 type candidates = (int * int) array
-(** The vehicles that may serve a leaf, ascending, each once, and what each costs. *)
+(** The vehicles that may serve a leaf, ascending, each once, and their costs. *)
 
 type t = private {
   cotree : Cotree.t;  (** of the rows *)
@@ -15,7 +15,7 @@ type t = private {
   cost : int array;  (** by row and column, of the whole group; or {!Matching.forbidden} *)
 }
 
-(** What is known of a part. *)
+(** The knowledge about a part. *)
 type outcome =
   | Found of int array  (** an allocation: the column of each row *)
   | Impossible of int list option  (** leaves that cannot all be served, if any are known to be the cause *)
@@ -31,6 +31,6 @@ val components : vehicles:int -> candidates array -> int array list
     ascend in each part, and parts by their first leaf. Every leaf has a candidate. *)
 
 val make : restricted:(int array -> Cotree.t) -> candidates array -> int array -> t
-(** [make ~restricted candidates leaves] is the problem of [leaves] alone, ascending, where [candidates] are by leaf of
-    the whole problem, and [restricted] is the {!Cotree.restriction} of it. Leaves are one if they may share and have
-    the same candidates at the same costs. *)
+(** [make ~restricted candidates leaves] is the problem of [leaves] alone, ascending, where [candidates] are by leaf
+    of the whole problem, and [restricted] is the {!Cotree.restriction} of it. Leaves are one if they may share and
+    have the same candidates at the same costs. *)

@@ -1,6 +1,5 @@
-(** The state of a search through the allocations of a part: which rows have which columns so far, and what that leaves
-    to the others. Mutable: {!assign} and {!unassign} change it and change it back. A column is in use if a row has
-    it. *)
+(** The state of a search through the allocations of a part: the columns of the rows so far, and the columns left to
+    the others. Mutable: {!assign} and {!unassign} change it and change it back. A column is in use if a row has it. *)
 
 type t = {
   part : Part.t;

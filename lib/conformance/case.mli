@@ -1,11 +1,11 @@
-(** Cases of the corpus: a program in its world, and what must be so. [conformance/INTERPRETING.md] describes the file
-    member by member. *)
+(** Cases of the corpus: a program in its world, and the expected results. [conformance/INTERPRETING.md] describes
+    the file member by member. *)
 
-(** What is known of a step that a trace has. What is [None] is not compared. *)
+(** A step of a trace, as far as it is known. [None] is not compared. *)
 type seen = {
   label : string;
   event : Yojson.Safe.t option;  (** that causes it; [None]: it happens by itself *)
-  world : Yojson.Safe.t option;  (** what is known of vehicles from this step on *)
+  world : Yojson.Safe.t option;  (** the known state of vehicles from this step on *)
   now : int option;  (** the date from this step on *)
   rule : string list option;
   effects : Yojson.Safe.t list option;
@@ -32,12 +32,12 @@ type expectation =
   | Times of Timed_data.times
   | Dated of { run : (int * Yojson.Safe.t) list; findings : Timed_data.finding list }
 
-(** What may happen around a program all of whose runs are explored. *)
+(** The environment of a program all of whose runs are explored. *)
 type environment = {
   fails : string list;  (** plans that always fail *)
   may_fail : string list;
-  answers : (string * string list) list;  (** what may be answered, by prompt; nobody answers others *)
-  replies : Yojson.Safe.t list;  (** what the host may reply; none: it fails *)
+  answers : (string * string list) list;  (** the possible answers, by prompt; other prompts stay unanswered *)
+  replies : Yojson.Safe.t list;  (** the possible replies of the host; without any, it fails *)
   interruption : bool;
   faults : string;  (** as in [dolphin time --faults], for times *)
 }
@@ -50,7 +50,7 @@ type t = {
   fleet : string;
   environment : environment;
   expectations : expectation list;
-  fails : string list;  (** what a right runner finds wrong; [[]] for what is right *)
+  fails : string list;  (** the faults that a right runner finds; [[]] for a right case *)
 }
 
 val kind : expectation -> string

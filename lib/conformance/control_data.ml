@@ -142,7 +142,7 @@ let iteration json =
   | Some (iteration, _) -> iteration
   | None -> wrong "a way to go through items" json
 
-(* What is done with arguments is what the expression at that site does. *)
+(* The expression at that site determines the use of its arguments. *)
 let arguments nodes at evaluated remaining : Machine.frame =
   match expression nodes at with
   | { node = Apply (operation, _); site; _ } ->

@@ -7,7 +7,7 @@ type budget = { mutable parts : int; mutable depth : int }
 
 let most_parts = 500_000
 
-(* Some parts are lists in lists: half of what [Oracle] reads. *)
+(* Some parts are lists in lists: half of the size that [Oracle] reads. *)
 let deepest = 5_000
 
 let budget () = { parts = most_parts; depth = deepest }

@@ -1,19 +1,19 @@
-(** What the writers and readers of configurations share. Readers raise {!Wrong}, which [Snapshot] catches; what others
-    call gives results. *)
+(** The common part of the writers and readers of configurations. Readers raise {!Wrong}, which [Snapshot] catches;
+    public functions give results. *)
 
 type json = Yojson.Safe.t
 
 exception Wrong of string
-(** What is wrong, in a sentence without a full stop. *)
+(** The fault, in a sentence without a full stop. *)
 
 exception Too_large
-(** What is to be written has more parts than fit a line. *)
+(** The value has more parts than fit a line. *)
 
 type budget
 (** How much may still be written. A task that shares its parts with itself may be small in memory and huge as text. *)
 
 val budget : unit -> budget
-(** What one line may hold. *)
+(** The limit of one line. *)
 
 val part : budget -> (unit -> json) -> json
 (** [part budget write] is [write ()], one part of the whole, with its own parts inside.
@@ -41,9 +41,9 @@ val of_list : ('a -> json) -> 'a list -> json
 val of_pair : ('a -> json) -> ('b -> json) -> 'a * 'b -> json
 val of_option : ('a -> json) -> 'a option -> json
 val option : (json -> 'a) -> json -> 'a option
-(** [null] is [None]: not for what may be [null] itself. *)
+(** [null] is [None]: not for values that may be [null] themselves. *)
 
 val of_float : float -> json
-(** With all of its digits; what JSON lacks is ["nan"], ["inf"] or ["-inf"]. *)
+(** With all of its digits; a number that JSON lacks is ["nan"], ["inf"] or ["-inf"]. *)
 
 val float : json -> float

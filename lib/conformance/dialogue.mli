@@ -6,9 +6,9 @@ exception Trouble of string
 (** The implementation does not answer, or its answer is not that of the protocol; why, without a full stop. *)
 
 type ask = json -> (json, string) result
-(** [ask request] is the reply, or why there is none. *)
+(** [ask request] is the reply, or the reason why there is none. *)
 
-(** Where a run is. *)
+(** The present place of a run. *)
 type place = { configuration : json; world : json; now : int  (** the date, in seconds *) }
 
 type transition = {
@@ -31,19 +31,21 @@ type steps = {
     All of these raise {!Trouble}. *)
 
 val hello : ask -> string
-(** What the implementation calls itself. *)
+(** The name that the implementation gives itself. *)
 
 val initial : ask -> program:string -> fleet:string -> (place, (string * int option) list) result
-(** Where runs begin; or the codes and lines of what is wrong. *)
+(** The places where runs begin; or the codes and lines of the errors. *)
 
 val steps : ask -> place -> json list option -> steps
-(** [steps ask place events] is what may happen on [events]; without them, on all awaited ends of tasks and timers. *)
+(** [steps ask place events] is the possible steps on [events]; without them, on all awaited ends of tasks and
+    timers. *)
 
 val times : ask -> faults:string -> Timed_data.times
 (** [times ask ~faults] is the dates of all runs of the program that {!initial} gave, with these faults; [""]: none. *)
 
 val dated : ask -> faults:string -> (int * json) list -> Timed_data.finding list
-(** [dated ask ~faults run] is what was over too early or too late in the run with these events and their dates. *)
+(** [dated ask ~faults run] is the events that were too early or too late in the run with these events and their
+    dates. *)
 
 (** {1:configurations What a configuration shows} *)
 

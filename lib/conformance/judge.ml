@@ -98,7 +98,7 @@ let judge ask (case : Case.t) =
     List.fold_left look ([], Rules.empty) case.expectations
   with
   | failures, rules ->
-    (* What was not reached because something else is wrong need not be told as well. *)
+    (* Parts that were not reached because of another fault need not be reported as well. *)
     let covers = if failures = [] then covers case rules else [] in
     { failures = failures @ covers; rules = Rules.elements rules }
   | exception Dialogue.Trouble why -> { failures = [ { kind = "implementation"; why } ]; rules = [] }

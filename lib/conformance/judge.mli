@@ -1,6 +1,6 @@
 (** Judging an implementation by a case of the corpus. *)
 
-(** What is not as expected. *)
+(** A deviation from the expectation. *)
 type failure = {
   kind : string;  (** the expectation: ["trace"]; or ["covers"]; or ["implementation"], which did not answer *)
   why : string;  (** one sentence without a full stop *)

@@ -1,6 +1,6 @@
 module Canonical = Dolphin_json.Canonical
 
-(* What they say in parentheses is for people: each implementation has its own words. *)
+(* The text in their parentheses is for people: each implementation has its own words. *)
 let worded = [ "broken"; "fault"; "cannot-execute"; "no-vehicles"; "pick" ]
 
 let label expected seen =

@@ -5,5 +5,5 @@ val label : string -> string -> bool
     out. *)
 
 val difference : Case.seen -> Dialogue.transition -> string option
-(** [difference expected t] is how [t] differs from what is expected, in a sentence without a full stop; [None] if it
-    matches. *)
+(** [difference expected t] is the difference of [t] from the expectation, in a sentence without a full stop; [None]
+    if it matches. *)

@@ -49,7 +49,7 @@ let error make result = Result.map_error make result
 
 (* {1 Programs} *)
 
-(* What is wrong with a fleet is no matter of conformance in detail. *)
+(* The faults of a fleet are not part of conformance in detail. *)
 let of_diagnostic ~part (d : Diagnostic.t) : json =
   let code = if part = "fleet" then part else Diagnostic.code_name d.code in
   let place =
@@ -103,7 +103,7 @@ let initial o found =
 
 (* {1 Steps} *)
 
-(* A pick may be met in more ways than anybody wants to read. *)
+(* A pick may be met in too many ways to read. *)
 let most_transitions = 10_000
 
 let rec bounded n (xs : 'a Seq.t) =
@@ -118,7 +118,7 @@ let of_transition g c event (t : Transition.t) =
   let event = match event with None -> [] | Some h -> [ ("event", `Assoc (Event.members h)) ] in
   Ok (`Assoc (event @ step @ [ ("next", next) ]))
 
-(* What is awaited, less what an event of the kind has to say. *)
+(* The awaited events, without the members that only an event of the kind has. *)
 let patterns (c : Configuration.t) (awaited : Transition.awaited) : members list =
   let named name rest = ("event", `String name) :: rest in
   match awaited, c.control with
@@ -156,7 +156,7 @@ let of_awaited (g : given) c events recruits : json =
   let all = if has_ended c then all else all @ [ [ ("event", `String "interruption") ] ] in
   `List (List.map (fun members -> `Assoc members) all)
 
-(* Those that are what they are, and so need nobody to say more. *)
+(* Requests without further members. *)
 let plain events : Event.t list =
   let of_awaited : Transition.awaited -> Event.t option = function
     | End_of v -> Some (Done v)

@@ -1,11 +1,11 @@
-(** The oracle answers questions about what a configuration can do, one at a time, in JSON. It remembers only the latest
-    program: an answer depends on that program and on the question alone.
-    [conformance/INTERPRETING.md] describes the protocol member by member. *)
+(** The oracle answers questions about the transitions of a configuration, one at a time, in JSON. It remembers only
+    the latest program: an answer depends on that program and on the question alone. [conformance/INTERPRETING.md]
+    describes the protocol member by member. *)
 
 type t
 
 val start : name:string -> t
-(** [start ~name] knows no program yet. [name] is what it says it is. *)
+(** [start ~name] knows no program yet. [name] is its name for itself. *)
 
 val version : int
 (** Of the protocol. *)

@@ -7,7 +7,7 @@ exception Too_large
 
 type 'a t = {
   write : 'a -> string;  (** @raise Too_large *)
-  read : string -> ('a, string) result;  (** the error says what is wrong, in a sentence without a full stop *)
+  read : string -> ('a, string) result;  (** the error is a sentence without a full stop *)
 }
 
 val machine : Nodes.t -> Machine.t t
@@ -15,4 +15,4 @@ val residual : Nodes.t -> Residual.t t
 val shared : Nodes.t -> Core.program -> Shared.t t
 
 val configuration : Nodes.t -> Core.program -> Configuration.t t
-(** Of an end by an error, what kind of error it was is left out, as {!Configuration.compare_ending} does. *)
+(** For an end by an error, the kind of error is left out, as in {!Configuration.compare_ending}. *)

@@ -11,7 +11,7 @@ let position : json -> Position.t = function
       | Error _ -> wrong "a position" json)
   | json -> wrong "a position" json
 
-(* Names of what has no parts, in both directions. *)
+(* Names of constructors without parts, in both directions. *)
 let speed_units = [ (Plan.Metres_per_second, "m/s"); (Revolutions_per_minute, "rpm"); (Percent, "percent") ]
 let z_units = [ (Plan.Depth, "depth"); (Altitude, "altitude"); (Height, "height"); (Unspecified, "unspecified") ]
 

@@ -1,15 +1,15 @@
 (** Inline plans, written down whole. *)
 
 val of_inline : Dolphin_semantics.Inline_plan.t -> Data.json
-(** Of a plan of maneuvers: its name, what it says of itself, and its maneuvers in order. Of a mission, in an object:
-    its name, its vehicles and its items in order. *)
+(** Of a plan of maneuvers: its name, its description, and its maneuvers in order. Of a mission, in an object: its
+    name, its vehicles and its items in order. *)
 
 val inline : Data.json -> Dolphin_semantics.Inline_plan.t
-(** @raise Data.Wrong if it is none. *)
+(** @raise Data.Wrong if it is not one. *)
 
 val position : Data.json -> Dolphin_geo.Position.t
 (** A list of latitude, longitude (degrees) and height (metres).
-    @raise Data.Wrong if it is none. *)
+    @raise Data.Wrong if it is not one. *)
 
 val of_position : Dolphin_geo.Position.t -> Data.json
-(** What {!position} reads. *)
+(** Reads the output of {!position}. *)

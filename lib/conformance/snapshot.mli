@@ -8,8 +8,8 @@ val to_json : Core.program -> Configuration.t -> (Yojson.Safe.t, string) result
     large to be written, as a task is that a loop doubles again and again. *)
 
 val of_json : Nodes.t -> Core.program -> Yojson.Safe.t -> (Configuration.t, string) result
-(** [of_json nodes p json] is the configuration of [p] that [json] is: only its [state] is read. The error says
-    what is wrong, in a sentence without a full stop. *)
+(** [of_json nodes p json] is the configuration of [p] that [json] is: only its [state] is read. The error is a
+    sentence without a full stop. *)
 
 (** {1:data As data alone} *)
 

@@ -1,4 +1,4 @@
-(** What the oracle says of times: [dolphin time] and [trace check --timed], of a program and a fleet. *)
+(** The oracle's answers about times: [dolphin time] and [trace check --timed], of a program and a fleet. *)
 
 open Dolphin_semantics
 
@@ -10,5 +10,5 @@ val times : faults:Dolphin_environment.Faults.t -> given -> (Timed_data.times, s
 val dated :
   faults:Dolphin_environment.Faults.t -> given -> (int * Dolphin_trace.Event.t) list ->
   (Timed_data.finding list, string) result
-(** [dated ~faults g run] is what of the run with these events, and their dates, was over too early or too late. What
-    happens by itself happens at once, leftmost first. The error says why it is no run. *)
+(** [dated ~faults g run] is the events that were too early or too late in the run with these events and dates. Steps
+    without events are taken at once, leftmost first. The error is the reason why it is not a run. *)

@@ -3,7 +3,7 @@
 
 type json = Yojson.Safe.t
 
-type window = { earliest : int; latest : int option  (** [None]: there is no latest *) }
+type window = { earliest : int; latest : int option  (** [None]: without a latest date *) }
 
 (** All tasks of one name on one vehicle. *)
 type task = { name : string; vehicle : string; moments : (string * window) list  (** by name, sorted: ["starts"] *) }
@@ -12,7 +12,7 @@ type times = {
   ends : (string * window) list;  (** by how runs end, sorted *)
   tasks : task list;
   endless : bool;  (** whether some run never ends *)
-  missed : int list;  (** the lines of what [within] is missed in some run, sorted *)
+  missed : int list;  (** the lines of the [within] that some run misses, sorted *)
 }
 
 type ended = Vehicle of string | Timer of int
@@ -35,7 +35,7 @@ val dated : json -> (int * json, string) result
 (** {1:comparison What differs} *)
 
 val difference : times -> times -> string option
-(** [difference expected seen] is what is otherwise in [seen], in a sentence without a full stop. Of tasks, only those
+(** [difference expected seen] is the difference in [seen], in a sentence without a full stop. Of tasks, only those
     in [expected] are compared. *)
 
 val show_findings : finding list -> string

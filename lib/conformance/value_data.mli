@@ -1,4 +1,4 @@
-(** Values and tasks, written down whole: closures by the number of their code and what they captured. *)
+(** Values and tasks, written down whole: closures by the number of their code and their captured values. *)
 
 open Dolphin_semantics
 
@@ -15,7 +15,7 @@ val of_duration : Data.budget -> Core.duration -> Data.json
 val of_task : Data.budget -> Core.task -> Data.json
 
 val of_filter : Data.budget -> Vehicle_filter.t -> Data.json
-(** What a [recruit] asks of a vehicle. *)
+(** The conditions of a [recruit] on a vehicle. *)
 
 (** {1:read Reading}
 

@@ -7,7 +7,7 @@ let taking (t : transition) rules = Rules.union (Rules.of_list t.rules) rules
 let labels ts = String.concat ", " (List.map (fun (t : transition) -> t.label) ts)
 let at_step i format = Printf.ksprintf (fun why -> Error (Printf.sprintf "step %d: %s" i why)) format
 
-(* Where a step of a trace begins: what is known of vehicles may change with it, and time passes. *)
+(* The beginning of a step of a trace: the knowledge about vehicles may change with it, and time passes. *)
 let before (s : Case.seen) place =
   { place with world = Option.value s.world ~default:place.world; now = Option.value s.now ~default:place.now }
 
@@ -85,7 +85,7 @@ let why_none (s : Case.seen) missed =
   | None, [], (steps, _) :: _ -> nothing s steps
   | None, others, _ -> Printf.sprintf "%s is not possible; possible are %s" s.label (labels others)
 
-(* Along [steps] as far as possible: where that leads, with what was missing for more. *)
+(* Along [steps] as far as possible: the places reached, with the missing condition for more. *)
 let along ask place steps =
   let rec go i places rules = function
     | [] -> (Ok places, rules)
@@ -134,7 +134,7 @@ let text name (json : json) =
 
 let event name members : json = `Assoc (("event", `String name) :: members)
 
-(* The events that [environment] makes of what is awaited, less ends and expiries. *)
+(* The events that [environment] makes of the awaited ones, less ends and expiries. *)
 let events (environment : Case.environment) configuration awaited =
   let plan v = Option.value (List.assoc_opt v (Dialogue.running configuration)) ~default:"" in
   let of_awaited json =

@@ -4,11 +4,11 @@
 module Rules : Set.S with type elt = string
 
 type found = (unit, string) result * Rules.t
-(** What is wrong, in a sentence without a full stop; and the rules of the transitions that were taken. *)
+(** The fault, in a sentence without a full stop; and the rules of the transitions that were taken. *)
 
 val trace : Dialogue.ask -> Dialogue.place -> Case.step list -> found
-(** [trace ask place steps] checks that the run in which the leftmost transition is taken, and events come as [steps]
-    say, is [steps], and that nothing more happens by itself. *)
+(** [trace ask place steps] checks that the run in which the leftmost transition is taken, and events come as in
+    [steps], is [steps], and that no further step follows. *)
 
 val admits : Dialogue.ask -> Dialogue.place -> Case.step list -> found
 (** [admits ask place steps] checks that some run begins with [steps]. *)
@@ -16,7 +16,7 @@ val admits : Dialogue.ask -> Dialogue.place -> Case.step list -> found
 val forbids : Dialogue.ask -> Dialogue.place -> Case.step list -> found
 (** [forbids ask place steps] checks that some run begins with all of [steps] but the last, and none with all. *)
 
-(** What becomes of all runs. *)
+(** The outcomes of all runs. *)
 type all = {
   outcomes : Case.outcome list;  (** each once; ["stuck"] are those that do not end and cannot go on *)
   rules : Rules.t;

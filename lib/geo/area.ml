@@ -53,7 +53,7 @@ let reversed ring =
   let n = Array.length ring in
   Array.init n (fun i -> ring.(n - 1 - i))
 
-(* Corners with where they are in a plane, which takes most of the time. *)
+(* Corners with their places in a plane, which take most of the time. *)
 let projected plane corners = Array.map (fun p -> (p, Plane.of_position plane p)) corners
 
 let compare_corners (a, _) (b, _) = Position.compare a b
@@ -316,7 +316,7 @@ let rec capsules radius = function
   | a :: (b :: _ as rest) -> if a = b then capsules radius rest else capsule radius a b :: capsules radius rest
   | [ _ ] | [] -> []
 
-(* By halves: what lies inside is gone early. *)
+(* By halves: an inner part is dropped early. *)
 let rec united = function
   | [] -> Some []
   | [ ring ] -> Some [ ring ]

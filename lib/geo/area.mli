@@ -10,7 +10,7 @@ type t = private
     }
   | Shape of shape
 
-(** What is wrong with corners or numbers that make no area. *)
+(** The fault of corners or numbers that make no area. *)
 type error =
   | Radius of float  (** negative, or not finite *)
   | Width of float  (** of a corridor: not above 0, or not finite *)
@@ -25,15 +25,16 @@ type error =
   | Empty  (** nothing is left *)
   | Intricate  (** too many sides cross *)
   | Parts of int  (** not from 1 to {!most_parts} *)
-  | Pieces of int  (** an area to be split that is not connected, but of so many polygons *)
-  | Uncut of int  (** no straight cuts into so many connected parts were found *)
+  | Pieces of int  (** an area to be split that is not connected, but consists of this number of polygons *)
+  | Uncut of int  (** no straight cuts into this number of connected parts were found *)
 
 val circle : Position.t -> float -> (t, error) result
 (** [circle centre radius] is the circle of [radius] metres around [centre]. *)
 
 val polygon : ?holes:Position.t list list -> Position.t list -> (t, error) result
-(** [polygon ~holes corners] is what the shortest lines from corner to corner, and from the last to the first, enclose,
-    without [holes]. A corner that follows itself counts once. In either order of corners it is the same area. *)
+(** [polygon ~holes corners] is the area enclosed by the shortest lines from corner to corner, and from the last to
+    the first, without [holes]. A corner that follows itself counts once. In either order of corners it is the same
+    area. *)
 
 val most_corners : int
 (** 20,000. *)
@@ -43,7 +44,7 @@ val corridor : Position.t list -> float -> (t, error) result
     below for arcs. *)
 
 val of_rings : Position.t list list -> (t, error) result
-(** [of_rings (rings area)] is [area]. Rims that are none are an error. *)
+(** [of_rings (rings area)] is [area]. Invalid rims are an error. *)
 
 val rings : shape -> Position.t list list
 (** The rims, each from its corner in the south, of those in the west: counterclockwise around an area, clockwise
@@ -105,9 +106,9 @@ val most_points : int
 (** 10,000. *)
 
 val split : t -> int -> (t list, error) result
-(** [split area n] is [n] parts of [area], each connected: they do not overlap, their union is [area], and their sizes
-    differ by at most a millionth and what a millimetre along their rims makes, up to 10 km. Those in the south come
-    first. Cuts are straight; {!Division.split} tells which. [split area 1] is [[area]]. *)
+(** [split area n] is [n] parts of [area], each connected: they do not overlap, their union is [area], and their
+    sizes differ by at most a millionth and the area of a millimetre along their rims, up to 10 km. Those in the
+    south come first. Cuts are straight; {!Division.split} defines them. [split area 1] is [[area]]. *)
 
 val most_parts : int
 (** 100. *)

@@ -5,8 +5,8 @@ type point = int * int
 (** [x] and [y]; both at most {!widest} in size. *)
 
 type ring = point array
-(** Corners in order; the last is followed by the first. Counterclockwise, it is the rim of what it encloses; clockwise,
-    that of a hole. *)
+(** Corners in order; the last is followed by the first. Counterclockwise, it is the rim of the area that it
+    encloses; clockwise, that of a hole. *)
 
 val widest : int
 (** 500,000,000: products of such numbers stay exact. *)
@@ -18,7 +18,7 @@ type flaw =
   | Crossing of int * int  (** the sides that begin at these corners cross or touch *)
 
 val flaw : ring -> flaw option
-(** [flaw ring] is what keeps [ring] from being simple. No corner of [ring] equals the next. *)
+(** [flaw ring] is the reason why [ring] is not simple. No corner of [ring] equals the next. *)
 
 val doubled_area : ring -> int
 (** [doubled_area ring] is twice the area inside, negative if [ring] is clockwise. *)
@@ -36,8 +36,8 @@ val hull : point list -> ring
     united, and a hole is left out. *)
 
 val combine : (bool -> bool -> bool) -> ring list -> ring list -> ring list option
-(** [combine f a b] is the region of the points [p] with [f (a has p) (b has p)], where [f false false] is false: rings
-    that neither cross nor overlap, without corners on a straight side, and without slivers of a width of a few units.
-    [None] if there are too many crossings: more than {!most_sides} sides would arise. *)
+(** [combine f a b] is the region of the points [p] with [f (a has p) (b has p)], where [f false false] is false:
+    rings that neither cross nor overlap, without corners on a straight side, and without slivers of a width of a few
+    units. [None] if there are too many crossings: more than {!most_sides} sides would arise. *)
 
 val most_sides : int

@@ -1,11 +1,12 @@
-(** A region of a plane in bands of equal height, one above the other, and what of the region is connected in each. *)
+(** A region of a plane in bands of equal height, one above the other, and the connected parts of the region in each. *)
 
 (** A part of the region that is connected within one band. *)
 type part = {
   height : float;  (** of the band's middle *)
   left : float;
   right : float;  (** the part has points as far to the left and to the right as this, and between *)
-  gates : (int * float * float) list;  (** the parts of neighbouring bands that it meets, and from where to where *)
+  gates : (int * float * float) list;  (** the parts of neighbouring bands that it meets, and the ends of each
+                                           meeting *)
   upper : int list;  (** those of them that are above *)
   lower : int list;
 }

@@ -63,7 +63,7 @@ let along settings ({ angle; parts; _ } : strips) =
   let way = points parts tours ~turn:(settings.turn /. unit) tour in
   if List.length way > Area.most_points then None else Some { angle; way; length = Tour.length tours tour }
 
-(* Tours take most of the time: where there are many strips, only those of the bearings that promise most are tried. *)
+(* Tours take most of the time: with many strips, only those of the most promising bearings are tried. *)
 let most_strips = 400
 
 let promising region (all : strips list) =

@@ -2,7 +2,7 @@
 
 type settings = {
   spacing : float;  (** metres that a strip covers, half of them on either side of it *)
-  bearing : float option;  (** degrees clockwise from north; the best of those that are tried if there is none *)
+  bearing : float option;  (** degrees clockwise from north; the best of the tried ones by default *)
   overlap : float;  (** the share of a strip that its neighbour covers too, from 0 to {!most_overlap} *)
   turn : float;  (** metres by which strips run on at both ends *)
 }
@@ -19,8 +19,8 @@ val points : settings -> Area.t -> (Position.t list, error) result
 (** [points settings area] is a way along straight strips, and between them:
 
     - each point of [area] is at most [spacing / 2] away from a strip;
-    - strips, without their turns, are nowhere farther than [spacing / 2] from [area]: a strip is as long as what it
-      covers, so it runs on beyond a rim that slants;
+    - strips, without their turns, are nowhere farther than [spacing / 2] from [area]: a strip is as long as the part
+      that it covers, so it runs on beyond a rim that slants;
     - a way from strip to strip, without turns, is at most [1.5 * spacing] away from a connected area.
 
     Up to a thousandth of [spacing], and a millimetre in 2 km as on any {!Plane}. For their order see {!Tour.shortest}.

@@ -60,7 +60,7 @@ let upside_down slabs =
 
 (* {1 Cuts} *)
 
-(* The line at the height [at]; what is cut off lies below it as seen in the direction [angle]. *)
+(* The line at the height [at]; the part cut off lies below it as seen in the direction [angle]. *)
 type cut = { angle : float; at : float; parts : int; length : float; wanted : float }
 
 (* Whether all pieces but the one [without] hang together. In a layer, each trapezoid joins the piece below and the
@@ -121,7 +121,7 @@ let cuts_below ~angle ~whole ~n slabs below above =
   List.concat
     (List.init (last + 1) (fun i -> cuts_of_layer ~angle ~whole ~n slabs i below.(i) above.(last - i)))
 
-(* Below and above: what is above is below when seen the other way round. *)
+(* Below and above: the part above is below when seen the other way round. *)
 let cuts_along ~whole ~n region angle =
   match Slabs.make ~angle region with
   | None -> None
@@ -194,7 +194,7 @@ let connected_parts region =
 
 let far = 300_000_000.
 
-(* What is below the line. *)
+(* The part below the line. *)
 let half_plane cut =
   let corner p =
     let x, y = Slabs.back ~angle:cut.angle p in
@@ -223,7 +223,7 @@ let wide_enough region part cut =
   let rest = Option.bind (below_line region wider) (without region) in
   Option.fold ~none:false ~some:one inner && Option.fold ~none:false ~some:one rest
 
-(* Whether the part is as large as wanted, and both sides hang together, is decided anew on the grid: a cut may go right
+(* The grid decides again whether the part has the wanted size, and both sides are connected: a cut may go right
    through corners. *)
 let cut_off ~wide region cut =
   let* part = below_line region cut in

@@ -20,7 +20,8 @@ let nearest_share (px, py) (ax, ay) (bx, by) =
 
 let from_line p a b = away p (between a b (nearest_share p a b))
 
-(* Where the line from [a] to [b] crosses that from [c] to [d], as a share of the former; not of parallel lines. *)
+(* The crossing of the line from [a] to [b] with that from [c] to [d], as a share of the former; not of parallel
+   lines. *)
 let crossing (ax, ay) (bx, by) (cx, cy) (dx, dy) =
   let ux = bx -. ax and uy = by -. ay and vx = dx -. cx and vy = dy -. cy in
   let turn = (ux *. vy) -. (uy *. vx) in
@@ -139,7 +140,7 @@ let cuts rims line =
 
 let samples = 16
 
-(* The worst of some points of [line]: the excess and where. *)
+(* The worst of some points of [line]: the excess and the place. *)
 let worst_sample side margin region rims line =
   let look best share =
     let p = between line.a line.b share in

@@ -33,16 +33,16 @@ val tolerance : float
 
 val breach : t -> stretch list -> breach option
 (** [breach t way] is the breach of the first stretch of [way] that breaks a rule, of the first rule that it breaks:
-    [None] if [way] keeps to all of them, up to {!tolerance} and to what a {!Plane} makes of distances and lines. If the
-    stretch comes too near to the rim only, [at] is where it is nearest. If it crosses the rim, or lies beyond it, [at]
-    is the worst of so many points of it that another is worse by little. *)
+    [None] if [way] keeps to all of them, up to {!tolerance} and to the error of a {!Plane} in distances and lines.
+    If the stretch only comes too near to the rim, [at] is its nearest point. If it crosses the rim, or lies beyond
+    it, [at] is the worst of a set of its points so dense that another is worse by little. *)
 
 val breaches_at : t -> Position.t -> (int * float) list
 (** [breaches_at t p] is the rules that [p] breaks, each with the metres, in order. *)
 
 (** {1 Ways beside each other} *)
 
-(** Where two ways come near each other. *)
+(** The place where two ways come near each other. *)
 type meeting = {
   first : int;  (** a stretch of the one, from 0 *)
   second : int;  (** of the other *)
@@ -51,5 +51,5 @@ type meeting = {
 }
 
 val nearest : within:float -> stretch list -> stretch list -> meeting option
-(** [nearest ~within a b] is where [a] and [b] are nearest to each other, if that is nearer than [within] metres, up to
-    {!tolerance}; of several such places the first on [a], then on [b]. *)
+(** [nearest ~within a b] is the points at which [a] and [b] are nearest to each other, if that is nearer than
+    [within] metres, up to {!tolerance}; of several such places the first on [a], then on [b]. *)

@@ -13,8 +13,8 @@ val around : Position.t -> t
 val origin : t -> Position.t
 
 val between : Position.t list -> t option
-(** [between ps] is the plane around the middle of [ps], or [None] if one of [ps] is farther from it than {!reach}, or
-    there is none. *)
+(** [between ps] is the plane around the middle of [ps], or [None] if one of [ps] is farther from it than {!reach},
+    or [ps] is empty. *)
 
 val reach : float
 (** 200 km. *)

@@ -2,7 +2,7 @@ type t = { latitude : float; longitude : float; height : float }
 
 type error = Latitude of float | Longitude of float | Height of float
 
-let within bound x = Float.abs x <= bound (* false for what is not a number *)
+let within bound x = Float.abs x <= bound (* false for NaN *)
 
 let make ~latitude ~longitude ~height =
   if not (within 90. latitude) then Error (Latitude latitude)

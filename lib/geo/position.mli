@@ -6,7 +6,7 @@ type t = {
   height : float;  (** metres above the WGS84 ellipsoid *)
 }
 
-(** What is wrong with three numbers that are no position. *)
+(** The fault of three numbers that are not a position. *)
 type error =
   | Latitude of float  (** degrees; not a number, or beyond a pole *)
   | Longitude of float  (** degrees; not a number, or not from -180 to 180 *)
@@ -27,4 +27,4 @@ val pp : Format.formatter -> t -> unit
     [", HEIGHT m"] with one decimal. *)
 
 val pp_error : Format.formatter -> error -> unit
-(** One sentence without a full stop: which number is wrong, and what would be right. *)
+(** One sentence without a full stop: the wrong number, and the right range. *)

@@ -33,7 +33,7 @@ let rec add changes found c =
   | b :: (a :: _ as before) when is_spike a b c -> changes := Spikes :: !changes; add changes before c
   | found -> c :: found
 
-(* Where the ring closes. *)
+(* The closing point of the ring. *)
 let rec closed changes ring =
   match ring, List.rev ring with
   | first :: second :: _ :: _, last :: beside :: _ ->
@@ -61,7 +61,7 @@ let is_slight change rings ~whole =
   let length = List.fold_left (fun sum ring -> sum +. Arrangement.length ring) 0. rings in
   Float.abs change <= (0.001 *. whole) +. (4. *. length)
 
-(* A ring that crosses itself slightly encloses nearly what its turns say. *)
+(* A ring that crosses itself slightly encloses nearly the area that its turns give. *)
 let region changes ring =
   match Arrangement.flaw ring with
   | None -> Ok [ left_turning ring ]

@@ -1,6 +1,6 @@
 (** Polygons of other programs, whose corners are slightly wrong. *)
 
-(** What was wrong. *)
+(** The repaired fault. *)
 type change =
   | Spikes  (** the rim went out and back on the same line *)
   | Repetitions  (** a corner followed itself, within a millimetre or so *)

@@ -28,7 +28,7 @@ val most_trapezoids : int
 (** 300,000. *)
 
 val back : angle:float -> float * float -> float * float
-(** [back ~angle p] is where the point [p], as seen by {!make}, was. *)
+(** [back ~angle p] is the original place of the point [p], as seen by {!make}. *)
 
 val meetings : trapezoid array -> trapezoid array -> float -> (int * int) list
 (** [meetings a b y] are the [(i, j)] for which [a.(i)] and [b.(j)] have more than a unit in common at the height [y].

@@ -34,7 +34,7 @@ let edges points =
     pair points
   | [] -> []
 
-(* Where the line at [y] enters and leaves the polygon, in order. *)
+(* The points where the line at [y] enters and leaves the polygon, in order. *)
 let crossings points y =
   let cross ((x1, y1), (x2, y2)) =
     if y1 <= y <> (y2 <= y) then Some (x1 +. ((y -. y1) /. (y2 -. y1) *. (x2 -. x1))) else None

@@ -19,7 +19,7 @@ module Queue = Set.Make (struct
     let compare = compare
   end)
 
-(* From a place in a part: how far it is to each part, where it is entered, and from which one, -1 if not known. *)
+(* From a place in a part: the distance to each part, its entry, and the part before it, -1 if not known. *)
 type reach = { costs : float array; at : float array; before : int array }
 
 let clamp low high x = Float.max low (Float.min high x)
@@ -54,7 +54,7 @@ let unknown parts =
   let n = Array.length parts in
   { costs = Array.make n infinity; at = Array.make n 0.; before = Array.make n (-1) }
 
-(* How far it is from [from], where [reach] begins, to the end [x] of a part. *)
+(* The distance from [from], the beginning of [reach], to the end [x] of a part. *)
 let cost_to parts reach (from, x_from) (part, x) =
   if part = from then Float.abs (x -. x_from)
   else
@@ -129,7 +129,7 @@ let modes_of t stack members =
   let strips = List.concat_map both orders in
   Array.of_list (List.mapi (fun i strips -> mode t ~number:((most_modes * stack) + i) stack strips) strips)
 
-(* Parts above one another between which there is no choice. *)
+(* Parts above one another without a choice between them. *)
 let stacks parts =
   let next i = match parts.(i).upper with [ j ] when parts.(j).lower = [ i ] -> Some j | _ -> None in
   let continues i = match parts.(i).lower with [ j ] -> next j = Some i | _ -> false in

@@ -20,6 +20,6 @@ val most_exact : int
 val way : t -> strip -> strip -> (float * float) list
 (** [way t a b] are the points between the end of [a] and the beginning of [b]: from part to part through their
     gates, so that it is never farther from the region than one and a half times the height of a band. [[]] if a
-    straight line will do, and where there is no way through the region. *)
+    straight line suffices, or if the region has no way. *)
 
 val length : t -> strip list -> float

@@ -44,7 +44,7 @@ let delta_sigma b ~sine_sigma ~cosine_sigma ~cosine_two_sigma_m =
                 *. (-3. +. (4. *. square sine_sigma))
                 *. (-3. +. (4. *. square cosine_two_sigma_m))))
 
-(* What longitudes on the auxiliary sphere exceed those on the ellipsoid by. *)
+(* The excess of longitudes on the auxiliary sphere over those on the ellipsoid. *)
 let longitude_excess ~sine_alpha ~cosine_squared_alpha ~sigma ~sine_sigma ~cosine_sigma ~cosine_two_sigma_m =
   let c =
     flattening /. 16. *. cosine_squared_alpha *. (4. +. (flattening *. (4. -. (3. *. cosine_squared_alpha))))

@@ -46,9 +46,9 @@ val displace : Position.t -> north:float -> east:float -> Position.t
     the Earth's radius: 0.15 m after 1 km at 45°, 16 m after 10 km. *)
 
 val towards : Position.t -> Position.t -> float -> Position.t
-(** [towards a b metres] is the position reached from [a] after [metres] over the ground on the shortest way to
-    [b]. The height changes evenly on the way. It is [b] itself if [b] is no farther than that, and [a] if [metres]
-    is not positive. *)
+(** [towards a b metres] is the position reached from [a] after [metres] over the ground on the shortest way to [b].
+    The height changes evenly on the way. It is [b] itself if [b] is no farther than that, and [a] if [metres] is not
+    positive. *)
 
 val interpolate : Position.t -> Position.t -> float -> Position.t
 (** [interpolate a b share] is [towards a b (share * distance a b)]: [a] for 0 and less, [b] for 1 and more. *)

@@ -1,4 +1,4 @@
-(** What is replied to requests. *)
+(** Replies to requests. *)
 
 type body =
   | Text of string
@@ -14,4 +14,4 @@ val stream : ?headers:(string * string) list -> kind:string -> ((string -> unit 
 (** With status 200. *)
 
 val head : keep:bool -> t -> string
-(** [head ~keep r] is what comes before the body; [keep]: the connection goes on after it. *)
+(** [head ~keep r] is the part before the body; [keep]: the connection goes on after it. *)

@@ -42,7 +42,7 @@ let take client n =
   client.unread <- String.sub client.unread n (String.length client.unread - n);
   text
 
-(* Where the first empty line ends, and how long what stands before it is. *)
+(* The end of the first empty line, and the length of the part before it. *)
 let end_of_head text =
   let n = String.length text in
   let rec from i =
@@ -96,7 +96,7 @@ let write t client text =
   in
   from 0
 
-(* Resolves when the client is gone. What it still says counts for nothing. *)
+(* Resolves when the client is gone. Its further messages are ignored. *)
 let rec gone client =
   Lwt_unix.read client.socket client.piece 0 (Bytes.length client.piece) >>= fun n ->
   if n = 0 then Lwt.return_unit else gone client
@@ -167,7 +167,7 @@ let admit t (socket, address) =
   in
   Lwt.async (fun () -> Lwt.finalize (fun () -> quietly whole) leave)
 
-(* Where descriptors have run out, others may be closed meanwhile. *)
+(* If descriptors have run out, others may be closed meanwhile. *)
 let rec accept t =
   Lwt.catch
     (fun () ->

@@ -4,8 +4,8 @@
 type limits = {
   head : int;  (** bytes before the body *)
   body : int;  (** bytes *)
-  connections : int;  (** at once; more are told so and closed *)
-  rate : int;  (** requests of one address in a second; more are told so and closed *)
+  connections : int;  (** at once; more get a reply with this reason and are closed *)
+  rate : int;  (** requests of one address in a second; more get a reply with this reason and are closed *)
   patience : float;  (** seconds until a client speaks, for a whole head and body, for each piece that it reads *)
   idle : float;  (** seconds between requests of one connection *)
 }
@@ -17,9 +17,9 @@ type t
 
 val start :
   ?limits:limits -> ?address:Unix.inet_addr -> port:int -> (Request.t -> Response.t Lwt.t) -> (t, string) result
-(** [start ~limits ~address ~port reply] serves [address], by default the loopback address 127.0.0.1, from now on; port
-    0 is any free one. [reply] may fail: the client is told that there is trouble in the server. The error says why the
-    port cannot be had. From then on SIGPIPE is ignored. *)
+(** [start ~limits ~address ~port reply] serves [address], by default the loopback address 127.0.0.1, from now on;
+    port 0 is any free one. [reply] may fail: the client gets a reply about an error in the server. The error is the
+    reason why the port is not available. From then on SIGPIPE is ignored. *)
 
 val port : t -> int
 

@@ -33,5 +33,5 @@ module Make (_ : sig
   end) : S
 
 val names : (int * string) list -> int -> string list
-(** [names ns x] spells [x] with the names [ns]: the one name for all of [x], if there is one; otherwise
-    the names of its single bits, and what remains in hexadecimal, ["0x40"]. *)
+(** [names ns x] spells [x] with the names [ns]: the one name for all of [x], if it has one; otherwise the names of
+    its single bits, and the rest in hexadecimal, ["0x40"]. *)

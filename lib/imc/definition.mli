@@ -1,4 +1,4 @@
-(** What messages there are: the ones built in, and the ones in a user's [IMC.xml]. *)
+(** The known messages: the built-in ones, and the ones in a user's [IMC.xml]. *)
 
 include module type of struct
   include Dolphin_imc_definition.Definition

@@ -1,7 +1,7 @@
 (** Messages read by a definition that is known only at run time, for display.
 
-    What {!Message} does for the messages built in, this does for any, slower and without types: with a
-    user's [IMC.xml], {!Packet.Unknown} becomes readable. *)
+    The functions of {!Message} for any message, slower and without types: with a user's [IMC.xml], {!Packet.Unknown}
+    becomes readable. *)
 
 type value =
   | Int of int

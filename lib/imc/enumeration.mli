@@ -2,8 +2,8 @@
 
 module type S = sig
   type t
-  (** One constructor for each name, and [Other n] for what has none: IMC's enumerations grow, and a
-      value that a later version added is kept. [Other n] is only for such [n]. *)
+  (** One constructor for each name, and [Other n] for values without one: IMC's enumerations grow, and a value that
+      a later version added is kept. [Other n] is only for such [n]. *)
 
   val of_int : int -> t
   (** The value that has this number, or [Other]. *)

@@ -2,10 +2,10 @@
 
 (** {1:decode Decoding} *)
 
-(** What is wrong with a payload. *)
+(** The fault of a payload. *)
 type fault =
   | Overrun  (** A field reaches past the end. *)
-  | Leftover of int  (** So many bytes follow the last field: a message of another version. *)
+  | Leftover of int  (** This number of bytes follows the last field: a message of another version. *)
   | Unknown_message of int
   (** A message within the message has this id. Its length is known to no one, so that the rest
       cannot be read. *)
@@ -14,11 +14,11 @@ type fault =
   | Too_deep  (** Messages within messages, more than {!max_depth}. *)
 
 type decode =
-  | Too_short of int  (** So many bytes: fewer than a header and a checksum. *)
+  | Too_short of int  (** The number of bytes: fewer than a header and a checksum. *)
   | Not_imc of int  (** The first two bytes, big-endian, are not [0x54FE] nor [0xFE54]. *)
   | Truncated of { stated : int; present : int }
   (** The packet is [stated] bytes long according to its header; [present] are there. *)
-  | Surplus of int  (** So many bytes follow the packet in its datagram. *)
+  | Surplus of int  (** This number of bytes follows the packet in its datagram. *)
   | Bad_checksum of { stated : int; computed : int }
   | Bad_payload of { id : int; at : int; fault : fault }
   (** The payload of message [id], [at] bytes after the start of the payload. *)

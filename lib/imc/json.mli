@@ -9,7 +9,7 @@ val int64 : int64 -> t
 (** A number. *)
 
 val float : float -> t
-(** A number; what JSON has no number for is a string: ["NaN"], ["Infinity"], ["-Infinity"]. *)
+(** A number; a value without a number in JSON is a string: ["NaN"], ["Infinity"], ["-Infinity"]. *)
 
 val text : string -> t
 (** A string; bytes that are not UTF-8 become U+FFFD. *)

@@ -1,4 +1,4 @@
-(** Messages that tell of one quantity that was measured: Temperature, Salinity, Depth, Chlorophyll ... *)
+(** Messages with the measurement of one quantity: Temperature, Salinity, Depth, Chlorophyll ... *)
 
 val of_message : Message.t -> (string * float) option
 (** [of_message m] is the name of [m], ["Temperature"], and its value in the unit of IMC, if [m] is such a message. *)

@@ -38,13 +38,13 @@ val id : t -> int
     afterwards. They allocate at most 64 bytes for each byte of the packet, and nest at most
     {!Error.max_depth} deep.
 
-    Where most packets are not wanted, [Header.read] and then [decode_after] for some is the cheap way:
-    nothing but the header of the others is looked at. *)
+    If most packets are not wanted, [Header.read] and then [decode_after] for some is the cheap way: only the header
+    of the others is read. *)
 
 val decode : ?pos:int -> ?len:int -> string -> (t, Error.decode) result
-(** [decode ~pos ~len s] is the packet that is the [len] bytes of [s] from [pos] (all of [s]): one
-    datagram. It checks all there is to check: what {!Header.read} does, that no byte follows the
-    packet, the checksum, and that the payload is exactly the fields of its message. *)
+(** [decode ~pos ~len s] is the packet that is the [len] bytes of [s] from [pos] (all of [s]): one datagram. It
+    checks everything: the conditions of {!Header.read}, that no byte follows the packet, the checksum, and that the
+    payload is exactly the fields of its message. *)
 
 val decode_after : ?pos:int -> Header.t -> string -> (t, Error.decode) result
 (** [decode_after ~pos h s] is the packet at [pos] of [s], whose header is [h] as read by {!Header.read}

@@ -1,7 +1,7 @@
 (** Reads the fields of one payload, and never past its end.
 
-    Every function takes the bytes of one value off the reader, or raises {!Fault}; {!Packet} and
-    {!Dynamic} turn that into a result. What is allocated is in proportion to what was read. *)
+    Every function takes the bytes of one value off the reader, or raises {!Fault}; {!Packet} and {!Dynamic} turn
+    that into a result. Allocation is in proportion to the bytes read. *)
 
 type t
 

@@ -5,7 +5,7 @@
 type t
 
 exception Fault of Error.encode
-(** What cannot be written, and in which field. *)
+(** The value that cannot be written, and its field. *)
 
 val make : Byte_order.t -> Buffer.t -> t
 (** [make order b] appends to [b]. *)
@@ -14,7 +14,7 @@ val make : Byte_order.t -> Buffer.t -> t
 
 val u8 : t -> string -> int -> unit
 (** [u8 w field n].
-    @raise Fault with {!Error.Out_of_range} unless [0 <= n <= 255]; the others likewise. *)
+    @raise Fault with {!Error.Out_of_range} unless [0 <= n <= 255]; the others in the same way. *)
 
 val u16 : t -> string -> int -> unit
 val u32 : t -> string -> int -> unit

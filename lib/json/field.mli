@@ -6,10 +6,10 @@ val ( let* ) : ('a, 'e) result -> ('a -> ('b, 'e) result) -> ('b, 'e) result
 (** [Result.bind], for those who open this module. *)
 
 val get : (Yojson.Safe.t -> ('a, string) result) -> string -> members -> ('a, string) result
-(** [get read name members] is what [read] makes of member [name], which must be there. *)
+(** [get read name members] is [read] of member [name], which must exist. *)
 
 val optional : (Yojson.Safe.t -> ('a, string) result) -> default:'a -> string -> members -> ('a, string) result
-(** [optional read ~default name members] is the same, or [default] if there is no member [name]. *)
+(** [optional read ~default name members] is the same, or [default] without a member [name]. *)
 
 (** {1:readers What members may be} *)
 

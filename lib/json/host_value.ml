@@ -185,7 +185,7 @@ let nesting text =
   String.iter (fun c -> if !quoted then within_string c else bracket c) text;
   !deepest_so_far
 
-(* What Yojson takes and JSON does not have. *)
+(* Values that Yojson accepts and JSON does not have. *)
 let rec beyond (json : Yojson.Safe.t) =
   let text s = if Utf8.is_valid s then None else Some "a text in it is not UTF-8" in
   match (json :> Canonical.extended) with

@@ -22,10 +22,10 @@ val of_json : site:Core.site -> Yojson.Safe.t -> (Core.value, string) result
     if it is written as one and fits. *)
 
 val data_of_json : Yojson.Safe.t -> (Core.value, string) result
-(** [data_of_json json] is likewise what the outside may post: a value without tasks and objects of the host. *)
+(** [data_of_json json] is a value that the outside may post: without tasks and objects of the host. *)
 
 val is_data : Core.value -> bool
-(** Whether there are no tasks and objects of the host in it. *)
+(** Whether it has neither tasks nor objects of the host. *)
 
 val parse : ?deepest:int -> string -> (Yojson.Safe.t, string) result
 (** [parse text] is the JSON value that [text] is, or what is wrong: texts are UTF-8 and numbers finite. Nesting is

@@ -1,4 +1,4 @@
-(** What maps show, as JSON: places are pairs of latitude and longitude. *)
+(** The contents of maps, as JSON: places are pairs of latitude and longitude. *)
 
 open Dolphin_geo
 
@@ -16,4 +16,4 @@ val fence : Dolphin_semantics.Fences.fence -> Yojson.Safe.t
     [margin] if there is one; and the {!area}, or the [metres]. *)
 
 val to_fence : Yojson.Safe.t -> (Dolphin_semantics.Fences.fence, string) result
-(** What {!val-fence} writes, without its place in a text. *)
+(** The output of {!val-fence}, without its place in a text. *)

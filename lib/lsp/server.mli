@@ -9,11 +9,11 @@ val make : version:string -> read:(string -> string option) -> t
     there is one: for fleets that are not open in the editor. *)
 
 val handle : t -> json -> t * json list
-(** [handle s m] is [s] after the message [m], and what it sends then, in order. A request gets an answer, if only
-    that it is none; nothing raises. *)
+(** [handle s m] is [s] after the message [m], and the messages that it sends then, in order. A request gets an
+    answer, at least an error; nothing raises. *)
 
 val not_json : json
-(** What is sent in answer to what is no JSON. *)
+(** The reply to text that is not JSON. *)
 
 val ended : t -> int option
 (** [ended s] is the status to end with, once the client has asked for that: 0 after it had asked to shut down, else

@@ -138,14 +138,14 @@ let numbered f =
 
 (* {1 The tableau} *)
 
-(* A way in which formulas can hold at a position: the literals that hold there, what must hold from the next position
-   on, and which acceptance sets it is not in. *)
+(* A way in which formulas can hold at a position: the literals that hold there, the obligations from the next
+   position on, and the acceptance sets that it is not in. *)
 type way = { now : Bits.t; later : Bits.t; outside : Bits.t }
 
 (* Of two ways of which one asks for no more than the other and is in all of its sets, that one will do. *)
 let covers a b = Bits.subset a.now b.now && Bits.subset a.later b.later && Bits.subset a.outside b.outside
 
-(* [untils] are the formulas of the acceptance sets, each with what it is to reach. *)
+(* [untils] are the formulas of the acceptance sets, each with its goal. *)
 let ways nodes untils formulas =
   let none = Bits.none (Array.length nodes) in
   let found = ref [] in
@@ -186,7 +186,7 @@ let ways nodes untils formulas =
   expand formulas none none none;
   !found
 
-(* States are ways; what follows one is a function of what it leaves for later. *)
+(* States are ways; the successors of one are a function of its obligations for later. *)
 let of_formula f =
   let nodes, whole = numbered (normal true f) in
   let size = Array.length nodes in

@@ -1,7 +1,7 @@
-(** Generalised Büchi automata of formulas, by the tableau of Gerth, Peled, Vardi and Wolper (1995). A letter says which
-    propositions hold at a position, as a function. A run takes at each position a state that {!admits} the letter
-    there: at the first one of {!initial}, afterwards a successor. It is accepting if for each acceptance set it is in
-    that set again and again; a word without end satisfies the formula exactly if there is such a run. *)
+(** Generalised Büchi automata of formulas, by the tableau of Gerth, Peled, Vardi and Wolper (1995). A letter is the
+    propositions that hold at a position, as a function. A run takes at each position a state that {!admits} the
+    letter there: at the first one of {!initial}, afterwards a successor. It is accepting if for each acceptance set
+    it is in that set again and again; a word without end satisfies the formula exactly if there is such a run. *)
 
 type 'p t
 

@@ -10,9 +10,9 @@ type component
 (** Nodes that each can reach all, itself included, in one step or more; each set has some of them. *)
 
 val find : ?tick:(unit -> unit) -> 'label graph -> int list -> component option
-(** [find g starts] is such a component of what can be reached from [starts], if there is any, by the algorithm of
-    Couvreur (1999). Of a component's nodes it may be only some. It takes no stack, a bit for each node that is reached,
-    and some words for each that may still turn out to be on a cycle. [tick] is called at each new node. *)
+(** [find g starts] is such a component among those reachable from [starts], if any, by the algorithm of Couvreur
+    (1999). Of a component's nodes it may be only some. It takes no stack, a bit for each node that is reached, and
+    some words for each that may still turn out to be on a cycle. [tick] is called at each new node. *)
 
 val first : component -> int
 (** The smallest node. *)

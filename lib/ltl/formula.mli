@@ -13,8 +13,8 @@ type 'p t =
   | Finally of 'p t  (** [F f]: now or later *)
   | Globally of 'p t  (** [G f]: from now on *)
   | Until of 'p t * 'p t  (** [f U g]: [g] some time, and [f] until then *)
-  | Release of 'p t * 'p t  (** [f R g]: [g] up to where [f] holds too, or for ever *)
-  | Weak_until of 'p t * 'p t  (** [f W g]: [f U g], or [f] for ever *)
+  | Release of 'p t * 'p t  (** [f R g]: [g] up to where [f] holds too, or always *)
+  | Weak_until of 'p t * 'p t  (** [f W g]: [f U g], or always [f] *)
 
 val map : ('p -> 'q) -> 'p t -> 'q t
 

@@ -15,7 +15,7 @@ type t = {
   components : int array;
   mutable numbers : int Sets.t;
   mutable members : int list array;  (* by set *)
-  mutable next : int array array;  (* by set, then letter; [unknown] where nobody asked yet *)
+  mutable next : int array array;  (* by set, then letter; [unknown] if not computed yet *)
   mutable count : int;
   stay : (int * int, bool) Hashtbl.t;
 }
@@ -23,8 +23,8 @@ type t = {
 let unknown = -2
 let start = 0
 
-(* By state, the number of the component that it is in, or -1 if a run cannot be accepted there. By two searches, depth
-   first: forwards, and then backwards from what was left last. *)
+(* By state, the number of the component that it is in, or -1 if a run cannot be accepted there. By two searches,
+   depth first: forwards, and then backwards from the last finished state. *)
 let components states successors acceptance_sets is_in =
   let before = Array.make states [] and left = ref [] in
   let seen = Array.make states false in

@@ -10,8 +10,8 @@ val start : int
 (** Before the first letter. *)
 
 val next : t -> give:(unit -> unit) -> int -> int -> int
-(** [next m ~give s l] is the set after [s] and letter [l], or [-1] if it is empty: however the word goes on, it is not
-    accepted. [give ()] is called before a set gets a number; what it raises is raised, and the set has none. *)
+(** [next m ~give s l] is the set after [s] and letter [l], or [-1] if it is empty: however the word goes on, it is
+    not accepted. [give ()] is called before a set gets a number; its exceptions pass through, and the set has none. *)
 
 val count : t -> int
 (** Sets so far. *)
@@ -20,7 +20,7 @@ val is_certain : t -> int -> bool
 (** If [is_certain m s], a word in [s] is accepted however it goes on. The converse does not hold. *)
 
 val stays : t -> int -> int -> bool
-(** [stays m s l] is whether a word in [s] is accepted if it goes on with the letter [l] for ever. *)
+(** [stays m s l] is whether a word in [s] is accepted if it goes on with the letter [l] without end. *)
 
 (** {1:runs Runs of the automaton} *)
 

@@ -89,7 +89,7 @@ let number ~otherwise text =
   if value > Packed.limit then fail (Number_too_large text);
   value
 
-(* What stands in the parentheses that [text] consists of. *)
+(* The text in the parentheses that [text] consists of. *)
 let in_parentheses ~otherwise text =
   let text = String.trim text in
   let length = String.length text in

@@ -6,10 +6,10 @@ des (0, 2, 3)
 (1,"done(survey1)",2)
     v}
 
-    The first line says the initial state, the number of transitions and that of states. mCRL2 ends a label at the first
-    double quote, and CADP allows ASCII only. So what is written is printable ASCII without double quotes: any other
-    byte is [\x] and two hexadecimal digits in lower case, and so is a backslash that would read as such an escape. A
-    double quote is [\x22]; a label of printable ASCII without double quotes stands as it is. *)
+    The first line has the initial state, the number of transitions and that of states. mCRL2 ends a label at the
+    first double quote, and CADP allows ASCII only. So what is written is printable ASCII without double quotes: any
+    other byte is [\x] and two hexadecimal digits in lower case, and so is a backslash that would read as such an
+    escape. A double quote is [\x22]; a label of printable ASCII without double quotes stands as it is. *)
 
 val write : (string -> unit) -> Graph.t -> unit
 (** [write out g] calls [out] with the parts of the text of [g], in order: [write (output_string channel) g]. Texts of
@@ -25,7 +25,7 @@ type problem =
   | Not_a_header of string  (** the first line is not [des (...)] *)
   | Not_a_transition of string
   | Unclosed_label of string
-  | No_states  (** the header says that there are none *)
+  | No_states  (** the header declares an empty graph *)
   | Number_too_large of string
   | No_such_state of { state : int; states : int }
   | Wrong_count of { announced : int; found : int }  (** of transitions *)
@@ -39,4 +39,4 @@ val of_string : string -> (Graph.t, error) result
     and UTF-8: it ends at the last quote of the line. Escapes, as above, are undone. *)
 
 val pp_error : Format.formatter -> error -> unit
-(** What is wrong in which line, without a full stop. *)
+(** The fault and its line, without a full stop. *)

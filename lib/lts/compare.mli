@@ -1,4 +1,4 @@
-(** Whether two graphs are strongly bisimilar, and if not, what tells them apart. *)
+(** Whether two graphs are strongly bisimilar, and if not, a formula that distinguishes them. *)
 
 type side = Left | Right
 

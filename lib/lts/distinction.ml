@@ -31,7 +31,7 @@ let reasons g r b c =
       |> List.sort_uniq Int.compare
     in
     let parted other = if other = next then round else Refinement.parted r next other in
-    (* What was parted last comes first: the formula for it may do for others. *)
+    (* The last parted blocks come first: the formula for them may suit others. *)
     let others = List.sort (fun x y -> compare y x) (List.map (fun other -> (parted other, other)) others) in
     if List.for_all (fun (earlier, _) -> earlier < round) others then
       let rounds = List.fold_left (fun sum (earlier, _) -> sum + earlier) 0 others in

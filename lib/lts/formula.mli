@@ -1,5 +1,5 @@
-(** Formulas of Hennessy and Milner's logic: what a state can do, to any depth. Two states of a finite graph are
-    strongly bisimilar exactly if no formula holds in one only. *)
+(** Formulas of Hennessy and Milner's logic: the transitions of a state, to any depth. Two states of a finite graph
+    are strongly bisimilar exactly if no formula holds in one only. *)
 
 type t =
   | Can of string * t list

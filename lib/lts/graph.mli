@@ -1,9 +1,9 @@
 (** Labelled transition systems, explicit: an initial state, and a set of transitions.
 
-    States are numbered from 0, and so are labels. The transitions that leave one state are numbered in a row:
-    those of state [s] are [first g s], [first g s + 1] ... [first g (s + 1) - 1], in ascending order of label, then
-    target. A transition that is there twice is one, unless the graph is made {e with doubles}. What compares or
-    minimises graphs takes those without. A transition takes 8 bytes, a state 4. *)
+    States are numbered from 0, and so are labels. The transitions that leave one state are numbered in a row: those
+    of state [s] are [first g s], [first g s + 1] ... [first g (s + 1) - 1], in ascending order of label, then
+    target. A transition that is there twice is one, unless the graph is made {e with doubles}. Functions that
+    compare or minimise graphs take those without. A transition takes 8 bytes, a state 4. *)
 
 type t
 
@@ -25,7 +25,7 @@ module Builder : sig
 
   val add_numbered : t -> int -> int -> int -> unit
   (** [add_numbered b s (label b text) s'] is [add b s text s'], faster.
-      @raise Invalid_argument also if there is no such label. *)
+      @raise Invalid_argument also if the label does not exist. *)
 
   val finish : ?doubles:bool -> ?initial:int -> ?states:int -> ?text:(int -> string) -> t -> graph
   (** [finish b] is the graph with the transitions added so far. Its number of states is [states] or, if that is less
@@ -70,7 +70,7 @@ val label : t -> int -> string
 (** [label g l] is the text of label number [l]. *)
 
 val text : t -> (int -> string) option
-(** What describes the states, if anything does. *)
+(** The descriptions of the states, if any. *)
 
 val first : t -> int -> int
 (** [first g s] is the number of the first transition of [s]; [first g (states g)] is [transitions g]. *)

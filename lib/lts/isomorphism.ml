@@ -111,7 +111,7 @@ let balanced pair r ~round =
   let left, right = census pair r ~round in
   left = right
 
-(* The first round after which blocks are not balanced, where they are not in the end: they stay so. Before the first
+(* The first round after which blocks are not balanced, if they are not in the end: they stay so. Before the first
    round there is but one block. *)
 let first_unbalanced pair r =
   let rec search low high =

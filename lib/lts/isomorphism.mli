@@ -2,16 +2,16 @@
 
 type side = Left | Right
 
-(** What was found first. Traces lead from the initial state. *)
+(** The first difference. Traces lead from the initial state. *)
 type reason =
   | Enabled of { trace : string list; left : string list; right : string list }
   (** After [trace], a shortest one, the left graph can do [left], the right one [right]. *)
   | Merged of { side : side; trace : string list; other : string list }
   (** [trace] and [other] lead to one state in the graph on this side, and to two in the other. *)
   | Unmatched of { side : side; trace : string list option; left : int; right : int; steps : int }
-  (** [trace] leads in the graph on this side to a state of a kind of which there are [left] in the left graph and
-      [right] in the right one; states are of one kind if they cannot be told apart by [steps] steps, forwards or
-      back, with all transitions counted. There is no trace if no such state can be reached. *)
+  (** [trace] leads in the graph on this side to a state of a kind of which the left graph has [left] and the right
+      one [right]; states are of one kind if [steps] steps, forwards or back, with all transitions counted, do not
+      distinguish them. Without such a reachable state, there is no trace. *)
   | No_matching  (** Each state can be matched with one of the other graph, but not all at once. *)
   | Undecided  (** {!effort} was spent. Only graphs with rare symmetries need that much. *)
 
@@ -30,8 +30,8 @@ val check : Graph.t -> Graph.t -> (unit, difference) result
     transitions.
 
     Graphs in which a state and a label determine the next state are walked through side by side, in linear time.
-    Others are refined by what surrounds each state, see {!Refinement}, which decides nearly always; what symmetry is
-    left is broken by trial. *)
+    Others are refined by the surroundings of each state, see {!Refinement}, which decides nearly always; remaining
+    symmetry is broken by trial. *)
 
 val pp_difference : Format.formatter -> difference -> unit
-(** How many states and transitions each has, and what tells them apart; several lines. *)
+(** The numbers of states and transitions of each, and their difference; several lines. *)

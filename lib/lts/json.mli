@@ -16,7 +16,7 @@ val write : (string -> unit) -> Graph.t -> unit
 
 val to_string : Graph.t -> string
 
-(** What is wrong with a text. Transitions and texts are numbered from 0. *)
+(** The fault of a text. Transitions and texts are numbered from 0. *)
 type error =
   | Not_json of string  (** with the place and the reason *)
   | Not_a_graph  (** ["format"] is not ["dolphin-lts"] *)
@@ -29,4 +29,4 @@ val of_string : string -> (Graph.t, error) result
 (** [of_string (to_string g)] equals [g], and describes the states as [g] does. *)
 
 val pp_error : Format.formatter -> error -> unit
-(** What is wrong and where, without a full stop. *)
+(** The fault and its place, without a full stop. *)

@@ -13,7 +13,7 @@ val length : t -> int
 
 val get : t -> int -> int
 (** [get v i] is the element [i], from 0.
-    @raise Invalid_argument if there is none. *)
+    @raise Invalid_argument if it has none. *)
 
 val set : t -> int -> int -> unit
 

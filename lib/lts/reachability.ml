@@ -4,8 +4,8 @@ type run = { start : int; steps : step list }
 let trace run = List.rev (List.rev_map (fun step -> step.label) run.steps)
 let finish run = List.fold_left (fun _ step -> step.target) run.start run.steps
 
-(* What breadth-first search finds: the states in the order found, and for each the state and the label that it was
-   found by. *)
+(* The result of breadth-first search: the states in the order found, and for each the state and the label that it
+   was found by. *)
 type search = { order : int array; mutable found : int; came_from : int array; came_by : int array }
 
 let unseen = -2

@@ -1,4 +1,4 @@
-(** What can be reached, and how, by shortest runs. *)
+(** The reachable states, and shortest runs to them. *)
 
 type step = { label : string; target : int }
 

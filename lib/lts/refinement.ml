@@ -95,7 +95,7 @@ let mark r s =
     r.dirty.(b) <- r.dirty.(b) + 1
   end
 
-(* What a block is split into: the groups of its dirty states, and its clean states if there are any. *)
+(* The groups of a split block: those of its dirty states, and its clean states if it has any. *)
 type split = { of_block : int; first_group : int; groups : int }
 
 let signature r s =
@@ -133,7 +133,7 @@ let sort_by_group r { of_block = b; first_group; groups } =
   done;
   place_of_group
 
-(* Splits a block; [changed] is told of the blocks that are new. *)
+(* Splits a block; [changed] gets the new blocks. *)
 let split_block r ~changed ({ of_block = b; groups; _ } as split) =
   let start = r.start.(b) and size = r.size.(b) and dirty = r.dirty.(b) in
   if groups > 1 || dirty < size then begin

@@ -1,5 +1,5 @@
 (** Partition refinement: blocks of states are split, round by round, until all states of a block have the same
-    signature, which says by which labels they go to which blocks.
+    signature, which lists the labels by which they go to each block.
 
     Block 0 is there at first; rounds are numbered from 1. After round [k] two states are in one block exactly if they
     are bisimilar for [k] steps.

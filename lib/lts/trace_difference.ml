@@ -1,6 +1,6 @@
 type t = First_only of string list | Second_only of string list | None | Not_known
 
-(* What one trace leads to, from the first state and from the second: both not empty, ascending. *)
+(* The states that one trace reaches, from the first state and from the second: both not empty, ascending. *)
 module Pairs = Hashtbl.Make (struct
     type t = int list * int list
 
@@ -16,7 +16,7 @@ type node = { states : int list * int list; trace : string list  (* the last lab
 
 let descending (l, s) (l', s') = match Int.compare l' l with 0 -> Int.compare s' s | order -> order
 
-(* The labels by which states of [set] can go, and where to, both in ascending order. *)
+(* The labels by which states of [set] can go, and their successors, both in ascending order. *)
 let moves g set =
   let all = List.concat_map (fun s -> Graph.fold_from g s (fun moves l target -> (l, target) :: moves) []) set in
   let add grouped (l, target) =

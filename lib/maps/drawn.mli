@@ -1,4 +1,4 @@
-(** What readers of map files find, before names and areas are made of it. *)
+(** The results of readers of map files, before names and areas are made of them. *)
 
 open Dolphin_geo
 

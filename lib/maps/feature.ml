@@ -15,7 +15,7 @@ let utc seconds =
     (if rest = 0 then "" else Printf.sprintf ".%03d" rest)
 
 let parts line =
-  (* Both sides of the meridian, where the straight line between two longitudes meets it. *)
+  (* Both sides of the meridian, at its crossing with the straight line between two longitudes. *)
   let crossing (a : Position.t) (b : Position.t) =
     let side = if a.longitude < 0. then -180. else 180. in
     let beyond = b.longitude +. (2. *. side) in

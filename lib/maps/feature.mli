@@ -1,4 +1,4 @@
-(** What stands on a map that programs exchange. *)
+(** The contents of a map that programs exchange. *)
 
 open Dolphin_geo
 

@@ -10,10 +10,10 @@ val most_deep : int
 
 (** {1 Asking}
 
-    [place] is where the value stands. *)
+    [place] is the place of the value. *)
 
 val member : string -> Yojson.Safe.t -> Yojson.Safe.t
-(** [`Null] if there is none. *)
+(** [`Null] if it is missing. *)
 
 val elements : string -> Yojson.Safe.t -> Yojson.Safe.t list
 (** Those of a list; else wrong at [place]. *)

@@ -94,8 +94,8 @@ let opened ring =
       || Wgs84.distance first last <= 1e-3 -> List.rev before
   | ring, _ -> ring
 
-(* Halves are united with halves, so that many polygons take no square of the time; the first half first, so that those
-   which make too many corners are told early. *)
+(* Halves are united with halves, so that many polygons do not take quadratic time; the first half first, so that
+   those which make too many corners are reported early. *)
 let united place = function
   | [] -> Drawn.wrong place "a polygon has corners"
   | areas ->
@@ -104,7 +104,7 @@ let united place = function
       if n = 1 then areas.(i) else area place (Area.union (between i (n / 2)) (between (i + (n / 2)) (n - (n / 2)))) in
     between 0 (Array.length areas)
 
-(* The area of polygons, with what had to be repaired. *)
+(* The area of polygons, with the list of repairs. *)
 let ground place rings =
   let repairs = ref [] in
   let polygon ({ rim; holes } : Drawn.ring) =

@@ -8,17 +8,17 @@ type t = {
   things : (string * (thing, string) result) list;
   (** by name, in the order of the file; [Error why] where a feature makes no thing, [why] with its place in the
       file *)
-  notes : string list;  (** what is left out, and what was repaired: each a sentence with its place in the file *)
+  notes : string list;  (** the omissions and repairs: each a sentence with its place in the file *)
 }
 
 val read : path:string -> string -> (t, string) result
-(** [read ~path text] is what the map with this contents has. The end of [path] says which format it is: one of
+(** [read ~path text] is the features of the map with this contents. The end of [path] determines its format: one of
     {!formats}. A feature that has the name of an earlier one is ["NAME 2"], or the next number that is not another
-    feature's name. A feature without a name is ["area 1"], ["line 1"], ["point 1"] or ["feature 1"], counted by kind.
-    [Error why] if the file as a whole is not as its format wants it, or if no feature of it makes a thing and some
-    should: what is wrong, and where, in one sentence. *)
+    feature's name. A feature without a name is ["area 1"], ["line 1"], ["point 1"] or ["feature 1"], counted by
+    kind. [Error why] if the file as a whole breaks its format, or if it has features and all of them are faulty: the
+    fault and its place, in one sentence. *)
 
-(** What stands on a map as it is drawn; whether it makes an area is nobody's business. *)
+(** The contents of a map as drawn; whether they make areas is not checked. *)
 type outline =
   | Spot of Position.t
   | Way of Position.t list
@@ -26,7 +26,7 @@ type outline =
   | Round of { centre : Position.t; radius : float  (** m *) }
 
 val outlines : path:string -> string -> ((string * outline) list, string) result
-(** [outlines ~path text] is what the map has, by the names that stand in it, [""] where none does; else as {!read}. *)
+(** [outlines ~path text] is the features of the map, by their names in it, [""] without one; else as {!read}. *)
 
 val formats : string list
 (** Ends of files' names: [".geojson"] and so on. *)

@@ -37,7 +37,7 @@ let lines parts : Yojson.Safe.t =
   | [ line ] -> `Assoc [ ("type", `String "LineString"); ("coordinates", line) ]
   | lines -> `Assoc [ ("type", `String "MultiLineString"); ("coordinates", `List lines) ]
 
-(* A track has one time for each position: what is cut in two has none for where it is cut. *)
+(* A track has one time for each position: a point where it is cut in two has none. *)
 let json_geometry : geometry -> Yojson.Safe.t * (string * Yojson.Safe.t) list = function
   | Point p -> (`Assoc [ ("type", `String "Point"); ("coordinates", json_position p) ], [])
   | Line line -> (lines (Feature.parts line), [])

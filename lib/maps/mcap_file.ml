@@ -78,7 +78,7 @@ let put_channels all b =
 (* A message with its channel's number, its number there, and its time in nanoseconds. *)
 type item = { number : int; ordinal : int; at : int; json : string }
 
-(* What is known of a chunk that stands in the file: where, how long, and where the indices of its channels are. *)
+(* The known data of a chunk in the file: its place, its length, and the places of its channels' indices. *)
 type chunk = {
   first : int;
   last : int;
@@ -109,7 +109,7 @@ let put_message b { number; ordinal; at; json } =
       u64 b at;
       Buffer.add_string b json)
 
-(* Where the messages of each channel stand in the chunk. *)
+(* The places of each channel's messages in the chunk. *)
 let records_of all items =
   let b = Buffer.create most_bytes in
   put_schemas all b;

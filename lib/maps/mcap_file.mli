@@ -1,7 +1,7 @@
 (** Recordings in the MCAP format, as Foxglove and the tools of ROS read them: messages with their times, in channels.
     Chunks of some 1 MB are indexed, and not compressed. *)
 
-(** What the messages of a channel look like. *)
+(** The format of a channel's messages. *)
 type schema = {
   name : string;  (** ["foxglove.LocationFix"] *)
   json_schema : Yojson.Safe.t;

@@ -39,7 +39,7 @@ let fence json =
 (* {1 The mission} *)
 
 (* Commands of MAVLink that are flown to their place. Those of cameras, of regions of interest, of the home position
-   and of markers for landings have a place, too, which is none of the way. *)
+   and of markers for landings have a place, too, which is not part of the way. *)
 let flown =
   [ (16, "WAYPOINT"); (17, "LOITER_UNLIM"); (18, "LOITER_TURNS"); (19, "LOITER_TIME"); (21, "LAND"); (22, "TAKEOFF");
     (31, "LOITER_TO_ALT"); (36, "ARC_WAYPOINT"); (82, "SPLINE_WAYPOINT"); (84, "VTOL_TAKEOFF"); (85, "VTOL_LAND");
@@ -50,7 +50,7 @@ let global_frames = [ 0; 3; 5; 6; 10; 11 ]
 
 let whole = function `Int n -> Some n | _ -> None
 
-(* The place is the fifth to the seventh parameter; 0 and null are none. *)
+(* The place is the fifth to the seventh parameter; 0 and null mean none. *)
 let place_of place item =
   match Json_text.member "params" item with
   | `List [ _; _; _; _; latitude; longitude; height ] when latitude <> `Null && longitude <> `Null ->
@@ -59,7 +59,7 @@ let place_of place item =
     if latitude = 0. && longitude = 0. then None else Some (Drawn.position place ~latitude ~longitude ~height)
   | _ -> None
 
-(* Where the way of the mission goes by this item, and what is left out of it. *)
+(* The part of the mission's way at this item, and the omissions. *)
 let way_point (place, item) =
   let is_simple = match Json_text.member "type" item with `Null | `String "SimpleItem" -> true | _ -> false in
   let command = Option.bind (whole (Json_text.member "command" item)) (fun n -> List.assoc_opt n flown) in
@@ -79,7 +79,7 @@ let way items =
   in
   line @ List.concat notes
 
-(* Surveys have an area or a line; their own way belongs to what QGroundControl makes of it. *)
+(* Surveys have an area or a line; QGroundControl computes their own way. *)
 let complex (place, item) =
   let polygon = Json_text.member "polygon" item and line = Json_text.member "polyline" item in
   let word =

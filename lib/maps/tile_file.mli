@@ -4,17 +4,17 @@
 type t = {
   minimum : int;  (** from the metadata, else of the tiles themselves *)
   maximum : int;  (** zoom levels that there are; at level [z] the world is [2 ** z] tiles wide *)
-  bounds : (float * float * float * float) option;  (** west, south, east, north, in degrees, if the file tells them *)
-  attribution : string;  (** whom to thank; [""]: the file does not say *)
+  bounds : (float * float * float * float) option;  (** west, south, east, north, in degrees, if the file has them *)
+  attribution : string;  (** the attribution; [""]: the file has none *)
 }
 
 val read : string -> (t, string) result
-(** [read path] is what the tiles at [path] are, or why they cannot be shown, in a sentence. *)
+(** [read path] is the description of the tiles at [path], or the reason why they cannot be shown, in a sentence. *)
 
 type image = { kind : string;  (** its media type *) bytes : string }
 
 val tile : string -> zoom:int -> column:int -> row:int -> (image option, string) result
-(** [tile path ~zoom ~column ~row] is that tile, counted from the west and the north; [None] if there is none. *)
+(** [tile path ~zoom ~column ~row] is that tile, counted from the west and the north; [None] if it does not exist. *)
 
 val deepest : int
 (** 24: the deepest level of zoom. *)

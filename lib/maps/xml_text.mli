@@ -4,7 +4,7 @@ type t = {
   tag : string;  (** without its prefix *)
   attributes : (string * string) list;
   inside : t list;
-  text : string;  (** what stands directly in it, trimmed *)
+  text : string;  (** its direct text, trimmed *)
   place : string;  (** the line *)
 }
 
@@ -19,7 +19,7 @@ val child : string -> t -> t option
 
 val children : string -> t -> t list
 val text_of : string -> t -> string
-(** That of the first child of that tag, [""] if there is none. *)
+(** That of the first child of that tag, [""] without one. *)
 
 val number : t -> string -> float
 (** [number x text] is the number that [text] spells, or wrong at the place of [x]. *)

@@ -7,7 +7,7 @@ let long text i = short text i + (short text (i + 2) lsl 16)
 let part text start length =
   if start < 0 || length < 0 || start + length > String.length text then broken () else String.sub text start length
 
-(* The record at the end says where the list of files is. A comment of at most 65,535 bytes may follow it. *)
+(* The record at the end has the place of the list of files. A comment of at most 65,535 bytes may follow it. *)
 let end_record text =
   let rec find i =
     if i < 0 || i < String.length text - 65_557 then wrong "this is no ZIP archive"

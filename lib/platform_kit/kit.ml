@@ -13,7 +13,7 @@ type verdict = {
 
 let names = List.map (fun (s : Situations.t) -> (s.name, s.what)) Situations.all
 
-(* A line that is no report is wrong in any situation, where nothing worse is. *)
+(* A line that is not a report is wrong in any situation, unless a worse fault was found. *)
 let judged talks outcome =
   match outcome, List.concat_map Talk.faults talks with
   | Error why, _ -> (Some why, None)

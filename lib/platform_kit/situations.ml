@@ -33,7 +33,7 @@ let stop_order request vehicle : Order.t = Stop { request; vehicle }
 let resume_order ?(notes = []) request vehicle plan : Order.t =
   Resume { request; vehicle; plan = by_name plan; timeout = 60.; notes }
 
-(* What the adapter of [t] gave to be kept about a request, latest first. *)
+(* The notes of the adapter of [t] on a request, latest first. *)
 let notes_of t r =
   let add notes : Report.t -> Yojson.Safe.t list = function
     | Note { request; note; _ } when String.equal request r -> note :: notes
@@ -55,7 +55,7 @@ let words t request =
 
 let ends t request = List.filter Report.is_end (words t request)
 
-(* The next word on a request that is no estimate. *)
+(* The next report on a request that is not an estimate. *)
 let word t plans request =
   Talk.await t ~within:plans.patience ~what:("an answer about " ^ request) (function
       | Request (_, Progress _) -> None
@@ -88,7 +88,7 @@ let greeted ?(resumes = false) ~started command =
   | Ok _ -> wrong "its first line is no greeting"
   | Error why -> wrong "its first line %s" why
 
-(* What is known of vehicles, from all reports so far. *)
+(* The known state of vehicles, from all reports so far. *)
 let vehicles t =
   let known = Hashtbl.create 16 in
   let add : Report.t -> unit = function
@@ -147,7 +147,7 @@ let strange_orders plans ~started command =
   Talk.send_text t {|{"later": {"version": 2}, "kind": "ping", "id": 7}|};
   Talk.await t ~within:5. ~what:"the pong" (function Pong 7 -> Some () | _ -> None) >>= fun () -> fine
 
-(* What the adapter reports of [v] after an order to say all again. *)
+(* The reports of the adapter on [v] after an order to repeat all. *)
 let refused_line plans ~started command =
   with_vehicle plans ~started command >>= fun (t, v) ->
   let before = List.length (Talk.reports t) in
@@ -330,7 +330,7 @@ let all_at_once plans ~started command =
 
 let again plans ~started command = with_vehicle ~resumes:true plans ~started command
 
-(* The adapter dies, as [die] has it, while a vehicle runs the long plan; what the next one says of it. *)
+(* The adapter dies, as [die] has it, while a vehicle runs the long plan; the next one's report on it. *)
 let died_while_running plans ~started command die =
   with_vehicle plans ~started command >>= fun (t, v) ->
   let r = request () in

@@ -1,4 +1,4 @@
-(** The situations of the kit: what every adapter must get right, each a script of orders. *)
+(** The situations of the kit: the required behaviour of every adapter, each a script of orders. *)
 
 type plans = {
   short : string;  (** a plan, by name, that a vehicle runs to its end within {!field-patience} *)
@@ -9,7 +9,7 @@ type plans = {
 
 type t = {
   name : string;
-  what : string;  (** what the adapter must do *)
+  what : string;  (** the required behaviour *)
   script : plans -> started:(Talk.t -> unit) -> string -> string option Lwt.t;
   (** [script plans ~started command] fails with {!Talk.Wrong}; or it gives a remark. [started] gets each adapter that
       it starts, for their transcripts and their end. *)

@@ -12,7 +12,7 @@ type t = {
   mutable paused : unit Lwt.t;
   mutable resume : unit Lwt.u option;
   mutable all : Report.t list;  (* latest first *)
-  mutable open_ : Report.t list;  (* those that nobody has accepted, in order *)
+  mutable open_ : Report.t list;  (* those that are not accepted yet, in order *)
   mutable first : (Report.t, string) result option;
   mutable faults : string list;  (* latest first *)
   mutable said : string list;  (* latest first *)

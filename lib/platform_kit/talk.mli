@@ -4,23 +4,24 @@ open Dolphin_platform_protocol
 module Order := Dolphin_platform_protocol.Order
 
 exception Wrong of string
-(** What the adapter does wrong, in a sentence without a full stop. *)
+(** The fault of the adapter, in a sentence without a full stop. *)
 
 type t
 
 val start : string -> t
-(** [start command] starts the adapter; nothing is said yet. *)
+(** [start command] starts the adapter, without a greeting. *)
 
 val send : t -> Order.t -> unit
 val send_text : t -> string -> unit
 (** A line as it is, without its end. *)
 
 val pause_reading : t -> bool -> unit
-(** While it is on, nothing is read of what the adapter writes. *)
+(** While it is on, the adapter's output is not read. *)
 
 val await : t -> within:float -> what:string -> (Report.t -> 'a option) -> 'a Lwt.t
-(** [await t ~within ~what fits] is what [fits] makes of the first report that it accepts, of those that no [await] has
-    accepted; it may have come already. Raises {!Wrong} if none comes within so many seconds, or the adapter ends. *)
+(** [await t ~within ~what fits] is the result of [fits] for the first report that it accepts, of those that no
+    [await] has accepted; it may have come already. Raises {!Wrong} if none comes within [within] seconds, or the
+    adapter ends. *)
 
 val reports : t -> Report.t list
 (** All that came so far, in order. *)
@@ -29,7 +30,7 @@ val first_line : t -> within:float -> (Report.t, string) result Lwt.t
 (** The first line that came, or what is wrong with it. *)
 
 val ends_within : t -> float -> bool Lwt.t
-(** Whether the process ends within so many seconds. *)
+(** Whether the process ends within this number of seconds. *)
 
 val close_input : t -> unit Lwt.t
 (** As when Dolphin dies: the adapter's input ends. *)
@@ -41,7 +42,7 @@ val finish : t -> unit Lwt.t
 (** Ends the adapter in good order. *)
 
 val faults : t -> string list
-(** What was wrong with its lines. *)
+(** The faults of its lines. *)
 
 val transcript : t -> string list
 (** The last lines of the conversation, with [<] those that we wrote and with [>] the adapter's. *)

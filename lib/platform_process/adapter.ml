@@ -13,7 +13,7 @@ type line = Report of Report.t | Garbage of string
 
 let greeting_patience = 10.
 
-(* How long the exit of one that closed its output is waited for, and what one that is gone wrote. *)
+(* The time in which an adapter that closed its output must exit, and the last output of one that is gone. *)
 let aftermath = 1.
 
 (* That it reads no more shows in that it is gone. *)
@@ -31,7 +31,7 @@ let death a =
   Child.exited a.child >>= fun s ->
   Lwt_unix.sleep aftermath >|= fun () -> status s
 
-(* So many lines are read before others have their turn. *)
+(* The number of lines that are read before other adapters have their turn. *)
 let most_at_once = 64
 
 let listen a f =

@@ -5,7 +5,7 @@ module Order = Dolphin_platform_protocol.Order
 module Names = Map.Make (String)
 module Name_set = Set.Make (String)
 
-(* What is outstanding on one vehicle: a request without an end, and a task that waits for that end. *)
+(* The outstanding orders of one vehicle: a request without an end, and a task that waits for that end. *)
 type slot = { errand : Errand.t; next : (Core.platform_task * float) option }
 
 type seen = {
@@ -14,7 +14,7 @@ type seen = {
   told : World.vehicle_state option;
 }
 
-(* What waits to be handed out. Of a vehicle it is said what is known when that is done. *)
+(* The events to be handed out. The known state of a vehicle is reported when that is done. *)
 type news = Changed of Core.vehicle | Told of Platform.event
 
 type output =
@@ -108,7 +108,7 @@ let is_change v = function Changed w -> String.equal v w | Told _ -> false
 let changed v d =
   if List.exists (is_change v) d.ready || List.exists (is_change v) d.news then d else tell (Changed v) d
 
-(* What is known of a vehicle goes before the end of its task. *)
+(* The known state of a vehicle goes before the end of its task. *)
 let end_task v event d = tell (Told event) (changed v d)
 let without fits d = { d with ready = List.filter (fun n -> not (fits n)) (all_news d); news = [] }
 
@@ -167,7 +167,7 @@ let begin_errand ~now v task d =
   |> put v { errand; next = None }
   |> output (Keep_before (v, note, request))
 
-(* The vehicle has nothing of ours any more; what waits for that begins. *)
+(* The vehicle has none of our requests any more; the task waiting for that begins. *)
 let free ~now v (slot : slot) d =
   let d = { d with slots = Names.remove v d.slots } in
   match slot.next with None -> d | Some (task, _) -> begin_errand ~now v task d
@@ -182,7 +182,7 @@ let durable ~now request d =
   in
   finish d
 
-(* {1 What is said about requests} *)
+(* {1 Reports on requests} *)
 
 let end_errand ~now v (slot : slot) word d =
   let e = slot.errand in
@@ -197,7 +197,7 @@ let end_errand ~now v (slot : slot) word d =
     | Absent -> over (Task_failed (v, "the order to start did not reach the vehicle"))
     | Taken | Progress _ | Unknown _ -> d
 
-(* The task has failed, and what the vehicle does is not certain. *)
+(* The task has failed, and the vehicle's behaviour is uncertain. *)
 let fail_uncertain ~now v (slot : slot) why d =
   let e = slot.errand in
   let d = end_task v (Task_failed (v, why)) d in
@@ -225,13 +225,13 @@ let word ~now request (word : Report.word) d =
       | Unknown _ -> d
       | Done | Failed _ | Stopped | Absent -> end_errand ~now v slot word d)
 
-(* {1 What is said about vehicles} *)
+(* {1 Reports on vehicles} *)
 
 let relink ~now v (seen : seen) sighting d =
   let since = if Sighting.link sighting = Sighting.link seen.sighting then seen.since else now in
   { d with seen = Names.add v { seen with sighting; since } d.seen }
 
-(* Changes of position and battery are told while somebody wants them; all others at once. *)
+(* Changes of position and battery are reported while telemetry is wanted; all others at once. *)
 let is_telemetry before after =
   match before, Sighting.state after with
   | Some (told : World.vehicle_state), Some state ->
@@ -429,7 +429,7 @@ let cancel_timer timer d =
 
 (* {1 Resumption} *)
 
-(* What is to be asked of the vehicle: the request before was to be stopped, and this one was to start. *)
+(* The question to the vehicle: the request before was to be stopped, and this one was to start. *)
 let resume_task ~now d (v, (c : History.commanded)) =
   let outstanding ~wanted (c : History.commanded) notes =
     let to_errand (request, notes) =

@@ -1,5 +1,6 @@
-(** What is known of an adapter's vehicles, and all that was ordered of them, as a pure state. {!Process_platform} is
-    the shell that gives it reports and time, and sends what it orders. [docs/platform.md] says who decides what. *)
+(** The known state of an adapter's vehicles, and all orders to them, as a pure state. {!Process_platform} is the
+    shell that gives it reports and time, and sends what it orders. [docs/platform.md] defines which side decides
+    each question. *)
 
 open Dolphin_platform_protocol
 open Dolphin_semantics
@@ -9,7 +10,7 @@ module Order := Dolphin_platform_protocol.Order
 type t
 
 val create : platform:string -> prefix:string -> t
-(** Nobody is known, and no adapter is there. [platform] is its name in journals; requests are numbered behind
+(** No vehicle is known, and no adapter runs. [platform] is its name in journals; requests are numbered behind
     [prefix]. *)
 
 val resume : now:float -> announce_period:float -> History.t -> t -> t
@@ -25,16 +26,16 @@ type output =
   | Send of Order.t
   | Keep of Core.vehicle * Yojson.Safe.t
   | Keep_before of Core.vehicle * Yojson.Safe.t * string
-  (** Keep it, and when it is durable say so with {!durable}, of this request. *)
+  (** Keep it, and when it is durable report so by {!durable}, of this request. *)
   | Keep_and_tell of Core.vehicle * Yojson.Safe.t * int
-  (** Keep it, and when it is durable tell the adapter, by this number. *)
+  (** Keep it, and when it is durable report so to the adapter, by this number. *)
   | Remark of Core.vehicle option * string
   | Give_up of string  (** The adapter is silent: it is to be ended; why. *)
 
 (** {1:inputs Inputs} Times are seconds of our clock, which is never set back. *)
 
 val born : now:float -> Report.greeting -> t -> t * output list
-(** An adapter has greeted. It is asked what became of what is outstanding. *)
+(** An adapter has greeted. It is asked for the outcome of outstanding requests. *)
 
 val died : now:float -> t -> t * output list
 (** It is gone: its vehicles have no link. *)
@@ -76,11 +77,11 @@ val quiet : t -> bool
 (** No request lacks its end, but for those whose stop was given up. *)
 
 val unsettled : t -> (Core.vehicle * string) list
-(** Vehicles that may still run a plan, with its name, though nobody wants it. *)
+(** Vehicles that may still run an unwanted plan, with its name. *)
 
 (** {1:displays For displays} *)
 
-(** What is known of one vehicle. *)
+(** The known state of one vehicle. *)
 type vehicle = {
   state : World.vehicle_state;
   is_placed : bool;  (** otherwise its position is not known *)

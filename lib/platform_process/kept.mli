@@ -1,4 +1,4 @@
-(** What journals keep of requests, for a console that takes over. *)
+(** The data of requests in journals, for a console that takes over. *)
 
 open Dolphin_semantics
 open Dolphin_runtime
@@ -16,7 +16,7 @@ val platform : Yojson.Safe.t -> string option
 (** Which platform kept this. *)
 
 val latest : platform:string -> Yojson.Safe.t list -> (string * Yojson.Safe.t list) option
-(** [latest ~platform notes] is the latest request that [notes], latest first, say was asked and is not over, with the
+(** [latest ~platform notes] is the latest request that was asked and is not over by [notes], latest first, with the
     adapter's own notes on it, latest first. *)
 
 val unsettled : platform:string -> History.t -> (Core.vehicle * string * Yojson.Safe.t) list

@@ -50,7 +50,7 @@ let platform p = p.platform
 let offers p = p.greeting.plans
 let restart_delays = [ 1.; 2.; 4.; 8.; 16.; 30. ]
 
-(* One that lived so long and died is started again as if it had never died. *)
+(* An adapter that lived this long and died is started again without a delay. *)
 let long_life = 60.
 
 (* {1 Outputs} *)
@@ -65,7 +65,7 @@ let send p order =
 
 let told p why = p.options.note None (Printf.sprintf "platform %s: %s" p.platform why)
 
-(* What is kept is given a number, and done once it is durable. *)
+(* A note gets a number, and its action is done once it is durable. *)
 let when_durable p key done_ =
   match p.write_ahead with
   | None -> done_ ()

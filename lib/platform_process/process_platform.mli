@@ -12,8 +12,8 @@ type options = {
   program : string option;  (** the name of its file *)
   dolphin : string;  (** our version, for the adapter's logs *)
   taken : string list;  (** names that other platforms of the run have *)
-  close_patience : float;  (** so many seconds [close] waits for stops to be confirmed *)
-  note : Core.vehicle option -> string -> unit;  (** is told what is unusual, for people *)
+  close_patience : float;  (** the seconds that [close] waits for stops to be confirmed *)
+  note : Core.vehicle option -> string -> unit;  (** gets unusual events, for people *)
   keep : time:float -> Core.vehicle -> Yojson.Safe.t -> unit;
   (** keeps what a console that takes over has to know; when it returns, the note must survive this process *)
   sync : (unit -> unit Lwt.t) option;
@@ -22,12 +22,12 @@ type options = {
 }
 
 val default : command:string -> options
-(** To run a program that has no name; nothing is kept, and nobody told. *)
+(** For a program without a name; nothing is kept, and nothing reported. *)
 
 include Platform.S
 
 val open_ : options -> (t, string) result Lwt.t
-(** [open_ options] starts the adapter. The error says why it cannot be spoken to. *)
+(** [open_ options] starts the adapter. The error is the reason why it cannot be spoken to. *)
 
 val open_again : options -> time:float -> (string -> History.t) -> (t, string) result Lwt.t
 (** [open_again options ~time history] takes over, at [time], from a console that died after [history name], where
@@ -37,7 +37,7 @@ val leave : t -> unit Lwt.t
 (** [leave p] closes [p] and stops nothing: vehicles go on, for a console that takes over. *)
 
 val platform : t -> string
-(** Its name: what the adapter calls itself, or that with a number. *)
+(** Its name: the adapter's name for itself, or that with a number. *)
 
 val offers : t -> string list
 (** The kinds of plans that the adapter takes. *)
@@ -45,7 +45,8 @@ val offers : t -> string list
 val vehicles : t -> Dispatch.vehicle list
 
 val check : t -> ?vehicle:Core.vehicle -> Core.platform_task -> (string list, string) result Lwt.t
-(** What keeps a vehicle from running the plan, as the adapter says; the error says why it does not. *)
+(** The obstacles to running the plan on the vehicle, from the adapter; the error is the reason why it does not
+    answer. *)
 
 val restart_delays : float list
 (** Seconds after which an adapter that died is started again; the last one from then on. *)

@@ -1,4 +1,4 @@
-(** What the lines of both directions share: objects with a [kind]. *)
+(** The common part of the lines of both directions: objects with a [kind]. *)
 
 val version : int
 (** 1 *)
@@ -11,8 +11,8 @@ val make : string -> (string * Yojson.Safe.t) list -> Yojson.Safe.t
 
 val read :
   (string * (Dolphin_json.Field.members -> ('a, string) result)) list -> string -> ('a option, string) result
-(** [read kinds text] is what the reader of its kind makes of the line [text]; [None]: its kind is not among [kinds].
-    The error says what is wrong, in words that follow the line's name: ["is no JSON: ..."], ["has no member 'why'"].
+(** [read kinds text] is the result of its kind's reader for the line [text]; [None]: its kind is not among [kinds]. The
+    error is in words that follow the line's name: ["is no JSON: ..."], ["has no member 'why'"].
 *)
 
 (** {1:fields Members} *)

@@ -1,4 +1,4 @@
-(** Orders: the lines of the platform protocol that Dolphin writes; [docs/platform.md] says what they mean. *)
+(** Orders: the lines of the platform protocol that Dolphin writes; [docs/platform.md] defines their meaning. *)
 
 open Dolphin_semantics
 

@@ -10,7 +10,7 @@ let of_text x : json = `String x
 let of_float x : json = `Float x
 let of_truth x : json = `Bool x
 
-(* Names of what has no parts, in both directions. *)
+(* Names of constructors without parts, in both directions. *)
 let speed_units = [ (Plan.Metres_per_second, "m/s"); (Revolutions_per_minute, "rpm"); (Percent, "percent") ]
 let z_units = [ (Plan.Depth, "depth"); (Altitude, "altitude"); (Height, "height"); (Unspecified, "unspecified") ]
 

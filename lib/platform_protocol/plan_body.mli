@@ -7,8 +7,8 @@ val to_json : Core.platform_task -> Yojson.Safe.t
 
 val of_json : Yojson.Safe.t -> (Core.platform_task, string) result
 (** [of_json json] is the task that runs the plan [json], which comes from site 0: by name, or in the language
-    [imcPlan] or [mission], the latter with names for all arguments. The error says what is wrong with it, or that it
-    is in another language. *)
+    [imcPlan] or [mission], the latter with names for all arguments. The error is its fault, or that it is in another
+    language. *)
 
 val language : Core.platform_task -> string
 (** The kind of plan, as greetings list it: ["name"], ["imcPlan"], ["mission"]. *)

@@ -1,4 +1,4 @@
-(** Reports: the lines of the platform protocol that an adapter writes; [docs/platform.md] says what they mean. *)
+(** Reports: the lines of the platform protocol that an adapter writes; [docs/platform.md] defines their meaning. *)
 
 open Dolphin_semantics
 
@@ -11,7 +11,7 @@ type greeting = {
   patience : float;  (** seconds *)
 }
 
-(** What a report says about a vehicle; [None]: as before. *)
+(** The content of a report about a vehicle; [None]: as before. *)
 type sight = {
   vehicle : Core.vehicle;
   kind : string option;
@@ -22,15 +22,15 @@ type sight = {
   altitude : float option option;  (** metres above the ground or home; [Some None]: not known *)
   battery : float option option;  (** [Some None]: not known *)
   speed : float option option;
-  readings : (string * float option) list;  (** of what it measures; [None]: not known any more *)
+  readings : (string * float option) list;  (** of its measurements; [None]: not known any more *)
   link : bool option;
   unready : string option option;  (** [Some None]: nothing keeps it *)
 }
 
 val nothing : Core.vehicle -> sight
-(** Says nothing about the vehicle. *)
+(** Has nothing about the vehicle. *)
 
-(** What is said about a request. *)
+(** A report on a request. *)
 type word =
   | Taken
   | Progress of { share : float option; remaining : float option }

@@ -1,8 +1,8 @@
-(** Reproducible chance: numbers that depend only on what they are drawn for. So the luck of one vehicle does not depend
-    on how many draws others made before, and a run is the same with every version of the compiler (whose own generator
+(** Reproducible chance: numbers that depend only on their purpose. So the luck of one vehicle does not depend on how
+    many draws others made before, and a run is the same with every version of the compiler (whose own generator
     changed with OCaml 5). *)
 
-(** What is decided: how long a task takes, whether it fails, when, and where the vehicle goes. *)
+(** The purposes: the duration of a task, whether it fails, when, and where the vehicle goes. *)
 type question = Length | Failure | Moment | Course
 
 val share : seed:int -> vehicle:string -> start:int -> question -> float

@@ -1,4 +1,4 @@
-(** The queue of a discrete-event simulation: what is to happen, in order of time. *)
+(** The queue of a discrete-event simulation: the future events, in order of time. *)
 
 type key
 (** Identifies one event of a queue. *)

@@ -20,7 +20,8 @@ let by_name draw (plan : Scenario.plan option) (vehicle : Scenario.vehicle) posi
   | Some { place = None; _ } | None ->
     Track.circuit position ~bearing:(360. *. draw Course) ~speed:vehicle.speed ~duration:drawn, drawn
 
-(* What a vehicle makes of a height of [unit]; [None]: it stays as high as it is. How deep the sea is, nobody says. *)
+(* The vertical goal of a vehicle for a height of [unit]; [None]: it stays as high as it is. The depth of the sea is
+   unknown. *)
 let reached kind (unit : Plan.z_unit) =
   match String.uppercase_ascii kind, unit with
   | _, Unspecified -> None

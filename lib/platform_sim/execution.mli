@@ -7,11 +7,11 @@ type t = {
   track : Track.t;
   duration : float;  (** seconds; [infinity] for a plan without end *)
   outcome : (unit, string) result;  (** done, or why it fails *)
-  charges : float option;  (** what an hour of it gives the battery; [None]: it drains it *)
+  charges : float option;  (** the charge that an hour of it gives the battery; [None]: it drains it *)
 }
 
 val default_duration : Scenario.duration
-(** How long plans take of which the scenario does not say it: from 60 to 180 seconds. *)
+(** Default durations of plans: from 60 to 180 seconds. *)
 
 val make :
   draw:(Draw.question -> float) ->
@@ -20,10 +20,10 @@ val make :
   Dolphin_geo.Position.t ->
   Core.platform_task ->
   t
-(** [make ~draw plan vehicle position task] is the execution of [task], of which the scenario says [plan], by [vehicle]
+(** [make ~draw plan vehicle position task] is the execution of [task], with the scenario's entry [plan], by [vehicle]
     from [position]. [draw] decides what is left to chance.
 
-    - A task that is only named takes as long as [plan] says. If the plan has a place, the vehicle goes there, stays and
+    - A task that is only named has the duration of [plan]. If the plan has a place, the vehicle goes there, stays and
       comes back; if the plan has none, it goes round in a circle.
     - An inline plan takes as long as the vehicle needs for {!Plan.path} at the speeds of the maneuvers, which are the
       vehicle's own where a maneuver does not give metres per second.

@@ -7,21 +7,21 @@ module Int_map = Map.Make (Int)
 
 type occurrence =
   | Link of Core.vehicle                        (* the link comes or goes *)
-  | Tell of Core.vehicle                        (* its state is told *)
+  | Tell of Core.vehicle                        (* its state is reported *)
   | End of Core.vehicle                         (* its task ends *)
-  | Report of Core.vehicle                      (* how the task ended is told *)
+  | Report of Core.vehicle                      (* the end of the task is reported *)
   | Loss of Core.vehicle                        (* the link has been silent for too long *)
   | Expiry of Residual.timer
   | Beat                                        (* telemetry *)
-  | Posting of string * Core.value              (* somebody posts a pair *)
+  | Posting of string * Core.value              (* an input is posted *)
 
-(* What a vehicle does for the program. *)
+(* The work of a vehicle for the program. *)
 type activity =
   | Free
   | Ordered of Core.platform_task               (* the order waits for the link *)
   | Under_way of { task : Core.platform_task; outcome : (unit, string) result; ending : Event_queue.key option }
   | Over of { task : Core.platform_task; outcome : (unit, string) result; report : Event_queue.key option }
-  (* Ended; the report waits for its turn, or if there is none for the link. *)
+  (* Ended; the report waits for its turn, or for the link. *)
 
 type silence = { since : float; loss : Event_queue.key }
 
@@ -50,7 +50,7 @@ type t = {
   timeout : float;
   telemetry : Platform.telemetry;
   beat : Event_queue.key option;
-  stopped : String_set.t;                       (* and not told since *)
+  stopped : String_set.t;                       (* and not reported since *)
 }
 
 let default_timeout = 60.
@@ -69,7 +69,7 @@ let make_craft (v : Scenario.vehicle) ~connected ~changes =
   { body = Vehicle.make v; connected; changes; activity = Free; silence = None; timeout = None; starts = 0;
     told = None }
 
-(* Nobody ever hears of a vehicle that is not in the scenario. *)
+(* Vehicles outside of the scenario are never heard. *)
 let stranger id =
   let position = Dolphin_geo.Place.apdl in
   make_craft ~connected:false ~changes:[]
@@ -102,14 +102,14 @@ let tell id f =
 
 (* {1 Telemetry} *)
 
-(* Whether there will be something to tell of [id] before long. *)
+(* Whether [id] will have a report before long. *)
 let is_restless f id =
   let craft = find id f in
   let measures = (Vehicle.scenario craft.body).shows <> [] in
   craft.connected
   && not (Vehicle.is_steady craft.body ~at:f.now && ((not measures) || f.now >= f.fields_still))
 
-(* Beats go on while there is something to tell, and begin again here when there may be. *)
+(* Beats go on while reports are due, and begin again here when they may be. *)
 let wake f =
   if f.telemetry <> Platform.Off && f.beat = None && not (String_set.is_empty f.bound) then
     let key, f = schedule f.now Beat f in
@@ -164,7 +164,7 @@ let begin_task id craft task f =
   let activity = Under_way { task; outcome; ending } in
   wake (put id { craft with body; activity; starts = craft.starts + 1 } f)
 
-(* The vehicle is at rest, and free of what it did for the program, of which nothing will be heard. *)
+(* The vehicle is at rest, and free of its work for the program, on which no report will follow. *)
 let give_up craft f =
   let craft, f = forget_silence craft f in
   let f =
@@ -212,7 +212,7 @@ let look f =
 
 (* {1 What happens} *)
 
-(* What was waiting for the link goes on. *)
+(* The order waiting for the link goes on. *)
 let link_returned id f =
   let craft, f = forget_silence (find id f) f in
   let f = put id craft f in
@@ -296,7 +296,7 @@ let step f =
     let f = { f with now = Float.max f.now time; queue = Event_queue.rest f.queue } in
     Some (happen f occurrence)
 
-(* What lies in the future is there because an event comes of it, at once or in the end. *)
+(* An entry in the future is there because an event comes of it, at once or in the end. *)
 let rec quiet f =
   match first f with
   | None -> true

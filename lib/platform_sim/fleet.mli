@@ -1,7 +1,7 @@
-(** The simulated fleet itself: a pure state machine. Time passes only when it is told to; nothing here sleeps, draws
-    from a hidden source or waits. {!Simulator} is the shell that makes a platform of it.
+(** The simulated fleet itself: a pure state machine. Time passes only by a call; this module neither sleeps nor draws
+    from a hidden source nor waits. {!Simulator} is the shell that makes a platform of it.
 
-    A fleet is a set of vehicles and an {!Event_queue} of what will happen to them. {!step} takes the next event; the
+    A fleet is a set of vehicles and an {!Event_queue} of their future events. {!step} takes the next event; the
     commands of a platform change the vehicles and the queue. Everything costs O(log n) but {!vehicles}, {!quiet},
     telemetry (each second, O(n) in the vehicles that are bound) and a change of the timeout of all. *)
 
@@ -26,7 +26,7 @@ val advance : t -> float -> t
 (** [advance f time] is [f] at [time], but not later than [due f], and not earlier than [now f]. *)
 
 val step : t -> (Platform.event option * t) option
-(** [step f] is what happens next, at time [due f], and the fleet after it; [None] if [due f] is. Not all that happens
+(** [step f] is the next event, at time [due f], and the fleet after it; [None] if [due f] is. Not all that happens
     is news: the end of a task, for one, while the link is silent. *)
 
 val quiet : t -> bool
@@ -56,7 +56,7 @@ val vehicles : t -> World.vehicle_state list
     seen. *)
 
 val told : Core.vehicle -> t -> World.vehicle_state option
-(** What was told of the vehicle last. *)
+(** The last report on the vehicle. *)
 
 val running : t -> Core.vehicle -> string option
-(** [running f v] is the name of the task that [v] runs, or has been told to run, for the program. *)
+(** [running f v] is the name of the task that [v] runs, or has been ordered to run, for the program. *)

@@ -7,14 +7,14 @@ type course =
   | Keep  (** as high as before *)
   | Reach of { height : float; rate : float }  (** straight there, at [rate] metres per second, and then as high *)
   | Swing of { low : float; high : float; slope : float; rate : float }
-  (** down to [low] and up to [high] again and again, at [slope] metres per second; to what of that is nearest at [rate]
-      first *)
+  (** down to [low] and up to [high] again and again, at [slope] metres per second; first at [rate] to the nearest
+      point of that *)
 
 type phase = { lasts : float;  (** seconds, perhaps [infinity] *) course : course }
 
 val make : float -> phase list -> t
-(** [make height phases] begins at [height]. Rates are more than 0; a swing that has no height or no slope is not
-    one, and one that lasts for ever is to stay in the middle. *)
+(** [make height phases] begins at [height]. Rates are more than 0; a swing without height or slope is not one, and
+    one without an end stays in the middle. *)
 
 val height : t -> float -> float
 (** [height p time] is how high one is after [time] seconds; after the end, as at the end. O(log n). *)

@@ -72,7 +72,7 @@ let happen time (event : Transition.event) s =
   match event with
   | Vehicle_done v | Vehicle_failed (v, _) -> comes ("the end of a task of " ^ v)
   | Timer_expired _ -> comes "the end of a timer"
-  | Input _ -> Ok (Option.value (told ~last:time) ~default:s)  (* of the fleet, or else of somebody *)
+  | Input _ -> Ok (Option.value (told ~last:time) ~default:s)  (* of the fleet, or else from elsewhere *)
   | Confirmed _ | Recruited _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Interruption -> Ok s
 
 let command ~announce_period s : Effect.t -> state = function

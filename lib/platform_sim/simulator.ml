@@ -9,7 +9,7 @@ module type S = sig
   val running : t -> Core.vehicle -> string option
 end
 
-(* How time passes while nobody looks. *)
+(* The passage of time between two looks. *)
 module type Time = sig
   type t
 
@@ -28,7 +28,7 @@ module Make (Time : Time) = struct
     clock : Time.t;
     mutable fleet : Fleet.t;
     mutable changed : unit Lwt.u option;
-    mutable early : Platform.event list;  (* to be told before anything else: see {!Reconstruction} *)
+    mutable early : Platform.event list;  (* to be given before anything else: see {!Reconstruction} *)
   }
 
   let name = "sim"
@@ -62,7 +62,7 @@ module Make (Time : Time) = struct
 
   let announce_period _ = announce_period
 
-  (* Of what was told early, nothing is told any more that a command has undone. *)
+  (* Early reports that a command has undone are dropped. *)
   let undo p overtaken = p.early <- List.filter (fun event -> not (overtaken event)) p.early
 
   let set_timer p timer seconds = command p (Fleet.set_timer timer seconds)
@@ -80,7 +80,7 @@ module Make (Time : Time) = struct
     command p (Fleet.stop vehicle)
 
   let set_connection_timeout p vehicles seconds = command p (Fleet.set_connection_timeout vehicles seconds)
-  (* Where time passes by itself, it does so for displays too. *)
+  (* If time passes by itself, it does so for displays too. *)
   let telemetry p (how : Platform.telemetry) =
     let how = match how with Shown when not Time.virtual_time -> Platform.Awaited | Off | Shown | Awaited -> how in
     command p (Fleet.telemetry how)
@@ -152,7 +152,7 @@ module Pace = struct
   let virtual_time = false
   let elapsed clock = clock.now () *. clock.speed
 
-  (* A sleep of days is none that a system takes for granted. *)
+  (* A system need not support a sleep of days. *)
   let longest_sleep = 3600.
   let until clock time =
     Lwt_unix.sleep (Float.max 0. (Float.min longest_sleep ((time -. elapsed clock) /. clock.speed)))

@@ -1,10 +1,10 @@
-(** The simulated fleet as a platform, and the tutorial for whoever writes another one.
+(** The simulated fleet as a platform, and the tutorial for authors of platforms.
 
     {1:tutorial How a platform is made}
 
     A platform is a module of type {!Dolphin_runtime.Platform.S}: fourteen values, most of them one line long. It
-    decides nothing about programs. It says what happens to vehicles, and does what it is told. Here is how to make one,
-    with this one as the example.
+    decides nothing about programs. It reports the events of vehicles, and carries out commands. Here is how to make
+    one, with this one as the example.
 
     {2 Separate what happens from how it comes in}
 
@@ -14,39 +14,39 @@
     and a function from a datagram that came, or a time that has come, to events and datagrams to send. The shell around
     it, this module, is then short: it keeps the current state in one mutable field, and waits.
 
-    {2 Tell of vehicles}
+    {2 Reports on vehicles}
 
-    Nobody tells the program which vehicles there are but your [Vehicle] events. Send one when a vehicle is first heard
-    of; when its link comes or goes ([connected]), for [pick] takes only connected ones; and when its position or
-    battery has changed, at these times:
+    Only your [Vehicle] events announce vehicles to the program. Send one when a vehicle is first heard of; when its
+    link comes or goes ([connected]), for [pick] takes only connected ones; and when its position or battery has
+    changed, at these times:
     - about once a second for each vehicle that the program holds ([bind], [release]), while [telemetry] is on: some
       condition of the program may depend on it, or a display shows it;
-    - always just before the end of a task is told: who serves the next task depends on who is near.
+    - always just before the end of a task is reported: the nearest vehicle gets the next task.
 
-    What has not changed need not be told again. After [announce_period] every vehicle in reach has been heard of: a
-    [pick] without a timeout looks for so long. It may be short where vehicles are known at once; here it is 10 s as for
-    vehicles on a network, so that a program finds here whom it would find there.
+    Unchanged values need not be reported again. After [announce_period] every vehicle in reach has been heard of: a
+    [pick] without a timeout looks for this time. It may be short where vehicles are known at once; here it is 10 s as
+    for vehicles on a network, so that a program finds the same vehicles here as there.
 
     {2 Run tasks}
 
-    [start v task] never fails and never waits: whatever goes wrong is told later, as [Task_failed (v, why)], with [why]
-    a few words in the vehicle's own terms. A task with a [plan] is described in the program; one without is known to
-    the vehicle by its [name]. Exactly one of [Task_done v] and [Task_failed (v, _)] follows each [start v], and none
-    once [stop v] was called: not even if the event had been prepared and waits to be handed out. In {!Fleet} this is
-    why the end of a task and the report of it are two occurrences: [stop] removes whichever is still to come. On a real
-    network a stop needs an answer; [start] then waits for it first, and [close] waits for all of them.
+    [start v task] never fails and never waits: failures are reported later, as [Task_failed (v, why)], with [why] a few
+    words in the vehicle's own terms. A task with a [plan] is described in the program; one without is known to the
+    vehicle by its [name]. Exactly one of [Task_done v] and [Task_failed (v, _)] follows each [start v], and none once
+    [stop v] was called: not even if the event had been prepared and waits to be handed out. In {!Fleet} this is why the
+    end of a task and the report of it are two occurrences: [stop] removes whichever is still to come. On a real network
+    a stop needs an answer; [start] then waits for it first, and [close] waits for all of them.
 
     {2 Notice silence}
 
     A vehicle whose link is silent while it works for the program fails its task when the silence lasts longer than its
     connection timeout: 60 s, unless [set_connection_timeout] was called for it or for all. If the link returns before,
-    nothing happened, and what the vehicle did in between is told then. An order that cannot be delivered waits in the
-    same way. Only vehicles that have something to do for the program fail; others are just not [connected].
+    nothing happened, and the vehicle's events in between are reported then. An order that cannot be delivered waits in
+    the same way. Only vehicles that have something to do for the program fail; others are just not [connected].
 
     {2 Keep time}
 
     [now] is the platform's own clock, from 0. [set_timer] makes one event [Timer]; setting a timer that runs starts it
-    anew, [cancel_timer] makes it as if it had never been set. Events at the same time come in the order in which they
+    again, [cancel_timer] makes it as if it had never been set. Events at the same time come in the order in which they
     were caused: a run must be reproducible from its inputs.
 
     {2 Hand out events one at a time}
@@ -56,8 +56,8 @@
     waited for. So wait for both, the time of the next event and a change of the plans ([Make] in the implementation
     does it in ten lines). When the driver cancels the promise, no event may be lost.
 
-    If time only passes in [next], say so with [virtual_time = true]; the driver then lets it stand still while it waits
-    for people.
+    If time only passes in [next], set [virtual_time = true]; the driver then lets it stand still while it waits for
+    people.
 
     {2 Test it}
 
@@ -67,16 +67,16 @@
 
     {1:simulation What is simulated}
 
-    Vehicles have a position, a battery, and a link that comes and goes as the scenario says. How tasks go is
-    {!Execution}'s, how batteries go is {!Vehicle}'s. A seed and a scenario determine everything: the same commands at
-    the same times see the same events. The execution of a task depends on the seed, the vehicle, the task's ordinal on
-    that vehicle and the task's entry in the scenario, and on nothing else. *)
+    Vehicles have a position, a battery, and a link that comes and goes by the scenario. How tasks go is
+    {!Execution}'s, how batteries go is {!Vehicle}'s. A seed and a scenario determine everything: the same commands
+    at the same times see the same events. The execution of a task depends on the seed, the vehicle, the task's
+    ordinal on that vehicle and the task's entry in the scenario, and on nothing else. *)
 
 open Dolphin_semantics
 open Dolphin_runtime
 open Dolphin_scenario
 
-(** What simulated platforms have in addition. *)
+(** The additional functions of simulated platforms. *)
 module type S = sig
   include Platform.S
 
@@ -89,7 +89,7 @@ module type S = sig
       seen. *)
 
   val running : t -> Core.vehicle -> string option
-  (** [running p v] is the name of the task that [v] runs, or was told to run, for the program. *)
+  (** [running p v] is the name of the task that [v] runs, or was ordered to run, for the program. *)
 end
 
 (** Time passes only in [next], at once: a mission of an hour takes milliseconds. [next p] is resolved whenever it is
@@ -102,10 +102,10 @@ module Virtual : sig
 
   val create_again :
     seed:int -> Scenario.t -> History.t -> (t * World.vehicle_state list, string) result
-    (** [create_again ~seed s history] is the platform of a run whose console died after [history], with what was told
-        of vehicles since the journal's last lines on them. All that became of the fleet follows from what it was
-        commanded and when: it is simulated again. No time has passed since the last entry. The error says why [history]
-        is not one of this fleet. *)
+    (** [create_again ~seed s history] is the platform of a run whose console died after [history], with the reports
+        on vehicles since the journal's last lines on them. The state of the fleet follows from its commands and
+        their times: it is simulated again. No time has passed since the last entry. The error is the reason why
+        [history] is not one of this fleet. *)
 end
 
 (** Time passes by itself, perhaps faster than outside. *)
@@ -124,5 +124,5 @@ module Paced : sig
     Scenario.t ->
     History.t ->
     (t * World.vehicle_state list, string) result
-    (** As that of {!Virtual}: the fleet stood still while there was no console. *)
+    (** As that of {!Virtual}: the fleet stood still while no console ran. *)
 end

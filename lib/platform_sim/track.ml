@@ -22,7 +22,7 @@ type t =
 
 (* {1 Making ways} *)
 
-(* A way as far as it is known: stretches latest first, each with its phase, and where and when it ends. *)
+(* A way as far as it is known: stretches latest first, each with its phase, and the place and time of its end. *)
 type sketch = { reversed : (stretch * Profile.phase) list; here : Position.t; time : float }
 
 let add lasts course towards sketch =
@@ -32,7 +32,7 @@ let add lasts course towards sketch =
     { reversed = (stretch, { Profile.lasts; course }) :: sketch.reversed; here = towards;
       time = sketch.time +. lasts }
 
-(* To be at [height], or if it [swings] and is to, where it does. *)
+(* To be at [height], or at its swing's height if it [swings]. *)
 let course leg height ~swings : Profile.course =
   match leg.vertical with
   | Level -> Keep

@@ -34,10 +34,10 @@ val circuit : Position.t -> bearing:float -> speed:float -> duration:float -> t
     centre lies at course [bearing] from [p], 100 m to 200 m away, or less if a larger circle would take longer. *)
 
 val duration : t -> float
-(** [duration w] is when the end of [w] is reached; [infinity] if there is none. *)
+(** [duration w] is when the end of [w] is reached; [infinity] if it has none. *)
 
 val position : t -> float -> Position.t
-(** [position w time] is where one is after [time]; after the end, at the end. O(log n) in the number of waypoints. *)
+(** [position w time] is the place after [time]; after the end, at the end. O(log n) in the number of waypoints. *)
 
 val speed : t -> float -> float
 (** [speed w time] is how fast one is after [time], over the ground; after the end, 0. *)

@@ -18,7 +18,7 @@ let position v ~at = Track.position v.track (at -. v.since)
 
 let speed v ~at = Track.speed v.track (at -. v.since)
 
-(* The nearest of [xs] to [x], the first of several; [x] if there are none. *)
+(* The nearest of [xs] to [x], the first of several; [x] if [xs] is empty. *)
 let nearest distance x = function
   | [] -> x
   | first :: rest -> List.fold_left (fun best y -> if distance x y < distance x best then y else best) first rest

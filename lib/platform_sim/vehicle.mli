@@ -1,5 +1,5 @@
-(** One vehicle as a body: where it is and how much battery is left, at any time. Neither is computed before it is asked
-    for: between two commands both are functions of time. Times are seconds since the start. *)
+(** One vehicle as a body: its place and its charge, at any time. Neither is computed before it is asked for: between
+    two commands both are functions of time. Times are seconds since the start. *)
 
 open Dolphin_scenario
 
@@ -9,7 +9,7 @@ val make : Scenario.vehicle -> t
 (** At its place and at rest, at time 0. *)
 
 val scenario : t -> Scenario.vehicle
-(** What the scenario says of it. *)
+(** The scenario's entry for it. *)
 
 val set_out : t -> at:float -> charges:float option -> Track.t -> t
 (** [set_out v ~at ~charges track] is [v] that leaves at time [at] and follows [track]. Its battery gains [charges] each
@@ -23,17 +23,17 @@ val rest : t -> at:float -> t
     At a time not before the last command. *)
 
 val position : t -> at:float -> Dolphin_geo.Position.t
-(** Where it is. *)
+(** Its place. *)
 
 val battery : t -> at:float -> float
-(** What is left of it, from 0 to 1: {!Battery.level}. *)
+(** Its charge, from 0 to 1: {!Battery.level}. *)
 
 val seen_at : t -> at:float -> Dolphin_geo.Position.t
-(** Where it is seen: at {!position}, or if the scenario gives several places, at the nearest of them. *)
+(** Its reported place: {!position}, or if the scenario gives several places, the nearest of them. *)
 
 val shown_battery : t -> at:float -> float option
-(** What its battery shows: {!battery}, or if the scenario gives several values, the nearest of them; [None] if it tells
-    none. *)
+(** The battery's reading: {!battery}, or if the scenario gives several values, the nearest of them; [None] if it
+    reports none. *)
 
 val speed : t -> at:float -> float
 (** Over the ground, in metres per second. *)

@@ -3,9 +3,9 @@ type worker = {
   pid : int;
   pipe : Unix.file_descr;
   mutable next : int;  (* the number whose result comes next *)
-  mutable read : Bytes.t;  (* what came of it *)
+  mutable read : Bytes.t;  (* its outcome *)
   mutable is_open : bool;
-  mutable is_there : bool;  (* nobody has waited for its end *)
+  mutable is_there : bool;  (* its end was not waited for yet *)
 }
 
 type 'a t = { workers : worker list; jobs : int; last : int option }
@@ -16,15 +16,15 @@ let is_past last n = match last with Some last -> n > last | None -> false
 
 (* {1 In the child} *)
 
-(* A call that writes more than once would not tell how far it was when the alarm interrupted it. *)
+(* After an alarm, the progress of a call that writes more than once would be unknown. *)
 let rec write_all fd bytes from =
   if from < Bytes.length bytes then
     match Unix.single_write fd bytes from (Bytes.length bytes - from) with
     | n -> write_all fd bytes (from + n)
     | exception Unix.Unix_error (EINTR, _, _) -> write_all fd bytes from
-    | exception Unix.Unix_error (EPIPE, _, _) -> Unix._exit 0  (* whoever asked has gone *)
+    | exception Unix.Unix_error (EPIPE, _, _) -> Unix._exit 0  (* the requester has gone *)
 
-(* Whoever is killed cannot tell its children, so they look whether it still lives. *)
+(* A killed process cannot inform its children, so they check whether it still lives. *)
 let die_with parent =
   let look _ = if Unix.getppid () <> parent then Unix._exit 0 in
   Sys.set_signal Sys.sigalrm (Signal_handle look);
@@ -48,7 +48,7 @@ let compute ~parent ~jobs ~last pipe f n =
 
 (* {1 In the parent} *)
 
-(* Where somebody ignores the ends of processes, there is nothing to wait for. *)
+(* If SIGCHLD is ignored, waiting is not possible. *)
 let rec wait w =
   match Unix.waitpid [] w.pid with
   | _, status ->
@@ -120,7 +120,7 @@ let read buffer last jobs w =
     results w jobs
   | exception Unix.Unix_error (EINTR, _, _) -> []
 
-(* A process that is far ahead of the others waits in its pipe: what it has is of no use without theirs. *)
+(* A process that is far ahead of the others waits in its pipe: its results are of no use without theirs. *)
 let furthest = 10_000
 
 let next t ~timeout =

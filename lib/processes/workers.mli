@@ -4,20 +4,20 @@ type 'a t
 
 val start : jobs:int -> first:int -> ?last:int -> (int -> 'a) -> 'a t
 (** [start ~jobs ~first ~last f] computes [f first], [f (first + 1)] and so on, up to [f last], or without end, in
-    [jobs] processes. What [f] gives has no functions in it, and is a copy: nothing in it is physically equal to what
-    this process has. The processes end when they are done, when {!stop} is called, or when this process dies. They do
-    not heed Ctrl-C.
-    @raise Unix.Unix_error if not all of them can be made; then there are none *)
+    [jobs] processes. The result of [f] contains no functions, and is a copy: nothing in it is physically equal to
+    values of this process. The processes end when they are done, when {!stop} is called, or when this process dies.
+    They do not heed Ctrl-C.
+    @raise Unix.Unix_error if not all of them can be made; then none exists *)
 
 exception Died of { number : int; how : string }
-(** The process that computed this number ended early: [f] raised an exception, which it told on standard error, or it
-    was killed. [how] is ["killed"], or ["with status 1"]. *)
+(** The process that computed this number ended early: [f] raised an exception, which it printed on standard error,
+    or it was killed. [how] is ["killed"], or ["with status 1"]. *)
 
 val how : Unix.process_status -> string
-(** How a process ended, as {!Died} says it. *)
+(** The end of a process, in the form of {!Died}. *)
 
 val next : 'a t -> timeout:float -> (int * 'a) list
-(** [next w ~timeout] is what is new, waiting for something for so many seconds at most.
+(** [next w ~timeout] is the new results, after waiting for at most [timeout] seconds.
     @raise Died *)
 
 val is_done : 'a t -> bool

@@ -1,4 +1,4 @@
-(** Where a program names its variables and functions, and which of them it means. *)
+(** The places where a program names its variables and functions, and their definitions. *)
 
 open Dolphin_syntax
 

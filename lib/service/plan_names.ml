@@ -19,7 +19,7 @@ let of_program (p : Core.program) =
   |> List.sort_uniq (fun (a, at) (b, at') ->
       compare (at.Location.start.pos_cnum, a) (at'.Location.start.pos_cnum, b))
 
-(* "survey3" is no misspelling of "survey2". *)
+(* "survey3" is not a misspelling of "survey2". *)
 let is_misspelling name near =
   let is_digit c = c >= '0' && c <= '9' in
   let without_digits text = String.to_seq text |> Seq.filter (fun c -> not (is_digit c)) |> String.of_seq in

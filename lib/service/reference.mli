@@ -1,4 +1,4 @@
-(** What the names of the language are: the short form of the reference manual, for editors. *)
+(** The meaning of the language's names: the short form of the reference manual, for editors. *)
 
 type kind = Word | Procedure | Block | Setting | Maneuver | Member | Constant | Fleet_word
 
@@ -6,7 +6,7 @@ type entry = {
   name : string;
   kind : kind;
   form : string;  (** How it is written: ["during D run T"]. *)
-  text : string;  (** What it is, in a sentence or two. *)
+  text : string;  (** Its meaning, in a sentence or two. *)
 }
 
 val words : entry list
@@ -31,7 +31,7 @@ val constants : entry list
 (** Constants by their full names, and the functions of [Math]. *)
 
 val fleet_entries : entry list
-(** What a fleet has at its top. *)
+(** The entries at the top of a fleet. *)
 
 val fleet_settings : string -> entry list
 (** [fleet_settings "vehicle"] is the settings of that entry of a fleet. *)

@@ -12,7 +12,7 @@ type t = {
   read : string -> (string, string) result;     (* a file that the text names *)
   source : string;
   fleet : fleet option;
-  scenario : Scenario.t option;                 (* what the fleet says, if it can be read *)
+  scenario : Scenario.t option;                 (* the fleet's contents, if it can be read *)
   ast : (Ast.program, Diagnostic.t list) result;
   bindings : Occurrences.binding list;
 }
@@ -68,7 +68,7 @@ let elaborated d =
 let of_fences (s : Scenario.t) plans =
   if s.fences = [] then [] else Fence_declarations.broken (Fences.make s.fences) plans
 
-(* Of what is wrong in files that it includes, it is for their own documents to tell. *)
+(* Faults in included files are reported in their own documents. *)
 let of_program d =
   let own found = List.filter (fun (f : Diagnostic.t) -> Location.file f.at = d.file) found in
   own
@@ -165,10 +165,10 @@ let includes source =
   in
   List.filter_map of_line (String.split_on_char '\n' source)
 
-(* What a program that includes the prelude, if it does, has of it. *)
+(* The parts of the prelude that a program includes, if it does. *)
 let of_prelude d = if List.mem Prelude.name (includes d.source) then Prelude.entries () else []
 
-(* What may follow [owner] and a point: what is called [owner.x], up to the next point. *)
+(* The possible names after [owner] and a point: in [owner.x], up to the next point. *)
 let constants_of owner =
   let inside = owner ^ "." in
   let n = String.length inside in
@@ -234,7 +234,7 @@ let line_at source { start; _ } =
 
 let quoted form text = Printf.sprintf "```dolphin\n%s\n```\n%s" form text
 
-(* What the value of [e] surely is. *)
+(* The certain value of [e]. *)
 let described (e : Ast.expression option) =
   match Option.map (fun (e : Ast.expression) -> e.it) e with
   | Some (Builder (Pick, _)) -> "A vehicle set"
@@ -263,7 +263,7 @@ let hover_binding d (b : Occurrences.binding) =
 
 type place = { file : string; source : string; span : span }
 
-(* Where the fleet has an entry for [name]. *)
+(* The place of the fleet's entry for [name]. *)
 let in_fleet_file d name =
   let entry { path; text } =
     let is_entry ({ it; _ } : Ast.statement) =
@@ -300,7 +300,7 @@ let hover d offset =
 
 (* {1 Other files} *)
 
-(* What the files that it includes define for it. *)
+(* The definitions that its included files give it. *)
 let included (d : t) : (place * Occurrences.binding) list =
   let bindings path source =
     let of_binding (b : Occurrences.binding) =

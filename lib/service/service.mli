@@ -1,4 +1,4 @@
-(** What an editor asks about a program or a fleet. Pure: texts in, answers out; places are bytes of the text. *)
+(** The questions of an editor about a program or a fleet. Pure: texts in, answers out; places are bytes of the text. *)
 
 open Dolphin_syntax
 
@@ -8,24 +8,24 @@ type fleet = { path : string; text : string }
 (** A fleet file that a program runs with. *)
 
 type t
-(** A text under way, and what is known of it. *)
+(** A text under way, and its analysis. *)
 
 val read : file:string -> ?fleet:fleet -> ?may_read:(string -> (unit, string) result) -> string -> t
-(** [read ~file ~fleet ~may_read source] is the program [source], which would run with [fleet]; or the fleet [source],
-    if [file] ends in [.fleet]. [file] is only a name. [may_read] says of each file that the text names, to include or
-    as a map, whether it may be read; by default all. *)
+(** [read ~file ~fleet ~may_read source] is the program [source], which would run with [fleet]; or the fleet
+    [source], if [file] ends in [.fleet]. [file] is only a name. [may_read] decides for each file that the text
+    names, to include or as a map, whether it may be read; by default all. *)
 
 val source : t -> string
 
 val diagnostics : t -> Diagnostic.t list
-(** What [dolphin check] says of the text, in its order. *)
+(** The diagnostics of [dolphin check] for the text, in its order. *)
 
 (** {1:writing Writing} *)
 
 type item_kind = Keyword | Function | Variable | Setting | Member | Constant | Text
 
 type item = { label : string; kind : item_kind; form : string; text : string }
-(** A name that may stand here, how it is written, and what it is. *)
+(** A name that may stand here, its spelling, and its meaning. *)
 
 val complete : t -> int -> span * item list
 (** [complete d offset] is the part of a name before [offset], and the names that may stand there. *)
@@ -37,22 +37,22 @@ val format : t -> (string, Diagnostic.t list) result
 (** {!Formatting.program}. *)
 
 val rename : t -> int -> string -> (span list, string) result
-(** [rename d offset x] is where [x] is to stand so that the variable or function at [offset] is called [x], or why it
-    cannot: the program would mean something else. *)
+(** [rename d offset x] is the places of [x] so that the variable or function at [offset] is called [x], or the
+    reason why it cannot: the program would have another meaning. *)
 
 (** {1:reading Reading} *)
 
 val hover : t -> int -> (span * string) option
-(** [hover d offset] is the name at [offset] and what it is, in Markdown. *)
+(** [hover d offset] is the name at [offset] and its meaning, in Markdown. *)
 
 type place = { file : string; source : string; span : span }
 
 val definition : t -> int -> place option
-(** [definition d offset] is where what is named at [offset] gets its first value, or where the fleet describes the plan
-    or vehicle of this name; it may be in a file that the program includes. *)
+(** [definition d offset] is the place where the name at [offset] gets its first value, or where the fleet describes
+    the plan or vehicle of this name; it may be in a file that the program includes. *)
 
 val references : t -> int -> span list
-(** [references d offset] is where the variable or function at [offset] is named, its definition first. *)
+(** [references d offset] is the places of the variable or function at [offset], its definition first. *)
 
 type symbol = { name : string; is_function : bool; at : span }
 
@@ -60,6 +60,6 @@ val symbols : t -> symbol list
 (** The functions and global variables, in the order of the text. *)
 
 val allocations : t -> (int * string list) list
-(** The tasks of the program that vehicles of its fleet start in a run in which all goes well: where each begins, in the
+(** The tasks of the program that vehicles of its fleet start in a run without faults: the beginning of each, in the
     order of the text, and its vehicles in the order of their starts. Empty for a program without a fleet, or with
     errors. *)

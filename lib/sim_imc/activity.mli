@@ -1,4 +1,4 @@
-(** What a simulated vehicle did: an entry of the log that says who was commanded what. *)
+(** The activity of a simulated vehicle: an entry of the log with the vehicle and its command. *)
 
 (** A request as it came. *)
 type request = {
@@ -14,10 +14,10 @@ type t =
   (** It runs a plan, one that came with the request ([inline]) or one that it knows; [instead] of the plan that it was
       running, which may be the same. *)
   | Refused of { request : request; why : string; instead : string option }
-  (** It was told to start a plan and does not; [instead] is the plan that it was running, and that has ended with
+  (** It was ordered to start a plan and does not; [instead] is the plan that it was running, and that has ended with
       this. *)
   | Stopped of { request : request; plan : string option }
-  (** It was told to stop, and has ended [plan]; [None]: there was none. *)
+  (** It was ordered to stop, and has ended [plan]; [None]: it ran none. *)
   | Ignored of { request : request; why : string }  (** A request that it does not answer, or does not support. *)
   | Completed of request  (** The plan that was requested has ended well. *)
   | Failed of { request : request; why : string }

@@ -1,4 +1,4 @@
-(** Where the packets of a system are to be sent, as its Announce says. *)
+(** The destination of the packets for a system, by its Announce. *)
 
 type t = {
   host : string;  (** an IPv4 address in decimals, ["127.0.0.1"] *)
@@ -10,7 +10,7 @@ val is_host : string -> bool
 
 val of_services : string -> t list
 (** [of_services s] is the addresses in the services [s] of an Announce, separated by [;], that take IMC over UDP:
-    those of the form ["imc+udp://HOST:PORT/"]. With a path behind they are for other uses. What cannot be read is left
+    those of the form ["imc+udp://HOST:PORT/"]. With a path behind they are for other uses. Unreadable parts are left
     out. *)
 
 val to_service : t -> string

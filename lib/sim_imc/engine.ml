@@ -46,7 +46,7 @@ type t = {
   blocks : (float * float) list;                (* still to come *)
   losses : float list;                          (* still to come *)
   known : (Specification.t, string) result String_map.t;  (* that came with a START, or why they cannot be flown *)
-  stores : int;                                 (* so many came *)
+  stores : int;                                 (* the number that came *)
   starts : int;
 }
 
@@ -122,7 +122,7 @@ let say_done e =
   let state = { (vehicle_state e) with flags = Message.Vehicle_state.Flags.maneuver_done } in
   { from = supervisor; to_ = all; message = Vehicle_state state }
 
-(* As it looks between a START and what comes of it. *)
+(* The display between a START and its outcome. *)
 let say_initializing ~at e =
   let state = plan_control_state ~at e in
   let state = { state with state = Initializing; man_id = ""; man_type = no_maneuver } in
@@ -137,7 +137,7 @@ let reply e ~by ~op ~request ~plan type_ info =
 let log ~at e line =
   { from = Log_book.entity line; to_ = all; message = Log_book.to_message ~time:(e.settings.epoch +. at) line }
 
-(* [before] has become another state by something that tells the rest. *)
+(* [before] has become another state by an event with the rest. *)
 let with_mode ~at before (said, activities, e) =
   let mode e = (vehicle_state e).op_mode in
   let changed = if mode e = mode before then [] else [ log ~at e (Log_book.mode (mode e)) ] in
@@ -228,7 +228,7 @@ let store ~at ~by name plan e =
       log ~at e (Log_book.stored ~plan:name ~info) ],
     e )
 
-(* What it flies, if it is known; [plan] came with the START. *)
+(* Its plan, if it is known; [plan] came with the START. *)
 let find ~plan e (c : Message.t Message.Plan_control.t) =
   let name = c.plan_id in
   let entry = scenario_plan e name in

@@ -1,4 +1,4 @@
-(** What runs plans in a vehicle: requests in, plans flown, replies and states out. A pure state machine.
+(** The engine of plans in a vehicle: requests in, plans flown, replies and states out. A pure state machine.
 
     It behaves as DUNE 2026.01 was measured to:
     - A START that is accepted shows as: PlanControlState INITIALIZING, which still names the plan before; the reply
@@ -6,10 +6,10 @@
       first maneuver only. At the end come VehicleState with the flag of a maneuver that is done, the reply
       ["plan completed"], PlanControlState READY with outcome SUCCESS, VehicleState SERVICE.
     - A START that is refused: INITIALIZING, a FAILURE reply, READY, both with the plan id before, outcome FAILURE.
-    - Any START ends the plan that is running, accepted or not; of that one there is no further reply.
-    - A plan that comes with a START is kept, refused or not, and known by its name from then on; a reply of PlanDB says
-      so.
-    - The log book tells of all this, see {!Log_book}.
+    - Any START ends the plan that is running, accepted or not; that plan gets no further reply.
+    - A plan that comes with a START is kept, refused or not, and known by its name from then on; a reply of PlanDB
+      reports it.
+    - The log book records all this, see {!Log_book}.
     - With the flag CALIBRATE the plan begins 3 s later; until then the state is INITIALIZING.
     - STOP: a SUCCESS reply, READY, outcome FAILURE; without a plan a FAILURE reply.
     - Abort: a FAILURE reply to the START of the plan that was running, VehicleState ERROR, BLOCKED; after 0.9 s SERVICE
@@ -27,7 +27,7 @@
 open Dolphin_imc
 open Dolphin_scenario
 
-(** What does not change. *)
+(** The constants. *)
 type settings = {
   vehicle : Scenario.vehicle;
   plans : Scenario.plan list;
@@ -53,7 +53,7 @@ type party = { system : int; entity : int }
 type outgoing = { from : int; to_ : party; message : Message.t }
 
 type outcome = outgoing list * Activity.t list * t
-(** What is sent, in order; what is to be logged; the engine afterwards. *)
+(** The messages to send, in order; the log entries; the engine afterwards. *)
 
 (** {1:time Time} *)
 
@@ -75,13 +75,13 @@ val abort : at:float -> by:party -> name:string -> t -> outcome
 (** {1:state Its state} *)
 
 val plan_control_state : at:float -> t -> Message.Plan_control_state.t
-(** What it says of its plan. *)
+(** Its report on its plan. *)
 
 val vehicle_state : t -> Message.Vehicle_state.t
-(** What it says of itself. *)
+(** Its report on itself. *)
 
 val position : at:float -> t -> Dolphin_geo.Position.t
-(** Where it is. *)
+(** Its place. *)
 
 val battery : at:float -> t -> float
 (** The charge, as a share of 1. *)

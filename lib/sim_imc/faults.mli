@@ -1,5 +1,5 @@
-(** What a bad link does to datagrams, each by itself: some are lost, some come twice, some are held back so that later
-    ones overtake them, all are late. *)
+(** The effects of a bad link on datagrams, each by itself: some are lost, some come twice, some are held back so
+    that later ones overtake them, all are late. *)
 
 type t = {
   loss : float;  (** how often, from 0 to 1; and so on *)

@@ -7,7 +7,7 @@ type t = { execution : Execution.t; maneuvers : maneuver list }
 let task name plan : Core.platform_task =
   { name; plan = Option.map (fun p -> Inline_plan.Maneuvers p) plan; task_site = 0 }
 
-(* Each maneuver as an execution of its own, from where the one before ends. *)
+(* Each maneuver as an execution of its own, from the end of the one before. *)
 let maneuvers ~draw vehicle position (s : Specification.t) =
   let add (position, time, maneuvers) (m : Plan.maneuver) kind =
     let one = task s.plan.name (Some { s.plan with maneuvers = [ m ] }) in

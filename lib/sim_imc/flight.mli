@@ -19,8 +19,8 @@ val make :
   name:string ->
   Specification.t option ->
   t
-(** [make ~draw plan vehicle position ~name specification] is the flight of plan [name], from [position]. It lasts and
-    ends as {!Dolphin_platform_sim.Execution.make} says. A plan without a specification is one maneuver, ["1"], a
+(** [make ~draw plan vehicle position ~name specification] is the flight of plan [name], from [position]. It lasts
+    and ends as in {!Dolphin_platform_sim.Execution.make}. A plan without a specification is one maneuver, ["1"], a
     Goto. *)
 
 val maneuver : t -> float -> maneuver

@@ -1,5 +1,5 @@
-(** The telemetry of sensors and control, which a console has no use for: what a vehicle sent beside the streams of
-    {!Vehicle_node}, about 700 datagrams a second, in the proportions in which they were recorded. *)
+(** The telemetry of sensors and control, which a console does not use: the traffic of a vehicle beside the streams
+    of {!Vehicle_node}, about 700 datagrams a second, in the proportions in which they were recorded. *)
 
 val content : int -> int * Dolphin_imc.Packet.content
 (** [content n] is the entity and the content of the [n]-th datagram: over 64 in a row, half of them

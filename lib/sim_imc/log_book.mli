@@ -1,12 +1,12 @@
-(** What a vehicle writes into its log book about plans, as DUNE 2026.01 was measured to. It sends each line to whoever
-    listens. *)
+(** The entries of a vehicle in its log book about plans, as measured with DUNE 2026.01. It sends each line to all
+    listeners. *)
 
 open Dolphin_imc
 
 type line
 
 val entity : line -> int
-(** Who wrote it. *)
+(** The author of the entry. *)
 
 val to_message : time:float -> line -> Message.t
 (** [to_message ~time l] is [l], written at [time], in seconds since 1970. *)
@@ -27,7 +27,7 @@ val answered : ?error:bool -> request:[ `Start | `Stop ] -> plan:string -> strin
 (** [answered ~request ~plan info] is the reply with [info] to a request, as an error if it is one (not at first). *)
 
 val refused : why:string -> line
-(** What follows the answer to a START that is refused: whether the plan could not be loaded or not be read. *)
+(** The entry after the answer to a START that is refused: whether the plan could not be loaded or not be read. *)
 
 val completed : line
 val stopped : line

@@ -44,7 +44,7 @@ type t = {
   crafts : craft list;
   buffer : Bytes.t;
   mutable now : unit -> float;                  (* time starts in [run] *)
-  mutable changed : unit Lwt.u option;          (* who waits for what is due to change *)
+  mutable changed : unit Lwt.u option;          (* to wake those waiting for a change of the queue *)
 }
 
 type vehicle = { name : string; kind : string; id : int; port : int }
@@ -78,7 +78,7 @@ let close n =
   close_socket n.discovery;
   List.iter (fun c -> close_socket c.socket) n.crafts
 
-(* Without a network there is no group to join, and nobody to hear there. *)
+(* Without a network, joining a group and hearing others is impossible. *)
 let join_group socket =
   try
     Lwt_unix.mcast_add_membership socket.lwt group;
@@ -199,7 +199,7 @@ let rec live n ~log =
     let time = if wait < 3600. then Lwt_unix.sleep wait else fst (Lwt.task ()) in
     Lwt.pick [ changed; time ] >>= fun () -> live n ~log
 
-(* [take bytes host] for each datagram that has come to [socket]; at most so many that others have their turn. *)
+(* [take bytes host] for each datagram that has come to [socket]; at most as many as leave others their turn. *)
 let rec drain n socket take left =
   if left > 0 then
     match Unix.recvfrom socket.unix n.buffer 0 (Bytes.length n.buffer) [] with
@@ -224,7 +224,7 @@ let receive n ~log channel c bytes host =
 
 let flood_period = 0.01
 
-(* What is behind by more than a few periods is not made up for. *)
+(* Delays of more than a few periods are not made up for. *)
 let most_at_once rate = 1 + int_of_float (rate *. 5. *. flood_period)
 
 let is_heard ~at c =

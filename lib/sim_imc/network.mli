@@ -17,11 +17,11 @@ type settings = {
   stalls : (string * (float * float)) list;
   (** vehicles, since when and for how long they stall: nothing is heard of them, and then their plan is lost *)
   vanishes : (string * (float * float)) list;
-  (** vehicles, since when and for how long nothing is heard of them, nor by them; perhaps for ever: [infinity] *)
+  (** vehicles whose link is silent in both directions, since when and for how long; [infinity]: to the end *)
   announce_period : float;
   contact_period : float;  (** see {!Vehicle_node.settings} *)
   first_id : int;  (** the number of the first vehicle as an IMC system; those of others follow *)
-  first_port : int;  (** where the search for free data ports begins *)
+  first_port : int;  (** the first candidate for free data ports *)
   discovery_ports : int * int;  (** first and last: the first free one is ours, announcements go to all others *)
   address : string option;
   (** The address of this host in a network whose hosts are to find the vehicles: they then announce it, besides

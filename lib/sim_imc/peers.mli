@@ -1,7 +1,7 @@
-(** What a vehicle knows of the other systems.
+(** The knowledge of a vehicle about the other systems.
 
-    A vehicle sends what it has to say to every system that has announced an address and is in contact. Contact is a
-    packet from that system to the vehicle's data port; it lasts {!patience}. The vehicle looks for new contacts every
+    A vehicle sends its messages to every system that has announced an address and is in contact. Contact is a packet
+    from that system to the vehicle's data port; it lasts {!patience}. The vehicle looks for new contacts every
     [period] seconds only, so that it begins to send some time after the first packet came. *)
 
 type t
@@ -31,7 +31,7 @@ val look : at:float -> t -> (int list * t) option
 (** [look ~at p] is the systems that are from now on listened to, if it is time to look. *)
 
 val listeners : at:float -> t -> Address.t list
-(** Where to send: one address for each system in contact, in order of their numbers. *)
+(** The destinations: one address for each system in contact, in order of their numbers. *)
 
 val name : int -> t -> string
-(** [name id p] is what system [id] calls itself; ["unknown"] if it never did. *)
+(** [name id p] is the name that system [id] announced; ["unknown"] if it never did. *)

@@ -12,7 +12,7 @@ val node : t -> Vehicle_node.t
 (** The vehicle's node. *)
 
 type destination =
-  | Discovery  (** whoever listens for announcements *)
+  | Discovery  (** those listening for announcements *)
   | System of Address.t
 
 type datagram = { destination : destination; bytes : string }
@@ -24,10 +24,10 @@ val due : t -> float option
 (** When something happens by itself: seconds, [None] if nothing does. *)
 
 val advance : at:float -> t -> outcome
-(** What has happened by itself up to that time. *)
+(** The events of its own up to that time. *)
 
 val receive : at:float -> Vehicle_node.channel -> host:string -> string -> t -> outcome
-(** [receive ~at channel ~host bytes r]. What is not an IMC packet is dropped, and counted. *)
+(** [receive ~at channel ~host bytes r]. Datagrams that are not IMC packets are dropped, and counted. *)
 
 val tell : at:float -> src_ent:int -> content:Packet.content -> t -> outcome
 (** See {!Vehicle_node.tell}. *)

@@ -21,7 +21,7 @@ let z_unit : Message.Z_units.t -> Plan.z_unit = function
   | Height -> Height
   | None | Other _ -> Unspecified
 
-(* What all maneuvers have that go somewhere. *)
+(* The common fields of maneuvers that go somewhere. *)
 type common = {
   lat : float;
   lon : float;

@@ -1,4 +1,4 @@
-(** Plans as vehicles are told them, PlanSpecification, as something that can be flown. *)
+(** Plans as vehicles receive them, PlanSpecification, in a form that can be flown. *)
 
 open Dolphin_imc
 
@@ -11,7 +11,7 @@ type t = {
 
 val read : Message.t Message.Plan_specification.t -> (t, string) result
 (** [read s] is the maneuvers of [s] in the order in which a vehicle carries them out: from the initial one, always
-    along the first of the transitions out of it, whatever its condition says, up to [_done_] or where none is left.
+    along the first of the transitions out of it, with any condition, up to [_done_] or to one without a transition.
 
     The error is in a vehicle's own words, ["parse error: 1: maneuver is not supported"]: for maneuvers that
     {!Dolphin_semantics.Plan} does not have, for numbers that make no sense, for depths beyond {!deepest}, for a

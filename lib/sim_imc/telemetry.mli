@@ -1,4 +1,4 @@
-(** What a vehicle tells of itself without being asked. *)
+(** The unasked reports of a vehicle about itself. *)
 
 open Dolphin_imc
 
@@ -22,9 +22,9 @@ val estimated_state :
   course:float ->
   speed:float ->
   Message.Estimated_state.t
-(** [estimated_state ~reference position ~course ~speed]: latitude and longitude are those of [reference], the offsets
-    lead from there to [position]. [course] is in degrees. Sea and ground are at height 0;
-    an altitude is told above it only. *)
+(** [estimated_state ~reference position ~course ~speed]: latitude and longitude are those of [reference], the
+    offsets lead from there to [position]. [course] is in degrees. Sea and ground are at height 0; an altitude is
+    reported above it only. *)
 
 val fuel_level : float -> Message.Fuel_level.t
 (** [fuel_level share] of a battery that is charged to [share], from 0 to 1. *)

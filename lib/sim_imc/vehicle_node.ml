@@ -10,7 +10,7 @@ type settings = {
   contact_period : float;
 }
 
-(* What is told again and again while somebody listens. *)
+(* The messages that are repeated while others listen. *)
 type stream = Control | Supervision | Navigation | Life | Fuel | Measurements of string
 
 type t = {
@@ -37,7 +37,7 @@ let mission v time = time *. v.settings.speed
 
 let period = function Control -> 0.35 | Supervision -> 0.5 | Navigation -> 0.55 | Life | Fuel | Measurements _ -> 1.
 
-(* What IMC has no message for is not told. *)
+(* A quantity without a message in IMC is not reported. *)
 let measurements v =
   let is_told (name, _) = List.mem name Measurement.names in
   List.map (fun (name, _) -> Measurements name) (List.filter is_told (vehicle v).shows)
@@ -75,7 +75,7 @@ let is_silent ~at v =
 
 let listeners ~at v = Peers.listeners ~at v.peers
 
-(* Time stamps tell what came first, also of packets at one time. *)
+(* Time stamps show the order, also of packets at one time. *)
 let tick = 1e-5
 
 let stamped ~at v =
@@ -119,7 +119,7 @@ let announce ~at v =
   let next = v.next_announce +. announce_period in
   send ~at Discovery packet v, [], { v with next_announce = (if next > at then next else at +. announce_period) }
 
-(* A new listener is told everything at once. *)
+(* A new listener gets everything at once. *)
 let look ~at v =
   match Peers.look ~at v.peers with
   | None -> [], [], v
@@ -156,8 +156,7 @@ let stream ~at v =
 
 let engine_due v = Option.map (fun time -> time /. v.settings.speed) (Engine.due v.engine)
 
-(* A time of the mission may not come back as it was when it is converted to ours and back: what is due by our clock is
-   due. *)
+(* A time of the mission may change when it is converted to ours and back: an event due by our clock is due. *)
 let advance_engine ~at v =
   let time =
     match Engine.due v.engine with
@@ -168,7 +167,7 @@ let advance_engine ~at v =
 
 let streams_due v = List.fold_left (fun earliest (_, time) -> Float.min earliest time) infinity v.streams
 
-(* The streams run dry when nobody listens any more. *)
+(* The streams stop without listeners. *)
 let stream_if_heard ~at v =
   if streams_due v > at then [], [], v
   else if listeners ~at v = [] then [], [], { v with streams = [] }

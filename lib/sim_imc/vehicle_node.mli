@@ -2,14 +2,14 @@
 
     It stands for a vehicle with DUNE, as it was measured (DUNE 2026.01):
     - It announces itself every 10 s.
-    - It sends to the systems that {!Peers} finds in contact, and to all of them whatever it has to say: telemetry, and
-      replies, also those to others. With nobody in contact it says nothing.
+    - It sends to the systems that {!Peers} finds in contact, and to all of them all its messages: telemetry, and
+      replies, also those to others. Without a system in contact it is silent.
     - PlanControlState comes every 0.35 s and on change, VehicleState every 0.5 s, EstimatedState every 0.55 s,
       Heartbeat and FuelLevel every second, unless its battery is unknown, and so does what it measures, if IMC has a
       message for that. (Of the last two the rate is assumed.)
     - Heartbeats and PlanControl that come in are sent on to all systems in contact, their senders included.
     - Requests must be for the vehicle's own number or {!Dolphin_imc.Header.broadcast}; they need not come from a system
-      in contact, but then nobody hears the reply. What is for others, or not for a vehicle, is ignored.
+      in contact, but then the reply is not heard. Messages for others, or not for a vehicle, are ignored.
     - Plans are run by {!Engine}.
 
     While its link is silent, as the scenario has it, nothing comes in or goes out; the plan goes on.
@@ -21,7 +21,7 @@ open Dolphin_imc
 type settings = {
   engine : Engine.settings;
   id : int;  (** its number as an IMC system *)
-  addresses : Address.t list;  (** where it takes packets, as it announces *)
+  addresses : Address.t list;  (** the address that it announces for packets *)
   speed : float;  (** seconds of the mission that pass in a second, more than 0 *)
   announce_period : float;  (** 10 s of real vehicles *)
   contact_period : float;  (** how often it looks for contacts: see {!Peers.empty}. 5 s of real vehicles *)
@@ -41,13 +41,13 @@ val name : t -> string
 (** {1:packets Packets} *)
 
 type destination =
-  | Discovery  (** whoever listens for announcements *)
+  | Discovery  (** those listening for announcements *)
   | Systems of Address.t list  (** those in contact; at least one *)
 
 type output = { destination : destination; packet : Packet.t }
 
 type outcome = output list * Activity.t list * t
-(** What is sent, in order, each packet with a later time stamp than the one before; what is to be logged; the vehicle
+(** The packets to send, in order, each with a later time stamp than the one before; the log entries; the vehicle
     afterwards. *)
 
 val due : t -> float option
@@ -56,15 +56,15 @@ val due : t -> float option
 val advance : at:float -> t -> outcome
 (** [advance ~at v] is all that happens by itself until [at]; packets are stamped with [at]. *)
 
-(** Where a packet came in. *)
+(** The entry of a packet. *)
 type channel = Announcements | Data
 
 val receive : at:float -> channel -> host:string -> Packet.t -> t -> outcome
-(** [receive ~at channel ~host packet v], [packet] from the address [host]; what happens by itself until then comes
+(** [receive ~at channel ~host packet v], [packet] from the address [host]; the events of its own until then come
     first. *)
 
 val tell : at:float -> src_ent:int -> content:Packet.content -> t -> output list * t
-(** [tell ~at ~src_ent ~content v] says something else to the systems in contact, if there are any. *)
+(** [tell ~at ~src_ent ~content v] sends other messages to the systems in contact, if any. *)
 
 (** {1:state Its state} *)
 
@@ -72,4 +72,4 @@ val listeners : at:float -> t -> Address.t list
 (** The data addresses of the systems in contact. *)
 
 val position : at:float -> t -> Dolphin_geo.Position.t
-(** Where it is. *)
+(** Its place. *)

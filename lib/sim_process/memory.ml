@@ -23,7 +23,7 @@ let lines path =
   let rec go read = match input_line channel with line -> go (line :: read) | exception End_of_file -> List.rev read in
   Fun.protect ~finally:(fun () -> close_in_noerr channel) (fun () -> go [])
 
-(* A torn last line is of an order that nobody has carried out. *)
+(* A torn last line is of an order that was not carried out. *)
 let rec orders = function
   | [] -> Ok []
   | [ last ] -> (match read_line last with Ok one -> Ok [ one ] | Error _ -> Ok [])

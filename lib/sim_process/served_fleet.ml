@@ -10,7 +10,7 @@ type t = {
   fleet : Fleet.t;
   scenario : Scenario.t;
   is_remembered : bool;
-  said : Report.word option Names.t;  (* by request: what was said of it last, if anything *)
+  said : Report.word option Names.t;  (* by request: the last report on it, if any *)
   running : string Names.t;  (* by vehicle: its request *)
   stopped : string Names.t;  (* by vehicle without a link: the request whose stop is to be confirmed *)
   linked : bool Names.t;  (* as was reported last *)
@@ -44,7 +44,7 @@ let sight (s : World.vehicle_state) =
 let say request word f = ({ f with said = Names.add request (Some word) f.said }, [ Report.Request (request, word) ])
 let is_linked v f = Option.value (Names.find_opt v f.linked) ~default:false
 
-(* What waits for the link. *)
+(* The orders that wait for the link. *)
 let link_returned v f =
   match Names.find_opt v f.stopped, Names.find_opt v f.running with
   | Some request, _ -> say request Report.Stopped { f with stopped = Names.remove v f.stopped }

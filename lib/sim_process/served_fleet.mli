@@ -6,8 +6,8 @@ open Dolphin_platform_protocol
 type t
 
 val create : seed:int -> is_remembered:bool -> Dolphin_scenario.Scenario.t -> t
-(** At time 0. [is_remembered]: whoever commands this fleet has all that it was ever ordered, so a request that it does
-    not know was never ordered. *)
+(** At time 0. [is_remembered]: the commander of this fleet has all of its orders, so a request that it does not know
+    was never ordered. *)
 
 val greeting : Report.t
 
@@ -15,7 +15,7 @@ val order : now:float -> Order.t -> t -> t * Report.t list
 (** [order ~now o f] is [f] after it was ordered [o], at [now] if that is not before what has happened. *)
 
 val changes : Order.t -> t -> bool
-(** Whether the order makes a vehicle do something else: whoever wants to make the same fleet again gives it these. *)
+(** Whether the order changes what a vehicle does: these orders rebuild the same fleet. *)
 
 val advance : until:float -> t -> t * Report.t list
 (** All that happens up to this time. *)
@@ -24,4 +24,4 @@ val due : t -> float option
 (** When something happens next. *)
 
 val everyone : t -> Report.t list
-(** What there is to say of each vehicle that was heard of. *)
+(** The reports on each vehicle that was heard of. *)

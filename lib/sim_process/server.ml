@@ -26,7 +26,7 @@ let rec write_all bytes start length =
   if length = 0 then Lwt.return_unit
   else Lwt_unix.write Lwt_unix.stdout bytes start length >>= fun n -> write_all bytes (start + n) (length - n)
 
-(* Whoever does not read any more is not there any more; its input will end, too. *)
+(* A client that does not read any more has gone; its input will end, too. *)
 let rec flush s =
   if Buffer.length s.output = 0 then Lwt.return_unit
   else begin
@@ -38,7 +38,7 @@ let rec flush s =
     >>= fun () -> flush s
   end
 
-(* Nothing is said before the greeting: whoever greets is told of all vehicles, and asks about requests. *)
+(* Nothing is sent before the greeting: a client that greets gets all vehicles, and asks about requests. *)
 let tell s reports =
   if s.is_greeted then List.iter (fun report -> Buffer.add_string s.output (Report.to_line report)) reports;
   match Lwt.state s.writing with Sleep -> () | Return () | Fail _ -> s.writing <- flush s
@@ -92,7 +92,7 @@ let rebuilt settings ~now orders =
   let again fleet (time, order) = fst (Served_fleet.order ~now:time order fleet) in
   fst (Served_fleet.advance ~until:now (List.fold_left again fleet orders))
 
-(* What was told while nobody heard it is told again. *)
+(* Reports that were not heard are repeated. *)
 let opened settings =
   match settings.state with
   | None -> Ok (None, 0., [])

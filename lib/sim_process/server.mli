@@ -8,5 +8,5 @@ type settings = {
 }
 
 val run : settings -> (unit, string) result Lwt.t
-(** Resolves when the input has ended, or all is closed. The error says why the state cannot be had; the greeting has
-    said so too. *)
+(** Resolves when the input has ended, or all is closed. The error is the reason why the state is not available; the
+    greeting has it too. *)

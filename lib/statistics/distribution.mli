@@ -13,7 +13,7 @@ val quantile : float -> t -> float
 type bin = { from : float; until : float; count : int }
 
 val bins : most:int -> t -> bin list
-(** [bins ~most d] is how many of [d] lie in each of [most] spans at most, [most >= 2]: one after the other, without a
-    gap, all of one width, which is 1, 2, 5, 10, 15 or 30 seconds, minutes or hours (or 12, 24 hours and multiples of
-    them), or so many milliseconds. A time at the edge of two is in the later one. The first and the last span are
-    not empty. *)
+(** [bins ~most d] is the number of elements of [d] in each of at most [most] spans, [most >= 2]: consecutive,
+    without a gap, all of one width, which is 1, 2, 5, 10, 15 or 30 seconds, minutes or hours (or 12, 24 hours and
+    multiples of them), or such numbers of milliseconds. A time at the edge of two is in the later one. The first and
+    the last span are not empty. *)

@@ -36,7 +36,7 @@ let rec incomplete_beta a b x =
       (a *. log x) +. (b *. Float.log1p (-.x)) +. log_gamma (a +. b) -. log_gamma a -. log_gamma b -. log a in
     exp front *. continued_fraction a b x
 
-(* Where the growing function [f] passes [y]. *)
+(* The point at which the growing function [f] passes [y]. *)
 let inverse f y =
   let rec between low high n =
     let middle = (low +. high) /. 2. in

@@ -11,10 +11,10 @@ val half_width : interval -> float
 
 (** {1:looks Looking more than once}
 
-    Whoever looks at a growing sample again and again, and stops as soon as the interval is narrow, stops too often by
-    luck. So each look has a level of its own: the [j]-th may be wrong with a probability of [(1 - level) / (j (j +
-    1))]. All of these together are [1 - level] at most, so the interval at which somebody stops is right with a
-    probability of [level] or more. *)
+    A procedure that looks at a growing sample again and again, and stops as soon as the interval is narrow, stops
+    too often by luck. So each look has a level of its own: the [j]-th may be wrong with a probability of [(1 -
+    level) / (j (j + 1))]. All of these together are [1 - level] at most, so the interval at any stopping time is
+    right with a probability of [level] or more. *)
 
 val look : int -> int
 (** [look j] is the size of the sample at the [j]-th look, from 1 on: 100, and then each time a quarter more. *)

@@ -22,7 +22,7 @@ type binary =
   | Parallel                                    (* [|] *)
   | And | Or
 
-(** What a block of settings builds: [pick { type 'UUV' }]. *)
+(** The constructors of blocks of settings: [pick { type 'UUV' }]. *)
 type builder =
   | Pick
   | Imc_plan
@@ -32,7 +32,7 @@ type builder =
   | One_of                                      (* also spelt [choose] *)
   | Recruit                                     (* the settings of {!constructor-Recruit} *)
 
-(** What a task that is cut off is: done, by [until] and [during], or failed, by [assure] and [within]. *)
+(** The state of a task that is cut off: done, by [until] and [during], or failed, by [assure] and [within]. *)
 type on_cut = Completes | Fails
 
 type expression = expression_node located

@@ -29,7 +29,7 @@ let closing_token = function
   | Curly -> RBRACE
   | Hole -> HOLE_CLOSE
 
-(* An open bracket: where it stands in the result, and how far its line is indented. *)
+(* An open bracket: its place in the result, and the indentation of its line. *)
 type opener = { index : int; shape : shape; indentation : int; token : Token.t }
 
 type state = {
@@ -63,7 +63,7 @@ let unclosed state { shape; token; _ } =
     (Diagnostic.error (Token.at token) (Printf.sprintf "this '%s' is never closed" (opening shape))
        ~hint:(Printf.sprintf "a '%s' is missing" (closing shape)))
 
-(* Gives the innermost opener a partner that nobody wrote, before [token]. *)
+(* Gives the innermost opener a missing partner, before [token]. *)
 let supply state opener (token : Token.t) =
   add state { token with token = closing_token opener.shape; stop = token.start } opener.index;
   pop state

@@ -2,7 +2,7 @@
 
 type t = {
   tokens : Token.t array;          (** The tokens, in which every bracket has its partner. *)
-  partner : int array;             (** Where the partner of a bracket stands; -1 for other tokens. *)
+  partner : int array;             (** The place of a bracket's partner; -1 for other tokens. *)
   faults : Diagnostic.t list;      (** The brackets without a partner: those are dropped, or given one. *)
 }
 

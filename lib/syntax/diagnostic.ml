@@ -84,7 +84,7 @@ let take n cells =
 let width = 110
 let lead = 50
 
-(* Where the line with byte [at] begins and ends. *)
+(* The beginning and end of the line with byte [at]. *)
 let line_bounds source at =
   let first = match String.rindex_from_opt source (at - 1) '\n' with Some i -> i + 1 | None -> 0 in
   let last = match String.index_from_opt source at '\n' with Some i -> i | None -> String.length source in
@@ -156,7 +156,7 @@ let suggest x xs =
       if candidate = x || abs (String.length candidate - length) > bound then best
       else
         let found = distance lower (String.lowercase_ascii candidate) in
-        (* Nothing in common but the length is no misspelling. *)
+        (* Words with nothing in common but the length are not misspellings. *)
         if found > bound || found >= length then best
         else
           match best with

@@ -2,16 +2,16 @@
 
 type severity = Error | Warning
 
-(** What kind of fault it is, for programs that read diagnostics and for tests that must outlive their wording. *)
+(** The kind of a fault, for programs that read diagnostics and for tests that must outlive their wording. *)
 type code =
-  | Syntax  (** the text is no program *)
+  | Syntax  (** the text is not a program *)
   | Unknown_name | Unknown_unit | Unknown_setting | Unknown_argument
   | Wrong_arity  (** a number of arguments *)
   | Wrong_kind  (** a task where a number is needed, and the like *)
   | Wrong_value  (** of the right kind: a negative time, and the like *)
   | Wrong_parameters  (** of the code of a guard or handler *)
   | No_pairs  (** [post], [consume] and [poll] take pairs *)
-  | No_value  (** the name of a procedure, or of what has members only, in place of a value *)
+  | No_value  (** the name of a procedure, or of an object with members only, in place of a value *)
   | Waits_in_task  (** code of a task would wait, or does what belongs to the script *)
   | Handler_only  (** [ignore()] or [propagate()] outside of [onError] *)
   | Captured_local  (** assigned in a closure, which has a copy of it *)
@@ -22,17 +22,17 @@ type code =
   | Misplaced_when | Misplaced_setting | Misplaced_function | Misplaced_input
   | Misplaced_parameter | Misplaced_interrupt
   | Bad_map  (** a file that [map] names cannot be read, or a feature of it cannot be used *)
-  | Bad_fence  (** [fence] with what is not known, or is no fence; or out of place *)
+  | Bad_fence  (** [fence] with a value that is unknown, or is not a fence; or out of place *)
   | Broken_fence  (** a plan that breaks a fence wherever its vehicle is *)
   | Deed_in_answer  (** an answer may only compute *)
   | Deed_in_maker  (** so may code that makes a task *)
   | Vehicle_twice  (** one vehicle, needed twice at once *)
   | Unused_task  (** a warning *)
-  | No_effect  (** a warning: a statement that gives a value to nobody *)
+  | No_effect  (** a warning: a statement whose value is not used *)
   | Assigned_condition  (** a warning: a condition whose value is that of an assignment *)
   | Wide_value  (** a warning: the value of a pair has a condition in it that may be meant to stand beside it *)
-  | Unknown_plan  (** a warning: the fleet says nothing of it *)
-  | Unread_input  (** a warning: what the outside posts with this key is never looked at *)
+  | Unknown_plan  (** a warning: the fleet has no entry for it *)
+  | Unread_input  (** a warning: pairs that the outside posts with this key are never read *)
   | Other_meaning  (** a warning: the original language means something else *)
   | Partial_map  (** a warning: features of a map are flawed, left out or repaired *)
 
@@ -44,8 +44,8 @@ val code_name : code -> string
 
 type t = {
   at : Location.t;
-  message : string;      (** What is wrong. *)
-  hint : string option;  (** What would be right. *)
+  message : string;      (** The fault. *)
+  hint : string option;  (** The remedy. *)
   severity : severity;
   code : code;
 }

@@ -1,4 +1,4 @@
-(** Programs without their locations: what two spellings of one program have in common. *)
+(** Programs without their locations: the common part of two spellings of one program. *)
 
 val program : Ast.program -> Ast.program
 (** [program p] is [p] with {!Location.none} everywhere. *)

@@ -1,6 +1,6 @@
 open Grammar
 
-(* Where the grammar is stuck. *)
+(* The token at which the grammar is stuck. *)
 type place = {
   source : string;
   tokens : Token.t array;
@@ -46,7 +46,7 @@ let listed names =
   | [ one ] -> Some one
   | last :: others -> Some (String.concat ", " (List.rev others) ^ " or " ^ last)
 
-(* What could stand here instead. *)
+(* The tokens that could stand here instead. *)
 let expected place =
   let when_acceptable token name = if place.acceptable token then [ name ] else [] in
   let operand =
@@ -92,7 +92,7 @@ let back place i stops =
 (* The bracket that is open around the place. *)
 let opener place = back place place.index (fun _ -> false)
 
-(* Where the statement begins. *)
+(* The beginning of the statement. *)
 let statement place = back place place.index (function SEPARATOR | ARROW -> true | _ -> false) + 1
 
 (* The word that heads the parenthesis around the place: [if], [while], [for] or another. *)
@@ -110,7 +110,7 @@ let word_before_closure place =
     if opener > 0 then kind place (opener - 1) else EOF
   | _ -> EOF
 
-(* What stands from token [i] on, up to the end of the statement or a token that [ends] it, as written. *)
+(* The text from token [i] on, up to the end of the statement or a token that [ends] it, as written. *)
 let rest ?(ends = fun _ -> false) place i =
   let rec last i depth =
     match kind place (i + 1) with
@@ -129,7 +129,7 @@ let rest ?(ends = fun _ -> false) place i =
 
 let rest_of_statement place i = rest place i
 
-(* What is given to a call without parentheses within a task: operators of tasks and their words go on after it. *)
+(* The argument of a call without parentheses within a task: operators of tasks and their words go on after it. *)
 let arguments place i =
   let ends = function
     | SHIFT_RIGHT | BAR | THEN | RUN | ON_ERROR | AFTER_UNTIL | AFTER_ASSURE | AFTER_DURING _ -> true

@@ -12,7 +12,7 @@ let farthest = 24
 (* A bracket that is open, or the whole text. *)
 type frame = {
   statements : bool;                (* in braces; else a list, in parentheses *)
-  indent : int;                     (* of what begins in it *)
+  indent : int;                     (* of the part that begins in it *)
   outer : int;                      (* of the line where it opened *)
   listed : bool;                    (* whether commas are in it *)
   mutable arguments : int option;   (* the column of the first argument of the statement's command *)
@@ -110,8 +110,8 @@ let lead out i =
     put out (match piece.token with COMMA | RPAREN | RBRACKET -> "" | _ -> " ")
   else if Spacing.before out.pieces i then put out " "
 
-(* Whether a semicolon stands before piece [i]: between statements on one line, and in [pick; { ... }], where the brace
-   would else belong to the name. *)
+(* Whether a semicolon stands before piece [i]: between statements on one line, and in [pick; { ... }], where the
+   brace would else belong to the name. *)
 let follows_semicolon out i =
   i > 0 && out.pieces.(i).starts
   && match out.pieces.(i - 1).token with

@@ -1,11 +1,11 @@
-(** Programs and fleets in one layout: four spaces a level, one blank between words, at most {!width} columns. Comments,
-    and where a person ended lines between statements and arguments, are kept; of several empty lines, one is. *)
+(** Programs and fleets in one layout: four spaces a level, one blank between words, at most {!width} columns.
+    Comments, and a person's line ends between statements and arguments, are kept; of several empty lines, one is. *)
 
 val width : int
 (** 120. *)
 
 val program : file:string -> string -> (string, Diagnostic.t list) result
-(** [program ~file source] is [source] in this layout, or what is wrong with it. What it spells is the same program.
+(** [program ~file source] is [source] in this layout, or what is wrong with it. The result spells the same program.
     [program] of its result is that result. Only comments and strings may go beyond {!width}. *)
 
 val arranged : file:string -> string -> (string, Diagnostic.t list) result

@@ -1,5 +1,5 @@
-(* The grammar of programs, over the tokens that [Layout] hands on: newlines are gone or are SEPARATOR, a name
-   that is called without parentheses is COMMAND, and an opening brace says what it opens. *)
+(* The grammar of programs, over the tokens that [Layout] hands on: newlines are gone or are SEPARATOR, a name that
+   is called without parentheses is COMMAND, and an opening brace has its construct. *)
 
 %{
 open Ast
@@ -24,7 +24,7 @@ let expression place it = located place it
 %token WHEN WATCH WAIT_FOR REPEAT THEN RUN ON_ERROR
 %token <Ast.on_cut> UNTIL DURING         (* [until] and [during] complete; [assure] and [within] fail *)
 %token AFTER_UNTIL AFTER_ASSURE          (* after a task: [T until { C }], [T assure { C }] *)
-%token <Ast.on_cut> AFTER_DURING         (* likewise: [T during D], [T within D] *)
+%token <Ast.on_cut> AFTER_DURING         (* the same for [T during D], [T within D] *)
 %token LPAREN RPAREN LBRACKET RBRACKET RBRACE
 %token LBRACE                            (* opens a closure *)
 %token TRAILING                          (* opens a closure after a call: [f(x) {] *)
@@ -139,7 +139,7 @@ some_parameters:
   | x = name { [ x ] }
   | rest = some_parameters; COMMA; x = name { x :: rest }
 
-(* Whole expressions: a command takes all its arguments in a chain, one in an item. [limit] is what may stand behind a
+(* Whole expressions: a command takes all its arguments in a chain, one in an item. [limit] is the postfix forms of a
    task: [inner_limit] in the rounds of a [repeat], where an [until] is the repeat's, [any_limit] elsewhere. *)
 
 chain:
@@ -240,7 +240,7 @@ expression(limit):
   | REPEAT; n = item(inner_limit); COMMA; t = item(inner_limit)              %prec repeated
     { item (expression $loc (Repeat { rounds = Some (settle n); body = settle t; until = None })) }
 
-(* A task and what stands behind it, which binds tighter than all operators. *)
+(* A task and its postfix forms, which bind tighter than all operators. *)
 limited(limit):
   | e = postfix
     { item e }
@@ -251,8 +251,8 @@ limited(limit):
   | e = limited(limit); l = limit
     { Node.limit e l $endpos }
 
-(* A [repeat] with its [until], and limits of all rounds. An operator behind it is not accepted: in
-   [repeat A until { C } >> B] readers cannot tell what the [until] belongs to. NEVER makes that an error. *)
+(* A [repeat] with its [until], and limits of all rounds. An operator behind it is not accepted: in [repeat A until {
+   C } >> B] readers cannot see the owner of the [until]. NEVER makes that an error. *)
 rounds(limit):
   | e = closed_rounds(limit)                                                 %prec whole_expression
     { e }

@@ -1,5 +1,5 @@
-(** Programs of several files: [include 'lib.dol'] at the top of a program stands for the statements of that file, which
-    is named relative to the file that includes it. A file is included once, where it is named first. *)
+(** Programs of several files: [include 'lib.dol'] at the top of a program stands for the statements of that file,
+    which is named relative to the file that includes it. A file is included once, where it is named first. *)
 
 type whole = {
   text : string;
@@ -12,7 +12,7 @@ val beside : string -> string -> string
 (** [beside file path] is the file that the text in [file] calls [path]. *)
 
 val from : string -> string -> string
-(** [from file path] is what a text in [file] calls the file [path]: such that [beside file (from file path)] is [path].
+(** [from file path] is the name in [file] of the file [path]: such that [beside file (from file path)] is [path].
     The prelude, and of a relative path and an absolute one, [path] as it is. *)
 
 val program :
@@ -20,5 +20,5 @@ val program :
   file:string ->
   string ->
   whole * (Ast.program, Diagnostic.t list) result
-(** [program ~read ~file source] is as {!Parse.program}, with what it includes. [read path] is the text of a file, or
-    why it cannot be read. *)
+(** [program ~read ~file source] is as {!Parse.program}, with its included files. [read path] is the text of a file,
+    or why it cannot be read. *)

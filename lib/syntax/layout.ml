@@ -51,12 +51,12 @@ let builder = function
 
 (* {1 Reading} *)
 
-(* What an open bracket encloses. *)
+(* The contents of an open bracket. *)
 type frame =
   | Enclosed                   (* [( )], [[ ]], a hole: lines do not matter *)
   | Body                       (* statements that are a statement, or the body of one *)
   | Value                      (* statements that are part of an expression *)
-  | Picking                    (* likewise, the settings of a [pick] *)
+  | Picking                    (* the same for the settings of a [pick] *)
 
 type state = {
   source : string;
@@ -172,7 +172,7 @@ let stands_behind state i (token : Token.t) =
   ends_operand state.last && not state.last_is_header
   && not (token.newline && in_statements state && begins_expression state i)
 
-(* What the token at [i] is, given those before and after it. *)
+(* The meaning of the token at [i], given those before and after it. *)
 let classify state i (token : Token.t) =
   match token.token with
   | TRUE | FALSE | NULL when after_point state -> NAME (Token.text ~source:state.source token)
@@ -219,7 +219,7 @@ let step state i (token : Token.t) =
   | _ ->
     if separates state token kind then push_separator state;
     state.separate <- false;
-    (* A separator before it tells what an [until] or a [during] is. *)
+    (* A separator before it determines the meaning of an [until] or a [during]. *)
     let kind = if state.last = SEPARATOR then classify state i token else kind in
     match kind with
     | LPAREN | LBRACKET | HOLE_OPEN -> open_frame state i kind Enclosed token

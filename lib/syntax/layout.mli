@@ -1,4 +1,5 @@
-(** Where statements end, and what a name or a brace stands for: all that the grammar need not know of lines. *)
+(** The ends of statements, and the meaning of a name or a brace: all facts about lines that the grammar does not
+    need. *)
 
 val arrange : source:string -> Brackets.t -> Token.t array
 (** [arrange ~source brackets] is the tokens of [brackets] with a [SEPARATOR] between every two statements, and

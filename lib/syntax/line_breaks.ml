@@ -3,7 +3,7 @@ open Piece
 
 let is_brace = function LBRACE | TRAILING | BLOCK -> true | _ -> false
 
-(* Where the body of the brace at [opener] begins: after its parameters. *)
+(* The beginning of the body of the brace at [opener]: after its parameters. *)
 let body_start pieces opener =
   let rec arrow i =
     match pieces.(i).token with
@@ -106,7 +106,7 @@ let looseness pieces i =
   | _, _ when pieces.(i).starts -> Some Body
   | _, _ -> None
 
-(* The body in braces with which the line up to [stop] ends, if it does: where that begins. *)
+(* The body in braces at the end of the line up to [stop], if it has one: its beginning. *)
 let last_body pieces ~first ~stop =
   let rec from i =
     if i <= first then None

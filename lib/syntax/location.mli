@@ -5,7 +5,7 @@ type t = { start : Lexing.position; stop : Lexing.position }
     [pos_cnum - pos_bol] counts the characters before it on its line (see {!Cursor}). *)
 
 val none : t
-(** The location of what no source text stands for. *)
+(** The location of a node without source text. *)
 
 val make : Lexing.position * Lexing.position -> t
 (** From the start to the stop. *)

@@ -1,10 +1,10 @@
-(** Building nodes: what the grammar's actions share. *)
+(** Building nodes: the common part of the grammar's actions. *)
 
 open Ast
 
 val located : Lexing.position * Lexing.position -> 'a -> 'a located
 
-(** What follows a task in the postfix forms [T during D], [T within D], [T until { C }] and [T assure { C }]. *)
+(** The rest of a task in the postfix forms [T during D], [T within D], [T until { C }] and [T assure { C }]. *)
 type limit = During_limit of on_cut * expression | Until_limit of on_cut * closure
 
 (** An expression, and the limits written after it, outermost first. *)

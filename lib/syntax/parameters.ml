@@ -100,7 +100,7 @@ let range p text =
       | _, _ -> None)
   | _, (Ok _ | Error _) -> None
 
-(* What a text is, for a parameter that is one: as it stands, if it is not in quotes. *)
+(* The value of a text for a parameter that is one: as it stands, if it is not in quotes. *)
 let read p text =
   match kind p.value, Parse.expression ~file:"--set" text with
   | Some Text, Ok ({ it = String _; _ } as e) -> Ok e
@@ -121,7 +121,7 @@ let value parameters (x, text) =
   match List.find_opt (fun p -> p.name = x) parameters with
   | None -> told (Error (unknown x parameters))
   | Some p ->
-    (* Whatever is said of it is said of the place that it stands in. *)
+    (* Diagnostics have the place of the parameter. *)
     Result.map (fun e -> (x, Relocate.expression (fun _ -> p.value.at) e)) (told (read p text))
 
 let set settings p =

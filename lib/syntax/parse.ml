@@ -108,8 +108,8 @@ let rec take n = function
   | x :: rest when n > 0 -> x :: take (n - 1) rest
   | _ -> []
 
-(* Of several faults, those that are not mere consequences of others: what the grammar finds on a line with
-   a misspelt token, or after a bracket without a partner or a foreign construct, is not told. *)
+(* Of several faults, those that are not mere consequences of others: the grammar's faults on a line with a misspelt
+   token, or after a bracket without a partner or a foreign construct, are not reported. *)
 let select ~scanned ~structure ~parsed =
   let line (d : Diagnostic.t) = Location.line d.at in
   let spoilt = Hashtbl.create 16 in
@@ -132,7 +132,7 @@ let read ~file source start shape faults_from =
     | Result.Error fault -> Result.Error (select ~scanned ~structure:[ fault ] ~parsed:[])
     | Ok matched ->
       let tokens = Layout.arrange ~source matched in
-      (* After one of these, what the grammar says is of no worth. *)
+      (* After one of these, the grammar's faults are of no use. *)
       let structure = matched.faults @ Foreign.faults tokens in
       match run start tokens 0 (Array.length tokens - 1) with
       | Accepted result ->

@@ -52,7 +52,7 @@ let gap source start stop =
 
 (* {1 Pieces} *)
 
-(* What is known of the brackets that are open, the innermost first. *)
+(* The open brackets, the innermost first. *)
 type opener = { index : int; mutable questions : int (* that wait for their colon *) }
 
 (* The index of the token that closes the string with holes which opens at [i]. *)

@@ -1,4 +1,4 @@
-(** Tokens of a text with what stands between them, for laying them out anew. *)
+(** Tokens of a text with the text between them, for a new layout. *)
 
 type comment = {
   text : string;

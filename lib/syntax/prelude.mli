@@ -8,14 +8,14 @@ val file : string
 
 val text : string
 
-(** A function, as the comment above it tells of it. *)
+(** A function, as the comment above it describes it. *)
 type entry = {
   name : string;
   form : string;  (** ["par(tasks)"] *)
-  text : string;  (** what it is: sentences *)
+  text : string;  (** its description: sentences *)
   example : string;  (** statements, in which [vs] is three vehicles and [p], [q] and [r] are tasks *)
   law : (string * string) option;  (** two tasks that are strongly bisimilar *)
-  weak_law : (string * string) option;  (** two that are weakly so: in what vehicles do *)
+  weak_law : (string * string) option;  (** two that are weakly so: in the behaviour of vehicles *)
 }
 
 val entries : unit -> entry list

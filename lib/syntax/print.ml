@@ -105,7 +105,7 @@ let ends_with_builder out =
     length >= n && Buffer.sub out.buffer (length - n) n = word in
   List.exists ends [ "pick"; "imcPlan"; "mission"; "pos"; "allOf"; "oneOf"; "choose"; "recruit" ]
 
-(* What comes between a statement and the next, before the end of the line. *)
+(* The text between a statement and the next, before the end of the line. *)
 let finish_before out next = if is_block next && ends_with_builder out then put out ";"
 
 let rec separated out separator print = function

@@ -5,7 +5,7 @@ val program : Format.formatter -> Ast.program -> unit
 (** [program ppf p] prints [p] such that reading it again gives [p] with other locations. *)
 
 val expression : Format.formatter -> Ast.expression -> unit
-(** [expression ppf e] prints [e], likewise. *)
+(** [expression ppf e] prints [e] in the same way. *)
 
 val until : Ast.on_cut -> string
 (** [until on_cut] is ["until"] or ["assure"]. *)

@@ -1,4 +1,4 @@
-(** From text to raw tokens: what a token is, not yet where statements end. *)
+(** From text to raw tokens: the kinds of tokens, before the ends of statements are known. *)
 
 type raw = {
   tokens : Token.t list;           (** In order; the last is [EOF]. A [;] is a [SEPARATOR]. *)
@@ -10,4 +10,4 @@ val scan : file:string -> string -> raw
     [LBRACE], and [until] and [during] are [UNTIL] and [DURING]. *)
 
 val words : string list
-(** The words that are no names, in order. *)
+(** The reserved words, in order. *)

@@ -11,11 +11,11 @@ type text = {
   opening_end : Lexing.position;
   newline_before : bool;
   buffer : Buffer.t;
-  mutable chunk : Lexing.position;     (* where the text in [buffer] begins *)
+  mutable chunk : Lexing.position;     (* the beginning of the text in [buffer] *)
   mutable holed : bool;                (* whether TEMPLATE_OPEN is out *)
 }
 
-(* What encloses the place of reading: strings, and the holes in them. *)
+(* The constructs around the place of reading: strings, and the holes in them. *)
 type mode =
   | Text of text
   | Hole of { mutable depth : int }    (* the brackets open within the hole *)
@@ -36,7 +36,7 @@ let push state token start stop =
   state.reversed <- { Token.token; start; stop; newline = state.newline } :: state.reversed;
   state.newline <- false
 
-(* The place of the token from [before] bytes ahead of what was matched. *)
+(* The place of the token from [before] bytes ahead of the match. *)
 let place ?(before = 0) state lexbuf =
   let start = Cursor.position state.cursor (first lexbuf - before) in
   start, Cursor.position state.cursor (last lexbuf)

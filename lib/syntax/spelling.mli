@@ -46,7 +46,7 @@ val quoted : string -> string
 (** [quoted text] is the string literal of [text]. *)
 
 val key_name : string -> string
-(** [key_name k] is [k] as the key of an argument or of a map's entry: quoted, if it is no name. *)
+(** [key_name k] is [k] as the key of an argument or of a map's entry: quoted, unless it is a name. *)
 
 val decimal : float -> string
 (** [decimal x] is the shortest decimal that is read as [x]. *)

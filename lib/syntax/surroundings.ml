@@ -24,7 +24,7 @@ let is_name x =
 
 let is_word text = is_name text || List.mem text words
 
-(* A bracket that is open: what opened it, and the command of the statement that is under way in it. *)
+(* An open bracket: its opener, and the command of the statement that is under way in it. *)
 type frame = { opens : string option; braces : bool; command : string option }
 
 let top = { opens = None; braces = true; command = None }

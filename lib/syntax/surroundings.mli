@@ -1,8 +1,8 @@
-(** What stands around a place of a text under way, which need not be a program yet: for completing it. *)
+(** The surroundings of a place in a text under way, which need not be a program yet: for completing it. *)
 
-(** What a name after a point is looked for in. *)
+(** The owner of a name after a point. *)
 type owner =
-  | Nothing  (** There is no point. *)
+  | Nothing  (** Without a point. *)
   | Number  (** [2.km] *)
   | Named of string  (** [Location.APDL], [Speed.Units.RPM]: the names before the point *)
   | Value  (** of any other expression *)
@@ -18,7 +18,7 @@ type t = {
 }
 
 val at : string -> int -> t
-(** [at source offset] is what stands around byte [offset] of [source]: only the text before it is looked at. *)
+(** [at source offset] is the surroundings of byte [offset] of [source]: only the text before it is read. *)
 
 val assigned : string -> string list
 (** [assigned source] is the names that [source] seems to give a value to or define, each once, in the order of the

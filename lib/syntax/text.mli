@@ -5,5 +5,5 @@ val fault : file:string -> string -> Diagnostic.t option
     character, or a zero byte. *)
 
 val character : string -> int -> int
-(** [character source i] is the number of bytes of the well-formed UTF-8 character at [i], or 0 if there is none; 0 for
-    a zero byte, too. *)
+(** [character source i] is the number of bytes of the well-formed UTF-8 character at [i], or 0 without one; 0 for a
+    zero byte, too. *)

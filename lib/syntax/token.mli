@@ -8,7 +8,7 @@ type t = {
 }
 
 val at : t -> Location.t
-(** [at t] is where [t] stands. *)
+(** [at t] is the place of [t]. *)
 
 val text : source:string -> t -> string
 (** [text ~source t] is [t] as the program spells it. *)

@@ -1,12 +1,12 @@
-(** Well-formedness beyond the grammar: what it accepts and is refused nevertheless. Nothing here is recursive on the
-    nesting of a program. *)
+(** Well-formedness beyond the grammar: programs that it accepts and that are refused nevertheless. Nothing here is
+    recursive on the nesting of a program. *)
 
 val limit : int
 (** The deepest nesting of expressions and statements that is taken: 10,000. *)
 
 val program : Ast.program -> Diagnostic.t list
-(** [program p] is the faults of [p]: nesting deeper than {!limit} (only the first one is reported), and
-    assignments to what is not a variable, an element or a member. *)
+(** [program p] is the faults of [p]: nesting deeper than {!limit} (only the first one is reported), and assignments
+    to anything but a variable, an element or a member. *)
 
 val expression : Ast.expression -> Diagnostic.t list
 (** [expression e] is the faults of [e]. *)

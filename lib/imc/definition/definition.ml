@@ -107,7 +107,7 @@ let make ~enumerations ~bits ~groups messages =
 
 (* {1 Comparing} *)
 
-(* What of a field is seen on the wire. *)
+(* The part of a field that is seen on the wire. *)
 let layout (f : field) =
   match f.typ with
   | Number (scalar, _) -> scalar_name scalar

@@ -1,4 +1,4 @@
-(** What messages there are: ids, names, fields, types, units.
+(** The messages: ids, names, fields, types, units.
 
     A definition comes from the project's own page ({!Def_file}), from which the typed messages are
     generated, or from a user's [IMC.xml] ({!Imc_xml}). *)
@@ -33,13 +33,13 @@ type typ =
   | Raw  (** A [u16] length and that many bytes. *)
   | Inline of string option
   (** A message or none; [Some name] restricts it to a message or a group. *)
-  | List of string option  (** Any number of messages, restricted likewise. *)
+  | List of string option  (** Any number of messages, with the same restriction. *)
 
 type field = {
   name : string;
   typ : typ;
   unit : string option;  (** Unit of the number: [rad], [m/s], [%]. *)
-  title : string;  (** What it is, when the name does not say it. May be empty. *)
+  title : string;  (** Its description, when the name does not suffice. May be empty. *)
 }
 
 type message = { id : int; name : string; title : string; fields : field list }

@@ -56,7 +56,7 @@ let int e name =
 let children e tag = List.filter (fun part -> String.equal part.tag tag) e.parts
 let grandchildren e tag tag' = List.concat_map (fun part -> children part tag') (children e tag)
 
-(* [title e] is empty if it says no more than the short name. *)
+(* [title e] is empty if it adds nothing to the short name. *)
 let title e =
   let letters text =
     String.concat "" (String.split_on_char ' ' (String.concat " " (String.split_on_char '_' text)))

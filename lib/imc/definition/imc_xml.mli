@@ -3,7 +3,7 @@
     The file is the user's: any version, extended or not. Sources: [IMC.xsd] beside it. *)
 
 type error = {
-  line : int;  (** Where the tag ends that is at fault, from 1; 0 if the fault is not of one tag. *)
+  line : int;  (** The end of the faulty tag, from 1; 0 if the fault is not of one tag. *)
   column : int;
   why : string;
 }

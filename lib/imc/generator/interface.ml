@@ -14,12 +14,12 @@ let prose text =
   in
   String.concat "" (List.map escape (List.of_seq (String.to_seq text)))
 
-(* The type on the wire, where the OCaml type does not tell. *)
+(* The type on the wire, where the OCaml type does not determine it. *)
 let wire_type = function
   | Number (((I8 | U8 | I16 | U16 | I32 | U32 | F32) as scalar), _) -> scalar_name scalar
   | Number ((F64 | I64), _) | Text _ | Raw | Inline _ | List _ -> ""
 
-(* The title, the unit and whatever else there is to say, then the type: "Timeout, s (u16)". *)
+(* The title, the unit and further text, then the type: "Timeout, s (u16)". *)
 let field_comment (f : field) =
   let more =
     match f.typ with
@@ -98,8 +98,7 @@ let head =
     [t], its number [id], and [default] to build from: [{ Goto.default with lat; lon }]. A comment
     on a field gives its unit, and in parentheses its type on the wire if OCaml's is wider.
 
-    Where a message can contain any other, its type has that as a parameter, ['message]; in {!t},
-    ['message] is {!t}. *)|}
+    If a message can contain any other, its type has that as a parameter, ['message]; in {!t}, ['message] is {!t}. *)|}
 
 let functions =
   {|val id : t -> int
@@ -124,7 +123,7 @@ val pp : Format.formatter -> t -> unit
 
 val read : Reader.t -> int -> t
 (** [read r id] is the message [id], its fields read from [r].
-    @raise Reader.Fault if there is no such message, or the bytes are not one. *)
+    @raise Reader.Fault if the message is unknown, or the bytes do not form one. *)
 
 val write : Writer.t -> t -> unit
 (** [write w m] writes the fields of [m].

@@ -1,4 +1,4 @@
-(** OCaml types of messages and fields: what the interface and the implementation have in common. *)
+(** OCaml types of messages and fields: the common part of the interface and the implementation. *)
 
 open Dolphin_imc_definition
 open Definition
@@ -29,8 +29,8 @@ val enumeration : named list -> comment:(named -> string) -> Code.t list
 (** The variant type of an enumeration. *)
 
 val variant : Outline.t -> Outline.item -> Outline.item list -> Code.t list
-(** [variant o i is] is the type of the group [i], of the members [is]: a constructor each, [Goto of
-    Goto.t], or only [Abort] if there are no fields. *)
+(** [variant o i is] is the type of the group [i], of the members [is]: a constructor each, [Goto of Goto.t], or only
+    [Abort] without fields. *)
 
 val all : Outline.t -> Code.t list
 (** The type [t] of all messages: the groups, then {!Outline.loose}. *)

@@ -1,4 +1,4 @@
-(** What the generated module [Message] consists of, in the order of definition. *)
+(** The parts of the generated module [Message], in the order of definition. *)
 
 open Dolphin_imc_definition
 
@@ -16,13 +16,13 @@ val make : Definition.t -> t
 (** @raise Unsupported *)
 
 val definition : t -> Definition.t
-(** What it was made from. *)
+(** Its source. *)
 
 val items : t -> item list
 (** Each item after those it refers to by name. *)
 
 val item : t -> string -> item
-(** [item o name] is what [name] stands for. *)
+(** [item o name] is the meaning of [name]. *)
 
 val name : item -> string
 (** Its name in the definition. *)

@@ -164,7 +164,8 @@ let answers =
 
 let strict =
   let doc =
-    "Count as violations what otherwise is only noted: $(b,halt), tuples left over, code that no run reaches."
+    "Count as violations what otherwise is only noted: $(b,halt), tuples left over (except those with the key of an \
+     $(b,input)), code that no run reaches."
   in
   Arg.(value & flag & info [ "strict" ] ~doc)
 

@@ -21,6 +21,7 @@ CONSTANTS
   Inputs,        \* what people and programs may post, a sequence of records: the key; the rounds of what may be posted
                  \* the first time, the second ..., the last for all later times; how many times at most; whether it is
                  \* certain to come so often, sooner or later
+  InputKeys,     \* the keys that the program declares by input
   Interruptions  \* whether the program may be interrupted
 
 (* outside is how many failures and losses there were, who is lost, who was late, how often each question was asked,
@@ -37,6 +38,7 @@ EnvironmentOK ==
   /\ MayBeLate \subseteq Identifiers
   /\ Prompts \subseteq STRING /\ Calls \subseteq STRING
   /\ Interruptions \in BOOLEAN
+  /\ \A i \in DOMAIN Inputs : Inputs[i].key \in InputKeys
   /\ \A i \in DOMAIN Inputs : Inputs[i].rounds # << >> /\ Inputs[i].times \in Nat /\ Inputs[i].certain \in BOOLEAN
 
 ASSUME EnvironmentOK
@@ -325,12 +327,16 @@ HasEnded == control.at = "end"
    in N. *)
 EndsSo(how, why) == HasEnded /\ control.ending.how = how /\ control.ending.why = why
 NothingLeft == (\A k \in OrderedKeys : N.queue[k] = << >>) /\ DOMAIN N.bag = { }
+(* The program cannot know which inputs come, or take them all. *)
+OnlyInputsLeft ==
+  /\ \A k \in OrderedKeys \ InputKeys : N.queue[k] = << >>
+  /\ \A pair \in DOMAIN N.bag : pair[1] \in InputKeys
 
 NoError == ~EndsSo("failed", "error")
 Assertions == ~EndsSo("failed", "assertion")
 EnoughVehicles == ~EndsSo("failed", "vehicles")
 NoHalt == ~EndsSo("halted", "")
-NoLeftover == EndsSo("completed", "") => NothingLeft
+NoLeftover == EndsSo("completed", "") => OnlyInputsLeft
 
 IsControl(kappa) ==
   CASE kappa.at = "script" -> IsMachine(kappa.M)

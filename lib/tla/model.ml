@@ -155,7 +155,7 @@ let tables = [ "Fleet"; "Code"; "Lambdas"; "LambdaNames"; "Places"; "Distances";
 
 let small =
   [ "Main"; "OnInterrupt"; "GlobalNames"; "OrderedKeys"; "Prompts"; "Failures"; "Losses"; "Latecomers"; "MayBeLate";
-    "Calls"; "Inputs"; "SiteOf"; "Ending"; "Answers"; "Confirmations"; "HostReplies" ]
+    "Calls"; "Inputs"; "InputKeys"; "SiteOf"; "Ending"; "Answers"; "Confirmations"; "HostReplies" ]
 
 let definition ppf name e = Format.fprintf ppf "%s == %a@.@." name Tla.pp e
 
@@ -203,6 +203,8 @@ let text program world (environment : Environment.options) plans prompts calls t
   definition ppf "MCPrompts" (counted prompts environment.answers);
   definition ppf "MCCalls" (counted calls environment.replies);
   definition ppf "MCInputs" inputs;
+  let keys = List.sort_uniq String.compare program.inputs in
+  definition ppf "MCInputKeys" (Tla.Set (List.map (fun k -> Tla.String k) keys));
   definition ppf "MCFailures" (match environment.faults.fail with Never -> Tla.Integer (-1) | most -> limit most);
   definition ppf "MCLosses" (limit environment.faults.loss);
   definition ppf "MCLatecomers" (limit environment.faults.join);

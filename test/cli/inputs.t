@@ -131,3 +131,36 @@ An input that is certain may come after the end, which is too late:
   $ dolphin exec owed.dol | grep -c 'gets abort'
   0
   [1]
+
+An input that comes after the program has looked, or is polled and not taken, is not a leftover tuple; a pair of the
+program is.
+
+  $ cat > home.fleet <<'END'
+  > vehicle 'noptilus-1', { type 'UUV' }
+  > plan 'survey', { duration 9.min }
+  > plan 'home', { duration 2.min }
+  > input 'abort', true, after 5.min
+  > END
+  $ cat > home.dol <<'END'
+  > input 'abort'
+  > v = pick { type 'UUV' }
+  > execute until { poll abort: true } run task('survey')
+  > if (poll(abort: true)) {
+  >     message 'Home!'
+  >     execute task('home')
+  > }
+  > END
+  $ dolphin explore home.dol --strict | sed 's/, [0-9.]* s,.*//'
+  no deadlock: holds
+  termination: holds
+  no unhandled error: holds
+  assertions: holds
+  vehicles for all tasks: holds
+  no halt: holds
+  no leftover tuples: holds
+  all code reached: holds
+  18 states, 24 transitions, depth 10
+  $ (cat home.dol; echo "post found: 1") > left.dol
+  $ dolphin explore left.dol --fleet home.fleet --strict | sed -n 's/ after.*//; /leftover/p'
+  no leftover tuples: violated
+  no leftover tuples: a shortest run in which tuples are left when the program completes

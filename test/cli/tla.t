@@ -61,6 +61,7 @@
     MayBeLate <- MCMayBeLate
     Calls <- MCCalls
     Inputs <- MCInputs
+    InputKeys <- MCInputKeys
     SiteOf <- MCSiteOf
     Ending <- MCEnding
     Answers <- MCAnswers

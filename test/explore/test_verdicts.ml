@@ -88,7 +88,11 @@ let verdicts : (string * (unit -> unit)) list =
     ("an input that is not declared",
      check ~options:(posting ~certain:true) No_deadlock "execute condition { consume x:1 }" "violated in 1");
     ("an input that nobody took",
-     check ~options:(posting ~certain:false) No_leftover "input 'x'\npause 1" "violated in 4");
+     check ~options:(posting ~certain:false) No_leftover "input 'x'\npause 1" "holds");
+    ("an input that nobody took, and a pair of the program",
+     check ~options:(posting ~certain:false) No_leftover "input 'x'\npost y:1\npause 1" "violated in 4");
+    ("a pair of the program with the key of an input",
+     check ~options:(posting ~certain:false) No_leftover "input 'x'\npost x:2\npause 1" "holds");
     ("a loop until an input comes",
      check ~options:(posting ~certain:true) Termination "input 'x'\nwhile (!poll(x:1)) { pause 1 }" "for ever 1+2");
     ("a loop that only an interruption ends",

@@ -42,7 +42,7 @@ let shows options program world property (run : Search.run) =
   | No_error | Assertions | Vehicles | Allocation | No_halt | No_leftover -> (
       match List.rev run.steps with
       | [] -> false
-      | last :: _ -> there <> [] && Property.broken_by_end last.rules last.next = Some property)
+      | last :: _ -> there <> [] && Property.broken_by_end program last.rules last.next = Some property)
   | All_reached | Invariant _ | Formula _ | Apart _ -> false
 
 (* {1 Outcomes}

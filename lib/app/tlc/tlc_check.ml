@@ -32,11 +32,11 @@ let shows name options program world ((c, e) : Dolphin_explore.Labelled.state) (
   match List.assoc_opt name properties, List.rev steps with
   | Some No_deadlock, _ -> Environment.is_stuck options program e (Environment.choices options program world e c)
   | Some (Vehicles | Allocation), last :: _ -> (
-      match Property.broken_by_end last.rules c with
+      match Property.broken_by_end program last.rules c with
       | Some (Vehicles | Allocation) -> true
       | Some _ | None -> false)
   | Some ((No_error | Assertions | No_halt | No_leftover) as p), last :: _ ->
-    Property.broken_by_end last.rules c = Some p
+    Property.broken_by_end program last.rules c = Some p
   | (Some _ | None), _ -> true
 
 (* {1 Printing} *)

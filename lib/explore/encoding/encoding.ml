@@ -18,6 +18,7 @@ module Scripts = Interner.Make (struct
 
 type t = {
   components : Components.t;
+  program : Core.program;
   shareds : Surroundings.Numbers.t;
   layouts : Layouts.t;
   machines : Machines.t;
@@ -29,10 +30,12 @@ type t = {
 }
 
 let create
-    ?spare_bits ?(find_symmetry = fun _ _ -> None) ?(canonical = fun c outside -> (c, outside)) components shareds
+    ?spare_bits ?(find_symmetry = fun _ _ -> None) ?(canonical = fun c outside -> (c, outside)) components
+    shareds program
   =
   {
     components;
+    program;
     find_symmetry;
     canonical;
     shareds;
@@ -61,7 +64,7 @@ let canonical_number t rules c outside =
   let number = Scripts.number t.scripts (c, outside) in
   if number = known then begin
     if number = Array.length t.broken then t.broken <- Array.append t.broken (Array.make (max 8 number) None);
-    t.broken.(number) <- Property.broken_by_end rules c
+    t.broken.(number) <- Property.broken_by_end t.program rules c
   end;
   number
 

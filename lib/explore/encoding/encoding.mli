@@ -10,7 +10,7 @@ val create :
   ?spare_bits:int ->
   ?find_symmetry:(Residual.t -> Surroundings.t -> Task_group.t option) ->
   ?canonical:(Configuration.t -> Environment.t -> Configuration.t * Environment.t) ->
-  Components.t -> Surroundings.Numbers.t -> t
+  Components.t -> Surroundings.Numbers.t -> Core.program -> t
 (** [spare_bits] is as for {!Layouts.create}. [find_symmetry r s] is what can change places in [r], which is about to
     be executed in shared state [s]: nothing by default. [canonical c e] is the form in which [c] with [e] is kept if
     it executes nothing, or a task that begins: itself by default. *)

@@ -37,6 +37,7 @@ let choices t outside c =
 let canonical t c outside =
   match t.vehicles with Some vehicles -> Canonical_vehicles.canonical vehicles c outside | None -> (c, outside)
 
+let program t = t.program
 let owes t outside = Environment.owes t.options t.program outside
 let has_vehicle_symmetry t = t.vehicles <> None
 
@@ -521,7 +522,7 @@ let create
   in
   let find_symmetry = Option.map Task_groups.find task_groups in
   let canonical = Option.map Canonical_vehicles.canonical vehicles in
-  let encoding = Encoding.create ?spare_bits ?find_symmetry ?canonical components shareds in
+  let encoding = Encoding.create ?spare_bits ?find_symmetry ?canonical components shareds program in
   let observe = Option.map Observer.of_local_step observer in
   let steps = Memoised_steps.create ?observe components encoding and quotient = Quotient.create components encoding in
   let expansion = Expansion.create options components encoding steps quotient observer in

@@ -41,6 +41,8 @@ val shared : t -> int array -> int option
 val breadth : t -> int array -> int
 (** [breadth t key] is how many components the task of [key] has; 0 if none executes. *)
 
+val program : t -> Core.program
+
 val unsettled : Core.program -> Fault.t -> Dolphin_checker.Limits.bound
 (** [unsettled p fault] is that nobody can list what follows some state of [p], because of [fault]: more than a
     comparison depends on what a sensor shows. *)

@@ -37,12 +37,16 @@ let question = function
 
 let pp ppf p = Format.pp_print_string ppf (name p)
 
-let broken_by_end rules (c : Configuration.t) =
+(* A program cannot know which inputs come, or take them all. *)
+let leaves_tuples (program : Core.program) (c : Configuration.t) =
+  List.exists (fun (k, _) -> not (List.mem k program.inputs)) (Tuples.bindings c.shared.tuples)
+
+let broken_by_end (program : Core.program) rules (c : Configuration.t) =
   match c.control with
   | Ended (Failed fault) when Fault.is_assertion fault -> Some Assertions
   | Ended (Failed _) ->
     let has rule = List.exists (fun (r : Rule.t) -> r = rule) rules in
     Some (if has Pick_err then Vehicles else if has Alloc_err then Allocation else No_error)
   | Ended (Halted _) -> Some No_halt
-  | Ended Completed when not (Tuples.is_empty c.shared.tuples) -> Some No_leftover
+  | Ended Completed when leaves_tuples program c -> Some No_leftover
   | Ended (Completed | Interrupted) | Script _ | Waiting _ | Executing _ -> None

@@ -12,7 +12,7 @@ type t =
   | Vehicles  (** every [pick] gets its vehicles *)
   | Allocation  (** every [execute] gets its vehicles *)
   | No_halt  (** [halt] is not called *)
-  | No_leftover  (** no tuples are left when the program completes *)
+  | No_leftover  (** no tuples are left when the program completes, but of keys that it declares by [input] *)
   | All_reached  (** every task and every piece of code inside of tasks is used by some run *)
   | Invariant of string  (** this {!Condition} holds in every state *)
   | Formula of string  (** this formula of temporal logic holds of every run *)
@@ -30,5 +30,6 @@ val question : t -> string
 
 val pp : Format.formatter -> t -> unit
 
-val broken_by_end : Rule.t list -> Configuration.t -> t option
-(** [broken_by_end rules c] is what a run breaks that reaches [c] by a transition with these rules, if [c] is an end. *)
+val broken_by_end : Core.program -> Rule.t list -> Configuration.t -> t option
+(** [broken_by_end program rules c] is what a run of [program] breaks that reaches [c] by a transition with these rules,
+    if [c] is an end. *)

@@ -122,7 +122,7 @@ let broken g =
     | Some _ | None -> Hashtbl.replace found property depth
   in
   let edge depth ((t : Transition.t), _) =
-    Option.iter (fun property -> note property (depth + 1)) (Property.broken_by_end t.rules t.next)
+    Option.iter (fun property -> note property (depth + 1)) (Property.broken_by_end g.program t.rules t.next)
   in
   let state i s =
     List.iter (edge g.depths.(i)) g.edges.(i);

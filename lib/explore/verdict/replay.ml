@@ -70,9 +70,11 @@ let follow graph g start ~from states after =
 let is_end (c : Configuration.t) =
   match c.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false
 
+let broken_by_end graph = Property.broken_by_end (Space.program (State_graph.system graph))
+
 (* An end by an error may have another text than its representative. *)
-let ends_in_same_way property ((t : Transition.t), _) =
-  Property.broken_by_end t.rules t.next = property && is_end t.next
+let ends_in_same_way graph property ((t : Transition.t), _) =
+  broken_by_end graph t.rules t.next = property && is_end t.next
 
 let leads_to graph i state =
   let is_it ((t : Transition.t), e) =
@@ -81,7 +83,7 @@ let leads_to graph i state =
   fun found ->
     match Environment.find is_it found with
     | Some choice -> Some choice
-    | None -> Environment.find (ends_in_same_way (State_graph.broken_by graph i)) found
+    | None -> Environment.find (ends_in_same_way graph (State_graph.broken_by graph i)) found
 
 (* Transitions from state to state, each from where the one before led to, or from its representative. The result is
    latest first. *)
@@ -123,7 +125,7 @@ let real graph state images =
         match Environment.find is_it offered with
         | Some choice -> choice
         | None -> (
-            match Environment.find (ends_in_same_way (Property.broken_by_end image.rules image.next)) offered with
+            match Environment.find (ends_in_same_way graph (broken_by_end graph image.rules image.next)) offered with
             | Some choice when is_end image.next -> choice
             | Some _ | None -> invalid_arg "Replay: a configuration of the orbit has no such transition")
     in

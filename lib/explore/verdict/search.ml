@@ -413,7 +413,7 @@ let space { environment; reduction; _ } program world = Space.create ~reduction 
 (* The runs of [program], which go in step with those of [image]. *)
 let in_step options program world ~image found =
   let ends_alike (t : Transition.t) (real : Transition.t) =
-    Property.broken_by_end t.rules t.next = Property.broken_by_end real.rules real.next
+    Property.broken_by_end program t.rules t.next = Property.broken_by_end program real.rules real.next
   in
   let of_verdict (property, verdict) =
     match verdict with

@@ -41,7 +41,7 @@ Stop(v) == End(v)
 Post(x) == ~over /\ N' = N (+) SetToBag({ x }) /\ UNCHANGED << A, B, over >>
 Consume(x) == ~over /\ BagIn(x, N) /\ N' = N (-) SetToBag({ x }) /\ UNCHANGED << A, B, over >>
 
-(* Who ends holds nobody any more. *)
+(* A vehicle of an ended program is held no more. *)
 Finish == ~over /\ B = { } /\ over' = TRUE /\ UNCHANGED << A, B, N >>
 
 Next ==
@@ -59,7 +59,7 @@ TypeOK ==
   /\ IsABag(N) /\ BagToSet(N) \subseteq Pair
   /\ over \in BOOLEAN
 
-(* What runs is held; after the end nothing runs and nobody is held. *)
+(* A running vehicle is held; after the end no vehicle runs or is held. *)
 AllocationWithinBound == DOMAIN A \subseteq B
 EmptyAfterEnd == over => A = << >> /\ B = { }
 
@@ -70,7 +70,7 @@ THEOREM InvAtFirst == Init => Inv
 THEOREM InvIsKept == Inv /\ [Next]_vars => Inv'
 THEOREM Invariance == Spec => []Inv
 
-(* After the end nothing happens; a vehicle is given another task only when it has none; and what is in N was posted,
+(* After the end no event follows; a vehicle gets another task only when it has none; and each pair of N was posted,
    one pair by one event. *)
 StaysOver == [][~over]_vars
 OneTaskAfterTheOther == [][\A v \in DOMAIN A \cap DOMAIN A' : A'[v] = A[v]]_vars

@@ -25,7 +25,7 @@
 (*   deeds    what its code did, handlers included                                *)
 (*                                                                                *)
 (* A transition of a configuration is the same, with control instead of out.      *)
-(* Effects and deeds are no part of a state.                                      *)
+(* Effects and deeds are not part of a state.                                      *)
 EXTENDS DolphinMachine
 
 VARIABLES
@@ -132,9 +132,8 @@ IsQuestion(timer) == "prompt" \in DOMAIN timer
 Deepest == 100
 
 -----------------------------------------------------------------------------
-(* r is the residual of a task whose vehicles are bound, in normal form; what runs in it is in A,
-  and only an active part
-   has begun. *)
+(* r is the residual of a task whose vehicles are bound, in normal form; its running plans are in A, and only an
+  active part has begun. *)
 (* No vehicle, and no timer, is in both. *)
 AreApart(r1, r2) ==
   HeldBy(<< r1 >>) \cap HeldBy(<< r2 >>) = { } /\ NumbersIn(<< r1 >>) \cap NumbersIn(<< r2 >>) = { }
@@ -189,13 +188,13 @@ FailedOn(v, m) == << "failed", v, m >>
 Expired(i) == << "expired", i >>
 (* The question i is answered by y: << "yes" >>, << "no" >>, or << "nobody", m >>. *)
 Confirmed(i, y) == << "confirmed", i, y >>
-(* v is there for the recruit i; whether somebody must come, of all those who may; whether v surely is there. *)
+(* v is there for the recruit i; whether one of all possible vehicles must come; whether v surely is there. *)
 Recruited(i, v, isOwed, isSure) == << "recruited", i, v, isOwed, isSure >>
 AnsweredWith(text) == << "answered", text >>
 NobodyAnswers(m) == << "nobody answers", m >>
 Replied(y) == << "replied", y >>
 HostFailed(m) == << "host failed", m >>
-(* Somebody posts k:x; whether it is certain that somebody does, sooner or later. *)
+(* A person or program posts k:x; whether it is certain to come, sooner or later. *)
 Posted(k, x, isCertain) == << "input", k, x, isCertain >>
 Interruption == << "interruption" >>
 
@@ -205,10 +204,10 @@ ScriptTimer == 0
 -----------------------------------------------------------------------------
 (* {1 Effects} *)
 
-(* What a transition asks of the outside: <<"start", v, p>>, <<"stop", v>>, <<"set timer", i, n>>, <<"cancel timer",
-   i>>, <<"put question", i, x>>, <<"withdraw question", i>>, <<"look for", q>>, <<"bind", V>>, <<"release", V>>,
-   <<"connection timeout", V, n>>, where V is << >> for all vehicles, <<"say", x>>, <<"ask", x>>, <<"call", name,
-   arguments>>, and last of all <<"end", ending>>. *)
+(* The requests of a transition to the outside: <<"start", v, p>>, <<"stop", v>>, <<"set timer", i, n>>, <<"cancel
+   timer", i>>, <<"put question", i, x>>, <<"withdraw question", i>>, <<"look for", q>>, <<"bind", V>>, <<"release",
+   V>>, <<"connection timeout", V, n>>, where V is << >> for all vehicles, <<"say", x>>, <<"ask", x>>, <<"call",
+   name, arguments>>, and last of all <<"end", ending>>. *)
 
 SetTimers(timers) ==
   Each(timers, LAMBDA timer : IF IsQuestion(timer) THEN << "put question", timer.i, timer.prompt >>
@@ -285,7 +284,7 @@ Exclusive(t, n) ==
     [] t.op \in { "on", "until", "during", "watch", "repeat" } -> Exclusive(t.body, n)
     [] OTHER -> { }
 
-(* What v lacks for p, or nothing. *)
+(* The devices that v lacks for p, or nothing. *)
 Lack(p, v) ==
   LET missing == SelectSeq(Plans[p.plan].devices, LAMBDA d : ~Carries(VehicleOf(v), << d >>))
   IN CASE ~IsKnown(v) -> << "nothing is known of it" >>
@@ -300,7 +299,7 @@ Permitted(leaf, v) == leaf.allowed = << >> \/ v \in Range(leaf.allowed[1])
 (* The places in V, the vehicles that are bound for the part, of those that can run it. *)
 Candidates(leaf, V) == { j \in DOMAIN V : Permitted(leaf, V[j]) /\ Lack(leaf.p, V[j]) = << >> }
 
-(* How much farther it is from v to where p begins than from the nearest place of a vehicle, in millimetres. *)
+(* How much farther it is from v to the beginning of p than from the nearest place of a vehicle, in millimetres. *)
 Farther(p, v, sees) ==
   IF p.plan = 0 \/ ~IsKnown(v) THEN 0 ELSE Plans[p.plan].farther[FoundAt(VehicleOf(v), sees)]
 
@@ -325,7 +324,7 @@ FirstInPickOrder(F, n) ==
 Best(leaves, F, sees, V) ==
   FirstInPickOrder(LeastBy(LeastBy(F, LAMBDA f : Cardinality(Range(f))), LAMBDA f : Total(leaves, f, sees, V)), 1)
 
-(* Whether the handler of this watch may run its task anew, or another one in its place. *)
+(* Whether the handler of this watch may run its task again, or another one in its place. *)
 Recovers(t) == Lambdas[t.handler[2]].recovers
 
 (* t with its vehicles, and timers numbered from left to right: after the n-th platform task and the i-th timer. Code
@@ -346,7 +345,7 @@ TimerCount(t, first) ==
     [] t.op \in { "on", "until", "repeat" } -> TimerCount(t.body, first)
     [] OTHER -> 0
 
-(* So many timers for a task made at a place of the executed task: none of those that are used. *)
+(* Timers for a task made at a place of the executed task, as many as it needs: none of those in use. *)
 Generation == 1000000
 
 RECURSIVE FreshFrom(_, _, _)
@@ -356,7 +355,8 @@ FreshFrom(i, used, count) ==
     [] OTHER -> << i >> \o FreshFrom(i + Generation, used, count - 1)
 FreshTimers(place, used, count) == FreshFrom(place + Generation, used, count)
 
-(* What the parts of a task get besides vehicles of q.bound: q.numbers, if it is made at its turn, are its timers. *)
+(* The data for the parts of a task besides vehicles of q.bound: q.numbers, if it is made at its turn, are its
+   timers. *)
 Executed == [ allowed |-> << >>, place |-> 0, depth |-> 0, numbers |-> << >>, bound |-> B ]
 IsExecuted(q) == q.place = 0
 TimerOf(i, q) == IF IsExecuted(q) THEN i ELSE q.numbers[i]
@@ -432,8 +432,8 @@ Conflict(leaves, exclusive, V) ==
 (* Whether it matters to the allocation of t where vehicles are. *)
 DependsOnPlaces(t) == \E leaf \in Range(Leaves(t, << >>)) : leaf.p.plan # 0
 
-(* alloc(t, V) for those V that are allowed, where vehicles are where they were seen: <<"ok", r and the vehicles that it
-   has>>, or <<"wrong", fault>>. *)
+(* alloc(t, V) for those V that are allowed, where vehicles are at their seen places: <<"ok", r and the vehicles that
+   it has>>, or <<"wrong", fault>>. *)
 AllocWithin(t, allowed, q, sees) ==
   LET leaves == Leaves(t, allowed)
       hopeless == SelectSeq(leaves, LAMBDA leaf : Candidates(leaf, q.bound) = { })
@@ -453,7 +453,7 @@ Alloc(t, sees) == AllocWithin(t, << >>, Executed, sees)
 Step(rule, label, event, S, out, effects) ==
   [ rules |-> << rule >>, label |-> label, event |-> event, S |-> S, out |-> out, effects |-> effects, deeds |-> << >> ]
 
-(* What the step s of a part is for the whole around it: by one more rule, the outcome out. *)
+(* The step s of a part as a step of the whole around it: by one more rule, the outcome out. *)
 By(s, rule, out) == [ s EXCEPT !.rules = Append(@, rule), !.out = out ]
 
 Asking(s, effects) == [ s EXCEPT !.effects = @ \o effects ]
@@ -476,12 +476,12 @@ WithoutA(S, V) == [ S EXCEPT !.A = [ v \in DOMAIN @ \ V |-> @[v] ] ]
 (* s, by which rs are cut off: S' without A(run(rs)), and the effects cut(rs). *)
 CutOff(s, rs) == Asking([ s EXCEPT !.S = WithoutA(@, Range(Flatten(Each(rs, Running)))) ], Cut(rs))
 
-(* S |- g => x, S', ds: the code g with these arguments, once for each outcome that it may have by what sensors show.
-   Of a fault only what was said stays. What was seen stays so for the rest of the step. *)
+(* S |- g => x, S', ds: the code g with these arguments, once for each outcome that sensors allow. Of a fault only
+   the messages stay. Seen answers stay for the rest of the step. *)
 After(S, m) == [ S EXCEPT !.store = m.store, !.B = m.B, !.N = m.N, !.sees = m.sees ]
 Knowing(S, sees) == [ S EXCEPT !.sees = sees ]
 
-(* The step is over: what sensors show is from now on what they have shown. *)
+(* The step is over: the readings of sensors may change from now on. *)
 Over(S) == IF HasReadings THEN [ S EXCEPT !.store = KeptInStore(@) ] ELSE S
 
 Endless == "this code does not come to an end, and code inside of a task is atomic"
@@ -502,7 +502,7 @@ RunCode(S, mode, closure, arguments) ==
 CodeStep(rule, label, run, out) ==
   [ Step(rule, label, Program, run.S, out, EffectsOf(run.deeds)) EXCEPT !.deeds = run.deeds ]
 
-(* Code is faulty; which rule that is depends on what the code is for. *)
+(* Code is faulty; the purpose of the code determines the rule. *)
 Broken(S, fault, deeds) ==
   [ Step("", "broken(" \o fault.message \o ")", Program, S, Err(fault), EffectsOf(Said(deeds))) EXCEPT !.rules = << >> ]
 
@@ -596,7 +596,7 @@ ASSURE_CUT(S, r) == CutOff(Step("ASSURE-CUT", "cut", Program, S, Err(NotAssured(
 UNTIL_1(s, r) == By(s, "UNTIL-1", Next_([ r EXCEPT !.body = s.out[2] ]))
 UNTIL_2(s) == By(s, "UNTIL-2", Done_)
 
-(* rs is what still runs: nothing if the body failed, the body if the guard did. *)
+(* rs is the part that still runs: nothing if the body failed, the body if the guard did. *)
 UNTIL_ERR(s, rs) == CutOff(By(s, "UNTIL-ERR", s.out), rs)
 
 InUntil(s, r) ==
@@ -650,7 +650,7 @@ WATCH_IGNORE(s) == By(s, "WATCH-IGNORE", Done_)
 WATCH_PROPAGATE(s, fault) == By(s, "WATCH-PROPAGATE", Err(fault))
 WATCH_HALT(s, m) == By(s, "WATCH-HALT", Ends(Halted(m)))
 
-(* What runs in the place of the task of r has no vehicles yet. *)
+(* The task in the place of that of r has no vehicles yet. *)
 Anew(r, t, deeper) ==
   LET q == r.anew[1]
   IN [ op |-> "unallocated", task |-> t, allowed |-> q.allowed, place |-> q.place, depth |-> q.depth + deeper ]
@@ -669,7 +669,7 @@ ErrorOf(fault) ==
   \o (IF fault.failed = << >> THEN << Null, Null >>
       ELSE << Vehicles(<< fault.failed[1] >>), String(fault.failed[2]) >>)
 
-(* The handler runs in the step that failed; S is what is seen from this watch. *)
+(* The handler runs in the step that failed; S is the part seen from this watch. *)
 Handled(S, s, r) ==
   LET after(run) ==
         Asking([ s EXCEPT !.S = run.S, !.deeds = @ \o run.deeds ], EffectsOf(run.deeds))
@@ -760,8 +760,8 @@ InHold(s, r) ==
     [] IsErr(s) -> HOLD_ERR(s)
     [] OTHER -> s
 
-(* alloc(t, V) for those V of B that nobody holds; an error, if not even all of B would do; or it waits. Those that were
-   recruited for the part are in its B. *)
+(* alloc(t, V) for the free V of B; an error, if not even all of B would do; or it waits. Those that were recruited
+   for the part are in its B. *)
 AllocateSteps(S, r) ==
   LET held == HeldBy(S.beside)
       bound == B \o S.recruits
@@ -810,7 +810,7 @@ CodeOf(r) ==
     [] r.op = "made" -> << r.code >>
     [] OTHER -> << >>
 
-(* What r does when its j-th code is faulty. *)
+(* The steps of r when its j-th code is faulty. *)
 WithFault(r, s) ==
   CASE r.op = "action" -> ACTION_ERR(s)
     [] r.op = "during" -> DURING_ERR(s, r)
@@ -854,8 +854,8 @@ CodeSteps(S, r) ==
   IN IF codes = << >> THEN << >>
      ELSE SelectSeq(<< >> \o [ j \in DOMAIN codes |-> of(j) ], LAMBDA outcomes : outcomes # << >>)
 
-(* A step that does not depend on sensors; steps of a part, in what is around it. Mostly there is one outcome, which TLC
-   need not make a function for. *)
+(* A step that does not depend on sensors; steps of a part, in its surroundings. Mostly there is one outcome, which
+   TLC need not make a function for. *)
 Always(s) == << s >>
 In(steps, F(_)) == Each(steps, LAMBDA outcomes : IF Len(outcomes) = 1 THEN << F(outcomes[1]) >> ELSE Each(outcomes, F))
 
@@ -877,7 +877,7 @@ AnswersOn(S, r, E) ==
   OnThose(E, LAMBDA e : e[1] = "confirmed" /\ e[2] = r.timer,
           LAMBDA e : IF e[3] = << "yes" >> THEN CONFIRM_YES(S, e) ELSE CONFIRM_NO(S, r, e))
 
-(* S for a part of what stands in S, after which rs may come. *)
+(* S for a part of S, which rs may follow. *)
 Amid(S, rs) == [ S EXCEPT !.around = @ \o rs ]
 Bodies(choices) == Each(choices, LAMBDA b : b.body)
 
@@ -920,8 +920,8 @@ Becoming(s, kappa) ==
   [ rules |-> s.rules, label |-> s.label, event |-> s.event, control |-> kappa, S |-> s.S, effects |-> s.effects,
     deeds |-> s.deeds ]
 
-(* ended(S, e) by the step s: it cancels the timers that s does not cancel, stops all vehicles, releases all of B, and
-   those of V, who were recruited, that s does not release. *)
+(* ended(S, e) by the step s: it cancels the timers that s does not cancel, stops all vehicles, releases all of B,
+   and those recruited ones of V that s does not release. *)
 EndedBy(s, timers, V) ==
   LET gone == UNION { IF e[1] = "release" THEN Range(e[2]) ELSE { } : e \in Range(s.effects) }
       bound == s.S.B \o SelectSeq(V, LAMBDA v : v \notin gone)
@@ -1003,7 +1003,7 @@ TimersOf(kappa) ==
     [] kappa.at = "wait" /\ kappa.request[1] \in { "pick", "pause" } -> << [ i |-> ScriptTimer ] >>
     [] OTHER -> << >>
 
-(* What runs is cut off; what onInterrupt declares gets the vehicles of B, and those that were recruited. *)
+(* The running task is cut off; the task of onInterrupt gets the vehicles of B, and the recruited ones. *)
 ON_INTERRUPT(kappa) ==
   LET bound == B \o RecruitsOf(kappa)
       stops == Each(SelectSeq(bound, LAMBDA v : v \in DOMAIN A), LAMBDA v : << "stop", v >>)
@@ -1014,7 +1014,7 @@ INTERRUPT(kappa) ==
   EndedBy(Step("INTERRUPT", "interrupt", Interruption, Shared, Ends(Interrupted), << >>), TimersOf(kappa),
           RecruitsOf(kappa))
 
-(* Of a configuration that is no end. *)
+(* Of a configuration that is not an end. *)
 Interrupt(kappa) ==
   IF OnInterrupt # << >> /\ B \o RecruitsOf(kappa) # << >> /\ ~IsLeaving(kappa.M) THEN ON_INTERRUPT(kappa)
   ELSE INTERRUPT(kappa)
@@ -1040,8 +1040,8 @@ ScriptSteps(M) ==
 
 (* {2 Picking vehicles} *)
 
-(* A world w: its vehicles, in the order in which they were heard of; those that are missing, of which nothing is
-   heard now; and where vehicles are seen. *)
+(* A world w: its vehicles, in the order in which they were heard of; the missing ones, which are silent now; and the
+   places where vehicles are seen. *)
 
 (* Wherever it is. *)
 Accepts(q, vehicle) ==

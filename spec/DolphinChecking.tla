@@ -13,9 +13,9 @@ View == << vars, again >>
 -----------------------------------------------------------------------------
 (* {1 Transitions, once a state} *)
 
-(* Known(vars) is Transitions. It is a constant, for which a configuration puts ComputedOnce: TLC's register 1 has the
-   last ones, for all actions and properties that ask. TLC's -coverage lays out all that an action can reach, for each
-   action anew; it does not go on into what is put in the place of a constant, if that is a LET. *)
+(* Known(vars) is Transitions. It is a constant, for which a configuration puts ComputedOnce: TLC's register 1 has
+   the last ones, for all actions and properties that ask. TLC's -coverage lays out everything that an action can
+   reach, separately for each action; it does not go on into the replacement of a constant, if that is a LET. *)
 CONSTANT Known(_)
 
 ASSUME TLCSet(1, << >>)
@@ -78,7 +78,7 @@ GoesRound(r) ==
 
 InRounds == control.at = "exec" /\ GoesRound(control.r)
 
-(* Of runs that stay in the rounds of one task nothing is said: Fairness is too weak for them. *)
+(* Runs that stay in the rounds of one task are left out: Fairness is too weak for them. *)
 Termination == <>HasEnded \/ <>[]InRounds
 
 (* Of every program; NoDeadlock and Termination are of some only. *)
@@ -216,8 +216,8 @@ NextByRule ==
 -----------------------------------------------------------------------------
 (* {1 A run, told} *)
 
-(* An ALIAS, for TLC to show of each state of a run instead of the variables: what is seen of it, and by what transition
-   the run goes on; by several, if they lead to the same state. *)
+(* An ALIAS, for TLC to show for each state of a run instead of the variables: the visible part of it, and the
+   transition by which the run goes on; by several, if they lead to the same state. *)
 Told ==
   LET taken == SelectSeq(Known(vars), Becomes)
   IN [ control |-> IF control.at = "end" THEN << "end", control.ending.how, control.ending.message >>
@@ -267,7 +267,7 @@ EffectText(e) ==
            [] e[2].how = "failed" -> "end: " \o e[2].message
            [] e[2].how = "interrupted" -> "end: interrupted"
 
-(* In which order vehicles stop that stop one after another is not said: here in pick order, recruits last. *)
+(* The order in which vehicles stop together is open: here in pick order, recruits last. *)
 RECURSIVE InPickOrder(_)
 InPickOrder(effects) ==
   LET isStop(j) == effects[j][1] = "stop"
@@ -305,7 +305,7 @@ Listed(x) ==
          IN Vehicles(Each(known, LAMBDA vehicle : vehicle.id))
     [] OTHER -> x
 
-(* What is seen of the state: how it has ended, B, A and N. *)
+(* The visible part of the state: its ending, B, A and N. *)
 PrintMarks ==
   /\ control.at = "end" => PrintEnd
   /\ B # << >> => PrintMark("B " \o Join(B, ", "))

@@ -24,9 +24,9 @@ CONSTANTS
   InputKeys,     \* the keys that the program declares by input
   Interruptions  \* whether the program may be interrupted
 
-(* outside is how many failures and losses there were, who is lost, who was late, how often each question was asked,
-   each call made and each input posted; and the date. Where links come and go by the time, it is whose links are
-   silent, and who came later than the others, in that order: Timed says when. *)
+(* outside is the number of failures and losses, the lost vehicles, the late ones, how often each question was asked,
+   each call made and each input posted; and the date. Where links come and go by the time, it is the silent links,
+   and the vehicles that came later than the others, in that order: Timed defines when. *)
 vars == << control, store, A, B, N, outside >>
 
 Identifiers == { Fleet[j].id : j \in DOMAIN Fleet }
@@ -56,8 +56,8 @@ LostConnection(v) == FailedOn(v, "connection lost")
 
 MayFail(v) == Ending(v, A[v].name) = "may fail"
 
-(* The connection is lost for longer than its timeout: that counts as a failure. As long as nothing else was heard of
-   the vehicle, it is no further loss. *)
+(* The connection is lost for longer than its timeout: that counts as a failure. As long as the vehicle was not heard
+   of otherwise, it does not count as a further loss. *)
 MayBeLost(v) == v \in outside.lost \/ Losses = -1 \/ outside.losses < Losses
 
 (* How the task that v runs may end now: as long as its link is silent, only by that. *)
@@ -86,8 +86,8 @@ Waiting_(r) ==
     [] r.op = "during" -> IF r.started THEN Waiting_(r.body) ELSE << >>
     [] OTHER -> << >>
 
-(* Who is lost, or may be late, may stay away; so may all of V, if no more of them are late for the first time than may
-   be. *)
+(* A vehicle that is lost, or may be late, may stay away; so may all of V, if at most the allowed number of them are
+   late for the first time. *)
 MayStayAway(v) == v \in outside.lost \/ (Latecomers # 0 /\ v \in MayBeLate)
 MayAllStayAway(V) ==
   /\ \A v \in V : MayStayAway(v)
@@ -132,7 +132,7 @@ ExecutingTransitions(M, r) ==
 -----------------------------------------------------------------------------
 (* {1 Who is there} *)
 
-(* An attendance is who comes after all others, in this order, and who is missing. *)
+(* An attendance is the vehicles that come after all others, in this order, and the missing ones. *)
 WorldOf(a, sees) ==
   LET missing == a.missing \o outside.silent
       moved == outside.came \o a.coming \o missing
@@ -165,8 +165,8 @@ AlwaysFit(q) ==
   LET isAlwaysIn(v) == q.region = << >> \/ (\A place \in Range(VehicleOf(v).places) : Within(q.region[1], place))
   IN SelectSeq(Wanted(q), isAlwaysIn)
 
-(* As many of them as must be missing for too few to come, if so many may be: those first whose absence is nothing
-   new, and each choice of others. *)
+(* As many of them as must be missing for too few to come, if that number may be: those first whose absence is
+   nothing new, and each choice of others. *)
 TooFew(q) ==
   LET always(vs) == SelectSeq(vs, LAMBDA v : v \in Range(AlwaysFit(q)))
       least == Len(AlwaysFit(q)) - (q.count - 1)
@@ -200,9 +200,9 @@ AfterPick(t, a) ==
   [ outside EXCEPT !.lost = @ \ (Range(t.S.B) \ Range(B)),
                    !.late = IF Latecomers = -1 THEN @ ELSE @ \cup LateIn(a) ]
 
-(* In each world that may be. A transition that is there in several worlds is remembered as in the first of them: with
-   the fewest newly late vehicles. Nothing follows PICK-ERR, whose ways differ in the text only: one is enough. What
-   follows PICK-ELSE knows who was late. *)
+(* In each world that may be. A transition that is there in several worlds is remembered as in the first of them:
+   with the fewest newly late vehicles. Nothing follows PICK-ERR, whose ways differ in the text only: one is enough.
+   The steps after PICK-ELSE know the late vehicles. *)
 PickTransitions(M, q) ==
   LET placings == Placings(NothingSeen, IF q.region = << >> THEN << >> ELSE Wanted(q))
       in(a) == Flatten(Each(placings, LAMBDA sees : PickSteps(M, q, WorldOf(a, sees))))
@@ -310,7 +310,7 @@ Next == \E j \in DOMAIN Transitions : Becomes(Transitions[j])
 
 (* {2 Events by kind} *)
 
-(* Nobody need ever interrupt, or post what is not certain; who is recruited may stay away. *)
+(* An interruption, or a post of uncertain pairs, need never come; a vehicle to be recruited may stay away. *)
 IsOwed(event) == event # Interruption /\ (event[1] \in { "input", "recruited" } => event[4])
 IsProgram(event) == event = Program
 IsTimer(event) == event[1] \in { "expired", "confirmed" }
@@ -368,13 +368,13 @@ OneTaskEach ==
   LET running == IF control.at = "exec" THEN Running(control.r) ELSE << >>
   IN Range(running) = DOMAIN A /\ Cardinality(Range(running)) = Len(running)
 
-(* Nobody is picked and recruited, or recruited twice. *)
+(* No vehicle is picked and recruited, or recruited twice. *)
 RecruitedOnce ==
   LET V == RecruitsOf(control) IN Cardinality(Range(V)) = Len(V) /\ Range(V) \cap Range(B) = { }
 
 EmptyAfterEnd == HasEnded => A = << >> /\ B = << >>
 
-(* N changes by what is posted and consumed, and by nothing else. *)
+(* N changes by posts and consumes, and by nothing else. *)
 RECURSIVE Tally(_)
 Tally(pairs) ==
   IF pairs = << >> THEN EmptyBag

@@ -64,7 +64,7 @@ WithoutPair(N, k, x) ==
   IF k \in OrderedKeys THEN [ N EXCEPT !.queue[k] = Without(@, IndexOf(Each(@, Normal), Normal(x))) ]
   ELSE [ N EXCEPT !.bag = @ (-) SetToBag({ << k, Normal(x) >> }) ]
 
-(* All of the pairs, one after the other, or none: what is taken, and the rest. *)
+(* All of the pairs, one after the other, or none: the pairs taken, and the rest. *)
 RECURSIVE TakeAll(_, _, _)
 TakeAll(N, pairs, taken) ==
   IF pairs = << >> THEN << [ N |-> N, taken |-> taken ] >>
@@ -76,7 +76,7 @@ TakeAll(N, pairs, taken) ==
 
 (* {1 The world} *)
 
-(* Of vehicle v; nothing else is asked of it than what the fleet says. *)
+(* Of vehicle v; the fleet alone determines the rest. *)
 VehicleOf(v) == Fleet[CHOOSE i \in DOMAIN Fleet : Fleet[i].id = v]
 IsKnown(v) == \E i \in DOMAIN Fleet : Fleet[i].id = v
 
@@ -84,9 +84,9 @@ Carries(vehicle, devices) == { Lower(d) : d \in Range(devices) } \subseteq vehic
 
 (* {2 Sensors} *)
 
-(* What a sensor shows is open, at each step anew; within one step it stays. S.sees is what was seen in this step so
-   far: of each question its answer, by number. There are two kinds of questions: <<sensor, v>> where the sensor (by its
-   name, or "position") may show one of several values, and <<"claim", text>>, of a comparison. *)
+(* A sensor's reading is open, at each step; within one step it stays. S.sees is the answers seen in this step so
+   far: for each question its answer, by number. There are two kinds of questions: <<sensor, v>> where the sensor (by
+   its name, or "position") may show one of several values, and <<"claim", text>>, of a comparison. *)
 NothingSeen == << >>
 Seeing(sees, question, i) == (question :> i) @@ sees
 Claims(sees) == { question \in DOMAIN sees : question[1] = "claim" }
@@ -95,7 +95,7 @@ MostClaims == 12
 
 (* {3 The date} *)
 
-(* S.date is how many whole seconds have passed since the start; what now() gives is open if it is AnyDate. *)
+(* S.date is the number of whole seconds since the start; the value of now() is open if it is AnyDate. *)
 AnyDate == -1
 DateAsValue(date) == IF date = AnyDate THEN Reading("amount", "now()") ELSE Integer(date)
 
@@ -115,11 +115,11 @@ Shown(quantity, name, text, v, xs) ==
     [] Len(xs) = 1 -> Ok(xs[1])
     [] OTHER -> Depends(<< name, v >>, xs)
 
-(* Where v is, as far as picking and allocating are concerned. *)
+(* The place of v, as far as picking and allocating are concerned. *)
 FoundAt(vehicle, sees) ==
   vehicle.places[IF Len(vehicle.places) = 1 THEN 1 ELSE sees[<< "position", vehicle.id >>]]
 
-(* What was seen, and of each of vs where it is: in all ways. *)
+(* The seen answers, and the place of each of vs: in all ways. *)
 RECURSIVE Placings(_, _)
 Placings(sees, vs) ==
   IF vs = << >> THEN << sees >>
@@ -129,8 +129,8 @@ Placings(sees, vs) ==
        IN IF Len(places) = 1 \/ question \in DOMAIN sees THEN Placings(sees, Tail(vs))
           ELSE Flatten([ i \in DOMAIN places |-> at(i) ])
 
-(* In the next step a sensor may show something else: what it showed then must not be taken for what it shows now. So a
-   reading is known by what keeps it. *)
+(* In the next step a sensor may have another reading: its reading then must not be taken for the present one. So a
+   reading is known by the variable that keeps it. *)
 KeptBy(keeper, x) == IF IsReading(x) THEN Reading(x[2], keeper) ELSE x
 
 KeptInStore(store) ==
@@ -164,8 +164,8 @@ NumbersIn(rs) ==
 
 (* {1 Machines} *)
 
-(* M is a record: its focus, an expression to evaluate or a value to give to the stack; its locals; its stack of frames,
-   the latest first; and where it stands. While it runs, m has beside these what code sees and changes, and why it
+(* M is a record: its focus, an expression to evaluate or a value to give to the stack; its locals; its stack of
+   frames, the latest first; and its place. While it runs, m has beside these what code sees and changes, and why it
    stops. *)
 
 IsFrame(f) ==
@@ -198,7 +198,7 @@ Call(closure, arguments) ==
   LET code == Lambdas[closure[2]].code
   IN [ focus |-> Evaluate(code), locals |-> LocalsOf(closure, arguments), stack |-> << >>, at |-> code ]
 
-(* The expression whose part runs at the bottom of the stack, or which is about to run; if there is none, 0. *)
+(* The expression whose part runs at the bottom of the stack, or which is about to run; 0 without one. *)
 Outermost(M) ==
   CASE M.stack # << >> -> LET f == M.stack[Len(M.stack)] IN IF f.frame = "arguments" THEN f.node ELSE 0
     [] M.focus[1] = "evaluate" -> M.focus[2]
@@ -242,7 +242,7 @@ Machine(m) ==
 
 Stop(m, why) == [ m EXCEPT !.stop = why ]
 
-(* failed: the vehicle and the platform task that failed; << >>, if it was none. *)
+(* failed: the vehicle and the platform task that failed; << >> for other failures. *)
 Fault(message, at) == [ message |-> message, at |-> at, assertion |-> FALSE, failed |-> << >> ]
 Faulty(m, message) == Stop(m, << "faulted", Fault(message, m.at) >>)
 
@@ -468,7 +468,7 @@ Clipped(n, low, high) == IF n < low THEN low ELSE IF n > high THEN high ELSE n
 RECURSIVE FirstEqual(_, _, _)
 FirstEqual(items, x, i) == IF i > Len(items) THEN 0 ELSE IF Equals(items[i], x) THEN i ELSE FirstEqual(items, x, i + 1)
 
-(* Sorted by rank, equal ones in their order: the least of what is left comes next. *)
+(* Sorted by rank, equal ones in their order: the least of the rest comes next. *)
 RECURSIVE SortedBy(_, _)
 SortedBy(items, ranks) ==
   IF items = << >> THEN << >>
@@ -730,7 +730,7 @@ NeverWaits(t) ==
     [] t.op = "during" -> ~Is(t.time, "closure") /\ NeverWaits(t.body)
     [] OTHER -> FALSE
 
-(* op says which of n, t, c there are in xs: n rounds, of t, until c. *)
+(* op has those of n, t, c that xs contains: n rounds, of t, until c. *)
 MakeRepeat(op, at, xs) ==
   LET j == IF op.counted THEN 2 ELSE 1
       t == xs[j]
@@ -787,7 +787,7 @@ Pairs(keys, xs) ==
 
 IsKey(x) == IsString(x) \/ IsNumber(x)
 
-(* The values that stand for keys and are none. *)
+(* Stand-ins for keys that are not values. *)
 RECURSIVE WrongKeys(_, _)
 WrongKeys(keys, xs) ==
   CASE keys = << >> -> << >>
@@ -835,7 +835,7 @@ DoRelease(m, x) ==
        [] m.mode # "script" -> Faulty(m, "release belongs to the script, not to code inside of a task")
        [] OTHER -> Released(m, common)
 
-(* What is beside or after the watch of the handler may not need them. *)
+(* Tasks beside or after the watch of the handler may not need them. *)
 DoDismiss(m, x) ==
   LET common == Intersection(x[2], m.B)
       held == HeldBy(m.around)
@@ -858,7 +858,7 @@ Verdict(m, verdict) ==
 
 Refuted(m, text) == Stop(m, << "faulted", [ Fault(text, m.at) EXCEPT !.assertion = TRUE ] >>)
 
-(* Those of V that nobody holds, from where the code stands. *)
+(* The free ones of V, from the place of the code. *)
 IdleOf(m, V) == LET held == HeldBy(m.beside) IN SelectSeq(V, LAMBDA v : v \in Range(m.B) /\ v \notin held)
 
 Procedure(m, op, xs) ==
@@ -932,14 +932,14 @@ AddSetting(op, xs, at) ==
 
 ArePositional(names) == \A i \in DOMAIN names : names[i] = ""
 
-(* These hand readings on, or tell of them, as they do with any values. *)
+(* These hand readings on, or print them, as they do with any values. *)
 TakesReadings(op, xs) ==
   \/ op.op = "call" /\ Is(xs[1], "closure") /\ ArePositional(op.names)
   \/ op.op \in { "message", "halt", "assert", "fail", "isHost", "isThere" }
 
 IsAboutReadings(op, xs) == (\E i \in DOMAIN xs : IsReading(xs[i])) /\ ~TakesReadings(op, xs)
 
-(* What all others make of values some of which are readings. *)
+(* The result of all other operations for values some of which are readings. *)
 OnReadings(op, xs) ==
   CASE op.op = "binary" -> BinaryOnReadings(op.sign, xs[1], xs[2])
     [] op.op = "unary" /\ op.sign = "-" /\ IsReadingOf(xs[1], "amount") ->
@@ -950,7 +950,7 @@ OnReadings(op, xs) ==
     [] op.op = "method" /\ ArePositional(op.names) -> MethodOnReadings(op.name, xs)
     [] OTHER -> AnyMore(xs)
 
-(* What expression n does once its arguments are the values xs. *)
+(* The effect of expression n once its arguments are the values xs. *)
 Perform(before, n, xs) ==
   LET op == Code[n].operation
       m == [ before EXCEPT !.at = n ]
@@ -1042,7 +1042,7 @@ BeginLoop(m, n, x) ==
     [] HasItems(x) -> NextItem(m, n, << "these", Items(x), 1 >>)
     [] OTHER -> Settle(m, Expected("a list, range, map, string or vehicle set to loop over", x))
 
-(* What f does depends on what it is given, and not by comparisons alone. *)
+(* The result of f depends on its arguments, and not by comparisons alone. *)
 MustKnow(f) ==
   f.frame \in { "choose", "loopTest", "loopRange" }
   \/ (f.frame = "iterate" /\ f.iteration \notin { "each", "eachWithIndex", "times" })
@@ -1080,7 +1080,7 @@ Answered(m, question, xs) ==
     [] question[1] = "claim" /\ Cardinality(Claims(m.sees)) >= MostClaims -> Stop(m, << "unsettled", question[2] >>)
     [] OTHER -> Stop(m, << "asks", question, Len(xs) >>)
 
-(* The value of an operation, or its fault; of a setting, where the setting is. *)
+(* The value of an operation, or its fault; of a setting, at the place of the setting. *)
 Conclusion(m, result) ==
   CASE IsOk(result) -> Result(m, result[2])
     [] result[1] = "at" -> Stop(m, << "faulted", Fault(Sentence(result[3]), result[2]) >>)
@@ -1116,6 +1116,6 @@ WithAllAnswers(m) ==
        [] m.stop[1] = "unsettled" -> Assert(FALSE, OpenHere(m.stop[2], m.at))
        [] OTHER -> << m >>
 
-(* The machines that M comes to: one, unless it depends on what sensors show. *)
+(* The machines that M comes to: one, unless it depends on sensors. *)
 Run(M, S, mode, fuel) == Only({ WithAllAnswers(m) : m \in { Stopped(Started(M, S, mode, fuel)) } })
 ==============================================================================

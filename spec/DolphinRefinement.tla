@@ -35,7 +35,7 @@ EventsOfEffect(e) ==
     [] e[1] = "end" -> << << "finish" >> >>
     [] OTHER -> << >>
 
-(* Who comes first: what came from outside, what code did, what the outside is asked for. *)
+(* The order: events from outside, deeds of code, requests to the outside. *)
 EventsOf(t) ==
   EventsOfEvent(t.event) \o Flatten(Each(t.deeds, EventsOfDeed)) \o Flatten(Each(t.effects, EventsOfEffect))
 

@@ -60,7 +60,7 @@ IndexFrom(s, x, i) == IF i > Len(s) THEN 0 ELSE IF s[i] = x THEN i ELSE IndexFro
 (* The first place of x in s; 0 if it is not there. *)
 IndexOf(s, x) == IndexFrom(s, x, 1)
 
-(* The element of a set of one element. TLC evaluates it once, where it would evaluate a LET as often as it is used. *)
+(* The element of a set of one element. TLC evaluates it once, whereas it would evaluate a LET at each use. *)
 Only(S) == CHOOSE x \in S : TRUE
 
 Minimum(S) == CHOOSE x \in S : \A y \in S : x <= y
@@ -94,7 +94,7 @@ Number(n, d) == LET g == Gcd(Abs(n), d) IN << "number", n \div g, d \div g >>
 IsNumber(x) == x[1] \in { "integer", "number", "distance" }
 IsExact(x) == x[1] \in { "integer", "number" }
 
-(* What is known to the millimetre only may be rounded and compared; computing on would need the rest of it. *)
+(* A number known to the millimetre only may be rounded and compared; computing on would need the rest of it. *)
 Exactly(x) == Assert(~Is(x, "distance"), "a distance is known to the millimetre: this model cannot compute with it")
 
 Numerator(x) == IF Exactly(x) THEN x[2] ELSE 0
@@ -325,7 +325,7 @@ Kind(x) ==
            [] x[2] = "region" -> "an area"
            [] x[2] = "words" -> "a string"
 
-(* {1 Results of operations: a value, or what is wrong; or the value depends on what sensors show} *)
+(* {1 Results of operations: a value, or a fault; or the value depends on sensors} *)
 
 Ok(x) == << "ok", x >>
 Bad(message) == << "wrong", message >>
@@ -336,7 +336,7 @@ IsOk(result) == result[1] = "ok"
 (* The value is xs[i] if the i-th answer to the question is the one that is given. *)
 Depends(question, xs) == << "depends", question, xs >>
 
-(* There is no telling. *)
+(* It cannot be known. *)
 Unsettled(text) == << "unsettled", text >>
 
 Takes(op) ==
@@ -357,8 +357,8 @@ Found(x) ==
   IF x[1] \in { "null", "closure", "settings", "reading" } \/ Len(Text(x)) > 60 THEN Kind(x)
   ELSE Kind(x) \o ", " \o Literal(x)
 
-(* The sentence of a result that is none. TLC looks through all operators that a definition can reach, once for each way
-   there; so sentences are made here, and not where the trouble is. *)
+(* The sentence of a result that is not a value. TLC looks through all operators that a definition can reach, once
+   for each way there; so sentences are made here, and not where the trouble is. *)
 Sentence(result) ==
   CASE result[1] = "wrong" -> result[2]
     [] result[1] = "expected" -> "expected " \o result[2] \o ", found " \o Found(result[3])
@@ -371,7 +371,7 @@ RangeItem(x, i) == IF x[2] <= x[3] THEN x[2] + i - 1 ELSE x[2] - i + 1
 RangeLength(x) == Abs(x[3] - x[2]) + 1
 HasItems(x) == x[1] \in { "list", "range", "vehicles", "map", "string" }
 
-(* What a loop over x goes through. *)
+(* The elements of a loop over x. *)
 Items(x) ==
   CASE Is(x, "list") -> x[2]
     [] Is(x, "range") -> << >> \o [ i \in 1 .. RangeLength(x) |-> Integer(RangeItem(x, i)) ]
@@ -388,7 +388,7 @@ Union(vs, ws) == vs \o SelectSeq(ws, LAMBDA w : w \notin Range(vs))
 Difference(vs, ws) == SelectSeq(vs, LAMBDA v : v \notin Range(ws))
 Intersection(vs, ws) == SelectSeq(vs, LAMBDA v : v \in Range(ws))
 
-(* Two integers give an integer, other numbers a number that is none. *)
+(* Two integers give an integer, other numbers a number that is not an integer. *)
 Arithmetic(op, x, y, OnIntegers(_, _), OnNumbers(_, _)) ==
   CASE Is(x, "integer") /\ Is(y, "integer") -> OnIntegers(x[2], y[2])
     [] IsNumber(x) /\ IsNumber(y) -> OnNumbers(x, y)
@@ -441,7 +441,7 @@ Divide(x, y) ==
          IN Ok(IF d < 0 THEN Number(-n, -d) ELSE Number(n, d))
     [] OTHER -> Mismatch("/", x, y)
 
-(* The remainder has the sign of what is divided. *)
+(* The remainder has the sign of the dividend. *)
 Remainder(x, y) ==
   CASE IsNumber(x) /\ IsNumber(y) /\ Numerator(y) = 0 -> Bad("remainder of a division by zero")
     [] Is(x, "integer") /\ Is(y, "integer") -> Ok(Integer(x[2] - y[2] * Truncated(x[2], y[2])))
@@ -522,7 +522,7 @@ Unary(op, x) ==
   CASE op = "!" -> Ok(Boolean(~Truth(x)))
     [] op = "-" -> IF IsNumber(x) THEN Ok(Negated(x)) ELSE Expected("a number after -", x)
 
-(* Where index i of the language, from 0 or backwards from -1, is in a sequence of that length; 0 if nowhere. *)
+(* The place of index i of the language, from 0 or backwards from -1, in a sequence of that length; 0 if outside. *)
 PlaceOf(length, i) ==
   LET j == IF i < 0 THEN length + i ELSE i
   IN IF 0 <= j /\ j < length THEN j + 1 ELSE 0
@@ -587,8 +587,8 @@ InUnit(x, name) ==
 (* {1 Readings} *)
 
 (* A reading is known by its text: how it was got, or where it is kept. It may be handed on, computed with, compared
-   and told of. Of a comparison either outcome is possible, the same wherever the same texts are compared so; of
-   whatever else could be done with it nobody could list the outcomes. *)
+   and printed. Of a comparison either outcome is possible, the same wherever the same texts are compared in the same
+   way; the outcomes of any other use cannot be listed. *)
 
 Reading(quantity, text) == << "reading", quantity, text >>
 IsReading(x) == Is(x, "reading")

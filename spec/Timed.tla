@@ -28,7 +28,7 @@ VARIABLES
 
 timedVars == << vars, now, awaited, changes, patience >>
 
-(* What tells states apart, for TLC. *)
+(* The part that distinguishes states, for TLC. *)
 TimedView == timedVars
 
 TimedOK ==
@@ -40,7 +40,7 @@ ASSUME TimedOK
 -----------------------------------------------------------------------------
 (* {1 Bounds} *)
 
-(* <<least, most>>, both included; most is -1 if there is no end. Or << >>, of what never happens. *)
+(* <<least, most>>, both included; most is -1 without a bound. Or << >>, of events that never happen. *)
 Unlimited == -1
 AnyTime == << 0, Unlimited >>
 AtOnce == << 0, 0 >>
@@ -62,7 +62,7 @@ Seconds(x) == InTicks(Numerator(x) * 1000, Denominator(x))
 
 HasLinks == Links # << >> \/ SilentAtFirst # << >>
 
-(* A time that is no longer than a and b, one after the other. *)
+(* A time that is not longer than a and b, one after the other. *)
 Added(a, b) == IF Unlimited \in { a, b } THEN Unlimited ELSE a + b
 
 IsOver(most, age) == most # Unlimited /\ age > most
@@ -115,8 +115,8 @@ TaskLasts(v, p) ==
   IF p.plan = 0 THEN BoundsInTicks(Lasts(v, p.name))
   ELSE Assert(FALSE, "how long the plan '" \o p.name \o "' takes, which is described in the program, is not known here")
 
-(* What begins by an effect, with its bounds: at most one item. The time-out of a pick matters only if it waits, so it
-   need not be a whole number of ticks: see PickTimeout. *)
+(* The item that begins by an effect, with its bounds: at most one. The time-out of a pick matters only if it waits,
+   so it need not be a whole number of ticks: see PickTimeout. *)
 BegunBy(e) ==
   CASE e[1] = "start" -> << << Task(e[2]), TaskLasts(e[2], e[3]) >> >>
     [] e[1] = "set timer" -> << << Timer(e[2]), Precisely(Seconds(e[3])) >> >>
@@ -152,7 +152,7 @@ ByItself(item, remembered) ==
 ClockOf(b, waits) == [ since |-> now, bounds |-> b, waits |-> waits ]
 Clock(b) == ClockOf(b, FALSE)
 
-(* What is awaited after the transition t. *)
+(* The awaited items after the transition t. *)
 AwaitedAfter(t) ==
   LET begun == Flatten(Each(t.effects, BegunBy))
       over == ItemOf(t.event)
@@ -167,7 +167,8 @@ AwaitedAfter(t) ==
 -----------------------------------------------------------------------------
 (* {1 When} *)
 
-(* A vehicle comes late by this transition of a pick: it is none of those that there are with who is there at once. *)
+(* A vehicle comes late by this transition of a pick: the transition does not exist with only the vehicles that are
+   there at once. *)
 ComesLate(t) ==
   /\ control.at = "wait" /\ control.request[1] = "pick" /\ t.event = Program
   /\ LET q == control.request[2]
@@ -176,13 +177,13 @@ ComesLate(t) ==
          onTime == Flatten(Each(placings, LAMBDA sees : PickSteps(control.M, q, WorldOf(nobody, sees))))
      IN \A j \in DOMAIN onTime : onTime[j].label # t.label
 
-(* Code that depends on what a sensor shows may go on to see something else. *)
+(* Code that depends on a sensor may take another branch later. *)
 MayWait(t) ==
   /\ t.S.sees # NothingSeen
   /\ t.rules # << >> /\ t.rules[1] \in { "CONDITION", "ALLOF-WHEN", "ONEOF-WHEN", "UNTIL-CUT", "ASSURE-CUT" }
 
 (* The program does it now. *)
-(* Whoever surely is there is recruited at once. *)
+(* A vehicle that surely is there is recruited at once. *)
 IsByItself(event) == IF event[1] = "recruited" THEN event[5] ELSE event = Program
 IsUrgent(t) == IsByItself(t.event) /\ ~ComesLate(t) /\ ~MayWait(t)
 
@@ -238,15 +239,15 @@ Timely(ts) ==
   IN Only({ [ steps |-> Each(js, LAMBDA j : [ t |-> ts[j], due |-> dues[j] ]), urgent |-> holdsBack ] :
             js \in { IF holdsBack THEN own ELSE possible } })
 
-(* After so many ticks, of each item that is awaited something may still happen. *)
+(* After this number of ticks, each awaited item may still have an event. *)
 NoneIsOver(timely, ticks) ==
   LET steps == Range(timely.steps)
       items == { s.due[1] : s \in { s \in steps : s.due # << >> } }
       mayCome(item) == \E s \in steps : s.due # << >> /\ s.due[1] = item /\ ~IsOver(s.due[2][2], Age(item) + ticks)
   IN \A item \in items : mayCome(item)
 
-(* What may happen now. Nothing, if of an item nothing may happen any more: time has passed because a link might be
-   lost, and then another one was, with which the losses are counted up. That is no run. *)
+(* The possible events now. Nothing, if of an item nothing may happen any more: time has passed because a link might
+   be lost, and then another one was, with which the losses are counted up. That is not a run. *)
 TakenNow(timely) ==
   IF ~timely.urgent /\ ~NoneIsOver(timely, 0) THEN { } ELSE { s \in Range(timely.steps) : MayBeNow(s.due) }
 
@@ -296,8 +297,8 @@ Tick ==
   /\ label' = "tick"
   /\ UNCHANGED << vars, awaited, changes, patience, again >>
 
-(* A date passes that code names, before or after whatever else happens at that moment. Who reads it sees it from now
-   on. *)
+(* A date passes that code names, before or after whatever else happens at that moment. Code that reads it sees it
+   from now on. *)
 Pass(item) ==
   /\ Age(item) = awaited[item].bounds[1]
   /\ \E ts \in { Known(vars) } : ~Timely(ts).urgent
@@ -309,8 +310,8 @@ Pass(item) ==
   /\ label' = "date"
   /\ UNCHANGED << now, changes, patience, again >>
 
-(* The link of v comes or goes. When it is back, an order that waited for it is carried out: its task begins; and a task
-   that cannot last that long is over, which is told now. *)
+(* The link of v comes or goes. When it is back, an order that waited for it is carried out: its task begins; and a
+   task that cannot last that long is over, which is reported now. *)
 AwaitedWithLink(item, v, after) ==
   LET isBack == item = Task(v) /\ v \in Range(outside.silent)
       isKnown == item \in DOMAIN awaited
@@ -338,8 +339,8 @@ Change ==
 
 TimedNext == Take \/ Tick \/ Change \/ \E item \in DatesToCome : Pass(item)
 
-(* Time can be erased: with an open date, where code reads it; with vehicles that are late or lost, where links come and
-   go. *)
+(* Time can be erased: with an open date, where code reads it; with vehicles that are late or lost, where links come
+   and go. *)
 THEOREM Erasure ==
   CodeDates = << >> /\ ~ReadsDate /\ ~HasLinks =>
     (TimedInit /\ [][TimedNext]_<< timedVars, label, again >> => InitAt(0, << >>) /\ [][Next]_vars)
@@ -347,8 +348,8 @@ THEOREM Erasure ==
 -----------------------------------------------------------------------------
 (* {1 Dates} *)
 
-(* What is dated: how a run ends; when a task starts, ends, fails, is stopped. Also "goes on", where the horizon ends
-   what is looked at, and "stuck", where nothing that is owed is left to happen. *)
+(* The dated events: the end of a run; when a task starts, ends, fails, is stopped. Also "goes on", at the horizon,
+   and "stuck", where no owed event is left. *)
 EndingMoments == IF HasEnded THEN { << control.ending.how >> } ELSE { }
 
 TaskMoment(what, v, p) == << what, p.name, v, SiteOf(p.at) >>

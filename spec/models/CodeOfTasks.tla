@@ -1,5 +1,5 @@
 ----------------------------- MODULE CodeOfTasks -----------------------------
-(* ACTION, CONDITION, what breaks them, and ASSERT-ERR: code of tasks is atomic, and a fault leaves no effect. *)
+(* ACTION, CONDITION, their faults, and ASSERT-ERR: code of tasks is atomic, and a fault leaves no effect. *)
 EXTENDS Model
 
 Task == Beside(Beside(Action(1), Condition(2)), Beside(Action(3), Beside(Condition(4), Action(5))))

@@ -1,5 +1,5 @@
 -------------------------------- MODULE Dates --------------------------------
-(* The date that code reads is open at each step anew, one within a step, and may be kept. *)
+(* The date that code reads is open at each step, one within a step, and may be kept. *)
 EXTENDS Model
 
 Date == Plain("now", << >>)
@@ -25,7 +25,7 @@ WasBefore == << "claim", "w < 600" >>
 IsLater == << "claim", "(now() - w) > 300" >>
 Seen(t, question, answer) == question \in DOMAIN t.S.sees /\ t.S.sees[question] = answer
 
-(* What is said of dates at one step says nothing at the next: they may seem to go back, but not within a step. *)
+(* Comparisons of dates at one step do not bind the next: they may seem to go back, but not within a step. *)
 Claim ==
   /\ By_("UNTIL-CUT", LAMBDA t : Seen(t, IsBefore, 2))
   /\ By_("CONDITION", LAMBDA t : Seen(t, IsLater, 1))

@@ -1,6 +1,6 @@
 -------------------------------- MODULE Deeds --------------------------------
-(* SCRIPT, POST, CONSUME, MESSAGE, RELEASE, SET-TIMEOUT: what the script does for others to see. Deeds.cfg lets it
-   evaluate only 20 expressions in one silent step. *)
+(* SCRIPT, POST, CONSUME, MESSAGE, RELEASE, SET-TIMEOUT: the script's visible deeds. Deeds.cfg lets it evaluate only
+   20 expressions in one silent step. *)
 EXTENDS Model
 
 Body ==
@@ -12,7 +12,7 @@ Body ==
 
 Closures == << >>
 
-(* The oldest first; what is not bound is not released. *)
+(* The oldest first; only bound vehicles are released. *)
 Claim ==
   /\ By_("CONSUME", LAMBDA t : t.S.N.queue["oldest"] = Tail(N.queue["oldest"]))
   /\ By_("RELEASE", LAMBDA t : B = << "u1" >> /\ t.S.B = << >>)

@@ -11,7 +11,7 @@ Body ==
 
 Closures == << Polling("abort", NumberOf(1)), Consuming("go", NumberOf(1)) >>
 
-(* An abort may come once, or never; 1 or 2 first, as what must be known comes; then 1. *)
+(* An abort may come once, or never; 1 or 2 first, as certain inputs come; then 1. *)
 InputsOfModel ==
   << [ key |-> "abort", rounds |-> << << Integer(1) >> >>, times |-> 1, certain |-> FALSE ],
      [ key |-> "go", rounds |-> << << Integer(1), Integer(2) >>, << Integer(1) >> >>, times |-> 2, certain |-> TRUE ] >>

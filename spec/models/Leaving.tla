@@ -7,7 +7,7 @@ Body ==
   Block(<< Pause(1), Assign(1, PickId("u1")),
            ExecuteTask(DuringRun(NumberOf(2), On(Plan("survey"), V))), ReleaseAll(V) >>)
 
-(* The first is what onInterrupt declares: its one local is B. *)
+(* The first is the task of onInterrupt: its one local is B. *)
 Closures ==
   << Plain("interrupted", << ExecuteTask(Then(On(Plan("risky"), V), Action(2))) >>),
      DoPosting("home", NumberOf(1)) >>

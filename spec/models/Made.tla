@@ -10,7 +10,7 @@ Body ==
 (* One vehicle cannot run two plans at once. *)
 Closures == << Plan("long"), Plan("risky"), Broke, Beside(Plan("long"), Plan("long")), Ignore >>
 
-(* What is allocated is held until it ends, done or failed. *)
+(* An allocated vehicle is held until its task ends, done or failed. *)
 Claim ==
   /\ By_("MAKE", LAMBDA t : t.control.r.body.op = "unallocated")
   /\ By_("ALLOCATE", LAMBDA t : t.control.r.body.op = "hold" /\ t.control.r.body.vehicles = << "u1" >>)

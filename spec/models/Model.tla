@@ -1,7 +1,7 @@
 --------------------------------- MODULE Model ---------------------------------
 (* Words to write small programs in, as TLA+ expressions, where `dolphin tla` would translate a text. A model extends
-   this module and says what the script is (Body), the code of its closures (Closures), and what must hold in it
-   (Claim). Model.cfg has the rest in common. *)
+   this module and defines the script (Body), the code of its closures (Closures), and its claim (Claim). Model.cfg
+   has the rest in common. *)
 EXTENDS DolphinChecking
 
 CONSTANTS
@@ -10,7 +10,7 @@ CONSTANTS
 
 (* {1 Expressions, as tables: a node, then those of its parts; the parts by how far on they are} *)
 
-(* Recursive functions rather than operators, here: what is defined by those TLC computes anew whenever it is used. *)
+(* Recursive functions rather than operators, here: TLC recomputes definitions by operators at each use. *)
 All(es) == LET first[j \in 0 .. Len(es)] == IF j = 0 THEN << >> ELSE first[j - 1] \o es[j] IN first[Len(es)]
 
 Tree(is, fields, es) ==
@@ -30,7 +30,7 @@ NumberOf(n) == Const(Integer(n))
 Plain(op, es) == Apply([ op |-> op ], es)
 Operator(sign, a, b) == Apply([ op |-> "binary", sign |-> sign ], << a, b >>)
 
-(* The script is closure 1 of the table, and 2 is what people answer. *)
+(* The script is closure 1 of the table, and 2 is the answer of people. *)
 Closure(j) == Const(<< "closure", j + 2, << >> >>)
 
 Then(a, b) == Operator(">>", a, b)
@@ -106,8 +106,8 @@ LambdasOfModel(body, closures) ==
   << >> \o [ j \in DOMAIN Pieces(body, closures) |->
               LambdaAt(1 + Len(All(SubSeq(Pieces(body, closures), 1, j - 1))), "code", IF j < 3 THEN 0 ELSE 1) ]
 
-(* What a configuration puts in the place of a constant TLC computes anew whenever it is used, other definitions once:
-   so a name of one of these is put there. *)
+(* TLC recomputes the replacement of a constant in a configuration at each use, other definitions once: so a name of
+   one of these is put there. *)
 CodeTable == CodeOfModel(ScriptOfModel, ClosuresOfModel)
 LambdaTable == LambdasOfModel(ScriptOfModel, ClosuresOfModel)
 LambdaNameTable == << >> \o [ j \in 1 .. 2 + Len(ClosuresOfModel) |-> "closure " \o ToString(j) ]
@@ -128,7 +128,7 @@ VehicleNamed(v, type) ==
 ModelFleet ==
   << VehicleNamed("u1", "UUV"), VehicleNamed("u2", "UUV"), VehicleNamed("u3", "UUV"), VehicleNamed("a", "UAV") >>
 
-(* What people answer, twice; and then nothing. *)
+(* The answer of people, twice; and then nothing. *)
 Two_ == [ text |-> "2", lambda |-> 2, why |-> "" ]
 ModelAnswers(prompt) == << << Two_ >>, << Two_ >>, << >> >>
 (* Questions of tasks they answer by yes or by no, but for one. *)

@@ -1,9 +1,9 @@
 -------------------------------- MODULE Paper --------------------------------
-(* The program of the paper: three vehicles survey, tell that they are ready, and keep station; a plane meets each, in
-   any order. *)
+(* The program of the paper: three vehicles survey, report that they are ready, and keep station; a plane meets each,
+   in any order. *)
 EXTENDS Model
 
-(* No ToString here: TLC would make the program anew whenever it looks at it. *)
+(* No ToString here: TLC would rebuild the program whenever it looks at it. *)
 Surveys == << "survey1", "survey2", "survey3" >>
 Keeps == << "sk1", "sk2", "sk3" >>
 Meetings == << "rv1", "rv2", "rv3" >>
@@ -22,6 +22,6 @@ Body ==
 
 Closures == [ j \in 1 .. 6 |-> IF j <= 3 THEN DoPosting("ready", NumberOf(j)) ELSE Consuming("ready", NumberOf(j - 3)) ]
 
-(* Nobody is met before its survey has ended. *)
+(* No vehicle is met before its survey has ended. *)
 Claim == \A i \in 1 .. 3 : ~({ Meetings[i], Surveys[i] } \subseteq RunsOf(Shared))
 ==============================================================================

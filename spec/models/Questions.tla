@@ -1,5 +1,5 @@
 ------------------------------ MODULE Questions ------------------------------
-(* CONFIRM-YES, CONFIRM-NO: a task that waits for somebody to say yes. *)
+(* CONFIRM-YES, CONFIRM-NO: a task that waits for the answer yes. *)
 EXTENDS Model
 
 Body ==

@@ -1,5 +1,5 @@
 ------------------------------- MODULE Recovery -------------------------------
-(* WATCH-RETRY, WATCH-INSTEAD: a task that failed runs anew, or another one in its place. *)
+(* WATCH-RETRY, WATCH-INSTEAD: a task that failed runs again, or another one in its place. *)
 EXTENDS Model
 
 Body ==
@@ -9,7 +9,7 @@ Body ==
 Closures ==
   << If(Consuming("again", NumberOf(1)), Retry, Ignore), Plan("long"), Fail("no reason"), Ignore >>
 
-(* What runs then is allocated anew; a task in the place of another is not watched by its handler. *)
+(* The recovery task is allocated when it is made; a task in the place of another is not watched by its handler. *)
 Claim ==
   /\ By_("WATCH-RETRY", LAMBDA t : t.S.A = << >> /\ t.control.r.body.op = "unallocated" /\ t.control.r.op = "watch")
   /\ By_("WATCH-INSTEAD", LAMBDA t : t.S.A = << >> /\ t.control.r.op = "unallocated")

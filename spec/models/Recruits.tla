@@ -10,7 +10,7 @@ Body ==
 
 Closures == << Plan("risky"), Idle(5), Ignore >>
 
-(* Nobody is recruited twice, and it is no matter of B. *)
+(* No vehicle is recruited twice, and recruits are not in B. *)
 Claim ==
   /\ B = << >>
   /\ By_("RECRUIT", LAMBDA t : Cardinality(Range(RecruitsOf(t.control))) = Len(RecruitsOf(t.control)))

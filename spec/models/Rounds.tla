@@ -12,7 +12,7 @@ TakingTwo == Apply([ op |-> "consume", keys |-> << << "k" >>, << "k" >> >> ], <<
 
 Closures == << DoPosting("k", NumberOf(1)), TakingTwo, Ignore >>
 
-(* What the condition took is there again where it does not hold. *)
+(* The pairs that the condition took are there again where it does not hold. *)
 Claim ==
   /\ By_("REPEAT-AGAIN", LAMBDA t : HasPair(N, "k", Integer(1)) /\ t.S.N = N /\ t.control.r.runs # << >>)
   /\ By_("REPEAT-UNTIL", LAMBDA t : t.S.N = NoTuples /\ t.control.at = "script")

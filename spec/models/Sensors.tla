@@ -1,6 +1,6 @@
 -------------------------------- MODULE Sensors --------------------------------
-(* What sensors show is open at each step anew, and stays within a step: those of u1 may show anything, u2 is seen in
-   one of two places. *)
+(* Sensors are open at each step, and stay within a step: those of u1 have any reading, u2 is seen in one of two
+   places. *)
 EXTENDS Model
 
 Battery(e) == Apply([ op |-> "sensor", name |-> "battery" ], << e >>)

@@ -14,7 +14,7 @@ Closures ==
   << Consuming("k", NumberOf(1)), DoPosting("k", NumberOf(1)), Ignore, Broke, Const(False),
      Apply([ op |-> "unary", sign |-> "!" ], << Consuming("k", NumberOf(1)) >>) >>
 
-(* What is cut off stops. *)
+(* A task that is cut off stops. *)
 Claim ==
   /\ By_("UNTIL-CUT", LAMBDA t : HasPair(N, "k", Integer(1)) /\ t.S.N = NoTuples /\ t.S.A = << >>)
   /\ By_("ASSURE-CUT", LAMBDA t : HasPair(N, "k", Integer(1)) /\ t.S.N = N /\ t.S.A = << >>)

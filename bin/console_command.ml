@@ -64,7 +64,7 @@ let run () folder sim fleet network adapters definition supplier supplier_timeou
      in
      let settings =
        { Console.folder; run; fleet; dolphin = Sys.executable_name; page = Page.load (Page.folder ()); tiles; listen;
-         version = Version.number }
+         version = Version.number; workers = Dolphin_console.Worker_pool.limits }
      in
      serve settings ~port ~browser:(not no_browser))
 

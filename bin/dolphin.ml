@@ -30,7 +30,8 @@ let command =
       Post_command.command; Runs_command.command; Sim_command.command; Step_command.command;
       Successors_command.command; Time_command.command;
       Tla_command.command; Trace_command.command; Walk_command.command ] in
-  Cmd.group info (Help_command.command ~others:(List.map Cmd.name commands) :: commands)
+  let help = Help_command.command ~others:(List.map Cmd.name commands) in
+  Cmd.group info (help :: Console_worker_command.command :: commands)
 
 (* [--sim] alone would take the next argument for its fleet. [dolphin --help PROG] is [dolphin help PROG]. Manuals that
    do not go to a terminal are plain text: overstrikes hide words from grep. *)

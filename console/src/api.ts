@@ -52,7 +52,7 @@ export async function ask(verb: string, path: string, body?: Json, signal?: Abor
   const isCommand = verb !== "GET" && !(verb === "POST" && computes.test(path));
   const reply = await fetch("/api/" + path, {
     method: verb,
-    headers: body === undefined ? {} : { "Content-Type": "application/json", "X-Dolphin-Client": client },
+    headers: { "X-Dolphin-Client": client, ...(body === undefined ? {} : { "Content-Type": "application/json" }) },
     body: body === undefined ? undefined : JSON.stringify(body),
     signal: signal ?? (isCommand ? undefined : computing.signal),
     priority: isCommand ? "high" : "low",
@@ -104,20 +104,36 @@ export function listen(l: Listener) {
   };
 }
 
-// A run that was, message by message.
-export async function replay(query: string, l: Pick<Listener, "journal" | "log" | "waiting" | "places" | "way"> & { program(path: string | null): void }) {
-  const reply = await fetch("/api/replay?" + query);
-  const text = await reply.text();
-  if (!reply.ok) throw new Refusal("replay", JSON.parse(text).error.message, []);
-  for (const message of text.split("\n\n")) {
-    const event = /^event: (.*)$/m.exec(message)?.[1], data = /^data: (.*)$/m.exec(message)?.[1];
-    if (!event || !data) continue;
-    const json = JSON.parse(data);
-    if (event === "program") l.program(json.program);
-    else if (event === "journal") l.journal(json);
-    else if (event === "log") l.log(json);
-    else if (event === "waiting") l.waiting(json);
-    else if (event === "places") l.places(json);
-    else if (event === "way") l.way(json);
+type Replayed = Pick<Listener, "journal" | "log" | "waiting" | "places" | "way"> & {
+  program(path: string | null): void;
+  piece(): void;  // some messages have been read
+};
+
+function replayed(message: string, l: Replayed) {
+  const event = /^event: (.*)$/m.exec(message)?.[1], data = /^data: (.*)$/m.exec(message)?.[1];
+  if (!event || !data) return;
+  const json = JSON.parse(data);
+  if (event === "program") l.program(json.program);
+  else if (event === "journal") l.journal(json);
+  else if (event === "log") l.log(json);
+  else if (event === "waiting") l.waiting(json);
+  else if (event === "places") l.places(json);
+  else if (event === "way") l.way(json);
+  else if (event === "failed") throw new Refusal("replay", json.message, []);
+}
+
+// A run that was, message by message, as the server reads its journal.
+export async function replay(query: string, l: Replayed, signal: AbortSignal) {
+  const reply = await fetch("/api/replay?" + query, { signal, headers: { "X-Dolphin-Client": client } });
+  if (!reply.ok) throw new Refusal("replay", (await reply.json()).error.message, []);
+  const reader = reply.body!.pipeThrough(new TextDecoderStream()).getReader();
+  let rest = "";
+  for (;;) {
+    const { done, value } = await reader.read();
+    if (done) return;
+    const messages = (rest + value).split("\n\n");
+    rest = messages.pop()!;
+    for (const message of messages) replayed(message, l);
+    l.piece();
   }
 }

@@ -19,7 +19,10 @@ import { mark as markTitle } from "./title";
 import { Verdicts } from "./verdicts";
 
 // A run that was, or one that explore found: gone through by steps.
-interface Past { title: string; program: string | null; messages: Message[]; index: number; steps: boolean; found: boolean }
+interface Past {
+  title: string; program: string | null; messages: Message[]; index: number; steps: boolean; found: boolean;
+  reading?: AbortController;  // its messages are still coming
+}
 
 let status: Status | null = null;
 let live = new Run();
@@ -222,17 +225,25 @@ function showFound(cx: Json, program: string | null) {
 const dated = (name: string) => `${name.slice(0, 10)} ${name.slice(11, 13)}:${name.slice(13, 15)} UTC`;
 
 async function openReplay(query: string, title: string) {
-  const messages: Message[] = [];
-  let program: string | null = null;
-  await replay(query, {
-    program: (path) => { program = path; },
-    journal: (line) => messages.push({ kind: "journal", line }),
-    log: (line) => messages.push({ kind: "log", line }),
-    waiting: (waiting) => messages.push({ kind: "waiting", waiting }),
-    places: ({ places }) => messages.push({ kind: "places", places }),
-    way: ({ way }) => messages.push({ kind: "way", way }),
-  });
-  openPast({ title, program, messages, index: messages.length, steps: false, found: false });
+  const messages: Message[] = [], reading = new AbortController();
+  const p: Past = { title, program: null, messages, index: 0, steps: false, found: false, reading };
+  const piece = () => { if (past === p) grow(p); else { leavePast(); p.index = messages.length; openPast(p); } };
+  try {
+    await replay(query, {
+      program: (path) => { p.program = path; },
+      journal: (line) => messages.push({ kind: "journal", line }),
+      log: (line) => messages.push({ kind: "log", line }),
+      waiting: (waiting) => messages.push({ kind: "waiting", waiting }),
+      places: ({ places }) => messages.push({ kind: "places", places }),
+      way: ({ way }) => messages.push({ kind: "way", way }),
+      piece,
+    }, reading.signal);
+  } catch (e) {
+    if (!reading.signal.aborted) throw e;
+  } finally {
+    p.reading = undefined;
+    if (past === p) renderBanner();
+  }
 }
 
 const replayRun = (run: string, what: string) => openReplay("run=" + encodeURIComponent(run), `${what} of ${dated(run)}`);
@@ -269,6 +280,7 @@ async function offerToResume() {
 // {1 What was}
 
 function openPast(p: Past) {
+  past?.reading?.abort();
   past = p;
   unpick();
   map.reset();
@@ -279,8 +291,20 @@ function openPast(p: Past) {
   renderBanner();
 }
 
+// More of it has come: a slider at its end stays there.
+function grow(p: Past) {
+  const slider = $<HTMLInputElement>("slider"), follows = p.index === Number(slider.max);
+  slider.max = String(p.messages.length);
+  if (!follows) return;
+  for (; p.index < p.messages.length; p.index++) shown.add(p.messages[p.index]);
+  slider.value = slider.max;
+  $("step").textContent = clock(shown.time);
+  changed();
+}
+
 function leavePast() {
   if (!past) return;
+  past.reading?.abort();
   past = null;
   unpick();
   shown = live;
@@ -476,7 +500,7 @@ function renderBanner() {
   const banner = $("banner");
   banner.className = past ? "past" : "";
   banner.hidden = !past;
-  if (past) banner.replaceChildren(past.title + " ", h("button", { click: leavePast }, "Back to now"));
+  if (past) banner.replaceChildren(past.title + (past.reading ? " (is being read) " : " "), h("button", { click: leavePast }, "Back to now"));
 }
 
 function renderHead() {

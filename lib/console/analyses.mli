@@ -5,12 +5,15 @@ open Exchange
 
 (** Each is of one subject; [docs/api.md] has the members of requests and replies. *)
 
-val start : Hall.subject -> Hall.t -> Field.members -> (json, refusal) result
-(** Begins an analysis in place of the one before; refused as ["busy"] while that goes on, and if an argument is not
-    right. *)
+val not_busy : Analysis.subject -> Hall.t -> (unit, refusal) result
+(** Refused as ["busy"] while an analysis of this subject goes on. *)
 
-val result : Hall.subject -> Hall.t -> Dolphin_http.Request.t -> (json, refusal) result
+val start : Analysis.subject -> Hall.t -> Field.members -> (json, refusal) result
+(** [start subject h found] begins the analysis that {!Analysis_work.prepare} has made of the request, [found], in place
+    of the one before; refused as ["busy"] while that goes on. *)
+
+val result : Analysis.subject -> Hall.t -> Dolphin_http.Response.t
 (** How it goes, or what was found; [null] if nothing was asked. *)
 
-val cancel : Hall.subject -> Hall.t -> Field.members -> (json, refusal) result
+val cancel : Analysis.subject -> Hall.t -> (json, refusal) result
 (** Ends it, if it goes on. *)

@@ -2,14 +2,30 @@
     process of its own, so that nothing else waits for it. *)
 
 open Dolphin_app
+open Dolphin_json
+open Exchange
 
-(** What is asked. *)
-type kind =
-  | Exploration  (** [dolphin explore] *)
-  | Timing of { deadline : string option }  (** [dolphin time] *)
-  | Graph of { states : int }  (** [dolphin lts], of at most so many states *)
+(** What is asked: [dolphin explore], [dolphin time], [dolphin lts]. *)
+type subject = Exploration | Timing | Graph
 
-type order = { kind : kind; faults : string option;  (** as of [--faults] *) seconds : int  (** at most *) }
+val subject_name : subject -> string
+(** ["exploration"], ["timing"], ["graph"]. *)
+
+type order = {
+  subject : subject;
+  seconds : int;  (** at most *)
+  arguments : string list;  (** the command, and its options but for [--timeout] and [--trace] *)
+  inputs : string list;  (** {!inputs} *)
+  program : string;  (** its path in the folder *)
+  fleet : string option;  (** its path *)
+  set : (string * string) list;
+  hash : string;  (** of the program's file *)
+}
+
+val json_of_order : order -> json
+
+val order_of_json : json -> (order, refusal) result
+(** [order_of_json (json_of_order o)] is [o]. *)
 
 type t
 
@@ -17,20 +33,25 @@ val inputs : Program_file.t -> Fleet_file.t -> string list
 (** [inputs program fleet] is the arguments that name both, with the program's parameters, to any command of [dolphin]:
     its last ones. *)
 
-val start : dolphin:string -> changed:(unit -> unit) -> order -> Program_file.t -> Fleet_file.t -> t
-(** [start ~dolphin ~changed order program fleet] asks the command [dolphin]. [changed] is called whenever {!to_json}
-    has changed. *)
+val start :
+  dolphin:string -> changed:(unit -> unit) ->
+  conclude:(text:string -> witness:string option -> (string, string) result Lwt.t) -> order -> t
+(** [start ~dolphin ~changed ~conclude order] runs the command [dolphin]. [changed] is called whenever {!to_text} has
+    changed. At the end, [conclude ~text ~witness] makes an object in JSON of the command's output and of the file with
+    the run that it shows, or returns the reason why there is no result: neither is parsed in this process. *)
 
+val order : t -> order
 val goes_on : t -> bool
 val cancel : t -> unit
 
 val finished : t -> unit Lwt.t
 
-val shown : t -> (Program_file.t * Fleet_file.t * Dolphin_trace.Witness.t) option
-(** The run that it shows, a counterexample perhaps, with the program and the fleet as they were then. *)
+val shown : t -> string option
+(** The run that it shows, a counterexample perhaps: the contents of a {!Dolphin_app.Witness_file}. *)
 
-val program : t -> Program_file.t
+val progress : t -> Field.members
+(** [state] and [progress]. *)
 
-val to_json : t -> Yojson.Safe.t
-(** How it goes, and the hash of the program's file as it was read; when it is over, the result as the command has it
-    with [--json], and the run that it shows step by step, each as a line of a journal with the words of the log. *)
+val to_text : t -> string
+(** An object in JSON: {!progress}, the [program] and the [hash] of its file; when it is over, the members that
+    [conclude] gave, or the [error]. *)

@@ -10,6 +10,7 @@ type settings = Hall.settings = {
   tiles : string option;
   listen : Unix.inet_addr option;
   version : string;
+  workers : Worker_pool.limits;
 }
 
 type t = { hall : Hall.t; server : Server.t }
@@ -47,4 +48,8 @@ let close c =
     | Some run when Live_run.goes_on run -> Live_run.stop run Next; Live_run.finished run
     | Some _ | None -> Lwt.return_unit
   in
-  over >>= fun () -> Server.close c.server
+  over >>= fun () ->
+  Hall.close c.hall;
+  Server.close c.server
+
+let workers c = Hall.worker_pids c.hall

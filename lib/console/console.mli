@@ -13,6 +13,7 @@ type settings = {
   tiles : string option;  (** where the map has tiles from, {!Access.check_tiles}; [None]: it has none *)
   listen : Unix.inet_addr option;  (** the address that is served, with tokens; [None]: 127.0.0.1, without *)
   version : string;  (** of Dolphin *)
+  workers : Worker_pool.limits;  (** of the processes that compute for requests *)
 }
 
 type t
@@ -30,3 +31,6 @@ val busy : t -> bool
 
 val close : t -> unit Lwt.t
 (** Stops the run, if one goes on, waits until its vehicles are released, and ends. *)
+
+val workers : t -> int list
+(** The processes that compute for requests. *)

@@ -1,6 +1,5 @@
 (** What all requests have in common: replies, refusals, arguments. *)
 
-open Dolphin_app
 open Dolphin_json
 
 type json = Yojson.Safe.t
@@ -46,26 +45,3 @@ val parameter : Dolphin_http.Request.t -> string -> (string, refusal) result
 
 val set : Field.members -> ((string * string) list, refusal) result
 (** [set found] is the program's parameters in the member [set], each with the text of its value. *)
-
-(** {1 The folder} *)
-
-val folder : Hall.t -> Folder.t
-
-val file : Hall.t -> string -> (string, refusal) result
-(** [file h path] is the real path of a file of the folder. *)
-
-val text : string -> (string, refusal) result
-(** [text path] is what the file [path] has. *)
-
-val program : Hall.t -> ?set:(string * string) list -> string -> (Program_file.t, refusal) result
-(** [program h ~set path] is the program in a file of the folder; the refusal has its diagnostics. *)
-
-val fleet : Hall.t -> program:string -> string option -> (Fleet_file.t, refusal) result
-(** [fleet h ~program named] is the fleet in the file [named] of the folder, or that of the console, or the one beside
-    [program]. *)
-
-val fleet_path : Hall.t -> program:string -> string option -> string option
-(** [fleet_path h ~program named] is the file of the fleet that {!fleet} gives, if there is one. *)
-
-val within : Fleet_file.t -> Program_file.t -> (Program_file.t, refusal) result
-(** {!Program_file.within}. *)

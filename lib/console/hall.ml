@@ -11,9 +11,24 @@ type settings = {
   tiles : string option;
   listen : Unix.inet_addr option;
   version : string;
+  workers : Worker_pool.limits;
 }
 
-type subject = Exploration | Timing | Graph
+(* Those who steer do not wait for those who watch, nor for replays, whose readers may be slow. *)
+type pools = {
+  steerers : Worker_pool.t;
+  watchers : Worker_pool.t;
+  replays_of_steerers : Worker_pool.t;
+  replays_of_watchers : Worker_pool.t;
+  own : Worker_pool.t;  (* for what the console needs itself *)
+}
+
+let pools { dolphin; workers = l; _ } =
+  let pool = Worker_pool.make ~dolphin in
+  { steerers = pool l; watchers = pool { l with workers = max 1 (l.workers - 1); each = 1 };
+    replays_of_steerers = pool { l with waiting = 0 };
+    replays_of_watchers = pool { l with workers = max 1 (l.workers - 1); each = 1; waiting = 0 };
+    own = pool { l with workers = 1; each = 1 } }
 
 (* A page that sees one analysis over, and then another, may have missed that the second one ran: it goes by number. *)
 type numbered = { number : int; analysis : Analysis.t }
@@ -24,8 +39,10 @@ type t = {
   grown : unit Lwt_condition.t;
   mutable access : Access.t;
   mutable run : Live_run.t option;
+  mutable run_path : string option;  (* of its program, in the folder *)
+  pools : pools;
   mutable runs : int;
-  mutable analyses : (subject * numbered) list;  (* one of each at most *)
+  mutable analyses : (Analysis.subject * numbered) list;  (* one of each at most *)
   mutable begun : int;  (* analyses *)
   visitors : Visitors.t;
   mutable helm : Helm.t;
@@ -37,7 +54,8 @@ let make settings =
   let instance =
     Digest.to_hex (Digest.string (Printf.sprintf "%d %f" (Unix.getpid ()) (Unix.gettimeofday ()))) in
   { settings; instance = String.sub instance 0 8; grown = Lwt_condition.create ();
-    access = { port = 0; tokens = Option.map (fun _ -> Access.fresh ()) settings.listen }; run = None; runs = 0;
+    access = { port = 0; tokens = Option.map (fun _ -> Access.fresh ()) settings.listen }; run = None;
+    run_path = None; pools = pools settings; runs = 0;
     analyses = []; begun = 0; visitors = Visitors.make (); helm = Helm.free; alive = []; watching = [] }
 
 let settings h = h.settings
@@ -53,11 +71,31 @@ let helm h = h.helm
 let name h = Visitors.name h.visitors
 let watchers h role = List.length (List.filter (fun (_, of_client) -> of_client = role) h.watching)
 
+let close h =
+  let { steerers; watchers; replays_of_steerers; replays_of_watchers; own } = h.pools in
+  List.iter Worker_pool.close [ steerers; watchers; replays_of_steerers; replays_of_watchers; own ]
+
+let worker_pids h =
+  let { steerers; watchers; replays_of_steerers; replays_of_watchers; own } = h.pools in
+  List.concat_map Worker_pool.pids [ steerers; watchers; replays_of_steerers; replays_of_watchers; own ]
+
+let workers h (role : Access.role) = match role with Steers -> h.pools.steerers | Watches -> h.pools.watchers
+
+let replays h (role : Access.role) =
+  match role with Steers -> h.pools.replays_of_steerers | Watches -> h.pools.replays_of_watchers
+
+let own_workers h = h.pools.own
+
+let workspace h : Workspace.t =
+  let own = match h.run with Some run when Live_run.goes_on run -> Live_run.journal run | Some _ | None -> None in
+  { folder = h.settings.folder; fleet = h.settings.fleet; own }
+
 let begin_run h start =
   let before = h.run in
   h.runs <- h.runs + 1;
   let run = start ~id:(Printf.sprintf "%s-%d" h.instance h.runs) ~changed:(fun () -> changed h) in
   h.run <- Some run;
+  h.run_path <- Folder.inside h.settings.folder (Live_run.program run).path;
   Option.iter (fun run -> Feed.close (Live_run.feed run)) before;
   changed h;
   run
@@ -95,27 +133,18 @@ let command h client =
 
 (* {1 The status} *)
 
-let path_of h path : Yojson.Safe.t =
-  match Folder.inside h.settings.folder path with Some path -> `String path | None -> `Null
-
 let of_run h run : Yojson.Safe.t =
-  let program = Live_run.program run in
   match Live_run.to_json run with
   | `Assoc members ->
     `Assoc
       (members
-       @ [ ("program", path_of h program.path);
+       @ [ ("program", Field.of_option (fun path -> `String path) h.run_path);
            ("journal", Field.of_option (fun path -> `String (Filename.remove_extension (Filename.basename path)))
               (Live_run.journal run)) ])
   | json -> json
 
 (* Of an analysis only how it goes: its result may be long. *)
-let of_analysis a : Yojson.Safe.t =
-  match Analysis.to_json a.analysis with
-  | `Assoc members ->
-    let shown = List.filter (fun (name, _) -> name = "state" || name = "progress") members in
-    `Assoc (("number", `Int a.number) :: shown)
-  | json -> json
+let of_analysis a : Yojson.Safe.t = `Assoc (("number", `Int a.number) :: Analysis.progress a.analysis)
 
 let status h : Yojson.Safe.t =
   `Assoc
@@ -124,9 +153,9 @@ let status h : Yojson.Safe.t =
       ("tiles", Field.of_option (fun url -> `String url) h.settings.tiles);
       ("simulated", `Bool (Run.is_simulated h.settings.run));
       ("run", Field.of_option (of_run h) h.run);
-      ("exploration", Field.of_option of_analysis (List.assoc_opt Exploration h.analyses));
-      ("timing", Field.of_option of_analysis (List.assoc_opt Timing h.analyses));
-      ("graph", Field.of_option of_analysis (List.assoc_opt Graph h.analyses));
+      ("exploration", Field.of_option of_analysis (List.assoc_opt Analysis.Exploration h.analyses));
+      ("timing", Field.of_option of_analysis (List.assoc_opt Analysis.Timing h.analyses));
+      ("graph", Field.of_option of_analysis (List.assoc_opt Analysis.Graph h.analyses));
       ("helm",
        `Assoc
          [ ("holder", Field.of_option (fun client -> `String client) (Helm.holder h.helm));

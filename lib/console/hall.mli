@@ -11,6 +11,7 @@ type settings = {
   tiles : string option;
   listen : Unix.inet_addr option;
   version : string;
+  workers : Worker_pool.limits;
 }
 
 type t
@@ -36,14 +37,31 @@ val busy : t -> bool
 val begin_run : t -> (id:string -> changed:(unit -> unit) -> Live_run.t) -> Live_run.t
 (** [begin_run h start] has the run that [start] gives in place of the one before, which is over. *)
 
-(** What can be found out about programs, one of each at a time. *)
-type subject = Exploration | Timing | Graph
+(** One analysis of each subject at a time. *)
 
-val analysis : t -> subject -> Analysis.t option
+val analysis : t -> Analysis.subject -> Analysis.t option
 val analyses : t -> Analysis.t list
 
-val set_analysis : t -> subject -> Analysis.t -> unit
+val set_analysis : t -> Analysis.subject -> Analysis.t -> unit
 (** [set_analysis h subject a] has [a] in place of the one before, which is cancelled. *)
+
+(** {1 Work in other processes} *)
+
+val workspace : t -> Workspace.t
+
+val workers : t -> Access.role -> Worker_pool.t
+(** Those for requests of clients with this role. *)
+
+val replays : t -> Access.role -> Worker_pool.t
+(** Likewise for replays, which last as long as their readers want. *)
+
+val own_workers : t -> Worker_pool.t
+(** Those for what the console needs itself. *)
+
+val worker_pids : t -> int list
+
+val close : t -> unit
+(** Ends all workers. *)
 
 (** {1 The helm} *)
 

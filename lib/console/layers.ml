@@ -9,15 +9,12 @@ let longest = 8 * 1024 * 1024
 
 let is_tiles path = String.lowercase_ascii (Filename.extension path) = ".mbtiles"
 
-let of_folder h r =
+let of_folder w r =
   let* path = parameter r "path" in
-  let* full = file h path in
+  let* full = Workspace.file w path in
   if Folder.kind full = Some Layer then Ok full else bad "this is no layer"
 
 let no_layer path why = refusal 422 "no-layer" (Printf.sprintf "%s: %s" (Filename.basename path) why)
-
-(* In a thread: the run goes on meanwhile. *)
-let beside f x = match x with Ok x -> Lwt_preemptive.detach f x | Error _ as e -> Lwt.return e
 
 (* {1 Shapes} *)
 
@@ -34,7 +31,7 @@ let shape (name, outline) : json =
 let shapes full : (json, refusal) result =
   if (Unix.stat full).st_size > longest then refuse 413 "too-large" "this layer is too long"
   else
-    let* source = text full in
+    let* source = Workspace.text full in
     let* outlines = Result.map_error (no_layer full) (Map_file.outlines ~path:full source) in
     Ok (`Assoc [ ("shapes", `List (List.rev (List.rev_map shape outlines))) ])
 
@@ -52,9 +49,9 @@ let tiles full : (json, refusal) result =
        [ ("tiles", `Assoc [ ("minimum", `Int found.minimum); ("maximum", `Int found.maximum); ("bounds", bounds);
                             ("attribution", `String found.attribution) ]) ])
 
-let layer h r =
-  let read full = Result.map (fun found -> json found) (if is_tiles full then tiles full else shapes full) in
-  beside read (of_folder h r)
+let layer w r =
+  let* full = of_folder w r in
+  Result.map (fun found -> json found) (if is_tiles full then tiles full else shapes full)
 
 let number r name =
   let* text = parameter r name in
@@ -62,18 +59,15 @@ let number r name =
   | Some n when n >= 0 -> Ok n
   | Some _ | None -> bad (name ^ " is a whole number")
 
-let picture (full, zoom, column, row) =
+let picture full ~zoom ~column ~row =
   match Tile_file.tile full ~zoom ~column ~row with
   | Ok (Some { kind; bytes }) -> Ok (Response.text ~kind 200 bytes)
   | Ok None -> refuse 404 "not-found" "there is no such tile"
   | Error why -> Error (no_layer full why)
 
-let tile h r =
-  let wanted =
-    let* full = of_folder h r in
-    let* zoom = number r "zoom" in
-    let* column = number r "column" in
-    let* row = number r "row" in
-    if is_tiles full then Ok (full, zoom, column, row) else bad "this layer has no tiles"
-  in
-  beside picture wanted
+let tile w r =
+  let* full = of_folder w r in
+  let* zoom = number r "zoom" in
+  let* column = number r "column" in
+  let* row = number r "row" in
+  if is_tiles full then picture full ~zoom ~column ~row else bad "this layer has no tiles"

@@ -143,7 +143,8 @@ let begin_ ~id ~changed ?journal ?enacts order go =
     { now = (fun () -> 0.); estimates = (fun () -> []); post = (fun _ _ -> Lwt.return_false);
       questions = (fun () -> []) } in
   let r =
-    { id; order; journal; enacts; feed; narrator = Narrator.make order.program feed;
+    { id; order; journal; enacts; feed;
+      narrator = Narrator.make order.program (fun ~event data -> Feed.add feed ~event data);
       interruption = Interruption.make (); changed; finished; finish; opened; open_; view; last = 0.; question = None;
       questions = 0; refused = None; state = Running; stale = false }
   in

@@ -4,9 +4,11 @@ open Dolphin_display
 module Program_file = Dolphin_app.Program_file
 module Canonical = Dolphin_json.Canonical
 
+type tell = event:string -> string -> unit
+
 type t = {
   program : Program_file.t;
-  feed : Feed.t;
+  tell_ : tell;
   mutable log : Log.t;
   mutable world : World.t;
   mutable configuration : Configuration.t;
@@ -14,13 +16,13 @@ type t = {
   mutable told : Waiting.t list;  (* what it waited for when that was told last *)
 }
 
-let make (program : Program_file.t) feed =
-  { program; feed; log = Log.start; world = World.empty; configuration = Configuration.initial program.program;
+let make (program : Program_file.t) tell_ =
+  { program; tell_; log = Log.start; world = World.empty; configuration = Configuration.initial program.program;
     places = `List []; told = [] }
 
-let tell_feed feed event json = Feed.add feed ~event (Canonical.to_string json)
-let tell n = tell_feed n.feed
-let entry n entry = Feed.add n.feed ~event:"journal" (Entry.to_string entry)
+let tell_json (tell : tell) event json = tell ~event (Canonical.to_string json)
+let tell n = tell_json n.tell_
+let entry n entry = n.tell_ ~event:"journal" (Entry.to_string entry)
 
 let severity : Log.severity -> string = function
   | Trouble -> "trouble"
@@ -28,15 +30,15 @@ let severity : Log.severity -> string = function
   | Completed -> "completed"
   | Ordinary -> "ordinary"
 
-let text feed kind ~time ?(about = []) text =
-  tell_feed feed "log"
+let text tell kind ~time ?(about = []) text =
+  tell_json tell "log"
     (`Assoc
        [ ("time", Canonical.number time); ("severity", `String kind); ("about", Dolphin_json.Field.texts about);
          ("text", `String text) ])
 
-let line_on feed ~time (l : Log.line) = text feed (severity l.severity) ~time ~about:l.about l.text
-let line n = line_on n.feed
-let remark_on feed ~time what = line_on feed ~time (Log.remark Log.start ~time what)
+let line_on tell ~time (l : Log.line) = text tell (severity l.severity) ~time ~about:l.about l.text
+let line n = line_on n.tell_
+let remark_on tell ~time what = line_on tell ~time (Log.remark Log.start ~time what)
 
 (* {1 On the map} *)
 
@@ -78,7 +80,7 @@ let news n ~time state =
   List.iter (line n ~time) lines
 
 let remark n ~time what = line n ~time (Log.remark n.log ~time what)
-let question n ~time prompt = text n.feed "said" ~time (Log.question n.log ~time prompt)
+let question n ~time prompt = text n.tell_ "said" ~time (Log.question n.log ~time prompt)
 
 (* {1 What it waits for} *)
 

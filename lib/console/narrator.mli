@@ -1,4 +1,4 @@
-(** Tells a {!Feed} of a run: each line of its journal as it is, the lines of the log for people, and what the program
+(** Messages about a run: each line of its journal as it is, the lines of the log for people, and what the program
     waits for. The same for a run that goes on, one that is resumed, and one that is over. *)
 
 open Dolphin_semantics
@@ -6,8 +6,11 @@ open Dolphin_trace
 
 type t
 
-val make : Dolphin_app.Program_file.t -> Feed.t -> t
-(** [make program feed] tells [feed] of a run of [program] from its beginning. *)
+type tell = event:string -> string -> unit
+(** Takes a message: its kind, and its data in one line. *)
+
+val make : Dolphin_app.Program_file.t -> tell -> t
+(** [make program tell] gives [tell] the messages of a run of [program] from its beginning. *)
 
 val entry : t -> Entry.t -> unit
 (** The next line of the journal: the message [journal]. *)
@@ -23,8 +26,8 @@ val news : t -> time:float -> World.vehicle_state -> unit
 val remark : t -> time:float -> string -> unit
 (** What is unusual. *)
 
-val remark_on : Feed.t -> time:float -> string -> unit
-(** The same on the feed of a run whose program nobody has. *)
+val remark_on : tell -> time:float -> string -> unit
+(** The same for a run whose program is missing. *)
 
 val question : t -> time:float -> string -> unit
 

@@ -21,42 +21,39 @@ let program_of folder ~journal (header : Header.t) =
 
 type teller = Unknown | Plain | Whole of Narrator.t * Replay.t
 
-let plain feed entry = Feed.add feed ~event:"journal" (Entry.to_string entry)
+let plain (tell : Narrator.tell) entry = tell ~event:"journal" (Entry.to_string entry)
 
-(* Which program of the folder it was, so that one can look at what places mean. *)
-let tell_program folder feed program =
+(* The program in the folder that the places are in. *)
+let tell_program folder (tell : Narrator.tell) program =
   let path = Option.bind program (fun (p : Program_file.t) -> Folder.inside folder p.path) in
   let json = `Assoc [ ("program", Dolphin_json.Field.of_option (fun path -> `String path) path) ] in
-  Feed.add feed ~event:"program" (Dolphin_json.Canonical.to_string json)
+  tell ~event:"program" (Dolphin_json.Canonical.to_string json)
 
 (* That there is no log, and why. *)
-let lacks_program feed (header : Header.t) =
+let lacks_program tell (header : Header.t) =
   let what = Printf.sprintf "%s is not in this folder, or has changed: there is no log" header.program.path in
-  Narrator.remark_on feed ~time:0. what
+  Narrator.remark_on tell ~time:0. what
 
-let rec tell_entry folder feed ~journal teller (entry : Entry.t) =
+let rec tell_entry folder tell ~journal teller (entry : Entry.t) =
   match teller, entry with
   | Unknown, Header header -> (
       let program = program_of folder ~journal header in
-      tell_program folder feed program;
+      tell_program folder tell program;
       match program with
-      | None -> plain feed entry; lacks_program feed header; Plain
+      | None -> plain tell entry; lacks_program tell header; Plain
       | Some program ->
         let replay = Replay.start ~hash:header.program.hash program.program in
-        tell_entry folder feed ~journal (Whole (Narrator.make program feed, replay)) entry)
+        tell_entry folder tell ~journal (Whole (Narrator.make program tell, replay)) entry)
   | Whole (narrator, replay), entry -> (
       match Replay.feed replay entry with
       | Ok replay -> Narrator.replayed narrator entry replay; Whole (narrator, replay)
       | Error mismatch ->
         Narrator.remark narrator ~time:(Entry.time entry)
           ("the program has no run with this line of the journal: " ^ mismatch.reason);
-        plain feed entry;
+        plain tell entry;
         Plain)
-  | (Unknown | Plain), entry -> plain feed entry; Plain
+  | (Unknown | Plain), entry -> plain tell entry; Plain
 
-let tell folder ~id path =
-  let feed = Feed.create ~run:id in
+let tell folder path tell =
   let teller = ref Unknown in
-  match Journal_file.iter (fun entry -> teller := tell_entry folder feed ~journal:path !teller entry) path with
-  | Ok () -> Ok feed
-  | Error e -> Feed.close feed; Error e
+  Journal_file.iter (fun entry -> teller := tell_entry folder tell ~journal:path !teller entry) path

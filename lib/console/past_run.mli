@@ -1,8 +1,8 @@
-(** Journals of runs that are over, or broke off, told as {!Live_run} tells of its run. *)
+(** Journals of runs that are over, or broke off, as the messages that {!Live_run} has of its run. *)
 
 open Dolphin_app
 
-val tell : Folder.t -> id:string -> string -> (Feed.t, Error.t) result
-(** [tell folder ~id path] is all that there is to tell of the journal [path]. The log and what the program waited for
-    are part of it if the program that its header names is in [folder] and has not changed; else it has the lines of the
-    journal alone. The feed is the caller's to close. *)
+val tell : Folder.t -> string -> Narrator.tell -> (unit, Error.t) result
+(** [tell folder path tell] gives [tell] the messages of the journal [path], as it reads its lines. The log and the
+    waiting are among them if the program that the journal's header names is in [folder] and has not changed; else there
+    are the lines of the journal alone. The error is a line that is not of a journal. *)

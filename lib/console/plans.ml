@@ -16,6 +16,18 @@ let known (s : Scenario.t) : json =
   in
   `List (List.map of_vehicle s.vehicles)
 
+(* {1 The command} *)
+
+let prepare w found =
+  let* path = get Field.text "program" found in
+  let* named = optional Field.text "fleet" found in
+  let* set = set found in
+  let* program, fleet = Workspace.program_in_fleet w ~set ~fleet:named path in
+  Ok
+    (`Assoc
+       [ ("arguments", Field.texts ("plan" :: "--json" :: Analysis.inputs program fleet));
+         ("vehicles", known fleet.scenario) ])
+
 (* {1 What the program gives them} *)
 
 (* At most [most_bytes], and one. *)
@@ -38,30 +50,28 @@ let printed dolphin arguments =
 
 let no_plans why = refuse 422 "no-plans" why
 
+(* The text is not parsed here. One that was cut off does not end like this. *)
+let is_whole text =
+  let n = String.length text in
+  n > 2 && text.[0] = '{' && text.[n - 2] = '}' && String.index text '\n' = n - 1
+
 let of_text ~vehicles text =
   if String.length text > most_bytes then no_plans "the program has too many plans to show"
-  else
-    match Yojson.Safe.from_string text with
-    | `Assoc found -> Ok (`Assoc (("vehicles", vehicles) :: found))
-    | _ | (exception Yojson.Json_error _) ->
-      no_plans (Printf.sprintf "dolphin plan has found none, or takes more than %.0f seconds" longest)
+  else if is_whole text then
+    let members = String.sub text 1 (String.length text - 1) in
+    Ok (Printf.sprintf "{\"vehicles\":%s,%s" (Canonical.to_string vehicles) members)
+  else no_plans (Printf.sprintf "dolphin plan has found none, or takes more than %.0f seconds" longest)
 
 let processes = Lwt_pool.create 1 (fun () -> Lwt.return_unit)
 
-let order h found =
-  let* path = get Field.text "program" found in
-  let* named = optional Field.text "fleet" found in
-  let* set = set found in
-  let* program = program h ~set path in
-  let* fleet = fleet h ~program:program.path named in
-  let* program = within fleet program in
-  if Lwt_pool.wait_queue_length processes >= most_waiting then refuse 503 "too-many" "too many ask for plans"
-  else Ok (program, fleet)
-
-let list h found =
-  match order h found with
+let list ~dolphin prepared =
+  let wanted =
+    let* arguments = get (Field.list Field.text) "arguments" prepared in
+    let* vehicles = get Field.any "vehicles" prepared in
+    if Lwt_pool.wait_queue_length processes >= most_waiting then refuse 503 "too-many" "too many ask for plans"
+    else Ok (arguments, vehicles)
+  in
+  match wanted with
   | Error r -> Lwt.return (Error r)
-  | Ok (program, fleet) ->
-    let dolphin = (Hall.settings h).dolphin in
-    let ask () = printed dolphin ("plan" :: "--json" :: Analysis.inputs program fleet) in
-    Lwt_pool.use processes ask >|= of_text ~vehicles:(known fleet.scenario)
+  | Ok (arguments, vehicles) ->
+    Lwt_pool.use processes (fun () -> printed dolphin arguments) >|= of_text ~vehicles

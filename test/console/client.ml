@@ -57,14 +57,16 @@ let json reply = Yojson.Safe.from_string reply.body
 
 type watcher = { socket : Lwt_unix.file_descr; input : Lwt_io.input_channel }
 
-let watch ?last ~port name =
+let events ?(headers = []) ~port path =
   connect port >>= fun socket ->
-  let headers = match last with Some id -> [ ("Last-Event-ID", id) ] | None -> [] in
-  let path = "/api/events?client=" ^ name in
   write socket (request ~verb:"GET" ~headers ~body:None ~port path) 0 >>= fun () ->
   let input = Lwt_io.of_fd ~mode:Input ~close:(fun () -> Lwt.return_unit) socket in
   let rec skip_head () = Lwt_io.read_line input >>= function "" -> Lwt.return_unit | _ -> skip_head () in
   skip_head () >|= fun () -> { socket; input }
+
+let watch ?last ~port name =
+  let headers = match last with Some id -> [ ("Last-Event-ID", id) ] | None -> [] in
+  events ~headers ~port ("/api/events?client=" ^ name)
 
 type message = { id : string; event : string; data : string }
 

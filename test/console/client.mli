@@ -19,6 +19,9 @@ val json : reply -> Yojson.Safe.t
 
 type watcher
 
+val events : ?headers:(string * string) list -> port:int -> string -> watcher Lwt.t
+(** [events ~headers ~port path] reads the events that [path] streams. *)
+
 val watch : ?last:string -> port:int -> string -> watcher Lwt.t
 (** [watch ~last ~port name] looks on as [name]. *)
 

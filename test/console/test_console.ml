@@ -36,8 +36,9 @@ let in_folder f =
   Fun.protect ~finally:(fun () -> remove home) (fun () -> f folder)
 
 let settings folder : Console.settings =
-  { folder = Result.get_ok (Folder.make folder); run = Dolphin_app.Run.simulated; fleet = None; dolphin = "false";
-    page = Page.load None; tiles = None; listen = None; version = "test" }
+  { folder = Result.get_ok (Folder.make folder); run = Dolphin_app.Run.simulated; fleet = None;
+    dolphin = Sys.executable_name; page = Page.load None; tiles = None; listen = None; version = "test";
+    workers = Worker_pool.limits }
 
 let served settings f () =
   in_folder (fun folder ->
@@ -660,16 +661,151 @@ let threads_interrupt_nothing () =
       Lwt_main.run (Lwt_unix.sleep 0.05);
       holds "interrupted by SIGUSR1" true (Dolphin_app.Interruption.happened interruption))
 
+(* {1 Work beside the run} *)
+
+let checked ?(headers = []) ?(path = "short.dol") port =
+  Client.ask ~headers ~body:(Printf.sprintf {|{"path": "%s"}|} path) ~port "/api/check"
+
+(* A worker that does nothing any more: to the console, one that computes for long. *)
+let hang pid = Unix.kill pid Sys.sigstop
+
+(* The only worker there is. *)
+let worker console =
+  checked (Console.port console) >|= fun r ->
+  status "warmed up" 200 r.status;
+  match Console.workers console with [ pid ] -> pid | pids -> Alcotest.failf "%d workers" (List.length pids)
+
+let begin_mission port =
+  Client.ask ~body:{|{"program": "mission.dol", "answers": ["1"], "speed": 10}|} ~port "/api/run" >|= fun r ->
+  status "begun" 200 r.status
+
+let stop_in_time port =
+  let before = Unix.gettimeofday () in
+  Client.ask ~body:"{}" ~port "/api/run/stop" >|= fun r ->
+  status "stopped" 200 r.status;
+  holds "before the other request ends" true (Unix.gettimeofday () -. before < 5.)
+
 (* 4,000 constants took 4 s and more, nine times as long as 2,000. *)
-let many_constants _ port =
+let seconds_of pid =
+  let stat = Result.get_ok (Dolphin_app.Text_file.read (Printf.sprintf "/proc/%d/stat" pid)) in
+  let after = String.index stat ')' + 2 in
+  let fields = String.split_on_char ' ' (String.sub stat after (String.length stat - after)) in
+  (* User and system time, in hundredths. *)
+  (float_of_string (List.nth fields 11) +. float_of_string (List.nth fields 12)) /. 100.
+
+let many_constants _ console =
+  let port = Console.port console in
   let program = String.concat "" (List.init 4_000 (fun i -> Printf.sprintf "x%d = %d\\n" i i)) in
   let wrong = String.concat "" (List.init 4_000 (fun i -> Printf.sprintf "message y%d\\n" i)) in
   let check what program =
-    let before = Sys.time () in
+    worker console >>= fun pid ->
+    let before = seconds_of pid in
     Client.ask ~body:(Printf.sprintf {|{"path": "short.dol", "text": "%s"}|} program) ~port "/api/check" >|= fun r ->
     status what 200 r.status;
-    holds (Printf.sprintf "%s: %.2f s" what (Sys.time () -. before)) true (Sys.time () -. before < 1.5) in
+    let taken = seconds_of pid -. before in
+    holds (Printf.sprintf "%s: %.2f s" what taken) true (taken > 0. && taken < 1.5) in
   check "constants" program >>= fun () -> check "faults" wrong
+
+(* A request that takes long: Stop does not wait for it, nor do requests of others; killed, it is refused, and the next
+   one is not. *)
+let worker_killed _ console =
+  let port = Console.port console in
+  worker console >>= fun pid ->
+  hang pid;
+  let long = checked port in
+  begin_mission port >>= fun () ->
+  stop_in_time port >>= fun () ->
+  checked ~headers:[ ("X-Dolphin-Client", "other") ] port >>= fun r ->
+  status "another request" 200 r.status;
+  holds "the long one goes on" true (Lwt.is_sleeping long);
+  Unix.kill pid Sys.sigkill;
+  long >>= fun r ->
+  refused "the worker has died" (503, "worker-died") r;
+  checked port >|= fun r -> status "the next request" 200 r.status
+
+let worker_too_slow _ console =
+  let port = Console.port console in
+  worker console >>= fun pid ->
+  hang pid;
+  checked port >>= fun r ->
+  refused "too long" (503, "too-long") r;
+  holds "killed" false (List.mem pid (Console.workers console));
+  checked port >|= fun r -> status "the next request" 200 r.status
+
+let little_memory folder console =
+  let port = Console.port console in
+  write (Filename.concat folder "large.dol") ("// " ^ String.make 40_000_000 'x');
+  checked ~path:"large.dol" port >>= fun r ->
+  holds (Printf.sprintf "no memory: %d %s" r.status r.body) true
+    (r.status = 503 && List.mem (code r) [ "too-large"; "worker-died" ]);
+  checked port >|= fun r -> status "the next request" 200 r.status
+
+(* A client has two workers at once, and ten requests that wait. *)
+let requests_of_one_client _ console =
+  let port = Console.port console in
+  worker console >>= fun pid ->
+  hang pid;
+  let ask client = checked ~headers:[ ("X-Dolphin-Client", client) ] port in
+  let first = ask "greedy" in
+  Lwt_unix.sleep 0.2 >>= fun () ->
+  Lwt_list.map_s
+    (fun _ -> ask "greedy" >|= fun r -> r.Client.status) (List.init 5 Fun.id) >>= fun others ->
+  Alcotest.(check (list int)) "by the second worker" [ 200; 200; 200; 200; 200 ] others;
+  List.iter (fun pid -> try hang pid with Unix.Unix_error _ -> ()) (Console.workers console);
+  let all = List.init 30 (fun _ -> ask "greedy") in
+  Lwt.nchoose all >>= fun refused_at_once ->
+  List.iter (refused "too many of one client" (503, "too-many")) refused_at_once;
+  ask "other" >>= fun r ->
+  status "another client" 200 r.status;
+  List.iter (fun pid -> Unix.kill pid Sys.sigkill) (Console.workers console);
+  Lwt.join (List.map (fun reply -> reply >|= ignore) (first :: all))
+
+(* What blocks who reads it: a pipe among the runs. *)
+let pipe_among_runs _ console =
+  let port = Console.port console in
+  let runs = Filename.concat (Sys.getenv "XDG_STATE_HOME") "dolphin/runs" in
+  begin_mission port >>= fun () ->
+  Unix.mkfifo (Filename.concat runs "pipe.run") 0o600;
+  let listed = Client.ask ~port "/api/runs" in
+  stop_in_time port >>= fun () ->
+  listed >|= refused "the list" (503, "too-long")
+
+(* A long journal begins at once; a reader that leaves takes its worker with it. *)
+let long_journal folder console =
+  let port = Console.port console in
+  begin_mission port >>= fun () ->
+  stop_in_time port >>= fun () ->
+  let runs = Filename.concat (Sys.getenv "XDG_STATE_HOME") "dolphin/runs" in
+  let journal = Filename.concat runs (Sys.readdir runs).(0) in
+  let lines = String.split_on_char '\n' (Result.get_ok (Dolphin_app.Text_file.read journal)) in
+  let vehicle = List.find (has_text {|"kind":"vehicle"|}) lines in
+  let channel = open_out_bin (Filename.concat folder "long.run") in
+  output_string channel (List.hd lines ^ "\n");
+  for _ = 1 to 60_000 do output_string channel (vehicle ^ "\n") done;
+  close_out channel;
+  Client.events ~port "/api/replay?path=long.run" >>= fun reader ->
+  Client.until reader (fun m -> m.event = "journal") >>= fun _ ->
+  begin_mission port >>= fun () ->
+  stop_in_time port >>= fun () ->
+  status "a worker for requests, one for the replay" 2 (List.length (Console.workers console));
+  Client.leave reader >>= fun () ->
+  let rec gone n =
+    if List.length (Console.workers console) < 2 then Lwt.return_unit
+    else if n = 0 then Alcotest.fail "the worker of the replay lives"
+    else Lwt_unix.sleep 0.05 >>= fun () -> gone (n - 1) in
+  gone 400 >>= fun () ->
+  Client.events ~port "/api/replay?path=long.run" >>= fun reader ->
+  Client.until reader (fun m -> m.event = "end") >>= fun seen ->
+  status "all of it" 60_001 (List.length (events "journal" seen));
+  Client.leave reader
+
+let with_limits change f = served (fun folder -> { (settings folder) with workers = change Worker_pool.limits }) f
+
+(* The console starts this program for its workers. *)
+let () =
+  match Sys.argv with
+  | [| _; "console-worker"; "--megabytes"; megabytes |] -> Worker.main ~megabytes:(int_of_string megabytes); exit 0
+  | _ -> ()
 
 let () =
   let slow name f = Alcotest.test_case name `Quick f in
@@ -684,8 +820,15 @@ let () =
          slow "with tokens"
            (served (fun folder -> { (settings folder) with listen = Some Unix.inet_addr_loopback }) with_tokens); slow "no escape from the folder" (console no_escape);
          slow "malformed requests" (console malformed); slow "tiles" tiles ]);
+      ("workers",
+       [ slow "killed" (with_limits Fun.id worker_killed);
+         slow "too slow" (with_limits (fun l -> { l with seconds = 1. }) worker_too_slow);
+         slow "little memory" (with_limits (fun l -> { l with megabytes = 150 }) little_memory);
+         slow "requests of one client" (with_limits Fun.id requests_of_one_client);
+         slow "a pipe among the runs" (with_limits (fun l -> { l with seconds = 2. }) pipe_among_runs);
+         slow "a long journal" (with_limits Fun.id long_journal) ]);
       ("files", [ slow "saving" (console saving); slow "texts under way" (console texts);
-                  slow "many constants" (console many_constants) ]);
+                  slow "many constants" (with_limits Fun.id many_constants) ]);
       ("runs",
        [ slow "threads" threads_interrupt_nothing; slow "a run" (console a_run); slow "journals of the folder" (console journals); slow "answers and posts" (console answers_and_posts);
          slow "what is asked" (console what_is_asked); slow "on the map" (console on_the_map);

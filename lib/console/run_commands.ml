@@ -1,0 +1,155 @@
+open Dolphin_app
+open Dolphin_json
+open Field
+open Lwt.Infix
+open Exchange
+module Request = Dolphin_http.Request
+module Response = Dolphin_http.Response
+
+let not_busy h =
+  if Hall.busy h then refuse 409 "busy" "a run goes on: one at a time" else Ok ()
+
+let unavailable e = refusal 503 "unavailable" (String.concat "; " (Error.sentences e))
+
+let started run : json = `Assoc [ ("run", `String (Live_run.id run)) ]
+
+let speed found =
+  let* speed = optional number "speed" found in
+  match speed with
+  | Some x when not (x > 0. && x <= 100_000.) -> bad "the speed is a number above 0, or null: as fast as it goes"
+  | speed -> Ok speed
+
+(* {1 Beginning} *)
+
+let of_refused result = Result.map_error of_refusal result
+
+(* What a worker makes of a request. *)
+let prepared h role ~client task ?(query = []) body =
+  let order = { Worker.task; workspace = Hall.workspace h; query } in
+  Worker_pool.whole (Hall.workers h role) ~client order ~body () >|= function
+  | Error r -> Error (of_refusal r)
+  | Ok { Response.status = 200; body = Text text; _ } ->
+    of_refused (Result.bind (needed (Host_value.parse text)) (fun json -> needed (members json)))
+  | Ok response -> Error response
+
+type options = { speed : float option; seed : int option; answers : string list; people : bool }
+
+let options found =
+  let* speed = speed found in
+  let* seed = optional whole "seed" found in
+  let* answers = optional (list Field.text) "answers" found in
+  let* people = optional truth "people" found in
+  Ok { speed; seed; answers = Option.value answers ~default:[]; people = people = Some true }
+
+let begin_ h found { speed; seed; answers; people } =
+  let* () = not_busy h in
+  let* path = get Field.text "program" found in
+  let* named = optional Field.text "fleet" found in
+  let* set = set found in
+  let settings = (Hall.settings h).run and w = Hall.workspace h in
+  let* program = Workspace.program w ~set path in
+  let is_wanted = Run.is_simulated settings || named <> None in
+  let* fleet = if is_wanted then Workspace.fleet w ~program:program.path named else Ok Fleet_file.nobody in
+  let* program = Workspace.within fleet program in
+  let* journal = Result.map_error unavailable (Run_folder.fresh ~program:program.path) in
+  let settings = { settings with speed; seed; answers; people; socket = true } in
+  let order = { Live_run.program; fleet; settings } in
+  Ok (started (Hall.begin_run h (fun ~id ~changed -> Live_run.start ~id ~changed ~journal order)))
+
+(* The program is read here, too, but only once a worker has read it within its limits, and while no run goes on. *)
+let start h ~client (r : Request.t) found =
+  let simulated = Run.is_simulated (Hall.settings h).run in
+  let wanted =
+    let* () = not_busy h in
+    let* options = options found in
+    if (not simulated) && options.speed <> None then
+      bad "vehicles of a network are not simulated: their run has no speed"
+    else Ok options
+  in
+  match wanted with
+  | Error r -> Lwt.return (Error (of_refusal r))
+  | Ok options ->
+    let query = if simulated then [] else [ ("network", "true") ] in
+    prepared h Steers ~client "start" ~query r.body >|= fun checked ->
+    Result.bind checked (fun _ -> of_refused (begin_ h found options))
+
+let resume h ~client (r : Request.t) found =
+  let go_on kept =
+    let* () = not_busy h in
+    let* people = optional truth "people" found in
+    let* { Kept_runs.path; journal; set; speed } = Kept_runs.of_json kept in
+    let* program = Workspace.program (Hall.workspace h) ~set path in
+    let fleet = { Fleet_file.nobody with path = None } in
+    let settings = { (Hall.settings h).run with speed; seed = None; people = people = Some true; socket = true } in
+    let order = { Live_run.program; fleet; settings } in
+    Ok (started (Hall.begin_run h (fun ~id ~changed -> Live_run.resume ~id ~changed ~journal order)))
+  in
+  match not_busy h with
+  | Error r -> Lwt.return (Error (of_refusal r))
+  | Ok () ->
+    prepared h Steers ~client "broken-off" r.body >|= fun kept ->
+    Result.bind kept (fun kept -> of_refused (go_on kept))
+
+(* {1 Counterexamples} *)
+
+let subject_of = function
+  | "exploration" -> Ok Analysis.Exploration
+  | "timing" -> Ok Analysis.Timing
+  | _ -> bad "of is \"exploration\" or \"timing\""
+
+let no_counterexample = refusal 409 "no-counterexample" "no run was found that could be carried out"
+
+(* What an analysis has found, carried out on the simulated fleet. *)
+let enact h found =
+  let* () = not_busy h in
+  let* subject = Result.bind (get Field.text "of" found) subject_of in
+  let* speed = speed found in
+  let* analysis = Option.to_result ~none:no_counterexample (Hall.analysis h subject) in
+  let* text = Option.to_result ~none:no_counterexample (Analysis.shown analysis) in
+  let lines = List.filter (( <> ) "") (String.split_on_char '\n' text) in
+  let* witness = Result.map_error (fun _ -> no_counterexample) (Dolphin_trace.Witness.of_lines lines) in
+  let* program, fleet = Analysis_work.witnessed (Hall.workspace h) (Analysis.order analysis) witness in
+  Ok (started (Hall.begin_run h (fun ~id ~changed -> Live_run.enact ~id ~changed ~speed program fleet witness)))
+
+(* {1 While it goes on} *)
+
+let going_on h =
+  match Hall.run h with
+  | Some run when Live_run.goes_on run -> Ok run
+  | Some _ | None -> refuse 409 "no-run" "no run goes on"
+
+(* Without [all], each Stop goes one step further: two people who press it at once would end what the first one has
+   begun, the vehicles' way home perhaps. *)
+let stop h client found =
+  let* all = optional truth "all" found in
+  let* run = going_on h in
+  let stopping : Live_run.stopping = match all with None -> Next | Some false -> Program | Some true -> All in
+  Live_run.stop run stopping;
+  if Helm.holder (Hall.helm h) <> Some client then Live_run.remark run (client ^ " stops it, without the helm");
+  Ok (`Assoc [])
+
+let answer h found =
+  let* run = going_on h in
+  let* number = get whole "question" found in
+  let* text = get Field.text "text" found in
+  let* () = Result.map_error (refusal 409 "answered") (Live_run.answer run number text) in
+  Ok (`Assoc [])
+
+(* A pair, or pairs as people type them. *)
+let pairs found =
+  match List.assoc_opt "pairs" found with
+  | Some (`String text) -> needed (Typed_input.read text)
+  | Some _ -> bad "pairs is a text, as in \"target: [1, 2]\""
+  | None ->
+    let* key = get Field.text "key" found in
+    let* value = get any "value" found in
+    let* value = needed (Host_value.data_of_json value) in
+    Ok [ (key, value) ]
+
+let post h found =
+  match Result.bind (going_on h) (fun run -> Result.map (fun pairs -> (run, pairs)) (pairs found)) with
+  | Error r -> Lwt.return (Error (of_refusal r))
+  | Ok (run, pairs) ->
+    Live_run.post run pairs >|= function
+    | Ok time -> Ok (`Assoc [ ("time", Canonical.number time) ])
+    | Error why -> of_refused (refuse 422 "not-posted" why)

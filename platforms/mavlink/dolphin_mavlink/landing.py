@@ -1,11 +1,16 @@
 """Whether a vehicle that is disarmed has landed, or lost its motors in flight. Pure.
 
 ArduCopter reports the ground as soon as it is disarmed, at any height: what it reports before, and how it sinks
-afterwards, decide."""
+afterwards, decide. An autopilot disarms after the vehicle has been at rest on the ground for a second. So a vehicle
+that came down later than that, or faster than a landing, fell; also from heights from which its fall is too short to be
+seen in a report."""
 
 SETTLED = 1.0  # seconds after which a vehicle that lost its motors in flight sinks fast, or has sunk
 OPEN = 15.0  # seconds in which the vehicle may report its landing
 AWAY = 2.5  # seconds without an armed heartbeat, after which anything may have happened
+REST = 1.0  # seconds on the ground before an autopilot disarms
+LANDING = 1.5  # metres a second: no landing ends faster, unless the vehicle reports so
+NOISE = 1.0  # metres: errors of a height, also by the wash of the rotors
 POSITION, STATE = "GLOBAL_POSITION_INT", "EXTENDED_SYS_STATE"
 
 
@@ -38,7 +43,21 @@ class Disarmed:
             return None
         if v.relative is not None and not self._heard(POSITION, SETTLED):
             return None
-        return v.landed is not False
+        return v.landed is not False and not self._came_down_too_fast()
+
+    def _came_down_too_fast(self):
+        """Between two reports, the second on the ground: faster than a landing in the time that there was. A vehicle
+        that sinks faster at the first report than before it may be falling already."""
+        heights = list(self._vehicle.heights)
+        ground = heights[-1].height if heights else 0.0
+        for before, above, below in zip([None, *heights], heights, heights[1:]):
+            if abs(below.height - ground) > NOISE:
+                continue
+            seconds = below.at - above.at if below.armed else below.at - above.at - REST if above.armed else 0.0
+            steady = min(before.sinks, above.sinks) if before is not None else above.sinks
+            if above.height - ground > NOISE + max(LANDING, steady) * max(seconds, 0.0):
+                return True
+        return False
 
     def was_in_flight(self, lands):
         """Whether it was disarmed in the air. `lands`: whether it was at an item that lands it."""

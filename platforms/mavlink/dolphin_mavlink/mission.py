@@ -29,6 +29,12 @@ _NOT_SCALED = {
     mavlink.MAV_CMD_NAV_SCRIPT_TIME,
     mavlink.MAV_CMD_NAV_ATTITUDE_TIME,
 }
+# Commands above NAV_LAST that an autopilot fulfils before it goes on (`AP_Mission::is_nav_cmd`).
+_NAVIGATION = {
+    mavlink.MAV_CMD_NAV_SET_YAW_SPEED,
+    mavlink.MAV_CMD_NAV_SCRIPT_TIME,
+    mavlink.MAV_CMD_NAV_ATTITUDE_TIME,
+}
 # Commands that fly to their place.
 DESTINATIONS = {16, 17, 18, 19, 21, 22, 31, 36, 82, 84, 85, 94}
 _DEFINED = mavlink.enums["MAV_CMD"]
@@ -38,7 +44,18 @@ _STORED_PLACE = {30, 92, 191}
 _NEED_A_PLACE = {16, 31, 36, 82, 195, 201, mavlink.MAV_CMD_CONDITION_GATE}
 
 # The parameters that decide what a vehicle does: they must come back as they were sent.
-_DECISIVE = {16: (1,), 18: (1,), 19: (1,), 93: (1,), 112: (1,), 177: (1, 2), 178: (2,)}
+_DECISIVE = {
+    16: (1,),
+    18: (1,),
+    19: (1,),
+    93: (1,),
+    112: (1,),
+    177: (1, 2),
+    178: (2,),
+    mavlink.MAV_CMD_NAV_SET_YAW_SPEED: (1, 2),
+    mavlink.MAV_CMD_NAV_SCRIPT_TIME: (1, 2),
+    mavlink.MAV_CMD_NAV_ATTITUDE_TIME: (1,),
+}
 
 
 class Unreadable(Exception):
@@ -72,7 +89,7 @@ class Item:
     @property
     def is_navigation(self):
         """Whether the autopilot goes on to the next item only after this one is fulfilled."""
-        return self.command <= 95
+        return self.command <= mavlink.MAV_CMD_NAV_LAST or self.command in _NAVIGATION
 
     @property
     def is_scaled(self):

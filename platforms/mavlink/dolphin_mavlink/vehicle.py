@@ -13,6 +13,7 @@ LINK_SILENCE = 5.0  # seconds without a heartbeat, after which the link counts a
 MOVE_SILENCE = 10.0  # seconds after which a vehicle may be heard from another address
 DEAF = 10.0  # seconds in which a vehicle answers the first requests, over slow links too
 UNSIGNED = "signs its messages: --key-file gives the pass phrase by which ours are signed"
+HEIGHTS = 10.0  # seconds for which reports of its height are kept
 FALL = 3.0  # metres a second: no copter lands as fast
 _CLOCK_WRAPS = 2**32 / 1000  # seconds
 _DEVICES = {mavlink.MAV_TYPE_CAMERA: "camera", mavlink.MAV_TYPE_GIMBAL: "gimbal", mavlink.MAV_TYPE_WINCH: "winch"}
@@ -68,6 +69,16 @@ class Text:
     words: str
 
 
+@dataclasses.dataclass(frozen=True)
+class Height:
+    """A report of its height, in metres above home, by its clock."""
+
+    at: float
+    height: float
+    sinks: float  # metres a second
+    armed: bool  # as the last heartbeat before it had it
+
+
 class Vehicle:
     """`kind` is the autopilot and the frame of one that does not tell them."""
 
@@ -97,7 +108,7 @@ class Vehicle:
         self.answers = False  # whether it has ever answered us
         self.boot, self.restarted_at = None, -math.inf  # the seconds since its start; when it last started again
         self.current, self.total, self.mission_state = None, None, None
-        self._height = None  # metres above home, and when, by its clock
+        self.heights = collections.deque()  # reports of its height, of the last HEIGHTS seconds
         self.news = 0  # how many times it told of its mission
         self.distress = (-math.inf, "")  # when it last spoke of an emergency, and how
         self.texts = collections.deque(maxlen=30)  # what it said in words, oldest first
@@ -182,14 +193,16 @@ class Vehicle:
             self.speed = math.hypot(message.vx, message.vy) / 100
 
     def _sink(self, now, message):
-        height, at = message.relative_alt / 1000, message.time_boot_ms / 1000
+        report = Height(message.time_boot_ms / 1000, message.relative_alt / 1000, message.vz / 100, self.armed)
         sunk = 0.0
-        if self._height is not None:
-            before, then = self._height
-            sunk = before - height - 2 - 2 * abs(at - then)
-        if message.vz > 100 * FALL or sunk > 0:
+        if self.heights:
+            before = self.heights[-1]
+            sunk = before.height - report.height - 2 - 2 * abs(report.at - before.at)
+        if report.sinks > FALL or sunk > 0:
             self.sank_at = now
-        self._height = height, at
+        self.heights.append(report)
+        while abs(report.at - self.heights[0].at) > HEIGHTS:
+            self.heights.popleft()
 
     def _gps_raw_int(self, now, message):
         if message.alt_ellipsoid != 0 and message.fix_type >= 3:

@@ -21,7 +21,8 @@ KINDS = {
     "boat": mavlink.MAV_TYPE_SURFACE_BOAT,
     "sub": mavlink.MAV_TYPE_SUBMARINE,
 }
-_DONE_AT_ONCE = 95  # commands above this number are no navigation
+# Seconds that an item takes, by its command: which parameter has them. Others above 95 are done at once.
+_SECONDS = {16: "param1", 19: "param1", 93: "param1", 213: None, 42702: "param2", 42703: "param1"}
 
 
 class SimVehicle:
@@ -46,6 +47,7 @@ class SimVehicle:
         self.tells_reached = True
         self.keeps = lambda items: items  # what it keeps of an upload
         self.reasons = {}  # of refused commands, by their numbers: a severity and a text, after the acknowledgement
+        self.lands_at = 1.5  # metres a second
         self.lag = 0.1  # seconds between an acknowledgement and its heartbeat
         self.pace = 1.0  # how many times as fast its clock goes
         self._out, self._at = [], None
@@ -330,8 +332,9 @@ class SimVehicle:
                 self.altitude, self._on_ground = item.z, item.z <= 0
         if item.command == mavlink.MAV_CMD_NAV_LOITER_UNLIM:
             return False
-        holds = {mavlink.MAV_CMD_NAV_LOITER_TIME, mavlink.MAV_CMD_NAV_DELAY, mavlink.MAV_CMD_NAV_WAYPOINT}
-        seconds = item.param1 if item.command in holds and math.isfinite(item.param1) else 0.0
+        parameter = _SECONDS.get(item.command)
+        seconds = getattr(item, parameter) if parameter is not None else 0.0
+        seconds = seconds if math.isfinite(seconds) else 0.0
         if self._descends(item):
             seconds = self.altitude / self._sink + 1 if self._waits_until is None else 0
         if self._waits_until is None:
@@ -346,7 +349,7 @@ class SimVehicle:
 
     @property
     def _sink(self):
-        return 1.5 * self.pace
+        return self.lands_at * self.pace
 
     def _descends(self, item):
         lands = item.command in (mavlink.MAV_CMD_NAV_LAND, mavlink.MAV_CMD_NAV_RETURN_TO_LAUNCH)
@@ -371,7 +374,7 @@ class SimVehicle:
             self._beat(self._at)
             return
         self.reached.append(self.current)
-        if self.tells_reached and item.command <= _DONE_AT_ONCE:
+        if self.tells_reached and (item.command <= 95 or item.command in _SECONDS):
             self._out.append(mavlink.MAVLink_mission_item_reached_message(self.current))
         if self._descends(item):
             self.altitude, self._on_ground, self.armed = 0.0, True, False
@@ -449,8 +452,11 @@ class SimVehicle:
 
     def _sinks(self, now):
         """Centimetres a second, by its clock."""
-        if self._falls is None or self.altitude <= 0:
+        if self.altitude <= 0:
             return 0
+        if self._falls is None:
+            lands = self.armed and self._waits_until is not None and self._descends(self.items[self.current])
+            return round(100 * self._sink / self.pace) if lands else 0
         return round(min(9.8 * (now - self._falls[0]) * self.pace, 300) * 100)
 
     def _tell_ground(self):

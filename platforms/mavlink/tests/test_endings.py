@@ -1,5 +1,6 @@
 """How missions end that land, and vehicles that are disarmed, restarted or taken away. Virtual time."""
 
+import random
 import unittest
 
 from dolphin_mavlink.mission import Item
@@ -112,6 +113,40 @@ class Motors(Case):
                     wires.run(0.1 * (seed % 10))
                     wires.say(vehicle, vehicle.kill(wires.now))
                     self.ends(wires, "r", "failed", "was disarmed in flight")
+
+    def test_a_vehicle_whose_motors_are_stopped_close_to_the_ground(self):
+        """It has fallen before it reports how fast. It fell in less than the second for which a vehicle rests."""
+        for height in (4.0, 3.0, 2.0, 1.5):
+            for lands_at in (0.5, 1.5):
+                for seed in seeds(10):
+                    with self.subTest(height=height, lands_at=lands_at, seed=seed):
+                        vehicle, wires = begun((*way(3), LANDINGS["a landing"]), seed=seed, delay=0.05)
+                        vehicle.lands_at = lands_at
+                        wires.run(200, at_its_landing(vehicle, height + 0.1 * random.Random(seed).random()))
+                        wires.say(vehicle, vehicle.kill(wires.now))
+                        self.ends(wires, "r", "failed", "was disarmed in flight")
+
+    def test_a_kill_of_which_the_heartbeat_is_late(self):
+        """As of autopilots that send it once a second. From 3 m on."""
+        for height in (4.0, 3.2):
+            for seed in seeds(20):
+                with self.subTest(height=height, seed=seed):
+                    vehicle, wires = begun((*way(3), LANDINGS["a landing"]), seed=seed, delay=0.05)
+                    vehicle.lands_at = 0.5
+                    wires.run(200, at_its_landing(vehicle, height))
+                    wires.run(random.Random(seed).random())
+                    vehicle.kill(wires.now)  # what it would say at once is lost
+                    self.ends(wires, "r", "failed", "was disarmed in flight")
+
+    def test_landings_at_any_speed(self):
+        for lands_at in (0.3, 0.5, 1.0, 1.5, 2.5):
+            for loss in (0.0, 0.3):
+                for seed in seeds(10):
+                    with self.subTest(lands_at=lands_at, loss=loss, seed=seed):
+                        items = (*way(3), LANDINGS["a landing"])
+                        vehicle, wires = begun(items, seed=seed, loss=loss, delay=0.05, reordered=0.2)
+                        vehicle.lands_at = lands_at
+                        self.ends(wires, "r", "done")
 
     def test_a_vehicle_that_is_disarmed_on_the_ground(self):
         for kind in ("rover", "boat"):

@@ -1,14 +1,21 @@
 """Places in stored missions: how they are sent, compared and refused, for any command in any frame."""
 
+import importlib
 import json
+import pkgutil
 import random
+import re
 import unittest
+
+from pymavlink.dialects import v20
 
 from dolphin_mavlink import mission
 from dolphin_mavlink.mission import Item, Unreadable
 from dolphin_mavlink.wire import mavlink
 from tests.support import Case, one, seeds, stored, waypoint
 
+# Those of pymavlink that missions of ArduPilot or PX4 are written in.
+DIALECTS = [m.name for m in pkgutil.iter_modules(v20.__path__) if m.name in {"ardupilotmega", "common", "development"}]
 GLOBAL_FRAMES = (0, 3, 5, 6, 10, 11)
 AS_IT_IS = (
     mavlink.MAV_CMD_DO_DIGICAM_CONFIGURE,
@@ -141,6 +148,41 @@ class Places(Case):
                 why = why.replace("item 1", "item 2")
                 self.ends(wires, "r", "failed", f"the mission is not on board as it was sent: {why}")
                 self.assertEqual(vehicle.began, [])
+
+    def test_what_an_autopilot_fulfils_before_it_goes_on(self):
+        """In each dialect the commands up to NAV_LAST, and others that are called NAV and can stand in a mission:
+        points of fences and rally points cannot."""
+        for dialect in DIALECTS:
+            commands = importlib.import_module(f"pymavlink.dialects.v20.{dialect}").enums["MAV_CMD"]
+            for number, entry in commands.items():
+                with self.subTest(dialect=dialect, command=entry.name):
+                    is_point = re.match("MAV_CMD_NAV_(FENCE|RALLY)", entry.name)
+                    is_named = entry.name.startswith("MAV_CMD_NAV_") and not is_point
+                    self.assertEqual(Item(number).is_navigation, number <= 95 or is_named)
+
+    def test_a_mission_ends_after_what_is_fulfilled_last(self):
+        """Not with the waypoint before it."""
+        for command, params in ((42702, (1.0, 20.0, 0.0, 0.0)), (42703, (20.0, 0.0, 0.0, 0.0)), (213, (90.0, 0, 0, 0))):
+            for px4 in (False, True):
+                with self.subTest(command=command, px4=px4):
+                    vehicle, wires = one(px4=px4, items=(waypoint(20, 0), Item(command, 2, params)))
+                    wires.start("r", "mav-1", stored())
+                    self.ends(wires, "r", "done")
+                    self.assertEqual(len(vehicle.reached), 2)
+
+    def test_a_time_that_the_autopilot_cuts_off(self):
+        """ArduPilot keeps the seconds of a script in a byte."""
+        vehicle, wires = one(items=(waypoint(20, 0), Item(42702, 2, (1.0, 300.0, 0.0, 0.0))))
+
+        def keep(kept):
+            for item in kept:
+                item.param2 = item.param2 % 256
+            return kept
+
+        vehicle.keeps = keep
+        wires.start("r", "mav-1", stored())
+        why = "item 2 has parameter 2 of command 42702 is 44 instead of 300"
+        self.ends(wires, "r", "failed", f"the mission is not on board as it was sent: {why}")
 
     def test_what_follows_a_region_of_interest_starts_from_the_way(self):
         """`move` after a stored mission goes on from the last place that is flown to."""

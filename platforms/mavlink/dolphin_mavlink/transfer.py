@@ -22,7 +22,7 @@ _REFUSALS = {
 LONGEST = 10.0  # seconds: round trips that are longer are not told from losses
 ITEM_PATIENCE = 1.5  # seconds: earlier repeats of an item keep a vehicle from asking for it (MAVSDK's timer)
 SILENCE = 5.0  # seconds without a word, on a link that is not slower, after which the vehicle has given a transfer up
-ASKED_AGAIN = 0.5  # seconds: MAVSDK's vehicle gives a download up after 2.5 s without a question
+ASKED_AGAIN = 0.4  # seconds: a download is given up by MAVSDK after five times 0.5 s without a question
 ERRORS = 5  # so many errors end a transfer that has not got under way: fewer may answer the one before
 COPY = 0.1, 0.9  # seconds, by the round trip, within which a second request for an item is taken for the first one
 

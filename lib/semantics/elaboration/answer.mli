@@ -1,8 +1,8 @@
-(** Answers to [ask], as somebody types them. *)
+(** Typed answers to [ask]. *)
 
 val event : Core.program -> string -> (Transition.event, Transition.refusal) result
-(** [event p text] is the event that somebody answers [text], an expression over the variables of [p];
-    [Error (Bad_answer why)] if it is none. *)
+(** [event p text] is the event of the answer [text], an expression over the variables of [p]; [Error (Bad_answer
+    why)] if it is not one. *)
 
 val confirmation : string -> bool option
 (** [confirmation text] is whether [text], as people type it, is yes ([yes], [y], [true]) or no ([no], [n], [false]). *)

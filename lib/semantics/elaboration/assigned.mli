@@ -6,5 +6,5 @@ val names : program -> string list
 (** All of them. *)
 
 val once : (expression -> bool) -> program -> string list
-(** [once wanted ast] are those that get a value in one place only, where it is an assignment of an expression that is
+(** [once wanted ast] are those that get a value in one place only, by an assignment of an expression that is
     [wanted]. *)

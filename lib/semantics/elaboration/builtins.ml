@@ -116,7 +116,7 @@ let is_geometry name =
   | Some { arguments = Geometry _; _ } -> true
   | Some _ | None -> false
 
-(* What may not stand in code that only computes, and may in that of other tasks. *)
+(* Operations that may not stand in code that only computes, and may in that of other tasks. *)
 let changes name = List.mem name [ "post"; "consume"; "message"; "println"; "setConnectionTimeout"; "halt" ]
 
 let math_names =
@@ -137,7 +137,7 @@ let owners = [ "Location"; "Math"; "Speed"; "Z" ]
 let takes_nothing name =
   match find name with Some { arguments = These { required = []; _ }; _ } -> true | Some _ | None -> false
 
-(* A call [position(v)] is told from a variable [position] by its parentheses, [message x] is not. *)
+(* The parentheses of a call [position(v)] distinguish it from a variable [position]; [message x] needs none. *)
 let is_reserved name =
   List.mem name owners || match find name with Some { result = Other; _ } -> true | Some _ | None -> false
 

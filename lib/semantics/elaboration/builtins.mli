@@ -1,6 +1,6 @@
-(** The functions and constants that every program has, with what they take: for checking before anything runs. *)
+(** The functions and constants that every program has, with their arguments: for checking before anything runs. *)
 
-(** What can be said of a value before the program runs. *)
+(** The static kind of a value. *)
 type kind =
   | Any
   | Number
@@ -17,7 +17,7 @@ val describe : kind -> string
 
 type pairs = Post | Consume | Poll | Count
 
-(** What a function's arguments are. *)
+(** The arguments of a function. *)
 type arguments =
   | These of { required : kind list; optional : kind list; operation : Core.builtin }
   | Text_or of { required : kind list; optional : kind list; operation : Core.builtin }  (** or one text instead *)
@@ -26,7 +26,7 @@ type arguments =
   | Pairs of pairs  (** [post ready: 1]: pairs of N; see {!Pairs} *)
   | Execute
   | Set_connection_timeout
-  | Confirm  (** a prompt, put to people until they say yes or no *)
+  | Confirm  (** a prompt, put to people until they answer yes or no *)
   | Input
   | On_interrupt  (** keys, in a declaration *)
   | Assert  (** code, and perhaps a text *)
@@ -46,7 +46,7 @@ val is_of_script : string -> bool
 (** Whether this is a procedure that only the script may call. *)
 
 val is_deed : string -> bool
-(** Whether this is a procedure that code of tasks calls for what it does: [message], [post] ... *)
+(** Whether this is a procedure with an effect in the code of tasks: [message], [post] ... *)
 
 val is_geometry : string -> bool
 (** Whether this is one of {!Geometry}'s functions, which variables that a program assigns hide. *)

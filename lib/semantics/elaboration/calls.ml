@@ -76,7 +76,7 @@ let input env at arguments =
   List.iter key arguments;
   null env at
 
-(* [{ vs -> T }] is called with the bound vehicles: what is executed then is the task that it gives. *)
+(* [{ vs -> T }] is called with the bound vehicles: the task that it gives is executed then. *)
 let on_interrupt env at arguments =
   let made vehicles (c : Ast.closure) at inside =
     let code = told c (closure inside at Scope.Maker "onInterrupt" c) in
@@ -264,7 +264,7 @@ let misspells_builder env name arguments =
       | None -> false)
   | _ -> false
 
-(* What its arguments are is on a page that is elsewhere: near(v, 500.m) lacks the set that is looked through. *)
+(* The page of its arguments is another one: near(v, 500.m) lacks the set that is searched. *)
 let form_in_prelude env name (lambda : lambda) =
   match Scope.location env.program lambda.lambda_site with
   | Some at when Location.file at = Prelude.file ->
@@ -297,7 +297,7 @@ let by_name env at name (callee : Ast.expression) arguments =
     null env at
   | None, None, None when List.mem name Builtins.builder_names -> builder_in_parentheses env callee.at name arguments
   | None, None, None when misspells_builder env name arguments ->
-    (* What the block would mean is not known, so nothing in it is told. *)
+    (* The meaning of the block is unknown, so nothing in it is reported. *)
     error env Unknown_name callee.at "unknown name '%s'" name ?hint:(did_you_mean name Builtins.builder_names);
     null env at
   | None, None, None ->
@@ -317,7 +317,7 @@ let to_method env at subject name safe arguments =
   let on e = apply env at (Method (name.it, keys)) (e :: values env arguments) in
   if safe then unless_null env at (elaborate env subject) on
   else if Methods.updates name.it && Targets.is_path subject then begin
-    (* An update assigns the new value to what it was called on, unless that is an object of the host. *)
+    (* An update assigns the new value to its subject, unless that is an object of the host. *)
     let keep e =
       let slot = Scope.new_slot env.code in
       (set_local env at slot e, slot)
@@ -335,7 +335,7 @@ let to_method env at subject name safe arguments =
   end
   else on (elaborate env subject)
 
-(* [count] is no reserved name. *)
+(* [count] is not a reserved name. *)
 let counts env name arguments =
   name = "count" && arguments <> []
   && List.for_all (function Ast.Named _ | Keyed _ -> true | Positional _ -> false) arguments

@@ -1,4 +1,4 @@
-(** [map 'harbour.geojson']: what a file of another program has on its map, a constant of the program. *)
+(** [map 'harbour.geojson']: the contents of another program's map file, a constant of the program. *)
 
 module Ast = Dolphin_syntax.Ast
 
@@ -22,8 +22,8 @@ val note : Scope.program -> string * string -> unit
 (** Notes the names that the map of such a variable has. *)
 
 val warnings : Dolphin_syntax.Location.t -> string -> Chart.t -> Dolphin_syntax.Diagnostic.t list
-(** [warnings at path chart] is what differs between [chart] and the file [path], which is named at [at]; of many
-    differences the first and how many more there are. *)
+(** [warnings at path chart] is the differences between [chart] and the file [path], which is named at [at]; of many
+    differences the first and the number of others. *)
 
 val elaborate : Checks.env -> Dolphin_syntax.Location.t -> Ast.argument list -> Core.expression
 (** A call of [map]. *)

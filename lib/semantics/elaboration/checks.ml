@@ -244,7 +244,7 @@ let rec never_waits env (e : Ast.expression) =
   | Until (_, _, t) | During (_, _, t) | Watch (t, _) | Repeat { body = t; _ } -> never_waits env t
   | _ -> false
 
-(* Parentheses belong to the location of what they enclose. *)
+(* Parentheses belong to the location of the expression in them. *)
 let rec before_condition (e : Ast.expression) =
   match e.it with
   | Binary ((And | Or | Equal | Not_equal | Less | Less_equal | Greater | Greater_equal | Member_of), first, _)
@@ -263,7 +263,7 @@ let check_value env name (key : string Ast.located) (e : Ast.expression) =
   in
   Option.iter warn (before_condition e)
 
-(* What a [pick] has one of. *)
+(* The settings that a [pick] has at most once. *)
 let single_settings = [ "id"; "type"; "region"; "count"; "timeout" ]
 
 let check_repeated env (builder : Ast.builder) (body : Ast.statement list) =
@@ -282,7 +282,7 @@ let check_repeated env (builder : Ast.builder) (body : Ast.statement list) =
   | Pick | Recruit -> ignore (List.fold_left check [] (List.filter_map setting body))
   | Imc_plan | Mission | Pos | All_of | One_of -> ()
 
-(* What declares a fence: {!Fence_declarations}. *)
+(* Settings of a fence: {!Fence_declarations}. *)
 let fence = "fence"
 
 let builder_name : Ast.builder -> string = function

@@ -1,5 +1,5 @@
-(** What translation needs at hand, and the checks of what it meets: kinds of literals, operands, settings, and where
-    procedures may stand. *)
+(** The environment of translation, and the checks on the way: kinds of literals, operands, settings, and the places
+    of procedures. *)
 
 module Ast = Dolphin_syntax.Ast
 module Location = Dolphin_syntax.Location
@@ -13,8 +13,8 @@ type env = {
   of_expression : env -> Ast.expression -> expression;
   of_statements : env -> Location.t -> Ast.statement list -> expression;
 }
-(** What stands inside of a construct may be anything. So the modules of single constructs come before {!Translate},
-    and it gives itself to them here. *)
+(** The contents of a construct may be anything. So the modules of single constructs come before {!Translate}, and it
+    gives itself to them here. *)
 
 val elaborate : env -> Ast.expression -> expression
 (** [elaborate env e] is [e] in the core. *)
@@ -52,16 +52,16 @@ val did_you_mean : string -> string list -> string option
 (** The hint that one of the names may be meant, if one is near. *)
 
 val hint_for_setting : Ast.builder -> string -> string option
-(** [hint_for_setting b name] is what to write instead of [name], which is no setting of [b]. *)
+(** [hint_for_setting b name] is the replacement for [name], which is not a setting of [b]. *)
 
 val sends_message : string
 val hint_for_message : string
-(** The name of a procedure of the original language that is left out, and what to do instead. *)
+(** The name of a procedure of the original language that is left out, and its replacement. *)
 
 (** {1:kinds Kinds} *)
 
 val kind_of : Ast.expression -> Builtins.kind
-(** [kind_of e] is what can be said of the value of [e], names of the language taken for what they are. *)
+(** [kind_of e] is the static kind of the value of [e], with the language's meaning of names. *)
 
 val known_kind : env -> Ast.expression -> Builtins.kind
 (** As {!kind_of}, but functions of the program hide names of the language. *)
@@ -79,7 +79,7 @@ val check_kind : env -> string -> Builtins.kind -> Ast.expression -> unit
 (** [check_kind env what wanted e] reports [e] if it cannot be what [what] takes. *)
 
 val check_operator : env -> Ast.binary -> Ast.expression -> Ast.expression -> unit
-(** Reports operands of [>>] and [|] that are no tasks. *)
+(** Reports operands of [>>] and [|] that are not tasks. *)
 
 (** {1:names Names} *)
 
@@ -102,7 +102,7 @@ val in_settings : env -> string -> int option
 (** The slot of the block of settings around, if it has a setting of this name. *)
 
 val check_subtraction : env -> Ast.expression -> bool
-(** Whether this is no [lon -8.7] or [message -5], which subtract; reports these. *)
+(** Whether this is not [lon -8.7] or [message -5], which subtract; reports these. *)
 
 val check_no_setting : env -> Ast.expression -> Ast.expression -> unit
 (** [check_no_setting env target e] reports [target = e] if [target] is a setting of the block around. *)

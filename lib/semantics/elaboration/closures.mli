@@ -1,4 +1,4 @@
-(** Code between braces in the core: a lambda, and what it captures. *)
+(** Code between braces in the core: a lambda, and its captured variables. *)
 
 open Checks
 open Core
@@ -45,7 +45,7 @@ val confirm_task : env -> Location.t -> Ast.argument list -> expression
 (** {1 Operands} *)
 
 val branch_operand : env -> Ast.expression -> expression
-(** As {!task_operand}, for the task of a branch: its code may have parameters, for what the guard took. *)
+(** As {!task_operand}, for the task of a branch: its code may have parameters, for the pairs that the guard took. *)
 
 val task_operand : env -> Ast.expression -> expression
 (** [task_operand env e] is [e] in the place of a task: code there makes the task, and may only compute; [confirm] is a

@@ -4,7 +4,7 @@ module Diagnostic = Dolphin_syntax.Diagnostic
 module String_map = Map.Make (String)
 module String_set = Set.Make (String)
 
-(* [own]: what the program itself names, known or not. [charted]: variables that are a map, with its file. *)
+(* [own]: the program's own names, known or not. [charted]: variables that are a map, with its file. *)
 type t = {
   known : value String_map.t;
   own : String_set.t;

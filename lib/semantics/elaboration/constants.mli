@@ -1,5 +1,5 @@
-(** What is known before a program runs: expressions that only compute, of literals, maps and variables of which the
-    same is known. *)
+(** Values known before a program runs: expressions that only compute, of literals, maps and variables with known
+    values. *)
 
 module Ast = Dolphin_syntax.Ast
 module Diagnostic = Dolphin_syntax.Diagnostic
@@ -18,7 +18,7 @@ val chart : t -> Ast.expression -> Chart.t option
 (** [chart constants e] is the chart that [e] surely is: a call of [map], or a variable that is one. *)
 
 val value : t -> Ast.expression -> (Core.value, Diagnostic.t list) result
-(** [value constants e] is the value of [e], or why it is not known, and where. *)
+(** [value constants e] is the value of [e], or the reason why it is not known, with its place. *)
 
 val fault : t -> Ast.expression -> Diagnostic.t option
 (** [fault constants e] is the error that computing [e] ends with, if [e] is known to. *)

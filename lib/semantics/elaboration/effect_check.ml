@@ -14,8 +14,8 @@ let procedures =
   [ "task"; "imcPlan"; "action"; "condition"; "idle"; "location"; "area"; "position"; "battery"; "speed"; "connected";
     "reading"; "running"; "now"; "eta"; "poll" ]
 
-(* What surely only computes. [is_own x] is whether the program itself says what [x] is; [has_host], whether there may
-   be objects of the supplier, whose members do what they like. *)
+(* Expressions that surely only compute. [is_own x] is whether the program itself defines [x]; [has_host], whether
+   there may be objects of the supplier, whose members may do anything. *)
 type program = { is_own : string -> bool; has_host : bool }
 
 let rec computes p (e : expression) =
@@ -58,7 +58,7 @@ let hint (e : expression) =
     Some "execute runs a task"
   | _ -> None
 
-(* Whether [Translate] tells of it, as a task that is not executed. *)
+(* Whether [Translate] reports it, as a task that is not executed. *)
 let is_task ~top e = top && Checks.kind_of e = Builtins.Task
 
 (* [def f(v) { { T } }]: whether the braces look like code that makes a task. *)

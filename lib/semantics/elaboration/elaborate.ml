@@ -15,7 +15,7 @@ let declare_function program ((name : string Ast.located), lambda, _, _, _) =
       ~hint:"choose another name"
   else Scope.add_function program name.it lambda
 
-(* A parameter is set once, by the program or by whoever starts it. *)
+(* A parameter is set once, by the program or by its user. *)
 let declare_parameters program (ast : Ast.program) =
   let declare names (s : Ast.statement) =
     match s.it with
@@ -84,7 +84,7 @@ let report_blocking program =
        Scope.report program (Diagnostic.error ~code:Waits_in_task at message))
     (Scope.blocking_calls_in_tasks program)
 
-(* What the outside posts with such a key, nobody sees. *)
+(* Pairs that the outside posts with such a key are never read. *)
 let report_unread_inputs program =
   let report (key : string Ast.located) =
     if not (Scope.is_looked_at program key.it) then
@@ -100,7 +100,7 @@ let is_error (d : Diagnostic.t) = match d.severity with Error -> true | Warning 
 let is_supplier (e : Ast.expression) =
   match e.it with Call { callee = { it = Variable "getSupplier"; _ }; arguments = [] } -> true | _ -> false
 
-(* Without the functions of the prelude that nobody uses: they are none of the program's code. *)
+(* Without unused functions of the prelude: they are not part of the program's code. *)
 let without_unused_prelude (ast : Ast.program) =
   let is_prelude (s : Ast.statement) = Location.file s.at = Dolphin_syntax.Prelude.file in
   let named names (e : Ast.expression) = match e.it with Variable x -> x :: names | _ -> names in
@@ -119,7 +119,7 @@ let without_unused_prelude (ast : Ast.program) =
   else
     let own = List.filter (fun s -> not (is_prelude s)) ast in
     let defined (s : Ast.statement) = match s.it with Function { name; _ } -> Some name.it | _ -> None in
-    (* One that the program defines too is kept, for that to be told. *)
+    (* One that the program defines too is kept, so that this is reported. *)
     let used = reach [] (List.filter_map defined own @ List.concat_map (Fold.statement named []) own) in
     let is_kept (s : Ast.statement) =
       match s.it with Function { name; _ } when is_prelude s -> List.mem name.it used | _ -> true in
@@ -133,7 +133,7 @@ let kinds_of_variables ast =
 
 let no_chart _ = Error "no file can be read here"
 
-(* Of the maps that stand in the declarations of fences, which are no code. *)
+(* Of the maps in the declarations of fences, which are not code. *)
 let map_warnings program ~chart ast =
   let of_call (path, at) =
     match chart path with Ok chart -> Chart_calls.warnings at path chart | Error _ -> [] in
@@ -234,7 +234,7 @@ let first_message = function
   | [] -> "it is no expression"
 
 let evaluated ?fallback ?(at_any_date = true) (p : Core.program) ~globals (e : Ast.expression) =
-  (* Beyond the program's own sites: what is made here has no place in the program's text. *)
+  (* Beyond the program's own sites: sites made here have no place in the program's text. *)
   let first_site = Array.length p.locations in
   let globals = Array.to_list p.global_names @ globals in
   let program = Scope.create ~first_site ~functions:p.functions ~globals () in
@@ -265,5 +265,5 @@ let answer p text =
   | Error ds -> Error (first_message ds)
   | Ok e ->
     let fallback name = Some (Printf.sprintf "a text stands in quotes: '%s'" name) in
-    (* What analyses of the text know of the date must be all. *)
+    (* The analyses of the text must know all uses of the date. *)
     evaluated ~fallback ~at_any_date:false p ~globals:[] (spoken e)

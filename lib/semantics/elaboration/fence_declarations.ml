@@ -16,8 +16,8 @@ let area constants kind (e : Ast.expression) =
   | Area area -> Ok area
   | x -> error e.at "fence %s takes an area, not %s" kind (Value.kind x)
 
-(* The areas of a map or a list; [key] is how the text names each. What is neither a place nor a line, but no area
-   either, is flawed: a fence without it would let vehicles in. *)
+(* The areas of a map or a list; [key] is how the text names each. A feature that is neither a place nor a line, but
+   not an area either, is flawed: a fence without it would let vehicles in. *)
 let areas constants (e : Ast.expression) entries =
   let flaws = Option.fold (Constants.chart constants e) ~none:[] ~some:(fun (chart : Chart.t) -> chart.flawed) in
   let add found ((key : string), (x : Core.value)) =
@@ -36,7 +36,7 @@ let areas constants (e : Ast.expression) entries =
 let in_brackets key =
   Format.asprintf "[%a]" Dolphin_syntax.Print.expression { Ast.it = String key; at = Dolphin_syntax.Location.none }
 
-(* The rules of one declaration, each with what the text has behind the expression. *)
+(* The rules of one declaration, each with the text behind the expression. *)
 let outside constants e : ((string * Fences.rule) list, Diagnostic.t list) result =
   let* x = Constants.value constants e in
   let each of_key areas = List.map (fun (key, area) -> (of_key key, Fences.Outside area)) areas in

@@ -1,4 +1,4 @@
-(** [fence inside harbour, margin: 20.m]: what programs declare by that word. *)
+(** [fence inside harbour, margin: 20.m]: the declarations of this word. *)
 
 module Ast = Dolphin_syntax.Ast
 module Diagnostic = Dolphin_syntax.Diagnostic
@@ -8,8 +8,8 @@ val word : string
 
 val read :
   Constants.t -> Dolphin_syntax.Location.t -> Ast.argument list -> (Fences.fence list, Diagnostic.t list) result
-(** [read constants at arguments] is the fences declared by [fence] with these [arguments], at [at]: one for each area
-    of a map or a list, else one; or what is wrong with it, and where. *)
+(** [read constants at arguments] is the fences declared by [fence] with these [arguments], at [at]: one for each
+    area of a map or a list, else one; or their fault, with its place. *)
 
 val is_declaration : Ast.statement -> bool
 (** Whether a statement at the top of a program declares a fence. *)
@@ -21,9 +21,9 @@ val is_own : Ast.program -> bool
 (** Whether the program has a variable or a function of this name: then it declares no fences. *)
 
 val plans : Constants.t -> Ast.program -> (Ast.expression * Inline_plan.t) list
-(** [plans constants ast] is the plans and missions of the program that are known before it runs, each with where it is
-    described. *)
+(** [plans constants ast] is the plans and missions of the program that are known before it runs, each with the place
+    of its description. *)
 
 val broken : Fences.t -> (Ast.expression * Inline_plan.t) list -> Diagnostic.t list
-(** [broken fences plans] is an error for each of [plans] that breaks a fence wherever its vehicle is, at the maneuver
-    if that can be told. *)
+(** [broken fences plans] is an error for each of [plans] that breaks a fence from any place of its vehicle, at the
+    maneuver if that is known. *)

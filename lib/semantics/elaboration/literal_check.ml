@@ -20,7 +20,7 @@ let all es =
   let values = List.filter_map value es in
   if List.compare_lengths values es = 0 then Some values else None
 
-(* What literals give does not depend on the program. *)
+(* The values of literals do not depend on the program. *)
 let context : Code.context =
   let code = { node = Constant Null; site = 0 } in
   let main =

@@ -1,4 +1,4 @@
-(** What literals give is known before the program runs, so what is wrong with them is told then, in the words of the
+(** The values of literals are known before the program runs, so their faults are reported then, in the words of the
     run. *)
 
 open Core
@@ -11,18 +11,18 @@ val all : Ast.expression list -> value list option
 (** Their values, if all are literals. *)
 
 val fault : builtin -> value list -> string option
-(** [fault b xs] is what is wrong with [xs] as arguments of [b], if [b] is among those whose arguments are numbers and
+(** [fault b xs] is the fault of [xs] as arguments of [b], if [b] is among those whose arguments are numbers and
     names only. *)
 
 val fault_of_time : string -> Ast.expression -> string option
-(** [fault_of_time what e] is what is wrong with [e] as a time for [what]. *)
+(** [fault_of_time what e] is the fault of [e] as a time for [what]. *)
 
 val fault_of_rounds : Ast.expression -> string option
-(** [fault_of_rounds e] is what is wrong with [e] as a number of rounds. *)
+(** [fault_of_rounds e] is the fault of [e] as a number of rounds. *)
 
 val fault_of_mission : string -> (string option * Dolphin_syntax.Ast.expression) list -> string option
-(** [fault_of_mission setting arguments] is what is wrong with an item of a mission, as far as its arguments, each with
-    its name if it has one, are literals: {!Mission_builder.literal_fault}. *)
+(** [fault_of_mission setting arguments] is the fault of an item of a mission, as far as its arguments, each with its
+    name if it has one, are literals: {!Mission_builder.literal_fault}. *)
 
 val fault_of_pick : string -> value list -> string option
-(** [fault_of_pick s xs] is what is wrong with [xs] as arguments of the setting [s] of [pick]. *)
+(** [fault_of_pick s xs] is the fault of [xs] as arguments of the setting [s] of [pick]. *)

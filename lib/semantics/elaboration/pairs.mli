@@ -1,5 +1,5 @@
-(** Pairs of N: [post], [consume], [poll] and [count]. What a pattern [{ x -> ... }] takes is found with the values of
-    its key ({!Core.Values_of}), so patterns need no rule of their own. *)
+(** Pairs of N: [post], [consume], [poll] and [count]. The matches of a pattern [{ x -> ... }] are found with the
+    values of its key ({!Core.Values_of}), so patterns need no rule of their own. *)
 
 val elaborate :
   Checks.env -> Dolphin_syntax.Location.t -> string -> Builtins.pairs -> Dolphin_syntax.Ast.argument list ->

@@ -17,8 +17,8 @@ let picks_one body =
 
 (* {1 Tasks} *)
 
-(* At least so many vehicles at once. [execute (a | b)[v]] is read as an [execute] and an index: what follows the
-   parentheses is part of its argument. *)
+(* At least this number of vehicles at once. [execute (a | b)[v]] is read as an [execute] and an index: the text
+   after the parentheses is part of its argument. *)
 let rec width (e : expression) =
   match e.it with
   | Builder ((Imc_plan | Mission), _) | Call { callee = { it = Variable ("task" | "imcPlan"); _ }; _ } -> 1
@@ -29,7 +29,7 @@ let rec width (e : expression) =
   | Repeat { body = a; _ } -> width a
   | _ -> 0
 
-(* The single vehicles that a task surely runs on, each with the place that says so. *)
+(* The single vehicles that a task surely runs on, each with its place in the text. *)
 let rec surely singles (e : expression) =
   match e.it with
   | Index (a, { it = Variable v; at }) when List.mem v singles && width a > 0 -> [ (v, at) ]

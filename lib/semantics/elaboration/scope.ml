@@ -34,7 +34,7 @@ type program = {
   mutable reads_now : bool;
   mutable asks_running : bool;
   mutable calls : call list;
-  blocking : (string, string) Hashtbl.t;  (* function, and what it uses *)
+  blocking : (string, string) Hashtbl.t;  (* function, and the names that it uses *)
 }
 
 let global program name =
@@ -289,7 +289,7 @@ let rec function_of code =
 
 let in_function code = function_of code <> None
 
-(* What a closure inside of a function does counts as the function's doing, unless it is code of a task. *)
+(* The effects of a closure inside of a function count as the function's, unless it is code of a task. *)
 let note_blocking code what =
   match in_task code, function_of code with
   | None, Some name ->

@@ -21,9 +21,8 @@ val create :
   program
 (** [functions] and [globals] exist already, as for an answer to [ask]; sites are numbered from [first_site] on, by
     default from 0. [variables] are names that the text gives a value to somewhere; [parameters], the program's
-    parameters; [suppliers], the names of variables that surely are the supplier; [kinds], the kinds of variables that
-    have one; [chart path] is
-    what [map] makes of a file, by default that it cannot be read. *)
+    parameters; [suppliers], the names of variables that surely are the supplier; [kinds], the kinds of variables
+    that have one; [chart path] is the [map] of a file, by default that it cannot be read. *)
 
 val site : program -> Location.t -> Core.site
 (** A new site there. *)
@@ -56,7 +55,7 @@ val assigned_global : program -> string -> int
 (** The index of a global that something assigns. *)
 
 val used_global : program -> string -> Location.t -> int
-(** The index of a global that is read there; {!unknown} tells whether anything assigns it. *)
+(** The index of a global that is read there; {!unknown} reports whether anything assigns it. *)
 
 val unknown : program -> (string * Location.t) list
 (** Names that are read but that nothing assigns, with each place. *)
@@ -65,7 +64,7 @@ val note_ordered_key : program -> string -> unit
 (** [consume k: _] takes the oldest pair of this key: its order must be kept. *)
 
 val note_all_ordered : program -> unit
-(** Likewise of a key that is computed. *)
+(** The same for a computed key. *)
 
 val ordered_keys : program -> Tuple_space.order
 (** Those that were noted. *)
@@ -80,7 +79,7 @@ val note_interrupt : program -> Core.lambda -> unit
 (** [onInterrupt] declares what an interruption executes. *)
 
 val on_interrupt : program -> Core.lambda option
-(** What was noted. *)
+(** The notes. *)
 
 val note_looked_at : program -> string option -> unit
 (** Code consumes or polls pairs with this key; [None]: with a key that it computes. *)
@@ -114,11 +113,11 @@ val reads_now : program -> bool
 val asks_running : program -> bool
 
 val note_hint : program -> certain:bool -> Location.t -> (string -> string) -> unit
-(** [note_hint program ~certain at hint]: if the name there is unknown, [hint name] is what would be right; if it is
-    not [certain], then only if no known name is like it. *)
+(** [note_hint program ~certain at hint]: if the name there is unknown, [hint name] is the correction; if it is not
+    [certain], then only if no known name is like it. *)
 
 val hint_at : program -> Location.t -> (bool * (string -> string)) option
-(** What {!note_hint} said of this place: whether it is certain, and the hint. *)
+(** The result of {!note_hint} for this place: whether it is certain, and the hint. *)
 
 val is_assigned : program -> string -> bool
 (** Whether something gives a value to a variable of this name. *)
@@ -126,13 +125,13 @@ val is_assigned : program -> string -> bool
 val is_parameter : program -> string -> bool
 
 val chart : program -> string -> (Chart.t, string) result
-(** What {!create} was given. *)
+(** The arguments of {!create}. *)
 
 val note_chart : program -> string -> string -> Chart.t -> unit
 (** [note_chart p x path chart]: the variable [x] surely is the map of the file [path], which is [chart]. *)
 
 val find_chart : program -> string -> (string * Chart.t) option
-(** What {!note_chart} noted of a variable. *)
+(** The notes of {!note_chart} on a variable. *)
 
 val kind_of_variable : program -> string -> Builtins.kind
 (** The kind of the variable in [kinds], [Any] by default. *)
@@ -142,7 +141,7 @@ val is_supplier : program -> string -> bool
 
 (** {1:code One piece of code} *)
 
-(** What a piece of code is for, which decides what it may do. *)
+(** The purpose of a piece of code, which decides its permitted effects. *)
 type purpose =
   | Main
   | Named_function of string
@@ -157,7 +156,7 @@ val code : program -> purpose -> code option -> code
 (** [code p purpose outer] is a new piece inside of [outer]. *)
 
 val purpose : code -> purpose
-(** What it is for. *)
+(** Its purpose. *)
 
 val in_task : code -> string option
 (** The task construct that the piece is in, directly or not. *)
@@ -222,7 +221,7 @@ val inside_settings : code -> (Ast.builder * int) option -> (unit -> 'a) -> 'a
 val visible_names : code -> string list
 (** All names that could have been meant here. *)
 
-(** {1:calls Who calls whom} *)
+(** {1:calls Calls} *)
 
 val note_blocking : code -> string -> unit
 (** This piece uses something that belongs to the script. *)
@@ -231,5 +230,5 @@ val note_call : code -> string -> Location.t -> unit
 (** This piece calls a function of the program. *)
 
 val blocking_calls_in_tasks : program -> (string * string * string * Location.t) list
-(** For each call in code of a task that reaches something that belongs to the script: the task construct, the
-    function called, what it reaches, where. *)
+(** For each call in code of a task that reaches an operation of the script: the task construct, the function called,
+    the operation, its place. *)

@@ -4,7 +4,7 @@ open Checks
 open Core
 
 val build : env -> Location.t -> Ast.builder -> Ast.statement list -> expression
-(** [build env at builder body] is what [builder] makes of the settings in [body]. *)
+(** [build env at builder body] is the value that [builder] makes of the settings in [body]. *)
 
 val pick_if_any : env -> Location.t -> Ast.statement list -> expression
 (** [pick_if_any env at body] is [build env at Pick body], but gives null where there are too few vehicles. *)

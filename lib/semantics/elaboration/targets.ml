@@ -1,7 +1,7 @@
 open Core
 open Checks
 
-(* What an assignment may name: a variable, or an element or member of what may be assigned. *)
+(* The target of an assignment: a variable, or an element or member of a target. *)
 let rec is_path (e : Ast.expression) =
   match e.it with
   | Variable _ -> true

@@ -5,7 +5,7 @@ open Checks
 open Core
 
 val is_path : Ast.expression -> bool
-(** Whether it may be assigned to: a variable, or an element or member of what may be. *)
+(** Whether it may be assigned to: a variable, or an element or member of a target. *)
 
 val assign : env -> Location.t -> Ast.expression -> expression -> expression
 (** [assign env at target e] gives [target] the value of [e]. *)

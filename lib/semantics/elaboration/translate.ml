@@ -5,7 +5,7 @@ open Closures
 (* An error is also its text. *)
 let members_of_text = [ "size"; "length"; "isEmpty"; "empty" ]
 
-(* What a [break] or [return] would leave half done. *)
+(* The construct that a [break] or [return] would leave half done. *)
 let check_not_in_settings env at what =
   match Scope.settings env.code with
   | Some (builder, _) -> error env Misplaced_jump at "%s may not stand in %s { ... }" what (builder_name builder)
@@ -32,7 +32,7 @@ let each_of_branches env (e : Ast.expression) =
       | None | Some _ -> None)
   | _, _ -> None
 
-(* What an expression begins with, and the expression around it. *)
+(* The beginning of an expression, and the expression around it. *)
 let first_operand (e : Ast.expression) : (Ast.expression * (Ast.expression -> Ast.expression_node)) option =
   let begins (first : Ast.expression) = first.at.start.pos_cnum = e.at.start.pos_cnum in
   match e.it with
@@ -49,8 +49,8 @@ let first_operand (e : Ast.expression) : (Ast.expression * (Ast.expression -> As
   | Unary _ | Increment _ | Builder _ | Pick_else _ | Recruit _ | When _ | Wait_for _ | Until _ | During _ | Watch _
   | Repeat _ -> None
 
-(* [execute (a | b) >> c] executes all of [(a | b) >> c]: a procedure that gives nothing is no operand, so what follows
-   its parenthesis belongs to its argument. *)
+(* [execute (a | b) >> c] executes all of [(a | b) >> c]: a procedure without a value cannot be an operand, so the
+   text after its parenthesis belongs to its argument. *)
 let rec regroup env (e : Ast.expression) : Ast.expression option =
   match e.it with
   | Call { callee = { it = Variable name; _ }; arguments = [ Positional _ ] } when not (is_hidden env name) -> (
@@ -78,7 +78,7 @@ let check_index env (subject : Ast.expression) (index : Ast.expression) =
     error env Wrong_kind index.at "between [ and ] after a task stands a vehicle set, this is %s"
       (Builtins.describe found)
 
-(* The program's constants are needed for what it says: see {!Fence_declarations}. *)
+(* The program's constants are needed for its messages: see {!Fence_declarations}. *)
 let declares_fence env name =
   name = fence && (not (is_hidden env name)) && not (Scope.is_assigned env.program name)
 

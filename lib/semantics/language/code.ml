@@ -1,11 +1,11 @@
-(* What pieces of code see, do and ask for: the types that the machine and its operations share. A types-only module:
-   it has no interface of its own. [Machine] runs code. *)
+(* The surroundings, effects and requests of pieces of code: the types that the machine and its operations share. A
+   types-only module: it has no interface of its own. [Machine] runs code. *)
 
 open Core
 
 (** {1 What code sees and does} *)
 
-(** What code did that others can see. *)
+(** The visible deeds of code. *)
 type deed =
   | Posted of (string * value) list
   | Consumed of (string * value) list
@@ -21,21 +21,21 @@ type mode =
   | Task_code                                   (* guards, conditions, actions: atomic, may not wait *)
   | Handler of verdict                          (* [onError] code: as task code, and gives a verdict *)
 
-(** What code sees and changes. *)
+(** The state that code sees and changes. *)
 type context = {
   program : program;
   world : World.t;
   allocation : platform_task Vehicle_map.t;     (* A *)
   bound : vehicle list;                         (* B, in pick order *)
-  held : vehicle list Lazy.t;                   (* what is held from where the code stands *)
-  needed : vehicle list Lazy.t;                 (* what is needed outside of the [watch] of a handler *)
+  held : vehicle list Lazy.t;                   (* the vehicles held from the place of the code *)
+  needed : vehicle list Lazy.t;                 (* the vehicles needed outside of the [watch] of a handler *)
   store : Store.t;
   tuples : Tuples.t;                            (* N *)
   mode : mode;
   deeds : deed list;                            (* latest first *)
 }
 
-(** What the script waits for. *)
+(** The events that the script waits for. *)
 type request =
   | Pick of Settings.pick
   | Ask of string
@@ -46,7 +46,7 @@ type request =
 
 (** {1 Operations} *)
 
-(** What a method that calls a closure for each item does with the results. *)
+(** The use of the results by a method that calls a closure for each item. *)
 type iteration =
   | Each | Collect | Find_all | Find | Any | Every | Count | Sum | Inject | Sort | Greatest | Least
 
@@ -59,9 +59,9 @@ type outcome =
   | Walk of iteration * closure * value * value list  (* subject; initial results *)
   | Wait of request
   | Stop of string
-  | Leave_off  (* what [onInterrupt] executes is over *)
+  | Leave_off  (* the task of [onInterrupt] is over *)
   | Wrong of string  (* a fault of this very operation *)
   | Wrong_at of Fault.t
   | Refuted of string  (* an assertion does not hold *)
-  | Asks of World.question * (World.t -> outcome)  (* depends on what the world leaves open *)
+  | Asks of World.question * (World.t -> outcome)  (* depends on something that the world leaves open *)
   | Unclear of Fault.t

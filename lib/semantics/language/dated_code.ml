@@ -7,7 +7,7 @@ type comparison = { op : Ast.binary; shift : shift; bound : expression; site : s
 
 type t = {
   comparisons : comparison list;
-  others : site list;  (* where the date is read for something else, and not only said *)
+  others : site list;  (* where the date is read for another use than printing *)
   asked : bool;  (* whether this may be in code that is asked again and again *)
 }
 
@@ -27,7 +27,7 @@ let is_comparison : Ast.binary -> bool = function
   | Sequence | Append | Add | Subtract | Multiply | Divide | Remainder | Power | Around | Intersect | Parallel | And
   | Or | Member_of -> false
 
-(* What is computed from variables and numbers, without any effect. *)
+(* Expressions of variables and numbers, without any effect. *)
 let rec is_steady e =
   match e.node with
   | Constant (Integer _ | Number _) | Global _ -> true
@@ -53,14 +53,14 @@ let comparison e =
       | _, _ -> None)
   | _ -> None
 
-(* Those in what is only said, of which nothing is asked: in texts, and in numbers that are computed for them. *)
+(* Those in printed text, on which nothing depends: in texts, and in numbers that are computed for them. *)
 let rec said e =
   match e.node with
   | Apply ((Builtin Message | Concatenate | Unary Negate | Binary (Add | Subtract | Multiply | Divide)), es)
   | Apply (Method (("round" | "abs" | "toInteger"), _), es) -> List.concat_map said es
   | _ -> if is_now e then [ e ] else []
 
-(* The code that runs once and for all: what it reads is of that moment. *)
+(* The code that runs once and for all: it reads the values of that moment. *)
 let running_once (program : program) =
   let found = ref [ program.main ] in
   let note e =

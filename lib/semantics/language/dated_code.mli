@@ -8,15 +8,15 @@ type t
 val of_program : program -> t
 
 val next : t -> program -> World.t -> now:int -> Store.t -> int option
-(** [next t p w ~now s] is a date after [now], and none after the first at which code of [p] may do something else than
-    it did at [now], as long as the variables are those of [s]; [None]: it never does. If code that may be asked again
-    and again, as guards are, does more with the date than compare it with what variables and numbers say, this is the
-    next second. *)
+(** [next t p w ~now s] is a date after [now], and none after the first at which code of [p] may do something else
+    than it did at [now], as long as the variables are those of [s]; [None]: it never does. If code that may be asked
+    again and again, as guards are, uses the date in other ways than to compare it with values of variables and
+    numbers, this is the next second. *)
 
 val is_exact : t -> bool
 (** Whether it does no more. *)
 
 val named : program -> (int list, site) result
-(** [named p] is the dates after the start at which code of [p] may do something else, if [p] does nothing with the date
-    but compare it with constants, and say it; otherwise the first place where it does. A variable is a constant if only
+(** [named p] is the dates after the start at which code of [p] may take another branch, if [p] only compares the
+    date with constants, and prints it; otherwise the place of its first other use. A variable is a constant if only
     constants are assigned to it. *)

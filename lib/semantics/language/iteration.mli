@@ -1,5 +1,5 @@
-(** Methods that call a closure for each item of what they are called on, as [xs.collect { ... }] does. The machine
-    makes the calls; this says which, and what comes of them. *)
+(** Methods that call a closure for each item of their subject, as [xs.collect { ... }] does. The machine makes the
+    calls; this module chooses them, and combines their results. *)
 
 open Core
 
@@ -8,10 +8,10 @@ val find : value -> string -> value list -> (Code.iteration * closure * value li
     results to start from. *)
 
 val items : value -> value array
-(** [items subject] is what the calls are for, in order. *)
+(** [items subject] is the items of the calls, in order. *)
 
 val arguments : Code.iteration -> closure -> value -> value -> int -> value list -> value list
-(** [arguments iteration closure subject item index gathered] is what [closure] is called with for [item]. One with two
+(** [arguments iteration closure subject item index gathered] is the arguments of [closure] for [item]. One with two
     parameters gets the key and value of a map's entry, or the item and its index; [gathered] are the results so far,
     latest first. *)
 

@@ -2,7 +2,7 @@ open Dolphin_results
 open Core
 open Code
 
-(* What a loop has yet to go through: elements from an index on, or numbers up to and with the last, up or down. *)
+(* The rest of a loop: elements from an index on, or numbers up to and with the last, up or down. *)
 type items = Items of value array * int | Counting of int * int
 
 type frame =
@@ -142,7 +142,7 @@ let give x m = { m with focus = Give x }
 
 let rec last = function [] -> None | [ frame ] -> Some frame | _ :: frames -> last frames
 
-(* What [onInterrupt] executes is the argument of its end, so that is at the bottom of the stack all along. *)
+(* The task of [onInterrupt] is the argument of its end, so that is at the bottom of the stack all along. *)
 let is_leaving m =
   match last m.stack, m.focus with
   | Some (Arguments { operation = Builtin Interrupted; _ }), _ -> true

@@ -1,17 +1,17 @@
 (** The abstract machine that runs the program's code: the script between its visible steps, and the code of guards,
     actions and error handlers in one go. Control is data (an expression in focus and a stack of frames), so that a
     configuration can be stored, compared and resumed, and deep recursion of a program costs heap, not stack. {!Code}
-    has the types of what code sees, does and asks for. *)
+    has the types of the surroundings, effects and requests of code. *)
 
 open Core
 
 (** {1:machine Machines} *)
 
-(** What a loop has yet to go through: elements from an index on (-1: the loop waits for what it goes through), or
-    numbers up to and with the last, up or down. *)
+(** The rest of a loop: elements from an index on (-1: the loop waits for its subject), or numbers up to and with the
+    last, up or down. *)
 type items = Items of value array * int | Counting of int * int
 
-(** What is done with the value of the code in focus. *)
+(** The use of the value of the code in focus. *)
 type frame =
   | Arguments of { operation : operation; at : site; evaluated : value list;  (** latest first *)
                    remaining : expression list }
@@ -59,7 +59,8 @@ val is_leaving : t -> bool
 (** Whether [m] runs what [onInterrupt] executes. *)
 
 val keep_readings : t -> t
-(** [keep_readings m] is [m] once a step is over: its readings are known by where [m] keeps them ({!Reading.keep}). *)
+(** [keep_readings m] is [m] once a step is over: its readings are known by the places where [m] keeps them
+    ({!Reading.keep}). *)
 
 (** {1:running Running} *)
 
@@ -73,12 +74,12 @@ val compare_request : Code.request -> Code.request -> int
 type stop =
   | Exhausted  (** the fuel ran out; the machine can go on *)
   | Finished of value
-  | Left_off  (** what [onInterrupt] executes is over *)
+  | Left_off  (** the task of [onInterrupt] is over *)
   | Did of Code.deed  (** in script mode: something that others see, the latest of [deeds]; the machine can go on *)
   | Waits of Code.request  (** in script mode; go on with {!give} *)
   | Halted of string  (** the code called [halt] *)
   | Faulted of Fault.t
 
 val run : fuel:int -> Code.context -> t -> (stop * t * Code.context) Decision.t
-(** [run ~fuel context m] runs [m] until it stops, for at most [fuel] expressions. Where it depends on what the world
-    leaves open, it goes on in each way, in a world in which that is supposed. *)
+(** [run ~fuel context m] runs [m] until it stops, for at most [fuel] expressions. If it depends on something that
+    the world leaves open, it goes on in each way, in a world in which that is supposed. *)

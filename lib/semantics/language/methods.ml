@@ -76,7 +76,7 @@ let parse_number what text convert =
   | Some x -> Ok x
   | None -> Error (Printf.sprintf "'%s' is not %s" text what)
 
-(* What a getter without arguments gives; [getX()] is the same as [.x]. *)
+(* The value of a getter without arguments; [getX()] is the same as [.x]. *)
 
 let of_vehicles world vs name =
   let with_state f = let* state = one_vehicle world vs in Ok (f state) in
@@ -124,7 +124,7 @@ let on_area a name arguments =
   | "split", [ _ ] -> Some (split_area a (Value.canonical (List.hd arguments)))
   | _, _ -> None
 
-(* Of a list, a range or a vehicle set [x], with so many elements, by index. *)
+(* Of a list, a range or a vehicle set [x], with this number of elements, by index. *)
 let of_items x length get name =
   let element i what =
     if length > 0 then Ok (get i)
@@ -167,7 +167,7 @@ let getter world x name =
 
 let of_any_elements = [ "size"; "length"; "first"; "last"; "head"; "tail" ]
 
-(* What [x] may be asked for. *)
+(* The members of [x]. *)
 let properties = function
   | Vehicles _ -> [ "id"; "ids"; "type"; "position"; "battery"; "payload" ] @ of_any_elements
   | List _ | Range _ -> of_any_elements
@@ -274,7 +274,7 @@ let on_items items name arguments =
     Some (Ok (List (Vector.of_list (List.stable_sort order (Array.to_list items)))))
   | _, _ -> None
 
-(* What goes through all of [x] only where it has to. *)
+(* Methods that go through all of [x] only if necessary. *)
 let on_elements x name arguments =
   match name, arguments with
   | "get", [ i ] -> Some (Operators.element x i)
@@ -314,7 +314,7 @@ let on_number n x name arguments =
   | _, _ -> None
 
 let farthest = Dolphin_geo.Wgs84.farthest
-let is_distance metres = Float.abs metres <= farthest  (* false for what is not a number *)
+let is_distance metres = Float.abs metres <= farthest  (* false for NaN *)
 
 let on_position p name arguments =
   match name, arguments with

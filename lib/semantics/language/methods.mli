@@ -4,11 +4,11 @@
 open Core
 
 val one_vehicle : World.t -> vehicle list -> (World.vehicle_state, string) result
-(** [one_vehicle w vs] is what is known of the only vehicle of [vs]. *)
+(** [one_vehicle w vs] is the known state of the only vehicle of [vs]. *)
 
 val property : World.t -> value -> string -> (value, string) result
-(** [property w x name] is [x.name]. Of a map it is the value of the key, null if there is none; of a vehicle, what
-    world [w] says of it, less what its sensors show; of a number, the number in that unit. *)
+(** [property w x name] is [x.name]. Of a map it is the value of the key, null without it; of a vehicle, its value in
+    world [w], less its sensors; of a number, the number in that unit. *)
 
 val call : World.t -> value -> string -> value list -> (value, string) result
 (** [call w x name arguments] is [x.name(arguments)]. *)

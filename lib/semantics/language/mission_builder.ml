@@ -6,7 +6,7 @@ let ( let* ) = Result.bind
 
 (* {1 Arguments} *)
 
-(* What an argument may be. *)
+(* The kinds of an argument. *)
 type kind =
   | Distance                                    (* to the north, the east or up: of either sign *)
   | Height                                      (* above home, of either sign *)
@@ -34,7 +34,7 @@ let needs name kind = { name; kind; is_required = true }
 let takes name kind = { name; kind; is_required = false }
 let item ?(named = []) positional = { positional; only_named = named }
 
-(* What many items have. *)
+(* The common arguments of many items. *)
 let way = [ takes "altitude" Height; takes "speed" Speed ]
 let offset = [ takes "north" Distance; takes "east" Distance; takes "up" Distance ]
 let circling = [ takes "duration" Duration; takes "turns" Turns; takes "radius" Radius ]
@@ -184,7 +184,7 @@ let no_setting (s : setting) =
   fault s "a mission has no item '%s': %s" s.setting
     (instead s.setting (List.map fst vocabulary) ~otherwise:"it has")
 
-(* What is not known is passed over. *)
+(* Unknown values are passed over. *)
 let check_literals s item arguments =
   let positional = List.filter_map (function None, x -> Some x | Some _, _ -> None) arguments in
   let named = List.filter_map (function Some k, x -> Some (k, x) | None, _ -> None) arguments in

@@ -11,9 +11,9 @@ val vocabulary : (string * string list) list
 (** Every setting of a mission, with the names of its arguments. *)
 
 val literal_fault : string -> (string option * value option) list -> string option
-(** [literal_fault name arguments] is what is wrong with the setting [name] of [arguments], each with its name if it has
-    one, whatever the values are that are [None]: how many there are, their names, and the values that are known. *)
+(** [literal_fault name arguments] is the fault of the setting [name] of [arguments], each with its name if it has
+    one, for any values of those that are [None]: their number, their names, and the known values. *)
 
 val build : name:string -> site -> setting list -> (Mission_plan.t, Fault.t) result
-(** [build ~name site settings] is the mission that [settings] (first one first) describe, called [name] unless it has a
-    name. A fault names what is unknown, of the wrong kind or out of range, and where. *)
+(** [build ~name site settings] is the mission that [settings] (first one first) describe, called [name] unless it
+    has a name. A fault names the value that is unknown, of the wrong kind or out of range, and its place. *)

@@ -121,7 +121,7 @@ let apply_settled context at operation arguments =
       | Make_recruit ),
       _ ) -> Wrong "wrong number of operands"
 
-(* What goes through all parts of its arguments, to write or to keep them. *)
+(* Operations that go through all parts of their arguments, to write or to keep them. *)
 let takes_all_parts operation arguments =
   match operation, arguments with
   | (Concatenate | Builtin (Message | Halt | Assert | Fail | Ask | Make_confirm | Post _ | Consume _ | Poll _)), _

@@ -3,4 +3,4 @@
 open Core
 
 val apply : Code.context -> site -> operation -> value list -> Code.outcome
-(** [apply context site operation arguments] is what [operation] gives, at [site]. *)
+(** [apply context site operation arguments] is the result of [operation], at [site]. *)

@@ -1,5 +1,5 @@
-(** The language's operators on values. Pure; an [Error] is a sentence that says what is wrong, without a full stop.
-    The two operators that run code of the program, [V | { v -> C }] and calls, belong to {!Machine}. *)
+(** The language's operators on values. Pure; an [Error] is a sentence with the fault, without a full stop. The two
+    operators that run code of the program, [V | { v -> C }] and calls, belong to {!Machine}. *)
 
 open Core
 
@@ -11,8 +11,8 @@ val binary : Dolphin_syntax.Ast.binary -> value -> value -> (value, string) resu
     a result beyond the range of integers is a number. *)
 
 val element : value -> value -> (value, string) result
-(** [element x i] is [x[i]]: an element of a list, counted from the end if [i < 0]; the value of a key, null if there
-    is none; a vehicle of a set; and [T[V]], task [x] allocated to the vehicles [i]. *)
+(** [element x i] is [x[i]]: an element of a list, counted from the end if [i < 0]; the value of a key, null without
+    it; a vehicle of a set; and [T[V]], task [x] allocated to the vehicles [i]. *)
 
 val replace_element : value -> value -> value -> (value, string) result
 (** [replace_element x i y] is [x] after [x[i] = y]. *)
@@ -21,14 +21,14 @@ val range : inclusive:bool -> value -> value -> (value, string) result
 (** [range ~inclusive first last] is [first..last], or with [~inclusive:false] [first..<last]. *)
 
 val unit_factor : string -> float option
-(** [unit_factor name] is what a number is multiplied with by [n.name], as in [2.km]: results are in metres, degrees,
-    seconds, or shares of 1. *)
+(** [unit_factor name] is the factor of [n.name], as in [2.km]: results are in metres, degrees, seconds, or shares of
+    1. *)
 
 val unit_names : string list
 (** All names that {!unit_factor} knows. *)
 
 val unit_hint : string -> string
-(** [unit_hint name] is what to write where [name] is no unit. *)
+(** [unit_hint name] is the right spelling if [name] is not a unit. *)
 
 val in_unit : value -> string -> (value, string) result
 (** [in_unit n name] is [n.name]. *)
@@ -40,7 +40,7 @@ val expected : string -> value -> ('any, string) result
 (** [expected what x] is the error {!instead_of}[ what x]. *)
 
 val of_geometry : ('a, Dolphin_geo.Area.error) result -> ('a, string) result
-(** What geometry made, or why it cannot, in words. *)
+(** The result of geometry, or the reason why it has none, in words. *)
 
 val area : (Dolphin_geo.Area.t, Dolphin_geo.Area.error) result -> (value, string) result
 (** {!of_geometry}, as a value. *)

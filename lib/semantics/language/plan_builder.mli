@@ -22,5 +22,5 @@ val units : string list
 
 val build : name:string -> site -> setting list -> (Plan.t, Fault.t) result
 (** [build ~name site settings] is the plan that [settings] (first one first) describe, called [name] unless
-    [planName] says otherwise. A fault names what is unknown, of the wrong kind or out of range, and where: the setting,
-    or [site] if there is no maneuver at all. *)
+    [planName] gives another. A fault names the value that is unknown, of the wrong kind or out of range, and its
+    place: the setting, or [site] without any maneuver. *)

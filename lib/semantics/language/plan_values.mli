@@ -12,14 +12,14 @@ val wrong : setting -> string -> value -> ('a, Fault.t) result
 (** [wrong s what x] is the error that [what] was expected and [x] found. *)
 
 val instead : string -> string list -> otherwise:string -> string
-(** [instead x xs ~otherwise] is what to say after a word [x] that is none of [xs]: the one that is likely meant, or
-    [otherwise] and all of [xs]. *)
+(** [instead x xs ~otherwise] is the hint after a word [x] that is not among [xs]: the likely one, or [otherwise] and
+    all of [xs]. *)
 
 (** {1:read Readers} *)
 
 type 'a reader = setting -> string -> value -> ('a, Fault.t) result
-(** [read s what x] is what [x] says, or why it is not what it should be. [s] is the setting that [x] belongs to, and
-    [what] is what [x] is there, such as ["radius of loiter"]. *)
+(** [read s what x] is the value of [x], or the reason why it is wrong. [s] is the setting that [x] belongs to, and
+    [what] is the role of [x] there, such as ["radius of loiter"]. *)
 
 val string : string reader
 (** Not empty. *)
@@ -53,7 +53,7 @@ val percent : float reader
     faults. *)
 
 val bearing : float reader
-(** From -360 to 360 degrees; what is read is at least 0 and less than 360. *)
+(** From -360 to 360 degrees; the result is at least 0 and less than 360. *)
 
 val position : Dolphin_geo.Position.t reader
 (** A position, or a list of latitude and longitude in degrees. *)
@@ -77,8 +77,8 @@ val z : Plan.z_unit -> setting -> value list -> (float * Plan.z_unit, Fault.t) r
 (** {1:payload Payload} *)
 
 val devices : Plan.payload list reader
-(** Devices, as strings or as maps with a [name]; one alone, or a list. Names of devices and parameters are capitalised
-    as DUNE has them, and a device is active unless it says otherwise. *)
+(** Devices, as strings or as maps with a [name]; one alone, or a list. Names of devices and parameters are
+    capitalised as DUNE has them, and a device is active by default. *)
 
 (** {1:vehicles Vehicles} *)
 

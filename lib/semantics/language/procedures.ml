@@ -102,7 +102,7 @@ let blocking context name request =
   | Task_code | Handler _ ->
     Wrong (Printf.sprintf "%s belongs to the script: code inside of a task cannot wait" name)
 
-(* The pairs of an operation, or the argument that is no key. *)
+(* The pairs of an operation, or the argument that is not a key. *)
 let rec pairs keys arguments =
   let pair k x keys arguments = Result.map (fun rest -> (k, Value.canonical x) :: rest) (pairs keys arguments) in
   match keys, arguments with
@@ -157,7 +157,7 @@ let poll context pairs =
 let values_of context pairs =
   List (Vector.of_list (List.concat_map (fun (k, _) -> Tuples.values k context.tuples) pairs))
 
-(* What [look] gives of the only vehicle of [vs], where several things may be seen. *)
+(* The result of [look] for the only vehicle of [vs], if it has several possible values. *)
 let looked context vs look =
   match Methods.one_vehicle context.world vs with
   | Error message -> Wrong message
@@ -239,7 +239,7 @@ let release context vs =
     let bound = List.filter (fun v -> not (Vehicle_set.mem v released)) context.bound in
     Done (Released vs, { context with bound }, Null)
 
-(* What is beside or after the [watch] of the handler may not need them. *)
+(* Tasks beside or after the [watch] of the handler may not need them. *)
 let dismiss context vs =
   match context.mode with
   | Script | Task_code -> Wrong "dismiss belongs in onError { ... }"

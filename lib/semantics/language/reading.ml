@@ -84,7 +84,7 @@ let claim world at ~is text =
   | Error _ when World.claims world >= most_claims -> Unclear (unclear at text)
   | Error question -> Asks question
 
-(* [x] as a number to compare: the date, where it is as a certain one. *)
+(* [x] as a number to compare: the date, if it is certain. *)
 let dated world x =
   match x, World.date world with
   | Reading { quantity = Amount; text }, Since n when String.equal text of_now -> Some (float_of_int n)

@@ -1,17 +1,17 @@
-(** Readings: values of the semantics of open worlds. A reading stands for what a sensor shows, where that may be
-    anything. Code may pass it on, compute with it, compare it, and print it. A comparison with it may come out either
-    way ({!World.claim}). Anything else that depends on it is unclear, since nobody could list the outcomes. *)
+(** Readings: values of the semantics of open worlds. A reading stands for a sensor's value, where that may be
+    anything. Code may pass it on, compute with it, compare it, and print it. A comparison with it may come out
+    either way ({!World.claim}). Any other use of it is unclear, since its outcomes cannot be listed. *)
 
 open Core
 
 type subject = Position | Sensor of sensor
 
 val subject : string -> subject option
-(** [subject name] is what the property or method [name] of a vehicle looks at, if it is a sensor. *)
+(** [subject name] is the subject of the property or method [name] of a vehicle, if it is a sensor. *)
 
 val look : World.t -> subject -> World.vehicle_state -> (value, World.question) result
-(** [look w subject s] is what that sensor of [s] shows: if that may be anything, a reading whose text names the
-    sensor; if the vehicle has not told it, {!Core.Unknown}. *)
+(** [look w subject s] is the value of that sensor of [s]: if that may be anything, a reading whose text names the
+    sensor; if the vehicle has not reported it, {!Core.Unknown}. *)
 
 val now : World.t -> value
 (** [now w] is the date: if that is open, a reading whose text is [now()]. *)
@@ -24,9 +24,9 @@ val keep : program -> Store.t -> Store.t
     another value, and a kept reading must not be taken for that one. *)
 
 val settled : site -> value -> (value, Fault.t) result
-(** [settled at x] is [x]; if that is a reading, the fault that says what is unclear, at [at]. *)
+(** [settled at x] is [x]; if that is a reading, the fault that names the unclear value, at [at]. *)
 
-(** What an operation makes of arguments some of which are readings. *)
+(** The result of an operation for arguments some of which are readings. *)
 type applied =
   | Gives of (value, string) result
   | Asks of World.question

@@ -1,4 +1,4 @@
-(** Blocks of settings read as what they build: the vehicles that [pick] asks for, positions, choices. Inline plans
+(** Blocks of settings read into their results: the vehicles that [pick] asks for, positions, choices. Inline plans
     are {!Plan_builder}'s. *)
 
 open Core
@@ -17,7 +17,7 @@ type pick = {
   filter : filter;
   count : count;
   timeout : float option;  (** seconds *)
-  otherwise : bool;  (** where there are too few the script goes on, with null *)
+  otherwise : bool;  (** with too few vehicles the script goes on, with null *)
 }
 
 val accepts : filter -> World.vehicle_state -> bool
@@ -27,14 +27,14 @@ val pp_filter : Format.formatter -> filter -> unit
 (** [" of type 'UAV'"], each part behind a space. *)
 
 val pp_pick : Format.formatter -> pick -> unit
-(** What was asked for: ["3 of type 'UUV' with DVL"]. *)
+(** The request: ["3 of type 'UUV' with DVL"]. *)
 
 val compare_pick : pick -> pick -> int
 (** A total order. *)
 
 val pick : setting list -> (pick, Fault.t) result
-(** [pick settings] is the pick that [settings] (first one first) ask for: one vehicle, unless they say otherwise. An id
-    is compared as plain text, after its backslashes are taken as escapes. *)
+(** [pick settings] is the pick that [settings] (first one first) ask for: one vehicle by default. An id is compared
+    as plain text, after its backslashes are taken as escapes. *)
 
 val position : site -> setting list -> (value, Fault.t) result
 (** [position site settings] is the position that [pos { ... }] at [site] makes of its settings. *)

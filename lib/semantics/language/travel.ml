@@ -20,13 +20,13 @@ let length (p : platform_task) =
         let why = Printf.sprintf "the way of plan '%s' depends on where it begins" p.name in
         Error (why ^ ": write length(v), with its vehicle"))
 
-(* A number that is none is one that depends on what the vehicle has not told. *)
+(* A number that is not certain is one that depends on a value that the vehicle has not reported. *)
 let known sensor (s : World.vehicle_state) x =
   if Float.is_nan x then Unknown { sensor; of_vehicle = s.id } else Number x
 
 let told = Option.value ~default:nan
 
-(* What a second takes. *)
+(* The cost of a second. *)
 let drain (s : World.vehicle_state) = told s.drain /. 3600.
 
 let measure quantity (s : World.vehicle_state) ~metres ~seconds =
@@ -47,8 +47,8 @@ let from_here quantity (p : platform_task) plan (s : World.vehicle_state) here =
 
 let spell x = Format.asprintf "%a" Value.pp x
 
-(* From anywhere: the way to the first place, and what comes to it from there on. Its text says how it is computed, so
-   that readings with the same text are the same. *)
+(* From anywhere: the way to the first place, and the rest from there on. Its text describes its computation, so that
+   readings with the same text are the same. *)
 let reading quantity (p : platform_task) plan (s : World.vehicle_state) =
   let named = sensor p quantity in
   let reading text = Reading { quantity = Amount; text } in

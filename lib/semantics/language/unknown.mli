@@ -1,13 +1,13 @@
-(** Unknown values: what sensors would show that a vehicle has not told. Code may pass one on and print it. What is
-    computed of it is as unknown, comparisons too, and so is [a || b] if [b] is not true. Anything else needs to know: a
-    guard that does holds no longer, other code is faulty. *)
+(** Unknown values: sensor values that a vehicle has not reported. Code may pass one on and print it. A result
+    computed of it is as unknown, comparisons too, and so is [a || b] if [b] is not true. Anything else needs to
+    know: a guard that does holds no longer, other code is faulty. *)
 
 open Core
 
 val is : value -> bool
 (** Whether it is unknown. *)
 
-(** What an operation makes of arguments some of which are unknown. *)
+(** The result of an operation for arguments some of which are unknown. *)
 type applied =
   | Gives of value
   | Needs of unknown
@@ -16,5 +16,5 @@ type applied =
 val apply : operation -> value list -> applied
 
 val iterated : Code.iteration -> value list -> (value option, unknown) result
-(** [iterated i results] is what the results of an iteration come to, if some of them are unknown and that is decided
-    by these; [None]: they are results as any. *)
+(** [iterated i results] is the combined results of an iteration, if some of them are unknown and decide it; [None]:
+    they are results as any. *)

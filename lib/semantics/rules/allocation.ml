@@ -30,8 +30,8 @@ let rec leaves tree rest =
   | Leaf x -> x :: rest
   | Disjoint trees | Shared trees -> List.fold_right leaves trees rest
 
-(* What a vehicle, of which the world says [state], lacks for a task, or nothing. What the plan needs is looked up once
-   for all vehicles. *)
+(* The devices that a vehicle, with [state] in the world, lacks for a task, or nothing. The plan's needs are looked
+   up once for all vehicles. *)
 let lack task =
   let requires = Option.map (fun plan -> (plan, Inline_plan.required_payload plan)) task.plan in
   fun v state ->
@@ -48,7 +48,7 @@ let lack task =
 
 module Wgs84 = Dolphin_geo.Wgs84
 
-(* A vehicle of B, with what the world says of it. *)
+(* A vehicle of B, with its state in the world. *)
 type candidate = {
   vehicle : vehicle;
   state : World.vehicle_state option;
@@ -126,7 +126,7 @@ let conflict bound leaves competing vehicles =
        (String.concat ", " (List.map (fun leaf -> Printf.sprintf "'%s'" leaf.task.name) competing))
        (names (List.map (fun i -> bound.(i)) vehicles)))
 
-(* What the parts of a task get, from left to right. *)
+(* The vehicles of the parts of a task, from left to right. *)
 type supply = {
   next_vehicle : unit -> vehicle;
   next_timer : unit -> Residual.timer;
@@ -134,7 +134,7 @@ type supply = {
   depth : int;  (* of such code *)
 }
 
-(* The task with what [supply] gives; [allowed] is by the [T[V]] around it. *)
+(* The task with the vehicles of [supply]; [allowed] is by the [T[V]] around it. *)
 let rec residual supply allowed t : Residual.t =
   let recurse = residual supply allowed in
   match t with

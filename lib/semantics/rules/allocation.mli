@@ -5,14 +5,14 @@ open Core
 
 val allocate : World.t -> vehicle list -> task -> ((Residual.t, Fault.t) result, World.question) result
 (** [allocate w b t] is [t] with a vehicle of [b] (B, in pick order) for each of its platform tasks, not yet
-    activated. Branches of [|] get different vehicles, other parts may share and prefer to; [T[V]] restricts [T] to [V];
-    an inline plan's payload and vehicles are requirements. Of the feasible allocations it is the one with the fewest
-    vehicles, then the least total straight-line distance from the vehicles' positions in [w] to the plans' reference
-    positions, then by pick order. The fault says which task lacks what. If [w] leaves open where a
-    vehicle is, the question asks for it. *)
+    activated. Branches of [|] get different vehicles, other parts may share and prefer to; [T[V]] restricts [T] to
+    [V]; an inline plan's payload and vehicles are requirements. Of the feasible allocations it is the one with the
+    fewest vehicles, then the least total straight-line distance from the vehicles' positions in [w] to the plans'
+    reference positions, then by pick order. The fault names the task and the missing device. If [w] leaves open
+    where a vehicle is, the question asks for it. *)
 
 val allocate_made :
   World.t -> vehicle list -> timers:(unit -> unit -> Residual.timer) -> Residual.request -> task ->
   ((vehicle list * Residual.t, Fault.t) result, World.question) result
-(** [allocate_made w b ~timers request t] is the vehicles of [b] that [t] gets, in pick order, and what is left of [t],
-    as {!allocate} has it, within what [request] allows. [timers ()] gives the numbers of its timers. *)
+(** [allocate_made w b ~timers request t] is the vehicles of [b] that [t] gets, in pick order, and the rest of [t],
+    as {!allocate} has it, within the vehicles that [request] allows. [timers ()] gives the numbers of its timers. *)

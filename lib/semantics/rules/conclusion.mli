@@ -1,11 +1,11 @@
-(** What a rule concludes: a transition. *)
+(** The conclusion of a rule: a transition. *)
 
 type t = {
   rules : Rule.t list;  (** the derivation, from the axiom outwards *)
   label : Label.t;
   next : Configuration.t;
   effects : Effect.t list;  (** in the order in which they are to be carried out *)
-  assumed : World.assumption list;  (** what of an open world it takes for granted; otherwise nothing *)
+  assumed : World.assumption list;  (** its assumptions about an open world; otherwise nothing *)
 }
 
 val make : ?effects:Effect.t list -> Rule.t -> Label.t -> Configuration.control -> Shared.t -> t

@@ -83,7 +83,7 @@ let pp program ppf c =
    | Ended e -> pp_ending program ppf e);
   Format.fprintf ppf "; %a" (Shared.pp program) c.shared
 
-(* Whether no vehicle is named twice in what stands side by side. *)
+(* Whether no vehicle is named twice in parallel parts. *)
 let rec are_apart r =
   match (r : Residual.t) with
   | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ | Made _ | Unallocated _ | Recruit _ -> true

@@ -6,7 +6,7 @@ open Core
 type ending =
   | Completed
   | Halted of string  (** the program called [halt] with this message *)
-  | Failed of Fault.t  (** a fault of the program, or an error of a task that nobody handled *)
+  | Failed of Fault.t  (** a fault of the program, or an unhandled error of a task *)
   | Interrupted  (** from outside, by Ctrl-C for example *)
 
 val compare_ending : ending -> ending -> int
@@ -24,7 +24,7 @@ val recruits : t -> Core.vehicle list
 (** [recruits c] is the vehicles that the task that [c] executes has recruited and has still. *)
 
 val initial : program -> t
-(** [initial p] is where runs of [p] begin. *)
+(** [initial p] is the configuration where runs of [p] begin. *)
 
 val site : t -> site
 (** [site c] is the place in the program where its script stands; {!Fault.unknown_site} after the end. *)

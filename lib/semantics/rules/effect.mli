@@ -1,11 +1,11 @@
-(** What a transition asks of the outside: the driver carries it out. *)
+(** The requests of a transition to the outside: the driver carries them out. *)
 
 open Core
 
 type t =
   | Start of vehicle * platform_task
   | Stop of vehicle  (** whatever it runs for the program *)
-  | Set_timer of Residual.timer * float  (** to expire after so many seconds *)
+  | Set_timer of Residual.timer * float  (** to expire after this number of seconds *)
   | Cancel_timer of Residual.timer
   | Put_question of Residual.timer * string  (** to people: yes or no; the program goes on meanwhile *)
   | Withdraw_question of Residual.timer

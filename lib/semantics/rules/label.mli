@@ -1,4 +1,4 @@
-(** What a transition is called: what an observer of the program and its vehicles can see of it. *)
+(** The label of a transition: the part of it that an observer of the program and its vehicles can see. *)
 
 open Core
 
@@ -6,18 +6,18 @@ type t =
   | Start of vehicle * string  (** of the plan with this name *)
   | Done of vehicle * string
   | Fail of vehicle * string * string  (** why *)
-  | Check of Code.deed list  (** a guard or condition that held, with what its code did *)
+  | Check of Code.deed list  (** a guard or condition that held, with the deeds of its code *)
   | Act of Code.deed list
   | Cut of Code.deed list  (** by an [until] or [assure] *)
   | Time_out  (** of [during], [within] or [idle] *)
   | Set_time of float  (** seconds that [during] or [within] starts with, given by code *)
   | Make  (** code gave a task *)
-  | Allocate of vehicle list  (** these vehicles, which nobody held, to a task that was made *)
+  | Allocate of vehicle list  (** these free vehicles, to a task that was made *)
   | Recruit of vehicle  (** it was recruited *)
   | Broken of string  (** code inside of a task that failed *)
   | Did of Code.deed  (** by the script *)
   | Silent
-  | Pick of string  (** what is looked for *)
+  | Pick of string  (** the subject of the search *)
   | Bind of vehicle list
   | No_vehicles of string
   | Ask of string

@@ -82,10 +82,10 @@ let instead (handler : Residual.handler) t propagated recovered =
 let foreign_retry (handler : Residual.handler) =
   Fault.make handler.code.lambda.lambda_site "retry() was called for another handler than that in whose text it stands"
 
-(* A [watch] around a step: what is needed outside of it, and what runs inside of it. *)
+(* A [watch] around a step: the vehicles needed outside of it, and those running inside of it. *)
 type watch = { needed : vehicle list Lazy.t; inside : vehicle list Lazy.t }
 
-(* What is held from where a step stands, and each [watch] around it, the innermost first. *)
+(* The vehicles held from the place of a step, and each [watch] around it, the innermost first. *)
 type around = { held : vehicle list Lazy.t; watches : watch list Lazy.t }
 
 let around_step around =
@@ -147,7 +147,7 @@ let rec settle around program world s derivation asked (change : Task_rules.chan
 
 let kept program world local = { local with after = Run_code.kept program world local.after }
 
-(* The time that the value [x] of the code of a [during] or [within] is; [label] says which. *)
+(* The time of the value [x] of the code of a [during] or [within]; [label] distinguishes these. *)
 let seconds_of (code : closure) x =
   match Value.to_number x with
   | Some seconds when Time.is_one seconds -> Ok seconds
@@ -158,8 +158,8 @@ let seconds_of (code : closure) x =
     in
     Error (Fault.make code.lambda.lambda_site message)
 
-(* Code of a step: what it [gives] or [fails] with, or the end of the program. Rules HALT and ASSERT-ERR are here, for
-   code of every step. *)
+(* Code of a step: its value ([gives]) or its fault ([fails]), or the end of the program. Rules HALT and ASSERT-ERR
+   are here, for code of every step. *)
 let coded ?given held program world s code ~fails ~gives =
   let ends rule label ending s asked =
     let local = { after = s; outcome = Ends ending; derivation = [ rule ]; named = label; asked; rounds = [] } in
@@ -198,7 +198,7 @@ let made (code : closure) given (request : Residual.request) (s : Shared.t) (aft
     | Closure c -> Ok (Made c)
     | x -> fault "{ %s }: %s" label (Operators.instead_of "a task" x)
 
-(* Vehicles that nobody holds for [task]; [None] if it waits for some. *)
+(* Free vehicles for [task]; [None] if it waits for some. *)
 let allocated world bound held task (request : Residual.request) around =
   let bound = bound @ Residual.recruited_for around in
   let used = lazy (Residual.timers_around around) in

@@ -5,4 +5,4 @@ val bindings : World.t -> Shared.t -> Machine.t -> Settings.pick -> Conclusion.t
     has none: it waits for its whole timeout. *)
 
 val timed_out : World.t -> Shared.t -> Machine.t -> Settings.pick -> Conclusion.t option Decision.t
-(** [timed_out w s m q] is what the end of the timeout makes of [q]; [None] if [q] can be met: then it must be. *)
+(** [timed_out w s m q] is the result of [q] at the end of the timeout; [None] if [q] can be met: then it must be. *)

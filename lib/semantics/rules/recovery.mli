@@ -1,5 +1,5 @@
-(** Whether a handler may do more than to settle its error: run the watched task anew, or another one in its place. It
-    is known from the handler's text alone, and never denied of a handler that does. *)
+(** Whether a handler may do more than to settle its error: run the watched task again, or another one in its place.
+    It is known from the handler's text alone, and never denied of a handler that does. *)
 
 open Core
 

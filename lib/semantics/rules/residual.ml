@@ -278,7 +278,7 @@ let recruits = collect (function Recruited (v, _) -> Some v | _ -> None)
 let rec may_go_round r =
   match r with
   | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ -> false
-  (* What code makes is not known: it may be without end. *)
+  (* The result of code is not known: it may be without end. *)
   | Made _ | Unallocated _ | Recruit _ -> true
   | Sequence (a, rest) -> may_go_round a || List.exists may_go_round rest
   | Parallel rs -> List.exists may_go_round rs

@@ -1,6 +1,6 @@
-(** What is left of an executing task: its vehicles assigned, what is done dropped. Residuals are kept in normal form
-    (nothing that is done remains; [>>] leans to the right, [|] is flat; an [allOf] with one branch left is a
-    [oneOf]), so that tasks which behave alike are more often equal.
+(** The rest of an executing task: its vehicles assigned, its finished parts dropped. Residuals are kept in normal form
+    (nothing that is done remains; [>>] leans to the right, [|] is flat; an [allOf] with one branch left is a [oneOf]),
+    so that tasks which behave alike are more often equal.
 
     {!Task_rules} has their steps. *)
 
@@ -14,9 +14,9 @@ val script_timer : timer
 (** The timer of [pick] and [pause]: 0. *)
 
 val alarm : timer
-(** A timer that no program has: a driver's own, to be told of a date. *)
+(** A timer that no program has: a driver's own, for a date. *)
 
-(** What a timer waits for: that so many seconds pass, or the answer to a question. *)
+(** The event that a timer waits for: that a number of seconds pass, or the answer to a question. *)
 type wait = Time of float | Answer of string
 
 type t =
@@ -24,7 +24,7 @@ type t =
   | Running of platform_task * vehicle
   | Action of closure
   | Condition of closure
-  | Sequence of t * t list  (** what runs, which is no [Sequence], and at least one part to come *)
+  | Sequence of t * t list  (** the running part, which is not a [Sequence], and at least one part to come *)
   | Parallel of t list  (** at least two, none of them [Parallel] *)
   | All_of of t option * branch list
   (** the branch that runs and at least one other; or none, and at least two *)
@@ -35,7 +35,7 @@ type t =
   | During of { on_cut : on_cut; timer : timer; duration : duration; started : bool; body : t }
   | Watch of t * handler
   | Repeat of { round : t option; again : again }
-  (** the round that runs; [None] between two rounds, where the condition is to be asked *)
+  (** the round that runs; [None] between two rounds, when the condition is to be asked *)
 
   | Made of { code : closure; given : value list; request : request }
   (** code that gives a task once its turn comes, with its arguments *)
@@ -47,8 +47,8 @@ type t =
 
 and branch = { guard : closure; body : t }
 
-(** The code that errors come to. If it may recover ({!Recovery}), [anew] is the watched task, and what its like may be
-    given. *)
+(** The code that errors come to. If it may recover ({!Recovery}), [anew] is the watched task, and the vehicles that
+    its copies may be given. *)
 and handler = { code : closure; anew : (task * request) option }
 
 (** How a [repeat] goes on: [left] rounds are to come, at least one, or no number of them; none once [until] holds;
@@ -60,10 +60,11 @@ and request = {
   place : timer;  (** its place in the executed task, among the timers *)
   depth : int;  (** how many closures made it, one in the task of the other *)
 }
-(** What a task that is made at its turn may be given. *)
+(** The vehicles that a task made at its turn may be given. *)
 
 val compare : t -> t -> int
-(** A total order, with {!equal} and {!hash}; code is compared by its place in the program and by what it captured. *)
+(** A total order, with {!equal} and {!hash}; code is compared by its place in the program and by its captured
+    values. *)
 
 val equal : t -> t -> bool
 val hash : t -> int
@@ -84,14 +85,14 @@ val all_of : t option -> branch list -> t
     is one at least. *)
 
 val repeat : again -> t -> t
-(** [repeat a r] is the [repeat] of which the round [r] runs, with [a.left] rounds to come: [r] if there is none. *)
+(** [repeat a r] is the [repeat] of which the round [r] runs, with [a.left] rounds to come: [r] for the last one. *)
 
 val holding : vehicle list -> t -> t
 (** [holding vs r] is [r], which holds [vs] until it ends. *)
 
 val activate : t -> t * (timer * wait) list
-(** [activate r] is [r] about to run, and what begins with it: the timers that start, and the questions that are put. A
-    [during] whose time is given by code starts in a step of its own. *)
+(** [activate r] is [r] about to run, and the timers that start and the questions that are put with it. A [during]
+    whose time is given by code starts in a step of its own. *)
 
 (** {1:active What is active} *)
 
@@ -114,13 +115,13 @@ val exists_active : (t -> bool) -> t -> bool
 
 val may_go_round : t -> bool
 (** [may_go_round r] is whether [r] has a [repeat] without a number of rounds, code in the place of a task, which may
-    make one, or a handler that may run its task anew. Without these, every step leaves less. *)
+    make one, or a handler that may run its task again. Without these, every step leaves less. *)
 
 (** {1:contexts Contexts}
 
-    A residual that has begun stands in contexts. How a change of it becomes a change of the whole depends on the
-    contexts alone, not on what stands beside it ({!Task_rules.change_within}); so its steps can be computed once. A
-    [Parallel] is no context: several of its branches have begun. *)
+    A residual that has begun stands in contexts. The contexts alone determine how a change of it becomes a change of
+    the whole, not the parts beside it ({!Task_rules.change_within}); so its steps can be computed once. A [Parallel]
+    is not a context: several of its branches have begun. *)
 
 type context =
   | Before of t list  (** [_ >> t1 >> ... >> tn] *)
@@ -133,14 +134,14 @@ type context =
   | Having of vehicle
 
 val opened : t -> (context * t) option
-(** [opened r] is the outermost context of [r], and what is in it, if anything in it has begun. *)
+(** [opened r] is the outermost context of [r], and its contents, if any part in it has begun. *)
 
 val within : context -> t -> t
 (** [within k r] is [r] in [k], in normal form. *)
 
 val decompose : t -> context list * t
-(** [decompose r] is all contexts of [r], the innermost first, and what is in them: [plug ks r'] is [r] if
-    [decompose r] is [(ks, r')]. *)
+(** [decompose r] is all contexts of [r], the innermost first, and their contents: [plug ks r'] is [r] if [decompose
+    r] is [(ks, r')]. *)
 
 val plug : context list -> t -> t
 (** [plug ks r] is [r] in the contexts [ks], the innermost first. *)
@@ -157,35 +158,37 @@ val named : t -> vehicle list
 val makes_tasks : t -> bool
 (** [makes_tasks r] is whether tasks are made at their turn in [r], were made, or are to be; by handlers too. *)
 
-(** What is around a residual: what stands beside it in a [Parallel], or a context. Lists begin with the outermost. *)
+(** The surroundings of a residual: the parts beside it in a [Parallel], or a context. Lists begin with the
+    outermost. *)
 type surrounding =
   | Beside of t list
   | Inside of context
-  | Around of t list  (** what the step itself stands in, or cuts *)
+  | Around of t list  (** the context of the step itself, or the one that it cuts *)
 
 val held : surrounding list -> vehicle list
-(** [held around] is the vehicles that are held from what [around] is around: those named beside it. What follows it,
-    the other branches of an [allOf] and what holds it are never active beside it, so they hold nothing from it. *)
+(** [held around] is the vehicles that are held from the residual in [around]: those named beside it. Its
+    continuation, the other branches of an [allOf] and the task that holds it are never active beside it, so they
+    hold nothing from it. *)
 
 val needed_around : surrounding list -> vehicle list
-(** [needed_around around] is the vehicles that [around] needs: that it names beside it, or in what is to come. What
-    only holds them around it does not need them. *)
+(** [needed_around around] is the vehicles that [around] needs: those named beside it, or in parts to come. Contexts
+    that only hold them around it do not need them. *)
 
 val named_around : surrounding list -> vehicle list
 (** [named_around around] is the vehicles that [around] names, beside or around. *)
 
 val recruited_for : surrounding list -> vehicle list
-(** [recruited_for around] is the vehicles that were recruited for what [around] is around. *)
+(** [recruited_for around] is the vehicles that were recruited for the residual in [around]. *)
 
 val beyond_watches : surrounding list -> surrounding list list
-(** [beyond_watches around] is what is around each [watch] of [around], the innermost [watch] first. *)
+(** [beyond_watches around] is the surroundings of each [watch] of [around], the innermost [watch] first. *)
 
 val inside_watches : surrounding list -> t list list
-(** [inside_watches around] is what [around] has inside of each of its [watch]es, the innermost [watch] first: what is
-    cut off if an error comes to it. *)
+(** [inside_watches around] is the part of [around] inside of each of its [watch]es, the innermost [watch] first: the
+    part cut off by an error that reaches it. *)
 
 val allocation_around : surrounding list -> platform_task Vehicle_map.t
-(** [allocation_around around] is the tasks that run in what [around] names. *)
+(** [allocation_around around] is the tasks that run in the parts that [around] names. *)
 
 val timers_around : surrounding list -> timer list
 (** [timers_around around] is the timers that [around] names, those to come included. *)
@@ -194,5 +197,5 @@ val hole : t
 (** Stands for the inside of contexts: it names no vehicle and no timer. *)
 
 val fresh_timers : timer -> timer list -> unit -> timer
-(** [fresh_timers place used] gives new timers, one after the other, for a task made at [place], where those [used] are
-    taken. They differ from all timers of tasks made at other places, and of the executed task. *)
+(** [fresh_timers place used] gives new timers, one after the other, for a task made at [place], while those [used]
+    are taken. They differ from all timers of tasks made at other places, and of the executed task. *)

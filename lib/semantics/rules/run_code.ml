@@ -45,7 +45,7 @@ let run ?needed held program world s mode closure arguments =
       | Faulted fault -> Faulty (fault, said deeds)
       | Exhausted ->
         let message = "this code does not come to an end, and code inside of a task is atomic" in
-        (* It may have said any number of things. *)
+        (* It may have printed any number of messages. *)
         Faulty (Fault.make closure.lambda.lambda_site message, [])
       | Did _ | Waits _ | Left_off -> invalid_arg "Run_code.run: atomic code stopped"
     in

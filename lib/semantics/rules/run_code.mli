@@ -3,12 +3,12 @@
 open Core
 
 type outcome =
-  | Gives of value * Shared.t * Code.deed list  (** what the code did, first deed first *)
-  | Faulty of Fault.t * Code.deed list  (** what it said before; all else that it did is undone *)
+  | Gives of value * Shared.t * Code.deed list  (** the deeds of the code, first deed first *)
+  | Faulty of Fault.t * Code.deed list  (** its messages before; all its other deeds are undone *)
   | Halts of string * Shared.t * Code.deed list
 
 type result = {
-  world : World.t;  (** with what was supposed of it *)
+  world : World.t;  (** with its assumptions *)
   outcome : outcome;
   mode : Code.mode;  (** a handler's has its verdict *)
 }
@@ -16,7 +16,7 @@ type result = {
 val atomic :
   ?held:vehicle list Lazy.t -> ?given:value list -> program -> World.t -> Shared.t -> closure -> result Decision.t
 (** [atomic ~held ~given p w s code] runs [code] of a task to its end, with arguments [given], none by default. The
-    vehicles [held] are held from where it stands; by default, none. *)
+    vehicles [held] are held from its place; by default, none. *)
 
 val handler :
   held:vehicle list Lazy.t -> needed:vehicle list Lazy.t -> program -> World.t -> Shared.t -> closure -> Fault.t ->
@@ -27,7 +27,7 @@ val handler :
 val context :
   ?held:vehicle list Lazy.t -> ?needed:vehicle list Lazy.t -> program -> World.t -> Shared.t -> Code.mode ->
   Code.context
-(** What the machine sees of a shared part. *)
+(** The part of a shared part that the machine sees. *)
 
 val after : Code.context -> Shared.t -> Shared.t
 (** [after x s] is [s] with the store, B and N that [x] holds. *)
@@ -37,7 +37,7 @@ val kept : program -> World.t -> Shared.t -> Shared.t
     variables that hold them ({!Reading.keep}). *)
 
 val said : Code.deed list -> Code.deed list
-(** The messages among these deeds: what code said stays said, whatever becomes of it. *)
+(** The messages among these deeds: messages stay, also of undone code. *)
 
 val effects : Code.deed list -> Effect.t list
-(** What these deeds ask of the outside. *)
+(** The requests of these deeds to the outside. *)

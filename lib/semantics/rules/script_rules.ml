@@ -1,4 +1,4 @@
-(* At most so many expressions are evaluated in one silent transition of the script. *)
+(* The limit on expressions that are evaluated in one silent transition of the script. *)
 let fuel = 10_000
 
 let rule_of_deed : Code.deed -> Rule.t = function

@@ -1,4 +1,4 @@
-(** The rules of the script: what it does by itself, and what it waits for. *)
+(** The rules of the script: its own steps, and the events that it waits for. *)
 
 open Core
 
@@ -7,10 +7,9 @@ val step : program -> World.t -> Shared.t -> Machine.t -> Conclusion.t Decision.
     ALLOC-ERR), or an end. *)
 
 val on_interrupt : ?recruits:vehicle list -> program -> Shared.t -> Machine.t -> Configuration.t option
-(** [on_interrupt ~recruits p s m] is what becomes of a run with shared part [s], whose script stands at [m],
-    if it is interrupted
-    and executes what [p] declares by [onInterrupt] then. [recruits], by default nobody, is whom the task that executes
-    has recruited. *)
+(** [on_interrupt ~recruits p s m] is the result for a run with shared part [s], whose script stands at [m], if it is
+    interrupted and executes the [onInterrupt] task of [p] then. [recruits], by default none, is the vehicles that
+    the executing task has recruited. *)
 
 val interrupt : program -> Configuration.t -> Machine.t -> Conclusion.t
 (** [interrupt p c m] is ON-INTERRUPT, or INTERRUPT, of [c], whose script stands at [m]. *)
@@ -23,5 +22,5 @@ val fail : Rule.t -> Label.t -> string -> Shared.t -> Machine.t -> Conclusion.t
 
 val answer :
   program -> World.t -> Shared.t -> Machine.t -> text:string -> closure -> (Conclusion.t, string) result Decision.t
-(** [answer p w s m ~text code] is ANSWER, if [code], which was typed as [text], only computes a value; or why it is
-    none. *)
+(** [answer p w s m ~text code] is ANSWER, if [code], which was typed as [text], only computes a value; or the reason
+    why not. *)

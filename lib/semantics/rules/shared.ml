@@ -23,7 +23,7 @@ let compare s s' =
 
 let equal s s' = compare s s' = 0
 
-(* A is left out: it follows from what runs. *)
+(* A is left out: it follows from the residual. *)
 let hash s = Order.mix (Order.mix (Tuples.hash s.tuples) (Store.hash s.store)) (Hashtbl.hash s.bound) land max_int
 
 let pp program ppf s =

@@ -1,5 +1,5 @@
-(** The shared part of a configuration: S = <store, A, B, N>. The rules of tasks take one and give one; the control is
-    none of their business. *)
+(** The shared part of a configuration: S = <store, A, B, N>. The rules of tasks take one and give one; the control
+    is not part of it. *)
 
 open Core
 

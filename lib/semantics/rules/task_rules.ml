@@ -62,7 +62,7 @@ let undoing undone change = { change with undone = change.undone @ [ undone ] }
 
 (* {1 Composition} *)
 
-(* What a change of a part is for the whole around it. *)
+(* A change of a part as a change of the whole around it. *)
 type around = {
   on_next : t -> change -> change;
   on_finished : change -> change;
@@ -89,7 +89,7 @@ let rec lift around change =
 
 let with_change f (Step step) = Step { step with continue = (fun reply -> f (step.continue reply)) }
 
-(* [s] as a step of what is [around], which makes of its changes what [f] does. *)
+(* [s] as a step with the surroundings [around], which applies [f] to its changes. *)
 let composed f surroundings (Step step) =
   let continue reply = f (step.continue reply) in
   Step { step with continue; around = List.rev_append surroundings step.around }
@@ -150,7 +150,8 @@ let around_during on_cut timer duration =
     on_failed = (fun fault c -> undoing (Cancel timer) (plain.on_failed fault c));
   }
 
-(* What runs in the place of the task that failed has no vehicles yet. Run anew, the handler watches it again. *)
+(* The task in the place of the one that failed has no vehicles yet. When it runs again, the handler watches it
+   again. *)
 let recover (handler : handler) label recovery =
   match recovery, handler.anew with
   | Anew, Some (task, request) ->
@@ -221,7 +222,7 @@ let too_late = function
   | Seconds seconds -> Printf.sprintf "not done within %s s" (Value.amount seconds)
   | Given_by _ -> invalid_arg "Task_rules: a time that is not known yet"
 
-(* What a context can do to its body. *)
+(* The changes that a context can make to its body. *)
 let cut context body =
   let cut change = undoing (Cut [ body ]) change in
   match context with

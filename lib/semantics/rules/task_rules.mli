@@ -1,5 +1,5 @@
-(** The rules of tasks, from docs/semantics.md: what a residual can do. Steps are data: what a step needs of the shared
-    part and of the world (an {!type-offer}), and once it has that, the rules' conclusion (a {!type-change}).
+(** The rules of tasks, from docs/semantics.md: the steps of a residual. Steps are data: the needs of a step from the
+    shared part and the world (an {!type-offer}), and with these, the rules' conclusion (a {!type-change}).
     {!Local_step} makes steps of the shared part from these. *)
 
 open Core
@@ -7,28 +7,29 @@ open Residual
 
 (** {1:steps Steps} *)
 
-(** What a step needs; the parameter is the type of the reply that it goes on with. An error says what went wrong: the
-    code is faulty, or why the vehicle failed. *)
+(** The needs of a step; the parameter is the type of the reply that it goes on with. An error is the reason: the
+    code is faulty, or the vehicle's failure. *)
 type _ offer =
   | Start : platform_task * vehicle -> unit offer  (** nothing; A(v) becomes the task *)
-  | Perform : closure -> (Code.deed list, Fault.t) result offer  (** to run this action: what it did *)
-  | Check : closure -> (Code.deed list, Fault.t) result offer  (** that this guard is true: what it did *)
-  | Refute : closure -> (unit, Fault.t) result offer  (** that this guard is not true; what its code did is undone *)
+  | Perform : closure -> (Code.deed list, Fault.t) result offer  (** to run this action: its deeds *)
+  | Check : closure -> (Code.deed list, Fault.t) result offer  (** that this guard is true: its deeds *)
+  | Refute : closure -> (unit, Fault.t) result offer  (** that this guard is not true; the deeds of its code are
+                                                          undone *)
   | Decide : closure -> (bool * Code.deed list, Fault.t) result offer
-  (** whether this guard is true, and what it did; if not, what its code did is undone *)
-  | Take : closure -> (Code.deed list, Fault.t) result offer  (** as [Check]; what comes of it depends on the deeds *)
+  (** whether this guard is true, and its deeds; if not, the deeds of its code are undone *)
+  | Take : closure -> (Code.deed list, Fault.t) result offer  (** as [Check]; its result depends on the deeds *)
   | Measure : closure -> (float, Fault.t) result offer  (** the seconds that this code gives *)
   | Make : closure * value list * request -> (task, Fault.t) result offer
   (** the task that this code gives of these values *)
   | Allocate : task * request -> (vehicle list * t, Fault.t) result offer
-  (** vehicles for this task that nobody holds: these, and what is left of the task *)
+  (** free vehicles for this task: these, and the rest of the task *)
   | End_of : platform_task * vehicle -> (unit, string) result offer  (** that the vehicle reports the end *)
   | Expiry_of : timer -> unit offer  (** that the timer expires *)
   | Answer_to : timer * string -> (bool, string) result offer
-  (** that the question of this prompt is answered: whether by yes, or why nobody answers *)
+  (** that the question of this prompt is answered: whether by yes, or why it stays unanswered *)
   | Recruit_for : timer * Vehicle_filter.t -> vehicle offer  (** that such a vehicle is there *)
 
-(** What no longer runs. *)
+(** The parts that no longer run. *)
 type undoing =
   | Cancel of timer
   | Leave of vehicle  (** it was recruited, and is released if it is in B *)
@@ -36,10 +37,10 @@ type undoing =
                        those that were recruited are released *)
 
 (** A further round that begins, of a [repeat] without a number of rounds: it has no end of its own, or its condition
-    was asked and does not hold; or a watched task that runs anew, by [retry()] of the handler at that place. *)
+    was asked and does not hold; or a watched task that runs again, by [retry()] of the handler at that place. *)
 type round = Endless of again | Asked of again | Retried of site
 
-(** What a handler has run in the place of its task: that task anew, or the task that it gives. *)
+(** The task that a handler runs in the place of its own: that task again, or the task that it gives. *)
 type recovery = Anew | Instead of task
 
 type outcome =
@@ -54,18 +55,18 @@ type outcome =
       recovered : recovery -> change;  (** if the handler may recover *)
     }
 
-(** What a step makes of a residual. *)
+(** The change of a residual by a step. *)
 and change = {
   label : Label.t;
   outcome : outcome;
-  rules : Rule.t list;  (** the derivation, innermost rule first; after a handler, what follows it *)
+  rules : Rule.t list;  (** the derivation, innermost rule first; after a handler, the rules that follow it *)
   timers : (timer * wait) list;  (** that start, and the questions that are put *)
   undone : undoing list;  (** in the order of the derivation, innermost rule first *)
   rounds : round list;  (** that begin: without these, every step leaves less of the residual *)
 }
 
 type step = Step : { offer : 'reply offer; continue : 'reply -> change; around : surrounding list } -> step
-(** [around] is what is around the part that takes the step. *)
+(** [around] is the surroundings of the part that takes the step. *)
 
 val steps : t -> step Seq.t
 (** [steps r] is all that [r] can do, leftmost first, computed on demand. *)
@@ -85,7 +86,7 @@ val broken : step -> Fault.t -> change option
 
 (** {1:contexts Composition}
 
-    The steps of a whole are those of its parts, with their changes composed by the rules of what is around the parts.
+    The steps of a whole are those of its parts, with their changes composed by the rules of the parts' surroundings.
     [steps] is made so. The functions are public so that changes of single parts are composed in the same way. *)
 
 val change_within : context -> change -> change

@@ -4,16 +4,16 @@
 
 open Core
 
-(** What happens outside. *)
+(** The events from outside. *)
 type event = Local_step.event =
   | Vehicle_done of vehicle  (** the vehicle ended its task *)
   | Vehicle_failed of vehicle * string
   (** it failed, refused the task, or its connection was lost for longer than its timeout: why *)
   | Timer_expired of Residual.timer
   | Confirmed of Residual.timer * (bool, string) result
-  (** the question of a task was answered: whether by yes, or why nobody answers *)
+  (** the question of a task was answered: whether by yes, or why it stays unanswered *)
   | Recruited of Residual.timer * vehicle  (** the vehicle is there for this [recruit] *)
-  | Answered of { text : string; code : closure }  (** to [ask]: what was typed, and its code *)
+  | Answered of { text : string; code : closure }  (** to [ask]: the typed text, and its code *)
   | Nobody_answers of string  (** why *)
   | Replied of value  (** by the host *)
   | Host_failed of string  (** why *)
@@ -27,45 +27,44 @@ type t = Conclusion.t = {
   label : Label.t;
   next : Configuration.t;
   effects : Effect.t list;  (** in the order in which they are to be carried out *)
-  assumed : World.assumption list;  (** what of an open world it takes for granted; otherwise nothing *)
+  assumed : World.assumption list;  (** its assumptions about an open world; otherwise nothing *)
 }
 
 (** Why an event makes no transition. *)
 type refusal =
   | Not_awaited  (** nothing in the configuration depends on it: it may be forgotten *)
-  | Bad_answer of string  (** the answer is no expression that has a value: why; to be asked again *)
+  | Bad_answer of string  (** the answer is not an expression with a value: why; to be asked again *)
 
-(** What a configuration waits for. *)
+(** The events that a configuration waits for. *)
 type awaited =
   | End_of of vehicle  (** that it is done with its task, or fails *)
   | Expiry_of of Residual.timer
-  | Answer_to of Residual.timer * string  (** to this question, with its prompt, or that nobody answers *)
+  | Answer_to of Residual.timer * string  (** to this question, with its prompt, or that it stays unanswered *)
   | Recruit_for of Residual.timer * Vehicle_filter.t  (** that such a vehicle is there, for this [recruit] *)
-  | Answer  (** to [ask], or that nobody answers *)
+  | Answer  (** to [ask], or that it stays unanswered *)
   | Reply  (** of the host, or that the host fails *)
 
 val internal : program -> World.t -> Configuration.t -> t Seq.t
 (** [internal p w c] is the transitions that [c] can make by itself, leftmost first, computed on demand. A [pick] has
-    one for every choice of vehicles, in pick order. Steps that depend on what [w] leaves open are not among them: see
-    {!internal_all}. *)
+    one for every choice of vehicles, in pick order. Steps that depend on values that [w] leaves open are not among
+    them: see {!internal_all}. *)
 
 val accept : program -> World.t -> Configuration.t -> event -> (t, refusal) result
 (** [accept p w c e] is the transition of [c] on [e]. [Interruption] is accepted wherever the program has not ended,
-    and so is [Input (k, x)] if [p] declares the key [k]. What depends on something that [w] leaves open is not
-    accepted: see {!accept_all}. *)
+    and so is [Input (k, x)] if [p] declares the key [k]. An event whose result depends on a value that [w] leaves
+    open is not accepted: see {!accept_all}. *)
 
 val on_interrupt : ?recruits:vehicle list -> Core.program -> Shared.t -> Machine.t -> Configuration.t option
-(** [on_interrupt ~recruits p s m] is what ON-INTERRUPT makes of a configuration with the shared part [s] whose
-    script stands at
-    [m]; [None] where INTERRUPT ends the run. [recruits], by default nobody, is whom the task that executes has
-    recruited. *)
+(** [on_interrupt ~recruits p s m] is the result of ON-INTERRUPT for a configuration with the shared part [s] whose
+    script stands at [m]; [None] where INTERRUPT ends the run. [recruits], by default none, is the vehicles that the
+    executing task has recruited. *)
 
 val is_leaving : Configuration.t -> bool
 (** Whether the run was interrupted, and executes what [onInterrupt] declares. *)
 
 val awaited : Configuration.t -> awaited list
-(** [awaited c] is what [c] has transitions for, leftmost first, besides inputs and [Interruption]. The time-out of a
-    [pick] is among them, but not accepted while the pick can be met: then it must be. *)
+(** [awaited c] is the events for which [c] has transitions, leftmost first, besides inputs and [Interruption]. The
+    time-out of a [pick] is among them, but not accepted while the pick can be met: then it must be. *)
 
 val recruitable : program -> World.t -> Configuration.t -> event Seq.t
 (** [recruitable p w c] is the events [Recruited (i, v)] of the vehicles that a [recruit] of [c] asks for, wherever they
@@ -75,18 +74,19 @@ val recruited : program -> World.t -> Configuration.t -> (event * t) option
 (** [recruited p w c] is the first of them that [c] accepts, with the transition. *)
 
 val depends_on_sensors : program -> Configuration.t -> bool
-(** [depends_on_sensors p c] is whether what sensors of the world show may matter to [c] or to what follows: a
-    driver then keeps them up to date. *)
+(** [depends_on_sensors p c] is whether sensors of the world may matter to [c] or to later configurations: a driver
+    then keeps them up to date. *)
 
 val unknown : program -> World.t -> Configuration.t -> Fault.t list
-(** [unknown p w c] is what guards of [c] need to know that vehicles have not told: each such guard does not hold. *)
+(** [unknown p w c] is the values that guards of [c] need and vehicles have not reported: each such guard does not
+    hold. *)
 
 (** {1:open In open worlds}
 
-    Where the world leaves open what sensors show, there are transitions for all that they may show, each with what it
-    assumes. If a step has one label and one result under several assumptions, only the first is listed; if all
-    assumptions lead to it, it assumes nothing. It is an error if more than a comparison depends on a reading
-    ({!Core.reading}): nobody could list the outcomes. In a closed world these are {!internal} and {!accept}. *)
+    If the world leaves sensors open, there are transitions for all of their values, each with its assumptions. If a
+    step has one label and one result under several assumptions, only the first is listed; if all assumptions lead to
+    it, it assumes nothing. It is an error if more than a comparison depends on a reading ({!Core.reading}): the
+    outcomes cannot be listed. In a closed world these are {!internal} and {!accept}. *)
 
 val internal_all : program -> World.t -> Configuration.t -> (t Seq.t, Fault.t) result
 (** [internal_all p w c] is the transitions that [c] can make by itself, leftmost first. *)

@@ -3,14 +3,13 @@
 open Core
 
 val pieces : program -> lambda list
-(** [pieces p] is the code of [p] that nothing else holds: the script, the functions, what [onInterrupt]
-    declares. *)
+(** [pieces p] is the code of [p] outside of other code: the script, the functions, the task of [onInterrupt]. *)
 
 val iter : (expression -> unit) -> lambda list -> unit
 (** [iter f ls] is [f] of the expressions of [ls], and of the code that they make or hold. *)
 
 val iter_within : (lambda -> expression -> unit) -> lambda list -> unit
-(** [iter_within f ls] is [f l e] for each expression [e] that [iter] has, where [l] is the code whose own it is. *)
+(** [iter_within f ls] is [f l e] for each expression [e] that [iter] has, where [l] is the code that owns it. *)
 
 val iter_called : (expression -> unit) -> program -> unit
 (** [iter_called f p] is [f] of the expressions of code that others call: the functions of [p], and the closures that

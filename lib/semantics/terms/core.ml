@@ -1,6 +1,6 @@
-(* The core language: what programs become after elaboration, and the values they compute. A types-only module: it has
-   no interface of its own. [Value] and [Machine] work on these types, which refer to one another: a task holds
-   closures, a closure holds values, a value may be a task.
+(* The core language: programs after elaboration, and the values they compute. A types-only module: it has no interface
+   of its own. [Value] and [Machine] work on these types, which refer to one another: a task holds closures, a closure
+   holds values, a value may be a task.
 
    Metavariables, as in docs/semantics.md: [e] expression, [t] task, [v] vehicle, [k] and [x] key and value of a tuple,
    [g] guard, [r] residual, [c] configuration, [l] label. *)
@@ -9,7 +9,7 @@ type vehicle = string
 (** A vehicle, by its identifier in the network. *)
 
 type site = int
-(** Where in the program: an index into {!type-program}'s [locations]. *)
+(** A place in the program: an index into {!type-program}'s [locations]. *)
 
 (** {1 Values} *)
 
@@ -31,17 +31,17 @@ type value =
   | Closure of closure
   | Host of string                              (* an object of the host process, by its name there *)
   | Settings of setting list                    (* a block of settings being read, latest first *)
-  | Reading of reading                          (* in open worlds: what a sensor shows *)
-  | Unknown of unknown                          (* what a vehicle has not told *)
+  | Reading of reading                          (* in open worlds: a sensor's value *)
+  | Unknown of unknown                          (* a value that a vehicle has not reported *)
 
-(** A value that an open world leaves open: it may be anything of its quantity. It is known by its text, which says how
-    the value was computed, or which variable keeps it from one step to the next. *)
+(** A value that an open world leaves open: it may be anything of its quantity. It is known by its text, which
+    describes how the value was computed, or which variable keeps it from one step to the next. *)
 and reading = { quantity : quantity; text : string }
 
-(** What [sensor] of [of_vehicle] would show: ["battery"]. *)
+(** The value of [sensor] of [of_vehicle]: ["battery"]. *)
 and unknown = { sensor : string; of_vehicle : vehicle }
 
-(** What tells of a vehicle, beside where it is; [Measurement] of a quantity that it measures. *)
+(** The reports of a vehicle, beside its place; [Measurement] of a quantity that it measures. *)
 and sensor = Battery | Speed | Connected | Measurement of string
 
 and quantity = Amount | Place | Region | Words  (* a number, a position, an area, a string *)
@@ -80,8 +80,8 @@ and task =
 
 and branch = { guard : closure; body : task }
 
-(** What a task is that is cut off: done, by [until] and [during]; failed, by [assure] and [within], at a place in the
-    program. *)
+(** The state of a task that is cut off: done, by [until] and [during]; failed, by [assure] and [within], at a place
+    in the program. *)
 and on_cut = Completes | Fails of site
 
 and duration = Seconds of float | Given_by of closure
@@ -112,7 +112,7 @@ and node =
   | Break
   | Continue
 
-(** What is done once the arguments are values. *)
+(** The operation once the arguments are values. *)
 and operation =
   | Unary of Dolphin_syntax.Ast.unary
   | Binary of Dolphin_syntax.Ast.binary
@@ -139,7 +139,7 @@ and builtin =
   | Make_condition
   | Make_wait_for
   | Make_until of Dolphin_syntax.Ast.on_cut
-  | Make_idle                                   (* of a time; of a vehicle set: those of it that nobody holds *)
+  | Make_idle                                   (* of a time; of a vehicle set: the free ones of it *)
   | Make_confirm
   | Make_during of Dolphin_syntax.Ast.on_cut
   | Make_watch
@@ -171,13 +171,14 @@ and builtin =
   | Retry
   | Dismiss
   | Get_supplier
-  | Interrupted                                 (* made by elaboration: the end of what [onInterrupt] executes *)
+  | Interrupted                                 (* made by elaboration: the end of the task of [onInterrupt] *)
   | Is_there                                    (* made by elaboration: whether [a ?: b] is [a] *)
-  | Is_host                                     (* made by elaboration, for updates of what may be a host object *)
+  | Is_host                                     (* made by elaboration, for updates of values that may be host
+                                                   objects *)
   | Math of string
   | Geometry of string * string option list     (* [along] and the like; names of named arguments *)
 
-(** What a closure runs. The mutable fields are set once, by elaboration: functions may refer to themselves. *)
+(** The code of a closure. The mutable fields are set once, by elaboration: functions may refer to themselves. *)
 and lambda = {
   id : int;                                     (* unique in the program *)
   label : string;                               (* the function's name, or what the closure is for *)
@@ -199,11 +200,11 @@ type program = {
   main : lambda;
   ordered_keys : Tuple_space.order;             (* keys that some [_] or pattern of [consume] takes the oldest of *)
   inputs : string list;                         (* keys of the pairs that the outside may post *)
-  on_interrupt : lambda option;                 (* of the bound vehicles: what an interruption executes *)
+  on_interrupt : lambda option;                 (* of the bound vehicles: the task executed on an interruption *)
   recruits : bool;                              (* some task may recruit *)
   goes_round : bool;                            (* some task may begin rounds without a number *)
   reads_sensors : bool;                         (* some code may read sensors, places included *)
   reads_now : bool;                             (* some code may read the date *)
   asks_running : bool;                          (* some code may ask which vehicles run a task *)
-  fences : Fences.t;                            (* what platforms hold vehicles to: no rule asks *)
+  fences : Fences.t;                            (* the limits that platforms enforce on vehicles: no rule asks *)
 }

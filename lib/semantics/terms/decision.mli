@@ -1,9 +1,10 @@
-(** Results that may depend on what a world leaves open, as trees of decisions. In a closed world all is {!Decided}. *)
+(** Results that may depend on values that a world leaves open, as trees of decisions. In a closed world all is
+    {!Decided}. *)
 
 type 'a t =
   | Decided of 'a
-  | Open of (World.assumption * 'a t Lazy.t) list  (** by what is assumed, which is one of these *)
-  | Unclear of Fault.t  (** more than a comparison depends on a reading: nobody could list the results *)
+  | Open of (World.assumption * 'a t Lazy.t) list  (** by the assumption, which is one of these *)
+  | Unclear of Fault.t  (** more than a comparison depends on a reading: the results cannot be listed *)
 
 val ask : World.t -> World.question -> (World.t -> 'a t) -> 'a t
 (** [ask w q f] is [f] of [w] with each answer to [q] supposed. *)
@@ -15,7 +16,7 @@ val map : ('a -> 'b) -> 'a t -> 'b t
 val bind : 'a t -> ('a -> 'b t) -> 'b t
 
 val leaves : 'a t -> (World.assumption list * ('a, Fault.t) result) Seq.t
-(** [leaves d] is all results of [d], computed on demand, each with what it assumes; an error where they are unclear. *)
+(** [leaves d] is all results of [d], computed on demand, each with its assumptions; an error where they are unclear. *)
 
 val cases : 'a t -> ((World.assumption list * 'a) list, Fault.t) result
 (** [cases d] is {!leaves} of [d] all at once, or its first error. *)

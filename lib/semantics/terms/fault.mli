@@ -1,19 +1,19 @@
-(** What went wrong while a program ran: in its own code, or on a vehicle. *)
+(** A failure while a program ran: in its own code, or on a vehicle. *)
 
 type cause =
   | Code  (** of the program, or of a vehicle: an error, which [watch] may handle *)
   | Assertion  (** an assertion that fails ends the program, whatever is around it *)
   | Task of { vehicle : Core.vehicle; task : string }  (** a platform task that failed, by its name: an error *)
-  | Unknown  (** code needed what a vehicle has not told: of a guard, it does not hold; of other code, an error *)
+  | Unknown  (** code needed a value that a vehicle has not reported: a guard does not hold; other code has an error *)
 
 type t = {
-  message : string;  (** one sentence without a full stop: what is wrong, and where it helps, what would be right *)
-  site : Core.site;  (** the place in the program that failed; {!unknown_site} if there is none *)
+  message : string;  (** one sentence without a full stop: the fault, and where it helps, the remedy *)
+  site : Core.site;  (** the place in the program that failed; {!unknown_site} without one *)
   cause : cause;
 }
 
 val unknown_site : Core.site
-(** The site of what has no place in the program. *)
+(** The site of code without a place in the program. *)
 
 val make : Core.site -> string -> t
 (** [make site message] is an error of the mission. *)
@@ -34,5 +34,5 @@ val is_assertion : t -> bool
 (** Whether it was made by {!assertion}. *)
 
 val location : Core.program -> t -> Dolphin_syntax.Location.t option
-(** [location p f] is where in [p]'s text [f] happened. *)
+(** [location p f] is the place of [f] in [p]'s text. *)
 

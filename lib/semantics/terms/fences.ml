@@ -65,7 +65,7 @@ type breach = { fence : fence; maneuver : string option; place : Position.t opti
 
 let told (part : Plan_room.part) = if part.is_transit then "the way to " ^ part.leg else part.leg
 
-(* On the way to its plan, a vehicle may come back from where it is. *)
+(* On the way to its plan, a vehicle may come back from its present place. *)
 let transit_rules fences (parts : Plan_room.part list) =
   let broken p = List.map fst (Fence.breaches_at fences.planned p) in
   match parts with
@@ -142,7 +142,7 @@ let vertical_leeway = 2.
 let areas fences = Array.length fences.on_ground
 let numbered fences n = if n < areas fences then fences.on_ground.(n) else fences.limits.(n - areas fences)
 
-(* Who dives, or floats, is not above the ground. *)
+(* A vehicle that dives, or floats, is not above the ground. *)
 let height sight =
   match sight.altitude, sight.depth with
   | Some metres, _ -> Some metres

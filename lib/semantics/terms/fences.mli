@@ -1,6 +1,5 @@
-(** What vehicles must not do: where plans may lead, and how near to each other vehicles may come. A program declares
-    fences. Nothing of this is part of the rules: a plan that breaks a fence fails, as
-    plans may. *)
+(** The limits of vehicles: where plans may lead, and how near to each other vehicles may come. A program declares
+    fences. Nothing of this is part of the rules: a plan that breaks a fence fails, as plans may. *)
 
 open Dolphin_geo
 
@@ -38,19 +37,20 @@ type breach = {
   fence : fence;
   maneuver : string option;  (** [None]: on the way to the plan *)
   place : Position.t option;  (** [None]: it goes too deep or too high *)
-  message : string;  (** what breaks which fence, where, and by how many metres: a sentence without a full stop *)
+  message : string;  (** the maneuver and the fence that it breaks, the place, and the metres: a sentence without a
+                         full stop *)
 }
 
 val of_plan : t -> from:Position.t option -> Inline_plan.t -> breach option
 (** [of_plan fences ~from p] is the breach that [p] is, of a vehicle at [from], circles taken as the discs inside of
-    them: a maneuver that leaves an area, comes nearer to its rim than the margin, or goes too deep or too high, or of
-    which nobody can know how deep or high it goes. [None] if there is none up to {!Fence.tolerance}. Where the vehicle
-    is unknown, only what does not depend on it is looked at. On the way to its plan a vehicle may come back from beyond
-    a fence, or from within its margin. *)
+    them: a maneuver that leaves an area, comes nearer to its rim than the margin, or goes too deep or too high, or
+    whose depth or height cannot be known. [None] without a breach up to {!Fence.tolerance}. If the vehicle's place
+    is unknown, only parts that do not depend on it are checked. On the way to its plan a vehicle may come back from
+    beyond a fence, or from within its margin. *)
 
 (** {1 Plans side by side} *)
 
-(** Where two plans come nearer to each other than the least distance between vehicles. *)
+(** The place where two plans come nearer to each other than the least distance between vehicles. *)
 type near = {
   maneuver : string;  (** of the one plan *)
   other : string;  (** of the other *)
@@ -59,12 +59,12 @@ type near = {
 }
 
 val near : t -> Plan_room.part list -> Plan_room.part list -> near option
-(** [near fences ps qs] is where the ways [ps] and [qs] are nearest to each other, whenever vehicles are there, if that
-    is nearer than the least distance. *)
+(** [near fences ps qs] is the place where the ways [ps] and [qs] are nearest to each other, at any times of the
+    vehicles, if that is nearer than the least distance. *)
 
 (** {1 Vehicles} *)
 
-(** Where a vehicle is, as far as it tells. *)
+(** The place of a vehicle, as far as it reports it. *)
 type sight = {
   place : Position.t;
   depth : float option;  (** metres below the surface *)
@@ -75,29 +75,29 @@ type beyond
 (** Which areas and limits a vehicle breaks, whatever the margin, and by how many metres. *)
 
 val beyond : t -> sight -> beyond
-(** Those that a vehicle there breaks. The depth is that which it tells; the height is its altitude, or if it tells
+(** Those that a vehicle there breaks. The depth is the reported one; the height is its altitude, or if it reports
     neither altitude nor depth, that of its place above the ellipsoid. *)
 
 val nowhere : beyond
 (** None. *)
 
 val of_vehicle : t -> since:beyond -> sight -> (beyond, string) result
-(** [of_vehicle fences ~since s] is what is wrong if a vehicle under way is at [s]: it breaks an area or a limit that it
-    did not break, as [since] has it, or by {!leeway} or {!vertical_leeway} metres more. If nothing is wrong, that which
-    is still broken of [since]. *)
+(** [of_vehicle fences ~since s] is the breach if a vehicle under way is at [s]: it breaks an area or a limit that it
+    did not break, as [since] has it, or by {!leeway} or {!vertical_leeway} metres more. If nothing is wrong, that
+    which is still broken of [since]. *)
 
 val leeway : float
 (** 10: on its way back, a vehicle may turn. *)
 
 val vertical_leeway : float
-(** 2: so much deeper or higher it may get on its way back. *)
+(** 2: the metres that it may get deeper or higher on its way back. *)
 
 type under_way = {
   vehicle : string;
   plan : string;
   parts : Plan_room.part list;  (** [[]]: not known *)
 }
-(** What a vehicle is doing. *)
+(** The present activity of a vehicle. *)
 
 val beside : t -> under_way -> under_way list -> string option
 (** [beside fences u others] is which of [others] the way of [u] comes nearer to than the least distance between
@@ -105,4 +105,4 @@ val beside : t -> under_way -> under_way list -> string option
 
 val too_near : t -> (string * Position.t) list -> (string * string * string) list
 (** [too_near fences vehicles] is the pairs of [vehicles], each at its place, that are nearer to each other than the
-    least distance, each pair once and in order, with what is to be said of it. *)
+    least distance, each pair once and in order, with its message. *)

@@ -1,4 +1,4 @@
-(** What a program describes, in place of a plan's name: a plan of maneuvers or a mission of items. *)
+(** A program's description in place of a plan's name: a plan of maneuvers or a mission of items. *)
 
 module Position = Dolphin_geo.Position
 
@@ -15,7 +15,7 @@ val required_payload : t -> string list
 (** The devices that it needs, each once. *)
 
 val reference : t -> Position.t option
-(** Where it begins: allocation prefers vehicles near it. [None]: wherever the vehicle is. *)
+(** Its beginning: allocation prefers vehicles near it. [None]: wherever the vehicle is. *)
 
 (** A part of the way, the maneuver or item [named]: straight to each of [waypoints], then [dwell] seconds at the last,
     perhaps [infinity], or at most [radius] metres from it. *)
@@ -29,8 +29,8 @@ type leg = {
 }
 
 val path : from:Position.t -> speed:float -> t -> leg list
-(** [path ~from ~speed p] is the way of a vehicle at [from], where what is not said in metres per second is [speed]:
-    that of {!Plan.path} or {!Mission_plan.path}. *)
+(** [path ~from ~speed p] is the way of a vehicle at [from], with [speed] where [p] has no speed in metres per
+    second: that of {!Plan.path} or {!Mission_plan.path}. *)
 
 val is_stay : leg -> bool
 (** Whether it visits no place. *)
@@ -38,7 +38,7 @@ val is_stay : leg -> bool
 val is_fixed : t -> bool
 (** [is_fixed p] is whether the places of {!path} are the same wherever the vehicle is. *)
 
-(** What a way comes to. *)
+(** The totals of a way. *)
 type extent = {
   metres : float;  (** over ground *)
   moving : float;  (** seconds under way *)
@@ -47,11 +47,11 @@ type extent = {
 
 val extent : from:Position.t -> speed:float -> t -> extent
 (** [extent ~from ~speed p] is that of [path ~from ~speed p], from [from] on until the first stay without end. If
-    [speed] is [nan], what depends on it is so too. *)
+    [speed] is [nan], results that depend on it are so too. *)
 
 val start : t -> (Position.t * float) option
-(** [start p] is the first place of {!path} and the speed on the way there, [nan] if that is the vehicle's; [None] if
-    there is none, or if it is elsewhere for vehicles elsewhere. *)
+(** [start p] is the first place of {!path} and the speed on the way there, [nan] if that is the vehicle's; [None]
+    without one, or if it depends on the vehicle's place. *)
 
 val compare : t -> t -> int
 val pp : Format.formatter -> t -> unit

@@ -31,7 +31,7 @@ let optional name item =
   | Some (Number x) -> Some x
   | Some (Truth _ | Text _ | Place _ | Places _) | None -> None
 
-(* Until a mission says how high it is, it is at its home. Rounds that go up each time go nobody knows how far. *)
+(* Until a mission sets its height, it is at its home. Rounds that go up each time have no highest point. *)
 let heights m =
   let climbs item = optional "up" item <> None and jumps item = item.word = "jumpToItem" in
   let is_known = not (List.exists climbs m.items && List.exists jumps m.items) in
@@ -44,7 +44,7 @@ let heights m =
   let _, _, found = List.fold_left add (0., 1, []) m.items in
   List.rev found
 
-(* Above home, which is taken to be at height 0. Who lands is there. *)
+(* Above home, which is taken to be at height 0. A vehicle that lands is there. *)
 let level item height : Plan.level =
   let height = if List.mem item.word [ "returnHomeAndLand"; "landingPoint" ] then Some 0. else height in
   { measured_from = (if height = None then Unspecified else Height); stays_at = Option.value height ~default:0.;
@@ -76,7 +76,7 @@ let moved from item =
 
 type state = { here : Position.t; home : Position.t; now : float  (* its speed *) }
 
-(* Where a mission does not say how wide its circles are. *)
+(* The default radius of a mission's circles. *)
 let usual_radius = 50.
 
 let radius item = match number "radius" ~default:0. item with 0. -> usual_radius | radius -> Float.abs radius
@@ -117,7 +117,7 @@ let carry_out item s =
       match surveyed item with
       | [] -> (s, [], 0.)
       | places -> ({ s with here = List.nth places (List.length places - 1) }, places, 0.))
-  | _ -> (s, [], 0.)  (* what neither moves it nor takes time: taking off, photos, heights *)
+  | _ -> (s, [], 0.)  (* items that neither move it nor take time: taking off, photos, heights *)
 
 (* More than any vehicle's battery lasts for. *)
 let most_steps = 20_000

@@ -1,6 +1,6 @@
-(** Missions of items: what [mission { ... }] describes, for vehicles whose plans are such missions, as those that speak
-    MAVLink. Lengths are in metres, times in seconds, speeds in metres per second, angles in degrees, heights in metres
-    above the home position. *)
+(** Missions of items: the content of [mission { ... }], for vehicles whose plans are such missions, as those that
+    speak MAVLink. Lengths are in metres, times in seconds, speeds in metres per second, angles in degrees, heights
+    in metres above the home position. *)
 
 module Position = Dolphin_geo.Position
 
@@ -44,14 +44,14 @@ type leg = {
 }
 
 val path : from:Position.t -> speed:float -> t -> leg list
-(** [path ~from ~speed m] is the legs of a vehicle at [from], whose home is there and whose speed is [speed] until [m]
-    says otherwise: a leg for each item that is carried out, in order, jumps taken. Of a stored mission nothing is
-    known: it takes no time. Who circles without end as the last item is done once there; other missions that go on
-    for ever end with a dwell without end. *)
+(** [path ~from ~speed m] is the legs of a vehicle at [from], whose home is there and whose speed is [speed] until
+    [m] sets another: a leg for each item that is carried out, in order, jumps taken. Of a stored mission nothing is
+    known: it takes no time. A vehicle that circles without end as the last item is done once there; other missions
+    without end end with a dwell without end. *)
 
 val heights : t -> (string * float option) list
-(** [heights m] is each numbered item, as in {!path}, with its metres above home: the altitude said last, and what the
-    item goes up; [None] if it goes up again with each of several rounds. *)
+(** [heights m] is each numbered item, as in {!path}, with its metres above home: the last altitude, and the item's
+    climb; [None] if it goes up again with each of several rounds. *)
 
 val compare : t -> t -> int
 val pp : Format.formatter -> t -> unit

@@ -10,4 +10,4 @@ val list : ('a -> 'a -> int) -> 'a list -> 'a list -> int
 (** [list compare xs ys] is the lexicographic order. A tail that both share is not gone through. *)
 
 val mix : int -> int -> int
-(** [mix h h'] is the hash of what has hash [h] followed by what has hash [h']. *)
+(** [mix h h'] is the hash of a sequence of two parts with hashes [h] and [h']. *)

@@ -1,9 +1,9 @@
-(** Inline plans: what [imcPlan { ... }] describes, ready for any platform that flies maneuvers. *)
+(** Inline plans: the content of [imcPlan { ... }], ready for any platform that flies maneuvers. *)
 
 type speed_unit = Metres_per_second | Revolutions_per_minute | Percent  (** of full thrust *)
 
-(** What a [z] is measured from: metres below the surface, above the ground, above the ellipsoid; or the vehicle's own
-    way of keeping its height, whatever [z] is. *)
+(** The reference of a [z]: metres below the surface, above the ground, above the ellipsoid; or the vehicle's own way
+    of keeping its height, for any [z]. *)
 type z_unit = Depth | Altitude | Height | Unspecified
 
 type direction = Vehicle_dependent | Clockwise | Counter_clockwise | Into_wind_or_current
@@ -11,7 +11,7 @@ type direction = Vehicle_dependent | Clockwise | Counter_clockwise | Into_wind_o
 (** A device that a maneuver switches on, with its parameters by name. *)
 type payload = { name : string; parameters : (string * string) list }
 
-(** What is done; lengths in metres, times in seconds, angles in degrees. Durations are whole, from 0 to 65535: 0 is
+(** The action; lengths in metres, times in seconds, angles in degrees. Durations are whole, from 0 to 65535: 0 is
     without end, but for [Pop_up]. *)
 type kind =
   | Go_to
@@ -46,7 +46,7 @@ type kind =
 type maneuver = {
   id : string;  (** ["1.Goto"], ["2.Loiter"]: unique in its plan *)
   kind : kind;
-  location : Dolphin_geo.Position.t;  (** where it starts *)
+  location : Dolphin_geo.Position.t;  (** its starting place *)
   speed : float * speed_unit;
   z : float * z_unit;
   payloads : payload list;
@@ -64,14 +64,14 @@ val required_payload : t -> string list
     requirement of its vehicle. *)
 
 val reference : t -> Dolphin_geo.Position.t
-(** [reference p] is where the first maneuver is: allocation prefers vehicles near it. *)
+(** [reference p] is the place of the first maneuver: allocation prefers vehicles near it. *)
 
 (** {1:path The way that a vehicle goes} *)
 
-(** How deep or high a vehicle is on a leg. The heights of its waypoints are those that [z] says, altitudes counted from
-    the height of the maneuver's location. *)
+(** How deep or high a vehicle is on a leg. The heights of its waypoints are those of [z], altitudes counted from the
+    height of the maneuver's location. *)
 type level = {
-  measured_from : z_unit;  (** what the heights come of; of [Unspecified], they mean nothing *)
+  measured_from : z_unit;  (** the source of the heights; with [Unspecified], they mean nothing *)
   stays_at : float;  (** metres above the ellipsoid, after the last of the waypoints *)
   amplitude : float;  (** metres up and down from there: while it stays, or if it does not, on the way *)
   pitch : float;  (** degrees, with which it goes up and down *)
@@ -91,8 +91,8 @@ val path : t -> leg list
     [Follow_path], for others the location. Circles are left out. *)
 
 val metres_per_second : maneuver -> default:float -> float
-(** [metres_per_second m ~default] is the speed of [m] in metres per second. What revolutions per minute or percent of
-    thrust amount to depends on the vehicle: that is [default]. *)
+(** [metres_per_second m ~default] is the speed of [m] in metres per second. The speed for revolutions per minute or
+    percent of thrust depends on the vehicle: that is [default]. *)
 
 (** {1:plans Plans as values} *)
 

@@ -26,7 +26,7 @@ let parts_of_legs from legs =
   in
   List.rev (snd (List.fold_left add ((from, from <> None), []) legs))
 
-(* What is the same from two places does not depend on where the vehicle is. *)
+(* A result that is the same from two places does not depend on the vehicle's place. *)
 let anywhere p =
   match Inline_plan.reference p with
   | None -> []

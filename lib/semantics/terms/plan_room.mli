@@ -2,10 +2,10 @@
 
 open Dolphin_geo
 
-(** What a part of the way takes. *)
+(** The cost of a part of the way. *)
 type part = {
   leg : string;  (** the maneuver or item *)
-  is_transit : bool;  (** from where the vehicle is to where the plan begins *)
+  is_transit : bool;  (** from the vehicle's place to the beginning of the plan *)
   stretch : Fence.stretch;
 }
 

@@ -7,4 +7,4 @@ val is_one : float -> bool
 (** [is_one s] is [0 <= s < longest]. *)
 
 val none : string -> float -> string
-(** [none what s] is why [what], as ["idle"], does not take [s], which is no time. *)
+(** [none what s] is the reason why [what], as ["idle"], does not take [s], which is not a time. *)

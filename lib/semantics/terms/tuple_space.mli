@@ -1,8 +1,8 @@
 (** N, the tuple space: a multiset of pairs key:value. Values are equal here if they are for programs.
 
-    Only [consume k:_], which takes the oldest pair with key [k], can tell in which order pairs were posted. So a
-    space is told once, when it is made, which keys are consumed like that, and remembers an order for these alone:
-    two spaces that no program could tell apart are equal, whatever their histories.
+    Only [consume k:_], which takes the oldest pair with key [k], depends on the order of posts. So a space gets, when
+    it is made, the keys that are consumed like that, and remembers an order for these alone: two spaces that no program
+    can distinguish are equal, with any histories.
 
     Spaces are immutable plain data, without functions inside. Compare and hash them with {!S.compare}, {!S.equal}
     and {!S.hash}, never with the polymorphic operations: equal spaces may be laid out differently in memory. *)
@@ -13,7 +13,7 @@ type order =
   | Keys of string list  (** repetitions do not matter *)
   | Every_key  (** for programs that compute the key of a [consume k:_] *)
 
-(** What values must offer. *)
+(** The operations that values must offer. *)
 module type VALUE = sig
   type t
 
@@ -36,7 +36,7 @@ module type S = sig
   type t
 
   val empty : order -> t
-  (** [empty order] is the space without pairs, in which [order] says which keys are ordered. *)
+  (** [empty order] is the space without pairs, in which [order] selects the ordered keys. *)
 
   val is_empty : t -> bool
   (** [is_empty n] is [cardinal n = 0]. *)
@@ -55,8 +55,8 @@ module type S = sig
       keys. *)
 
   val consume_oldest : string -> t -> (value * t) option
-  (** [consume_oldest k n] is the value of the oldest pair with key [k], and [n] without that pair; [None] if there
-      is none. Time: log p.
+  (** [consume_oldest k n] is the value of the oldest pair with key [k], and [n] without that pair; [None] without such
+      a pair. Time: log p.
 
       @raise Invalid_argument if [k] is not ordered, since its order was not kept. *)
 

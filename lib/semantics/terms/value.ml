@@ -17,7 +17,7 @@ let rank_task = function
   | Repeat _ -> 12 | Made _ -> 13 | Confirm _ -> 14 | Recruit _ -> 15
 
 (* Two values may hold their parts many times over. Pairs of parts that took long to compare, and are equal, are
-   remembered: so many of the latest. *)
+   remembered: this number of the latest. *)
 let long = 1_000
 let remembered = 16
 
@@ -130,10 +130,10 @@ let compare x y = if x == y then 0 else order (memory ()) x y
 let compare_task t t' = if t == t' then 0 else order_task (memory ()) t t'
 let compare_closure c c' = if c == c' then 0 else order_closure (memory ()) c c'
 
-(* So many parts of a value are hashed: it may share its parts with itself many times over. *)
+(* The number of parts of a value that are hashed: it may share its parts with itself many times over. *)
 let hashed_parts = 10_000
 
-(* And so many levels of a task. *)
+(* The number of levels of a task. *)
 let hashed_depth = 6
 
 let rec hash_value left x =

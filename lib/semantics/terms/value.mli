@@ -5,8 +5,8 @@ type t = Core.value
 (** {1:order Order and equality of configurations} *)
 
 val compare : t -> t -> int
-(** A total order that tells apart what programs can tell apart, [1] and [1.0] among them. Closures are compared by
-    the piece of program they come from and by what they captured. *)
+(** A total order that distinguishes values that programs can distinguish, [1] and [1.0] among them. Closures are
+    compared by the piece of program they come from and by their captured values. *)
 
 val compare_task : Core.task -> Core.task -> int
 (** As {!compare}; so is {!compare_closure}. *)
@@ -26,8 +26,8 @@ val range_length : int -> int -> int
 
 val equals : t -> t -> bool
 (** [equals x y] is [x == y] in a program: numbers by their value, so that [1 == 1.0]; vehicle sets without regard to
-    the order of picks, maps to that of keys. What [x] and [y] share takes no time, and what each of them holds many
-    times is compared once. *)
+    the order of picks, maps to that of keys. Parts that [x] and [y] share take no time, and repeated parts of each
+    are compared once. *)
 
 val canonical : t -> t
 (** [canonical x] is [x] with numbers that are whole as integers. Tuples hold such values. *)
@@ -40,18 +40,18 @@ val is_alone : t -> bool
 (** [is_alone x] is whether no other value with the same {!canonical} numbers equals [x]. *)
 
 val truth : t -> bool
-(** [truth x] is how a condition takes [x]: false are [null], [false], 0, and what is empty. *)
+(** [truth x] is [x] as a condition: false are [null], [false], 0, and empty values. *)
 
 val kind : t -> string
-(** [kind x] is what [x] is, with an article: ["a number"], ["a vehicle set"]. *)
+(** [kind x] is the kind of [x], with an article: ["a number"], ["a vehicle set"]. *)
 
 val to_number : t -> float option
 (** [to_number x] is [Some] for integers and numbers. *)
 
 val items : t -> t array option
-(** [items x] is what a loop over [x] goes through: elements, numbers of a range, single vehicles, entries of a map
-    (each a map with [key] and [value]), characters; [None] if [x] is no such thing, or a range of more than
-    {!most_items} numbers. *)
+(** [items x] is the items of a loop over [x]: elements, numbers of a range, single vehicles, entries of a map (each
+    a map with [key] and [value]), characters; [None] if [x] has no items, or is a range of more than {!most_items}
+    numbers. *)
 
 val made_at : Core.site -> t -> t
 (** [made_at site x] is [x] with its platform tasks, those in lists and maps too, from [site]: as a host replies [x] to

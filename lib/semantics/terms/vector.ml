@@ -1,6 +1,6 @@
-(* The first [length] elements of [buffer]. Vectors that were appended to one another share [buffer] and [filled]: how
-   many elements of it are in use by any of them. The longest one may fill the next place; for all others that place is
-   beyond their [length], so nobody sees it. [buffer] of a vector that was not appended to is full. *)
+(* The first [length] elements of [buffer]. Vectors that were appended to one another share [buffer] and [filled]:
+   how many elements of it are in use by any of them. The longest one may fill the next place; for all others that
+   place is beyond their [length], and so invisible. [buffer] of a vector that was not appended to is full. *)
 type 'a t = { buffer : 'a array; length : int; filled : int ref }
 
 (* Of a full buffer. It is never changed, as no place is left. *)
@@ -19,7 +19,7 @@ let to_list xs =
   let rec from i rest = if i < 0 then rest else from (i - 1) (xs.buffer.(i) :: rest) in
   from (xs.length - 1) []
 
-(* A buffer is twice as long as what it was made for, so that each element is copied once on average. *)
+(* A buffer is twice as long as its first vector, so that each element is copied once on average. *)
 let least_room = 4
 
 let append xs x =

@@ -1,5 +1,5 @@
-(** Sequences that never change, and grow at their end in constant time (amortised): a vector and what {!append} makes
-    of it share their elements. Elements are found by their index in constant time. *)
+(** Sequences that never change, and grow at their end in constant time (amortised): a vector and the results of
+    {!append} to it share their elements. Elements are found by their index in constant time. *)
 
 type 'a t
 
@@ -9,7 +9,7 @@ val of_array : 'a array -> 'a t
 (** [of_array xs] has the elements of [xs], which is not to be changed from then on. *)
 
 val to_array : 'a t -> 'a array
-(** [to_array xs] is not to be changed: it is [ys] of [of_array ys]. What {!append} gave is copied. *)
+(** [to_array xs] is not to be changed: it is [ys] of [of_array ys]. The result of {!append} is copied. *)
 
 val of_list : 'a list -> 'a t
 val to_list : 'a t -> 'a list
@@ -17,11 +17,11 @@ val to_list : 'a t -> 'a list
 val length : 'a t -> int
 
 val get : 'a t -> int -> 'a
-(** [get xs i] is the element with index [i], from [0] on. Raises [Invalid_argument] if there is none. *)
+(** [get xs i] is the element with index [i], from [0] on. Raises [Invalid_argument] without one. *)
 
 val append : 'a t -> 'a -> 'a t
-(** [append xs x] is [xs] and [x] after it. Where that is appended to [xs] for the first time, it takes constant time
-    (amortised); else [xs] is copied. *)
+(** [append xs x] is [xs] and [x] after it. The first such append to [xs] takes constant time (amortised); others
+    copy [xs]. *)
 
 val concat : 'a t -> 'a t -> 'a t
 (** [concat xs ys] is [xs] and [ys] after it. *)

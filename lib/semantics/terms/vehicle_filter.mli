@@ -1,4 +1,4 @@
-(** What a [pick] or a [recruit] asks of a vehicle. {!Settings} reads one, and says who is accepted. *)
+(** The conditions of a [pick] or a [recruit] on a vehicle. {!Settings} reads one, and defines the accepted vehicles. *)
 
 type t = {
   id : string option;

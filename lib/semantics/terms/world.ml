@@ -49,7 +49,7 @@ type t = {
   order : order;
   ranks : int String_map.t;
   states : vehicle_state Int_map.t;
-  sensors : Core.value list Sensor_map.t;  (* of those that are open: what they may show *)
+  sensors : Core.value list Sensor_map.t;  (* of the open ones: their possible values *)
   positions : Position.t list String_map.t;
   date : date;
   supposed : assumption list;  (* of sensors *)

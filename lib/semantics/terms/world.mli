@@ -1,22 +1,22 @@
-(** What the program can learn of the vehicles around it: the sensors' side of a configuration. The semantics only
-    reads it; a driver keeps it up to date. *)
+(** The program's knowledge of the vehicles around it: the sensors' side of a configuration. The semantics only reads
+    it; a driver keeps it up to date. *)
 
 type vehicle_state = {
   id : Core.vehicle;
   kind : string;  (** ["UUV"], ["UAV"], ["USV"], ["ROV"], ... *)
   payload : string list;  (** the devices that it carries *)
   position : Dolphin_geo.Position.t;
-  depth : float option;  (** metres below the surface; [None]: it has not told, or is not in the water *)
+  depth : float option;  (** metres below the surface; [None]: not reported, or not in the water *)
   altitude : float option;
-  (** metres above the ground, or above where it took off; [None]: it has not told, or does not fly *)
-  battery : float option;  (** what is left, from 0 (empty) to 1 (full); [None]: it has not told *)
-  speed : float option;  (** over the ground, in metres per second; [None]: it has not told *)
-  readings : (string * float) list;  (** what it has measured last, by quantity: ["Temperature"]; in order of these *)
+  (** metres above the ground, or above the point of take-off; [None]: not reported, or not flying *)
+  battery : float option;  (** the charge, from 0 (empty) to 1 (full); [None]: not reported *)
+  speed : float option;  (** over the ground, in metres per second; [None]: not reported *)
+  readings : (string * float) list;  (** its last measurements, by quantity: ["Temperature"]; in order of these *)
   connected : bool;  (** whether it has a link *)
   unready : string option;
-  (** what keeps it from being given a plan though it has a link, as a predicate: ["is in mode ERROR: leak"] *)
-  cruise : float option;  (** metres per second where a plan does not say; [None]: it has not told *)
-  drain : float option;  (** the share of its battery that an hour under way takes; [None]: it has not told *)
+  (** the reason why it cannot be given a plan though it has a link, as a predicate: ["is in mode ERROR: leak"] *)
+  cruise : float option;  (** metres per second where a plan has none; [None]: not reported *)
+  drain : float option;  (** the share of its battery that an hour under way takes; [None]: not reported *)
 }
 
 type t
@@ -36,7 +36,7 @@ val add : vehicle_state -> t -> t
 (** [add s w] is [w] in which vehicle [s.id] has state [s]. A vehicle keeps its place in the order. *)
 
 val find : Core.vehicle -> t -> vehicle_state option
-(** What is known of it, if anything. *)
+(** Its known state, if any. *)
 
 val vehicles : t -> vehicle_state list
 (** All vehicles ever heard of, in the order of [w]. *)
@@ -56,16 +56,15 @@ val carries : string list -> vehicle_state -> bool
 (** {1:open Worlds that leave something open}
 
     A driver knows what sensors show. An analysis of all that may happen does not: in an {e open} world, a sensor may
-    show one of several values, or any value. The transition function then gives the transitions
-    for all of them, each with what it assumes. Within one step a sensor does not change; in the next step it may show
-    another value. *)
+    show one of several values, or any value. The transition function then gives the transitions for all of them,
+    each with its assumptions. Within one step a sensor does not change; in the next step it may show another value. *)
 
 type assumption =
   | Late of Core.vehicle  (** it was first heard of after all others so far *)
   | Missing of Core.vehicle  (** it is not in reach *)
   | Sensed of Core.sensor * Core.vehicle * Core.value  (** this sensor of it shows this *)
   | Placed of Core.vehicle * Dolphin_geo.Position.t  (** it is seen there *)
-  | Claim of string * bool  (** this comparison with what a sensor shows holds, or does not *)
+  | Claim of string * bool  (** this comparison with a sensor's value holds, or does not *)
 
 val compare_assumption : assumption -> assumption -> int
 
@@ -73,14 +72,14 @@ val pp_assumption : Format.formatter -> assumption -> unit
 (** ["battery(x8-02) is 0.2"], ["battery(x8-02) < 0.3 is true"], ["x8-02 is missing"]. *)
 
 val open_sensor : Core.sensor -> Core.vehicle -> Core.value list -> t -> t
-(** [open_sensor s v xs w] is [w] in which the sensor [s] of [v] shows one of [xs], whenever the program looks; if there
-    are none, any value. If [v] has not told it, it stays unknown. *)
+(** [open_sensor s v xs w] is [w] in which the sensor [s] of [v] has one of [xs], at each look of the program; with
+    an empty [xs], any value. If [v] has not reported it, it stays unknown. *)
 
 val open_battery : Core.vehicle -> float list -> t -> t
 (** [open_battery v xs] is [open_sensor Battery v] of the numbers [xs]. *)
 
 val open_position : Core.vehicle -> Dolphin_geo.Position.t list -> t -> t
-(** Likewise where [v] is seen. *)
+(** The same for the place of [v]. *)
 
 (** The date: how many whole seconds have passed since the start of the run. *)
 type date =
@@ -98,11 +97,11 @@ val is_open : t -> bool
 (** Whether some sensor may show several values, or the date is open. *)
 
 val suppose : assumption list -> t -> t
-(** [suppose assumed w] is [w] in which [assumed] holds: what it says is no longer open. *)
+(** [suppose assumed w] is [w] in which [assumed] holds: its subject is no longer open. *)
 
 (** {1:look What is looked at} *)
 
-(** What a sensor may show. *)
+(** The possible values of a sensor. *)
 type 'a shown =
   | Shows of 'a
   | One_of of 'a list  (** that is open: any of these *)
@@ -112,18 +111,18 @@ val spell : Core.sensor -> Core.vehicle -> string
 (** ["battery(x8-02)"], ["reading(x8-02,'Temperature')"]: no two sensors are spelt alike. *)
 
 val sensor : t -> Core.sensor -> vehicle_state -> Core.value shown option
-(** [sensor w s state] is what that sensor of the vehicle shows; [None] if it has not told. *)
+(** [sensor w s state] is the value of that sensor of the vehicle; [None] if not reported. *)
 
 val sensors : t -> vehicle_state -> (Core.sensor * Core.value shown option) list
 (** [sensors w state] is {!sensor} of all that the vehicle has. *)
 
 val position : t -> vehicle_state -> Dolphin_geo.Position.t shown
-(** [position w s] is where [s] is seen. *)
+(** [position w s] is the place of [s]. *)
 
 val date : t -> date
 
 type question = assumption list
-(** What is open, by what may be assumed instead: one of these, and no two of them. *)
+(** The open values, by the possible assumptions: one of these, and no two of them. *)
 
 val values : Core.sensor -> vehicle_state -> Core.value list -> question
 (** [values s state xs] is the question which of [xs] that sensor of the vehicle shows. *)
@@ -135,10 +134,10 @@ val places_of : t -> vehicle_state -> Dolphin_geo.Position.t list
 (** [places_of w s] is all values that {!place} may have. *)
 
 val place : t -> vehicle_state -> (Dolphin_geo.Position.t, question) result
-(** [place w s] is where [s] is seen, or if that may be anywhere, [s.position]: for picking and allocating. *)
+(** [place w s] is the place of [s], or if that may be anywhere, [s.position]: for picking and allocating. *)
 
 val claim : t -> string -> (bool, question) result
-(** [claim w text] is whether a comparison with what may be anything holds. *)
+(** [claim w text] is whether a comparison with an open value holds. *)
 
 val claims : t -> int
 (** [claims w] is how many claims were supposed of [w]. *)

@@ -19,7 +19,7 @@ let signal pid number =
 let kill_group pid = try Unix.kill (-pid) Sys.sigkill with Unix.Unix_error _ -> ()
 
 let with_environment added =
-  (* What is split has one part at least. *)
+  (* The parts of a split text are never empty. *)
   let name binding = List.hd (String.split_on_char '=' binding) in
   let kept = List.filter (fun b -> not (List.mem_assoc (name b) added)) (Array.to_list (Unix.environment ())) in
   Array.of_list (kept @ List.map (fun (name, x) -> name ^ "=" ^ x) added)
@@ -72,7 +72,7 @@ let pp_status ppf : Unix.process_status -> unit = function
 let close_descriptor descriptor =
   Lwt.catch (fun () -> Lwt_unix.close descriptor) (fun _ -> Lwt.return_unit)
 
-(* Whether the child ends within so many seconds. *)
+(* Whether the child ends within this number of seconds. *)
 let ends_within c seconds =
   Lwt.pick [ (exited c >|= fun _ -> true); (Lwt_unix.sleep seconds >|= fun () -> false) ]
 

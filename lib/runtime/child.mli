@@ -3,19 +3,19 @@
 type t
 
 val start : environment:(string * string) list -> string -> (t, string) result
-(** [start ~environment command] runs [command] with [/bin/sh], with [environment] added to ours. It leads a session of
-    its own: the terminal's Ctrl-C is for Dolphin, which ends the child in good order. From then on SIGPIPE is
-    ignored. The error says why no process could be made. *)
+(** [start ~environment command] runs [command] with [/bin/sh], with [environment] added to ours. It leads a session
+    of its own: the terminal's Ctrl-C is for Dolphin, which ends the child in good order. From then on SIGPIPE is
+    ignored. The error is the reason why no process could be made. *)
 
 val input : t -> Lwt_unix.file_descr
-(** What we write to. *)
+(** Our output to it. *)
 
 val output : t -> Lwt_unix.file_descr
-(** What we read from. *)
+(** Our input from it. *)
 
 val exited : t -> Unix.process_status Lwt.t
-(** Resolves once the child has ended and is reaped; what it left behind of its session's processes is killed then.
-    May be cancelled, which means nothing. *)
+(** Resolves once the child has ended and is reaped; remaining processes of its session are killed then. May be
+    cancelled, which means nothing. *)
 
 val pp_status : Format.formatter -> Unix.process_status -> unit
 (** ["ended with exit status 3"], ["was killed by SIGTERM"]. *)

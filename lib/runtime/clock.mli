@@ -1,12 +1,12 @@
-(** The clocks that a platform reads: how much time has passed, and what date it is. They are arguments of whoever needs
-    them, so that tests can set them. *)
+(** The clocks that a platform reads: the time that has passed, and the date. They are arguments of their users, so
+    that tests can set them. *)
 
 type t = {
   elapsed : unit -> float;
-  (** Seconds since some moment. It never goes back, and nobody sets it: durations are differences of it. *)
+  (** Seconds since some moment. It never goes back, and is not set: durations are differences of it. *)
   date : unit -> float;
-  (** Seconds since 1970-01-01 00:00 UTC. It jumps, forward or back, when somebody sets the system's time: it tells
-      dates, never durations. *)
+  (** Seconds since 1970-01-01 00:00 UTC. It jumps, forward or back, when the system's time is set: it gives dates,
+      never durations. *)
 }
 
 val system : t

@@ -12,7 +12,7 @@ let show text =
   print_string text;
   flush stdout
 
-(* What the person typed; a line that was begun on the screen is ended if nobody ends it. *)
+(* The text that the person typed; a line that was begun on the screen is ended here if necessary. *)
 let typed lines output =
   Lwt.catch
     (fun () -> Lines.next lines)

@@ -39,7 +39,7 @@ type beginning = {
 let afresh program order =
   { configuration = Configuration.initial program; world = World.nobody order; news = []; pending = None; time = 0. }
 
-(* So many transitions and events may pass before others get their turn. *)
+(* The number of transitions and events that may pass before others get their turn. *)
 let most_without_pause = 100
 
 (* Limit on rounds of a repeat, or of a task that is tried again, that begin without time or an event between them;
@@ -61,14 +61,14 @@ let first_repeat r =
   in
   Residual.fold_active (fun found r -> if found = None then site r else found) None r
 
-(* What happens outside. *)
+(* The events from outside. *)
 type news =
   | Seen of World.vehicle_state
   | Posted of Inputs.item
   | Event of (Transition.event, Transition.refusal) result
   | Asked_again  (* an answer was neither yes nor no *)
   | Date_reached  (* code that reads the date may do something else now *)
-  | Unanswered of Residual.timer  (* nobody answers here, but somebody may elsewhere *)
+  | Unanswered of Residual.timer  (* unanswered here, but it may be answered elsewhere *)
   | Nothing_more
 
 module Make (P : Platform.S) = struct
@@ -89,17 +89,17 @@ module Make (P : Platform.S) = struct
     mutable alarms : int;  (* that rang since the latest event *)
     mutable telemetry : Platform.telemetry;  (* as the platform was asked last *)
     mutable upcoming : (Platform.event Lwt.t * news Lwt.t) option;
-    (* the platform's next event, if it was asked for, as it is told and as it is read *)
+    (* the platform's next event, if it was asked for, as it is reported and as it is read *)
     mutable reply : news Lwt.t option;  (* from the console or the host, if it is awaited *)
     questions : news Task_questions.t;  (* of tasks *)
-    mutable unknown : Fault.t list;  (* what was told to be *)
+    mutable unknown : Fault.t list;  (* the reports that were due *)
     mutable posted : news Lwt.t option;  (* the next input, if it was asked for *)
     mutable input_before : bool;  (* whether the latest piece of news was an input *)
     mutable since_pause : int;  (* transitions and events since others had their turn *)
     mutable rounds : int;  (* of repeats that began since the last event or instant *)
     mutable round_began : float;  (* when the latest of them, or of [starts], did *)
-    starts : (Core.vehicle, int) Hashtbl.t;  (* of tasks, likewise *)
-    mutable restless : Core.site option;  (* where the task is that one vehicle began too often *)
+    starts : (Core.vehicle, int) Hashtbl.t;  (* of tasks, in the same way *)
+    mutable restless : Core.site option;  (* the place of the task that one vehicle began too often *)
   }
 
   let is_resolved promise = match Lwt.state promise with Lwt.Sleep -> false | Return _ | Fail _ -> true
@@ -149,7 +149,7 @@ module Make (P : Platform.S) = struct
     | Some (question, yes) when not (List.mem item.key s.program.inputs) -> Confirmed (question, Ok yes)
     | Some _ | None -> Input (item.key, item.value)
 
-  (* Of the platform's next event, which it has told already perhaps, though an input was read first. *)
+  (* Of the platform's next event, perhaps reported already, though an input was read first. *)
   let drop s overtaken =
     let still (told, _ as both) = if Overtaken.unless overtaken told then Some both else None in
     s.upcoming <- Option.bind s.upcoming still
@@ -185,7 +185,7 @@ module Make (P : Platform.S) = struct
 
   (* {1 Transitions} *)
 
-  (* What a program reads of the time is that of the journal's line. *)
+  (* The time that a program reads is that of the journal's line. *)
   let time_of s = if s.program.reads_now then s.moment else P.now s.platform
 
   let look_at_clock s =
@@ -194,14 +194,14 @@ module Make (P : Platform.S) = struct
       s.world <- World.at (Exactly (World.whole s.moment)) s.world
     end
 
-  (* Nobody need answer any more. *)
+  (* The question needs no answer any more. *)
   let withdraw s =
     let reply = s.reply in
     s.reply <- None;
     Option.iter Lwt.cancel reply
 
-  (* Ends of tasks and of timers that come at the same instant do not let a round wait; nor do answers, where no person
-     takes time to give them. *)
+  (* Ends of tasks and of timers that come at the same instant do not let a round wait; nor do answers without a
+     person to take time for them. *)
   let lets_wait ~time s : Transition.event option -> bool = function
     | None | Some (Recruited _) -> false
     | Some (Input _ | Interruption) -> true
@@ -302,7 +302,7 @@ module Make (P : Platform.S) = struct
 
   let next_interruption s = match s.interruptions with next :: _ -> [ next ] | [] -> []
 
-  (* Nobody can post what the program neither declares nor asks. *)
+  (* Pairs that the program neither declares nor asks for cannot be posted. *)
   let inputs_of s =
     if s.program.inputs = [] && not (Task_questions.were_put s.questions) then [] else [ next_of_inputs s ]
 
@@ -314,8 +314,8 @@ module Make (P : Platform.S) = struct
     s.posted <- Option.bind s.posted unless;
     Task_questions.forget s.questions promise
 
-  (* The next piece of news: of several that are there, an interruption before a reply before inputs and the platform's,
-     which take turns: nobody can keep the vehicles' news away by posting. *)
+  (* The next piece of news: of several that are there, an interruption before a reply before inputs and the
+     platform's, which take turns: posting cannot delay the vehicles' news. *)
   let next_news s =
     let answers = Option.to_list s.reply @ Option.to_list (Task_questions.shown s.questions) in
     let platform = if P.virtual_time && answers <> [] then [] else [ next_of_platform s ] in
@@ -329,14 +329,14 @@ module Make (P : Platform.S) = struct
     in
     first_of sources
 
-  (* Whoever posted hears of it after the journal. *)
+  (* The poster gets the result after the journal. *)
   let take_input s (item : Inputs.item) =
     let taken = deliver s (posted s item) in
     Inputs.tell item taken;
     taken
 
-  (* Of a program that reads sensors, telemetry is on throughout; what others do does not depend on it. So a run that is
-     shown or recorded goes as any other. *)
+  (* For a program that reads sensors, telemetry is on throughout; other programs do not depend on it. So a run that
+     is shown or recorded goes as any other. *)
   let switch_telemetry s ~sensitive =
     let how : Platform.telemetry =
       if s.program.reads_sensors then Awaited else if sensitive || s.always_telemetry then Shown else Off in
@@ -348,8 +348,8 @@ module Make (P : Platform.S) = struct
   (* Sensors that a program reads keep their values between two events; its telemetry is the same in all its runs. *)
   let look s = if not s.program.reads_sensors then List.iter (see s) (P.look s.platform)
 
-  (* What a long script does not wait for all the same happens: on a platform whose time passes by itself, news of
-     vehicles that came meanwhile reach the program. *)
+  (* Events go on during a long script: on a platform whose time passes by itself, news of vehicles that came
+     meanwhile reach the program. *)
   let rec catch_up s =
     if not P.virtual_time then
       match s.configuration.control with
@@ -372,7 +372,7 @@ module Make (P : Platform.S) = struct
 
   (* {1 The run} *)
 
-  (* What vehicles of B have not told, if guards wait for it. *)
+  (* The values that guards wait for and vehicles of B have not reported. *)
   let tell_unknown s =
     let c = s.configuration in
     let has_not_told v = match World.find v s.world with Some { battery = None; _ } -> true | Some _ | None -> false in
@@ -385,7 +385,7 @@ module Make (P : Platform.S) = struct
 
   (* {2 The date} *)
 
-  (* In virtual time, who does with the date what nobody can foresee is asked again so often. *)
+  (* In virtual time, the limit on wake-ups when the next relevant date cannot be computed. *)
   let most_alarms = 86_400
 
   (* When a guard that stands may come to hold because time passes. *)
@@ -448,8 +448,8 @@ module Make (P : Platform.S) = struct
     | Ended Interrupted -> outcome
     | (Ended (Completed | Halted _ | Failed _) | Stuck _ | Spins _) as ended -> ended
 
-  (* No internal transition is left. That something runs in A is the usual case, and quicker to see than all of what is
-     awaited. *)
+  (* No internal transition is left. A running task in A is the usual case, and quicker to see than all awaited
+     events. *)
   and pass s =
     let c = s.configuration in
     let sensitive = Transition.depends_on_sensors s.program c in
@@ -482,7 +482,7 @@ module Make (P : Platform.S) = struct
         | Executing (_, r) -> give_up s (Stuck r)
         | Script _ | Waiting _ | Ended _ -> advance s)
 
-  (* What a console that died was waiting for, people and the host are asked for again. *)
+  (* The questions and calls that a console left open when it died are repeated. *)
   let begin_at s (b : beginning) =
     List.iter (see s) b.news;
     let is_delivered = Option.fold b.pending ~none:false ~some:(deliver s) in

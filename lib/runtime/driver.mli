@@ -1,7 +1,7 @@
 (** Runs a program on a platform: asks {!Dolphin_semantics.Transition} what happens next, and carries it out. The
     driver has no semantics of its own.
 
-    It takes the transitions that the program can make by itself, the leftmost first, until there is none, then waits
+    It takes the transitions that the program can make by itself, the leftmost first, until none is left, then waits
     for an event: of the platform, from the console, from the host process, or an interruption. Runs are reproducible
     from these events and their order. Nothing is polled. *)
 
@@ -11,7 +11,7 @@ type outcome =
   | Ended of Configuration.ending
   | Stuck of Residual.t
   (** A deadlock: no task runs, no timer runs, no sensor matters, and every guard that the residual waits for is
-      false, now and for ever. The run was interrupted, and has ended since. *)
+      false, and stays so. The run was interrupted, and has ended since. *)
   | Spins of Core.site
   (** 10,000 rounds of the [repeat] there, of others, or of tasks that are tried again followed each other without time
       or an event from outside between them; or a vehicle began the task there, or others, that often. The run was
@@ -31,7 +31,7 @@ type call =
   arguments:Core.value list option ->
   (Core.value, string) result Lwt.t
 
-(** Where a run begins that goes on with one whose console died. *)
+(** The beginning of a run that goes on with one whose console died. *)
 type beginning = {
   configuration : Configuration.t;
   world : World.t;
@@ -60,17 +60,17 @@ val run :
 
     The platform's telemetry is on while it may matter to the program, or with [~always_telemetry:true] (by default
     false), for displays and journals, all the time; in virtual time, a run is the same with and without it. Without
-    [host], calls to the host process fail. What is posted to [inputs] the run takes as it comes, and a flood of it does
-    not keep the platform's events away.
+    [host], calls to the host process fail. The run takes pairs posted to [inputs] as they come, and a flood of them
+    does not keep the platform's events away.
 
-    The run begins with the program, or as [beginning] says, and [platform] is one that stands as it did then: what the
-    program has started and not ended runs, its timers too. A question that was not answered, or a call of the host
+    The run begins with the program, or at [beginning], and [platform] is one that stands as it did then: tasks that the
+    program has started and not ended run, its timers too. A question that was not answered, or a call of the host
     without reply, is made again.
 
-    If [program] has fences, {!Fenced} keeps the vehicles to them, from what [fenced] says of the run so far on.
+    If [program] has fences, {!Fenced} keeps the vehicles to them, from the state [fenced] of the run so far on.
 
     While the program waits for the console or the host, a platform of virtual time stands still.
 
     If the observer, the console, the host or the platform raises an exception, or the promise is cancelled, then all
     vehicles are stopped and released and [platform] is closed; then the promise fails with the exception. The
-    observer is not told of this end. *)
+    observer does not get this end. *)

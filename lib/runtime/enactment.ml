@@ -11,7 +11,7 @@ module Make (P : Platform.S) = struct
     mutable configuration : Configuration.t;
     mutable world : World.t;
     mutable upcoming : Platform.event Lwt.t option;  (* the platform's next event, if it was asked for *)
-    mutable held : Platform.event list;  (* told, and not their turn yet *)
+    mutable held : Platform.event list;  (* reported, and not their turn yet *)
   }
 
   let drop s overtaken =
@@ -50,7 +50,7 @@ module Make (P : Platform.S) = struct
       s.upcoming <- Some promise;
       promise
 
-  (* Whether [told] lets [event] happen: how a task ends is known beforehand. *)
+  (* Whether [told] permits [event]: the end of a task is known beforehand. *)
   let fits (event : Transition.event) (told : Platform.event) =
     match event, told with
     | (Vehicle_done v | Vehicle_failed (v, _)), (Task_done w | Task_failed (w, _)) -> String.equal v w
@@ -76,7 +76,7 @@ module Make (P : Platform.S) = struct
         (* The platform's vehicle never ends what this one has ended. *)
         | Quiet -> Lwt.return_unit)
 
-  (* Vehicles that are there from the start are told before this timer. *)
+  (* Vehicles that are there from the start are reported before this timer. *)
   let look_around s =
     P.set_timer s.platform Residual.script_timer 0.;
     await s (Timer_expired Residual.script_timer)

@@ -6,7 +6,7 @@ type t = {
   under_way : run Vehicle_map.t;
 }
 
-(* [since]: what it has broken from the start on. *)
+(* [since]: the limits that it has broken from the start on. *)
 and run = { plan : Fences.under_way; since : Fences.beyond }
 
 let make fences = { fences; seen = Vehicle_map.empty; under_way = Vehicle_map.empty }
@@ -71,7 +71,7 @@ let breaking v g =
 
 type past = { guard : t; history : History.t; untold : (Core.vehicle * string) list }
 
-(* [refused] and [stopped] were not told yet; entries have the latest first. *)
+(* [refused] and [stopped] were not reported yet; entries have the latest first. *)
 type replayed = {
   g : t;
   refused : (Core.vehicle * string) list;

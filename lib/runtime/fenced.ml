@@ -4,9 +4,9 @@ module Make (P : Platform.S) = struct
   type t = {
     platform : P.t;
     mutable guard : Fence_guard.t;
-    mutable failures : Platform.event list;  (* to be told, in order *)
+    mutable failures : Platform.event list;  (* to be reported, in order *)
     mutable upcoming : Platform.event Lwt.t option;  (* of the platform, asked for *)
-    mutable waiting : unit Lwt.u option;  (* who waits for the next event *)
+    mutable waiting : unit Lwt.u option;  (* to wake those waiting for the next event *)
   }
 
   let name = P.name
@@ -35,7 +35,7 @@ module Make (P : Platform.S) = struct
     | Ok guard -> p.guard <- guard; P.start p.platform v task
     | Error why -> fail p (v, why)
 
-  (* Of what was told and not read yet, what a command has overtaken is dropped. *)
+  (* Reports that were not read yet and that a command has overtaken are dropped. *)
   let drop p overtaken =
     p.failures <- List.filter (fun event -> not (overtaken event)) p.failures;
     p.upcoming <- Overtaken.left overtaken p.upcoming

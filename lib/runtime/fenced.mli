@@ -8,5 +8,5 @@ module Make (P : Platform.S) : sig
 
   val make : Fence_guard.t -> untold:(Core.vehicle * string) list -> P.t -> t
   (** [make guard ~untold p] is [p], of which [guard] knows what is under way. The vehicles [untold] are stopped, and
-      told to have failed. *)
+      reported as failed. *)
 end

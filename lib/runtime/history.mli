@@ -3,7 +3,7 @@
 open Dolphin_semantics
 
 type what =
-  | Saw of World.vehicle_state  (** The journal says this of the vehicle. *)
+  | Saw of World.vehicle_state  (** The journal's line about the vehicle. *)
   | Noted of Core.vehicle * Yojson.Safe.t  (** The platform kept this note. *)
   | Happened of Transition.event
   | Asked of Effect.t list  (** of one transition *)
@@ -15,18 +15,18 @@ type t = entry list
 (** In order of time. *)
 
 val part : vehicles:(Core.vehicle -> bool) -> timers:bool -> t -> t
-(** [part ~vehicles ~timers history] is what concerns [vehicles], and all vehicles, in [history]; without [timers] none
-    was ever set. *)
+(** [part ~vehicles ~timers history] is the part of [history] about [vehicles], and about all vehicles; without
+    [timers] none was ever set. *)
 
 (** {1:outstanding What is outstanding} *)
 
-(** A task that a vehicle was told to run, and that is not known to be over. *)
+(** A task that a vehicle was ordered to run, and that is not known to be over. *)
 type commanded = {
   task : Core.platform_task;
-  is_stopped : bool;  (** It was told to stop it again. *)
+  is_stopped : bool;  (** It was ordered to stop it again. *)
   notes : Yojson.Safe.t list;  (** of the platform, since the task was to start; latest first *)
   before : commanded option;
-  (** The task that was outstanding when this one was commanded; [notes] may say whether it is over. *)
+  (** The task that was outstanding when this one was commanded; [notes] may show whether it is over. *)
 }
 
 type outstanding = {
@@ -38,12 +38,12 @@ type outstanding = {
 }
 
 val outstanding : announce_period:float -> t -> outstanding
-(** [outstanding ~announce_period history] is what is outstanding after [history]. A [pick] without a timeout looks for
-    [announce_period] seconds. *)
+(** [outstanding ~announce_period history] is the outstanding tasks after [history]. A [pick] without a timeout looks
+    for [announce_period] seconds. *)
 
 val answers : t -> (string * string) list
 (** [answers history] is the questions that were answered, with the answers, in order. *)
 
 val replies : t -> (string * (Core.value, string) result option) list
 (** [replies history] is the calls of the host by their names ({!Machine.name_of_call}), in order, with the replies;
-    [None] where there was none yet. *)
+    [None] for a call without one yet. *)

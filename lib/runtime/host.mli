@@ -16,10 +16,10 @@
 {"id": 1, "value": {"object": "supplier"}}
 {"id": 3, "error": "the queue is closed"}
     v}
-    Values are as {!Dolphin_json.Host_value} says. An object is known by a name that the host chooses; it lives as
-    long as the host likes. There is one request at a time; a reply may take as long as the program is to wait. A
-    reply is at most 1 MiB long. The host writes nothing unasked. It should ignore fields of requests that it does not
-    know, and end when its input ends; otherwise it is terminated at the end of the run.
+    Values are as in {!Dolphin_json.Host_value}. An object is known by a name that the host chooses; it lives as long as
+    the host likes. There is one request at a time; a reply may take as long as the program is to wait. A reply is at
+    most 1 MiB long. The host writes nothing unasked. It should ignore fields of requests that it does not know, and end
+    when its input ends; otherwise it is terminated at the end of the run.
 
     Requests are numbered from 1. Those of a run that is resumed are numbered on: the host sees that it is not the first
     one, and a call that no reply is known of is made again with its number.
@@ -32,8 +32,8 @@ type t
 
 val start : ?timeout:float -> ?calls:int -> string -> (t, string) result
 (** [start ~timeout ~calls command] starts [command], for [/bin/sh], as host process of a run in which hosts have
-    replied to [calls] calls before, by default none. Each of its replies may take [timeout] seconds; without it, for
-    ever. The error says why there is no process. From then on SIGPIPE is ignored. *)
+    replied to [calls] calls before, by default none. Each of its replies may take [timeout] seconds; by default, any
+    time. The error is the reason why there is no process. From then on SIGPIPE is ignored. *)
 
 val call :
   t ->
@@ -43,10 +43,10 @@ val call :
   arguments:Core.value list option ->
   (Core.value, string) result Lwt.t
 (** [call h ~site ~subject ~member ~arguments] is the reply to a call of [member] with [arguments], or with [None] the
-    value of the property [member]; of object [subject], or without it of the host itself. Tasks in the reply come
-    from [site]. Or why there is none: the host's own reason; it ended, closed its output, or took too long; its reply
-    is too long, or no JSON, or of another request, or no value of programs. After any of these but the host's own
-    reason the host is no longer spoken to: later calls fail with the same reason.
+    value of the property [member]; of object [subject], or without it of the host itself. Tasks in the reply come from
+    [site]. Or the reason why there is none: the host's own reason; it ended, closed its output, or took too long; its
+    reply is too long, or not JSON, or of another request, or not a value of programs. After any of these but the host's
+    own reason the host is no longer spoken to: later calls fail with the same reason.
 
     One call at a time. It may be cancelled, which counts as a reason. *)
 

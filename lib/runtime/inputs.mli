@@ -1,4 +1,4 @@
-(** What people and programs post while a run goes on, on its way to the driver. Order is kept. *)
+(** The posts of people and programs while a run goes on, on their way to the driver. Order is kept. *)
 
 open Dolphin_semantics
 
@@ -7,9 +7,9 @@ type t
 val create : unit -> t
 
 val post : t -> string -> Core.value -> bool Lwt.t
-(** [post t k x] hands over the pair [k:x]. It resolves once the run has taken it, and the journal has it; to [false] if
-    the run ended before, or does not declare the key. Where [k] is the prompt of a question of a task, [x] answers it:
-    to [false] if it does not stand any more. *)
+(** [post t k x] hands over the pair [k:x]. It resolves once the run has taken it, and the journal has it; to [false]
+    if the run ended before, or does not declare the key. If [k] is the prompt of a question of a task, [x] answers
+    it: to [false] if it is not open any more. *)
 
 val questions : t -> string list
 (** The prompts of the questions of tasks that stand. *)
@@ -28,7 +28,7 @@ val ask : t -> string list -> unit
 (** [ask t prompts] makes [prompts] the questions that stand. *)
 
 val tell : item -> bool -> unit
-(** [tell item taken] resolves the promise of who posted it. *)
+(** [tell item taken] resolves the promise of the poster. *)
 
 val close : t -> unit
 (** Nothing is taken any more. *)

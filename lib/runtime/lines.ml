@@ -3,11 +3,11 @@ open Lwt.Infix
 type t = {
   input : Lwt_unix.file_descr;
   limit : int;
-  chunk : Bytes.t;  (* what was read last; the bytes from [first] up to [last] are not yet used *)
+  chunk : Bytes.t;  (* the last bytes read; those from [first] up to [last] are not yet used *)
   mutable first : int;
   mutable last : int;
   line : Buffer.t;  (* the line so far *)
-  mutable skipping : bool;  (* this line was told to be too long, its rest is dropped *)
+  mutable skipping : bool;  (* this line was reported as too long, its rest is dropped *)
 }
 
 type line = Line of string | Too_long | End_of_input

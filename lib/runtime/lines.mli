@@ -6,10 +6,10 @@ type t
 type line =
   | Line of string  (** without its end, which is LF or CR LF *)
   | Too_long  (** the line has more bytes than the limit; the next one comes after its end *)
-  | End_of_input  (** there is no more, or the descriptor cannot be read *)
+  | End_of_input  (** the end of the input, or the descriptor cannot be read *)
 
 val make : limit:int -> Lwt_unix.file_descr -> t
-(** [make ~limit input] reads [input], which nobody else reads, in lines of at most [limit] bytes. *)
+(** [make ~limit input] reads [input], which has no other reader, in lines of at most [limit] bytes. *)
 
 val next : t -> line Lwt.t
 (** [next t] is the next line. A last line without an end counts as a line. *)

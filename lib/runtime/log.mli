@@ -1,5 +1,5 @@
-(** The debug log of the runtime, the source ["dolphin.runtime"] of {!Logs}: what happened outside, which transitions
-    followed, and their effects. Nothing is formatted unless the level is [Debug]. *)
+(** The debug log of the runtime, the source ["dolphin.runtime"] of {!Logs}: the events from outside, the transitions
+    that followed, and their effects. Nothing is formatted unless the level is [Debug]. *)
 
 open Dolphin_semantics
 

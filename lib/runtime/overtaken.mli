@@ -1,6 +1,6 @@
-(** Events that a command has overtaken: they are of what the program has ended meanwhile. A vehicle that is stopped may
-    be started again before such an event is read, and it would then be taken for one of the new task. So whoever holds
-    events that were not read yet drops these. *)
+(** Events that a command has overtaken: they are of tasks that the program has ended meanwhile. A vehicle that is
+    stopped may be started again before such an event is read, and it would then be taken for one of the new task. So
+    a holder of unread events drops these. *)
 
 open Dolphin_semantics
 

@@ -1,7 +1,7 @@
-(* What the runtime asks of a platform: of a network of vehicles, real or simulated. A types-only module: it has no
-   interface of its own. [Dolphin_platform_sim] is the first platform and the tutorial for whoever writes another.
+(* The runtime's requirements on a platform: on a network of vehicles, real or simulated. A types-only module: it has no
+   interface of its own. [Dolphin_platform_sim] is the first platform and the tutorial for authors of others.
 
-   A platform decides nothing about programs. It tells what happens, as events, and carries out what it is asked. *)
+   A platform decides nothing about programs. It reports events, and carries out requests. *)
 
 open Dolphin_semantics
 
@@ -13,7 +13,7 @@ type event =
   (* In the vehicle's own words: it failed, refused, or its link was lost for longer than its connection timeout. *)
   | Timer of Residual.timer
   | Input of string * Core.value
-  (* Somebody posts a pair: only a platform that plays the people too knows. *)
+  (* A pair is posted: only a platform that plays the people too knows. *)
   | Quiet
   (* Nothing will ever happen again by itself, and if telemetry is {!Awaited}, no position or battery will change: only
      a platform of virtual time can know. *)
@@ -21,7 +21,7 @@ type event =
 (* How changes of positions and batteries are reported. *)
 type telemetry =
   | Off
-  | Shown  (* for displays and journals: what the program does is the same as with [Off] *)
+  | Shown  (* for displays and journals: the program's behaviour is the same as with [Off] *)
   | Awaited  (* the program reads sensors *)
 
 module type S = sig
@@ -41,7 +41,7 @@ module type S = sig
   (** Seconds since the platform started, by its own clock. *)
 
   val announce_period : t -> float
-  (** After so many seconds every vehicle in reach has been heard of: how long a [pick] without a timeout looks. *)
+  (** The seconds after which every vehicle in reach has been heard of: how long a [pick] without a timeout looks. *)
 
   val next : t -> event Lwt.t
   (** [next p] is the next event, when it comes. Nothing else calls it before it resolves, or is cancelled. *)
@@ -50,7 +50,7 @@ module type S = sig
   (** [set_timer p timer seconds] makes the event [Timer timer] happen after [seconds]. *)
 
   val cancel_timer : t -> Residual.timer -> unit
-  (** The event of this timer no longer happens. A timer that expired, or was never set, is no error. *)
+  (** The event of this timer no longer happens. A timer that expired, or was never set, is not an error. *)
 
   val bind : t -> Core.vehicle list -> unit
   (** The program holds these vehicles now. *)
@@ -62,8 +62,8 @@ module type S = sig
       [Task_failed (v, why)] follows, unless {!stop} comes first. *)
 
   val stop : t -> Core.vehicle -> unit
-  (** [stop p v] stops what [v] runs for the program. No event about that task follows: {!next} tells none, and who has
-      been told one and not read it yet drops it ({!Overtaken}). *)
+  (** [stop p v] stops what [v] runs for the program. No event about that task follows: {!next} gives none, and a
+      receiver that has been given one and not read it yet drops it ({!Overtaken}). *)
 
   val set_connection_timeout : t -> Core.vehicle list option -> float -> unit
   (** For these vehicles, or for all, present and future; seconds. *)
@@ -73,10 +73,10 @@ module type S = sig
       ends a task is an event in any case, just before that end. *)
 
   val look : t -> World.vehicle_state list
-  (** [look p] is the present state of the vehicles that were stopped and have not been reported since, in virtual time;
-      [[]] if time passes by itself, where {!next} reports them. A driver looks before the program goes on: the next
-      allocation may depend on where they stopped. *)
+  (** [look p] is the present state of the vehicles that were stopped and have not been reported since, in virtual
+      time; [[]] if time passes by itself, where {!next} reports them. A driver looks before the program goes on: the
+      next allocation may depend on the places where they stopped. *)
 
   val close : t -> unit Lwt.t
-  (** Resolves once every stop is confirmed or given up, and what the platform held is closed. *)
+  (** Resolves once every stop is confirmed or given up, and the platform's resources are closed. *)
 end

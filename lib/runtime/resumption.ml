@@ -15,19 +15,19 @@ type t = {
 
 type trouble = Over of Request.ending | Changed | No_run of Verdict.t
 
-(* What was read so far. *)
+(* The part read so far. *)
 type reading = {
   its_header : Header.t;
   after : Replay.t;  (* all lines *)
   reversed : History.t;
-  held : (Entry.t * Replay.t) option;  (* the latest line, if that is an event, and what was before it *)
+  held : (Entry.t * Replay.t) option;  (* the latest line, if that is an event, and the state before it *)
   its_clock : float * string;
   ran : string;  (* the hash of the program that ran last *)
   whole : int;  (* bytes, without [held] *)
   notes_of_whole : int;
 }
 
-(* What a line adds to the history, which are latest first. *)
+(* The additions of a line to the history, latest first. *)
 let remember (entry : Entry.t) replay history =
   let add what = { History.time = Entry.time entry; what } :: history in
   match entry with
@@ -40,7 +40,7 @@ let remember (entry : Entry.t) replay history =
       | Some (_, t) when t.effects <> [] -> add (Asked t.effects)
       | Some _ | None -> history)
 
-(* An event is told of with its transition: without, it is not gone on with. *)
+(* An event is reported with its transition: a run does not go on with an event alone. *)
 let take tell reader r (entry : Entry.t) after =
   let r' = { r with after; reversed = remember entry after r.reversed } in
   match entry with
@@ -77,7 +77,7 @@ let read ?(tell = fun _ _ -> ()) ?(changed = false) program ~hash reader =
   let rec go r =
     let before = Journal.whole reader in
     match Journal.next reader with
-    (* A last line without its end may look whole: but what it tells of was not done yet. *)
+    (* A last line without its end may look whole: but its deed was not done yet. *)
     | Line _ when Journal.whole reader = before -> judge r (fun () -> finish r)
     | Torn _ | End_of_file -> judge r (fun () -> finish r)
     | Wrong { number; why } -> Error (No_run (Unreadable { number; why }))

@@ -12,7 +12,7 @@ type t = {
       does not count. *)
   interrupted : bool;  (** [pending] is an interruption that was asked for, not that of a program that is stuck *)
   clock : float * string;  (** a time of the run, and when that was, in UTC: when it began, or was resumed last *)
-  kept : int;  (** so many bytes of the journal count; what follows is torn, or [pending]'s line *)
+  kept : int;  (** the number of bytes of the journal that count; the rest is torn, or [pending]'s line *)
   notes : int;  (** the [platform] lines among them *)
 }
 
@@ -29,12 +29,12 @@ val read :
   hash:string ->
   Journal.t ->
   (t, trouble) result
-(** [read ~tell ~changed program ~hash reader] goes through the journal with the transition function; [hash] is that of
-    the program's text. [tell] is given each line that counts, in order, with the replay after it. With [~changed:true]
-    (by default false) the hash may differ, as long as the journal is one of a run of [program]. *)
+(** [read ~tell ~changed program ~hash reader] goes through the journal with the transition function; [hash] is that
+    of the program's text. [tell] gets each line that counts, in order, with the replay after it. With
+    [~changed:true] (by default false) the hash may differ, as long as the journal is one of a run of [program]. *)
 
 val seen : t -> (float * World.vehicle_state) list
-(** What the journal says of each vehicle, and when it said so. *)
+(** The journal's last line on each vehicle, with its time. *)
 
 val pp_trouble : Format.formatter -> trouble -> unit
 (** A sentence without a full stop, and perhaps further lines, for a vertical box. *)

@@ -5,7 +5,7 @@ type part = Part : (module Platform.S with type t = 'p) * 'p -> part
 
 type one = { name : string; part : part; mutable upcoming : Platform.event Lwt.t option }
 
-(* A vehicle: who commands it, and what each platform that has offered it said last. *)
+(* A vehicle: its commanding platform, and the last report of each platform that has offered it. *)
 type vehicle = { mutable owner : int; mutable offers : (int * World.vehicle_state) list; mutable told : bool }
 
 type t = {
@@ -50,7 +50,7 @@ let announce_period s =
 let set_timer s timer seconds =
   first s { each = (fun (type p) (module P : Platform.S with type t = p) p -> P.set_timer p timer seconds) }
 
-(* Of the events that platforms have told and nobody has read yet. *)
+(* Of the events that platforms have reported and that are unread. *)
 let drop s overtaken =
   Array.iter (fun one -> one.upcoming <- Overtaken.left overtaken one.upcoming) s.parts
 
@@ -68,7 +68,7 @@ let close s =
 
 (* {1 Commands} *)
 
-(* One that nobody has offered yet is asked for where most are. *)
+(* One that was not offered yet is asked for at the platform with the most vehicles. *)
 let owner s v = match Hashtbl.find_opt s.vehicles v with Some vehicle -> vehicle.owner | None -> 0
 
 let of_owner s i vehicles = List.filter (fun v -> owner s v = i) vehicles

@@ -1,7 +1,7 @@
 (** Several platforms of real time as one: each vehicle is commanded by the platform that offers it.
 
-    The first platform keeps the time and the timers. A vehicle that two platforms offer at once belongs to the one that
-    offered it first; it is not ready as long as that is so, and people are told. *)
+    The first platform keeps the time and the timers. A vehicle that two platforms offer at once belongs to the one
+    that offered it first; it is not ready as long as that is so, and people get a message. *)
 
 open Dolphin_semantics
 
@@ -13,12 +13,12 @@ type part = Part : (module Platform.S with type t = 'p) * 'p -> part
 val make :
   note:(Core.vehicle -> string -> unit) -> keep:(time:float -> Core.vehicle -> Yojson.Safe.t -> unit) ->
   owners:(Core.vehicle * string) list -> (string * part) list -> t
-(** [make ~note ~keep ~owners parts] is [parts], at least one, each with a name of its own. [note] is told of vehicles
-    that two platforms offer. [keep] keeps which platform a vehicle that is bound belongs to; [owners] is what was kept
-    in a run that is resumed. *)
+(** [make ~note ~keep ~owners parts] is [parts], at least one, each with a name of its own. [note] gets vehicles that
+    two platforms offer. [keep] keeps the platform of a bound vehicle; [owners] is the kept data of a run that is
+    resumed. *)
 
 (** {1:resumption Resumption} *)
 
 val owners : imc:string -> History.t -> (Core.vehicle * string) list
-(** [owners ~imc history] is which platform each vehicle of the program belonged to last, as the notes say; [imc] is the
-    name of the one whose own notes do not name it. *)
+(** [owners ~imc history] is the last platform of each vehicle of the program, by the notes; [imc] is the name of the
+    one whose own notes do not name it. *)

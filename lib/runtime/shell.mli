@@ -1,14 +1,14 @@
-(** What a platform with a pure state needs around it: who waits for what the state brings, and when it is to be looked
-    at again. The state is the platform's own. *)
+(** The shell of a platform with a pure state: the receivers that wait for its events, and the time of the next look
+    at it. The state is the platform's own. *)
 
 type t
 
 val make : unit -> t
 
 val settle : t -> has_event:bool -> quiet:(unit -> bool) -> due:float -> unit
-(** [settle s ~has_event ~quiet ~due] is called after changes of the state. Whoever waits for an event goes on if there
-    is one, and who waits for all to be quiet if it is. [due] is when the state is to be looked at next, by the clock of
-    {!watch}. *)
+(** [settle s ~has_event ~quiet ~due] is called after changes of the state. A receiver that waits for an event goes
+    on if there is one, and one that waits for all to be quiet if it is. [due] is when the state is to be looked at
+    next, by the clock of {!watch}. *)
 
 val watch : t -> now:(unit -> float) -> due:(unit -> float) -> tick:(now:float -> unit) -> unit Lwt.t
 (** [watch s ~now ~due ~tick] calls [tick ~now] whenever [due ()] has come, in seconds by [now], until [s] is closed. *)
@@ -21,8 +21,8 @@ val until_quiet : t -> unit Lwt.t
 (** Resolves when {!settle} next finds all quiet. *)
 
 val fail : t -> exn -> unit
-(** [fail s error] is told to who waits for an event: nothing can be kept any more, say. The first error counts; after
-    {!close} none. Vehicles are served all the same, so that stops are seen through. *)
+(** [fail s error] goes to the receiver of the next event: nothing can be kept any more, for example. The first error
+    counts; after {!close} none. Vehicles are served all the same, so that stops are seen through. *)
 
 val is_closed : t -> bool
 

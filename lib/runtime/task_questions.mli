@@ -3,7 +3,7 @@
 open Dolphin_semantics
 
 type 'news t
-(** ['news] is what an answer of people is read as. *)
+(** ['news] is the type into which an answer of people is read. *)
 
 val create : unit -> 'news t
 
@@ -11,7 +11,7 @@ val put : 'news t -> Residual.timer -> string -> unit
 (** [put t q prompt] adds the question [q], after the others. *)
 
 val withdraw : 'news t -> Residual.timer -> unit
-(** [withdraw t q]: it was answered, or nobody need answer it any more. If it is shown, the promise of its answer is
+(** [withdraw t q]: it was answered, or needs no answer any more. If it is shown, the promise of its answer is
     cancelled. *)
 
 val standing : 'news t -> (Residual.timer * string) list
@@ -33,4 +33,4 @@ val leave : 'news t -> Residual.timer -> unit
 (** [leave t q]: no person answers [q], which is shown. Others are not shown as long as it stands. *)
 
 val answered_by : 'news t -> Inputs.item -> (Residual.timer * bool) option
-(** [answered_by t item] is the first question whose prompt [item] posts to, and what it says, if that is yes or no. *)
+(** [answered_by t item] is the first question whose prompt [item] posts to, and its answer, if that is yes or no. *)

@@ -5,9 +5,9 @@ type 'a t
 
 val make :
   sync:(unit -> unit Lwt.t) -> leave:(string list -> 'a list -> unit) -> failed:(string list -> exn -> unit) -> 'a t
-(** [make ~sync ~leave ~failed] waits for nothing. [sync ()] resolves once the disk has all that was kept before. Then
-    [leave vehicles messages] is to send these messages, in this order; [vehicles] are those of the notes that are now
-    durable. If [sync] fails, [failed] is told instead, and the messages are dropped. *)
+(** [make ~sync ~leave ~failed] waits for nothing. [sync ()] resolves once the disk has all that was kept before.
+    Then [leave vehicles messages] is to send these messages, in this order; [vehicles] are those of the notes that
+    are now durable. If [sync] fails, [failed] is called instead, and the messages are dropped. *)
 
 val require : 'a t -> string -> unit
 (** [require w vehicle]: a note was kept that must be durable before a request to [vehicle] leaves. *)

@@ -16,22 +16,27 @@ type row = {
   at : Dolphin_syntax.Location.t option;  (** its place in the program *)
   words : string;  (** the log's words for it, where [text] is a short label; or [""] *)
   assumed : World.assumption list;
+  changed : (string * string) list;
+  (** the variables that it assigned, or steps without a line before it, with their values *)
 }
 
-val rows : Core.program -> source:string -> Transition.t list -> row list
-(** [rows program ~source run] is the rows of [run], the first one first. *)
+val rows : ?before:Configuration.t -> Core.program -> source:string -> Transition.t list -> row list
+(** [rows ~before program ~source run] is the rows of [run], which begins in [before], by default the initial
+    configuration. *)
 
-val row : Core.program -> source:string -> Configuration.t option -> Transition.t -> row
-(** [row program ~source before t] is the line of [t], which was taken from [before], the initial configuration if that
-    is [None]. *)
+val row : ?shown:Configuration.t -> Core.program -> source:string -> Configuration.t option -> Transition.t -> row
+(** [row ~shown program ~source before t] is the line of [t], which was taken from [before], the initial configuration
+    if that is [None]. Variables are compared with those of [shown], by default [before]. *)
 
 val place : row -> string
 (** [place row] is the place in the program: ["mission.dol:9"], or [""]. *)
 
 val lines :
-  ?first:int -> ?heads:string list -> ?columns:int -> source:string -> Core.program -> Transition.t list -> string list
+  ?first:int -> ?heads:string list -> ?columns:int -> ?before:Configuration.t -> ?remarks:(int * string) list ->
+  source:string -> Core.program -> Transition.t list -> string list
 (** [lines ~source program run] is the table of [run]; [source] is the text of [program]. Silent transitions have no
     row. Rows are numbered from [first], by default 1, or have [heads] instead, a text for each transition; of long
-    texts the beginning is shown. The assumptions of a transition in an open world stand below it. The table is made
+    texts the beginning is shown. The assumptions of a transition in an open world stand below it, then its remark of
+    [remarks], by its place in [run], from 0. A column has the variables that changed. The table is made
     to fit into [columns], if it is given: with the log's words for guards and timers in a last column, if there is
     room for it; if the columns of all do not fit, each row has the name of its vehicle instead. *)

@@ -30,14 +30,14 @@ The same, if a plan may fail once.
   41 states, 50 transitions, depth 35; reduced by partial order, symmetry
   
   no unhandled error: a shortest run in which an error that nobody handles ends the program
-       program                                   noptilus-1                 where
+       program                                   noptilus-1                 where              variables
    1   ask(Radius of operation area? (km))                                  rendezvous.dol:2
    2   answer(2)                                                            rendezvous.dol:2
-   3   pick(3 vehicles of type 'UUV' with pa...                             rendezvous.dol:5
+   3   pick(3 vehicles of type 'UUV' with pa...                             rendezvous.dol:5   r = 2, APDL = (41.185000, -8.706200) ...
    4   picks noptilus-1, noptilus-2, noptilus-3                             rendezvous.dol:5
-   5   pick(1 vehicle of type 'UAV' in regio...                             rendezvous.dol:11
+   5   pick(1 vehicle of type 'UAV' in regio...                             rendezvous.dol:11  UUVs = [noptilus-1, noptilus-2, nopti...
    6   picks x8-02                                                          rendezvous.dol:11
-   7   setConnectionTimeout noptilus-1, nopt...                             rendezvous.dol:15
+   7   setConnectionTimeout noptilus-1, nopt...                             rendezvous.dol:15  UAV = x8-02
    8   execute                                                              rendezvous.dol:26
    9                                             starts survey1             rendezvous.dol:18
   10                                             fails in survey1: failure  rendezvous.dol:18
@@ -58,10 +58,10 @@ A program that may wait for ever.
   7 states, 6 transitions, depth 6; reduced by partial order, symmetry of vehicles
   
   no deadlock: a shortest run in which nothing can happen any more, and the program has not ended
-      program                        noptilus-1  where
+      program                        noptilus-1  where           variables
   1   pick(1 vehicle of type 'UUV')              deadlock.dol:1
   2   picks noptilus-1                           deadlock.dol:1
-  3   execute                                    deadlock.dol:2
+  3   execute                                    deadlock.dol:2  v = noptilus-1
   4                                  starts a    deadlock.dol:2
   5                                  ends a      deadlock.dol:2
   6   act(post left:1)                           deadlock.dol:2
@@ -72,14 +72,14 @@ A program that may wait for ever.
 
 In a wide terminal the log's words stand beside what conditions and timers do. In a narrow one texts are cut.
 
-  $ COLUMNS=100 explore deadlock.dol | tail -n +9
-      program                        noptilus-1  where           in words
+  $ COLUMNS=120 explore deadlock.dol | tail -n +9
+      program                        noptilus-1  where           variables       in words
   1   pick(1 vehicle of type 'UUV')              deadlock.dol:1
   2   picks noptilus-1                           deadlock.dol:1
-  3   execute                                    deadlock.dol:2
+  3   execute                                    deadlock.dol:2  v = noptilus-1
   4                                  starts a    deadlock.dol:2
   5                                  ends a      deadlock.dol:2
-  6   act(post left:1)                           deadlock.dol:2  posts left:1
+  6   act(post left:1)                           deadlock.dol:2                  posts left:1
   tuples then: {left:1}
   waits for the condition at deadlock.dol:2:65, consume right: 1
   waits for the condition at deadlock.dol:2:99, consume right: 1
@@ -94,6 +94,7 @@ In a wide terminal the log's words stand beside what conditions and timers do. I
   1   pick(1 vehicle of type 'UUV' with paylo...  narrow.dol:1
   2   picks noptilus-1                            narrow.dol:1
   3   execute                                     narrow.dol:2
+      vehicle = noptilus-1
   4   act(post position:'north of the second ...  narrow.dol:2
   5   check                                       narrow.dol:2
   tuples then: {position:'north of the second buoy'}
@@ -101,15 +102,76 @@ In a wide terminal the log's words stand beside what conditions and timers do. I
   waits for the condition at narrow.dol:2:154, poll(never: 1)
   $ COLUMNS=200 explore narrow.dol | tail -n +8
   no deadlock: a shortest run in which nothing can happen any more, and the program has not ended
-      program                                         where         in words
+      program                                         where         variables             in words
   1   pick(1 vehicle of type 'UUV' with payload DVL)  narrow.dol:1
   2   picks noptilus-1                                narrow.dol:1
-  3   execute                                         narrow.dol:2
-  4   act(post position:'north of the second buoy')   narrow.dol:2  posts position:'north of the second buoy'
-  5   check                                           narrow.dol:2  sees that poll(position: _) || false holds
+  3   execute                                         narrow.dol:2  vehicle = noptilus-1
+  4   act(post position:'north of the second buoy')   narrow.dol:2                        posts position:'north of the second buoy'
+  5   check                                           narrow.dol:2                        sees that poll(position: _) || false holds
   tuples then: {position:'north of the second buoy'}
   waits for the condition at narrow.dol:2:76, !poll(position: _)
   waits for the condition at narrow.dol:2:154, poll(never: 1)
+
+The step that decides a formula is marked. Variables stand beside the steps that change them, or below where they do
+not fit. The place of an error that a handler takes is that of the code that broke.
+
+  $ cat > decided.dol <<'END'
+  > count = 0
+  > v = pick { type 'UUV' }
+  > half = { x -> x / count }
+  > execute watch (task('p')[v] >> action {
+  >   count = half(1)
+  > }) onError { ignore() } | (
+  >   action { count = count + 1 } >> idle(3))
+  > END
+  $ COLUMNS=60 explore decided.dol --ltl 'G !done(p)' | tail -n +8
+  
+  formula G !done(p): a shortest run in which it does not
+    hold
+       program                       noptilus-1  where
+   1   pick(1 vehicle of type 'U...              decided.dol:2
+       count = 0
+   2   picks noptilus-1                          decided.dol:2
+   3   execute                                   decided.dol:4
+       v = noptilus-1
+   4                                 starts p    decided.dol:4
+   5                                 ends p      decided.dol:4
+       decides the formula: what follows makes no difference
+   6   broken(division by zero)                  decided.dol:4
+   7   act                                       decided.dol:7
+       count = 1
+   8   timeout                                   decided.dol:4
+   9   end
+  $ COLUMNS=100 explore decided.dol --ltl 'G !done(p)' | tail -n +8
+  
+  formula G !done(p): a shortest run in which it does not hold
+       program                        noptilus-1  where          variables
+   1   pick(1 vehicle of type 'UUV')              decided.dol:2  count = 0
+   2   picks noptilus-1                           decided.dol:2
+   3   execute                                    decided.dol:4  v = noptilus-1
+   4                                  starts p    decided.dol:4
+   5                                  ends p      decided.dol:4
+       decides the formula: what follows makes no difference
+   6   broken(division by zero)                   decided.dol:4
+   7   act                                        decided.dol:7  count = 1
+   8   timeout                                    decided.dol:4
+   9   end
+  $ COLUMNS=200 explore decided.dol --ltl 'G !done(p)' | tail -n +8
+  
+  formula G !done(p): a shortest run in which it does not hold
+       program                        noptilus-1  where          variables       in words
+   1   pick(1 vehicle of type 'UUV')              decided.dol:2  count = 0
+   2   picks noptilus-1                           decided.dol:2
+   3   execute                                    decided.dol:4  v = noptilus-1
+   4                                  starts p    decided.dol:4
+   5                                  ends p      decided.dol:4
+       decides the formula: what follows makes no difference
+   6   broken(division by zero)                   decided.dol:4
+   7   act                                        decided.dol:7  count = 1
+   8   timeout                                    decided.dol:4                  idled long enough
+   9   end
+  $ explore decided.dol --ltl 'G !done(p)' --json | python3 -c 'import json, sys; print([v["decided"] for v in json.load(sys.stdin)["verdicts"] if "decided" in v])'
+  [5]
 
 A program that may never end.
 
@@ -126,14 +188,14 @@ A program that may never end.
   5 states, 5 transitions, depth 4; reduced by partial order
   
   termination: a run in which the program can go on for ever
-      program   where
-  1   pause(1)  round.dol:2
+      program   where        variables
+  1   pause(1)  round.dol:2  x = 1
   and from there, again and again:
-      program   where
+      program   where        variables
   2   resume    round.dol:2
-  3   pause(1)  round.dol:2
+  3   pause(1)  round.dol:2  x = 0
   4   resume    round.dol:2
-  5   pause(1)  round.dol:2
+  5   pause(1)  round.dol:2  x = 1
   [1]
 
 Code that nothing reaches is only worth a note, unless one asks for more.
@@ -191,10 +253,10 @@ An assertion that some run breaks.
   12 states, 11 transitions, depth 9; reduced by partial order, symmetry of vehicles
   
   assertions: a shortest run in which an assertion fails
-      program                        where
+      program                        where            variables
   1   pick(1 vehicle of type 'UUV')  assertion.dol:1
   2   picks noptilus-1               assertion.dol:1
-  3   execute                        assertion.dol:3
+  3   execute                        assertion.dol:3  v = noptilus-1
   4   act(post alarm:1)              assertion.dol:3
   5   broken(assertion failed)       assertion.dol:4
   tuples then: {alarm:1}
@@ -221,22 +283,22 @@ Invariants.
   14 states, 16 transitions, depth 9; reduced by symmetry of vehicles
   
   invariant !(running('a') && n > 0): a shortest run in which it does not hold
-      program                        noptilus-1  where
-  1   pick(1 vehicle of type 'UUV')              counting.dol:2
+      program                        noptilus-1  where           variables
+  1   pick(1 vehicle of type 'UUV')              counting.dol:2  n = 0
   2   picks noptilus-1                           counting.dol:2
-  3   execute                                    counting.dol:3
+  3   execute                                    counting.dol:3  v = noptilus-1
   4                                  starts a    counting.dol:3
-  5   act                                        counting.dol:3
+  5   act                                        counting.dol:3  n = 1
   
   invariant !poll(done: 2): a shortest run in which it does not hold
-      program                        noptilus-1  where
-  1   pick(1 vehicle of type 'UUV')              counting.dol:2
+      program                        noptilus-1  where           variables
+  1   pick(1 vehicle of type 'UUV')              counting.dol:2  n = 0
   2   picks noptilus-1                           counting.dol:2
-  3   execute                                    counting.dol:3
+  3   execute                                    counting.dol:3  v = noptilus-1
   4                                  starts a    counting.dol:3
   5                                  ends a      counting.dol:3
-  6   act                                        counting.dol:3
-  7   act(post done:2)                           counting.dol:3
+  6   act                                        counting.dol:3  n = 1
+  7   act(post done:2)                           counting.dol:3  n = 2
   tuples then: {done:2}
   [1]
   $ explore counting.dol --invariant '1 / n > 0' --invariant 'bound("noptilus-1") || n == 0'
@@ -250,11 +312,11 @@ Invariants.
   26 states, 31 transitions, depth 9; reduced by symmetry of vehicles
   
   invariant bound("noptilus-1") || n == 0: a shortest run in which it does not hold
-      program                        where
-  1   pick(1 vehicle of type 'UUV')  counting.dol:2
+      program                        where           variables
+  1   pick(1 vehicle of type 'UUV')  counting.dol:2  n = 0
   2   picks noptilus-2               counting.dol:2
-  3   execute                        counting.dol:3
-  4   act                            counting.dol:3
+  3   execute                        counting.dol:3  v = noptilus-2
+  4   act                            counting.dol:3  n = 1
   [1]
   $ explore counting.dol --invariant 'm > 0'
   dolphin: --invariant 'm > 0': unknown name 'm'
@@ -299,10 +361,10 @@ Formulas of temporal logic.
   10 states, 10 transitions, depth 7; reduced by partial order; 38 states for formulas
   
   termination: a run in which the program can go on for ever
-      program                               where
+      program                               where        variables
   1   pick(1 vehicle with id 'noptilus-1')  again.dol:1
   2   picks noptilus-1                      again.dol:1
-  3   execute                               again.dol:4
+  3   execute                               again.dol:4  v = noptilus-1, n = 0
   and from there, again and again:
       program           noptilus-1           where
   4                     starts a             again.dol:4
@@ -311,10 +373,10 @@ Formulas of temporal logic.
   7   execute                                again.dol:4
   
   formula G F {n == 1}: a run in which it does not hold
-      program                               where
+      program                               where        variables
   1   pick(1 vehicle with id 'noptilus-1')  again.dol:1
   2   picks noptilus-1                      again.dol:1
-  3   execute                               again.dol:4
+  3   execute                               again.dol:4  v = noptilus-1, n = 0
   and from there, again and again:
       program           noptilus-1           where
   4                     starts a             again.dol:4
@@ -326,7 +388,8 @@ Formulas of temporal logic.
   formula F ended: holds
   formula F (done(a) & running(a)): violated after 7 steps: it does not hold
   15 states, 14 transitions, depth 11; reduced by partial order; 24 states for formulas
-  formula F (done(a) & running(a)): a run in which it does not hold
+  formula F (done(a) & running(a)): a shortest run in which it does not hold
+      decides the formula: what follows makes no difference
   $ explore deadlock.dol --ltl 'F ended' | grep violated
   no deadlock: violated after 6 steps: nothing can happen any more, and the program has not ended
   formula F ended: violated after 6 steps: it does not hold
@@ -342,12 +405,13 @@ Beside a violation that a reduced search has found.
   formula F ended: holds
   formula G !error: violated after 10 steps: it does not hold
   no unhandled error: a shortest run in which an error that nobody handles ends the program
+       decides the formula: what follows makes no difference
 
 What has been violated stays so: not all states need be seen. What nobody can list is not followed where it cannot matter.
 
   $ explore again.dol --faults fail --ltl 'G !start(a)' --ltl 'X X X X running(a)' | grep -e '^formula.*violated' -e 'for formulas'
-  formula G !start(a): violated after 7 steps: it does not hold
-  10 states, 10 transitions, depth 7; reduced by partial order; 11 states for formulas
+  formula G !start(a): violated after 4 steps: it does not hold
+  10 states, 10 transitions, depth 7; reduced by partial order; 9 states for formulas
   $ cat > unlisted.dol <<'END'
   > v = pick { id 'noptilus-1' }
   > message 'go'
@@ -464,10 +528,10 @@ Where states stand for others that are alike, runs have the names that the progr
   106 states, 231 transitions, depth 16; reduced by symmetry, symmetry of vehicles
   
   no deadlock: a shortest run in which nothing can happen any more, and the program has not ended
-       program                                   noptilus-1  noptilus-2  noptilus-3  where
+       program                                   noptilus-1  noptilus-2  noptilus-3  where        variables
    1   pick(3 vehicles of type 'UUV')                                                alike.dol:1
    2   picks noptilus-1, noptilus-2, noptilus-3                                      alike.dol:1
-   3   execute                                                                       alike.dol:3
+   3   execute                                                                       alike.dol:3  vs = [noptilus-1, noptilus-2, noptilu...
    4                                             starts a1                           alike.dol:2
    5                                             ends a1                             alike.dol:2
    6   act(post ready:1)                                                             alike.dol:2
@@ -667,10 +731,10 @@ For whatever collects results of tests, and for code hosts and editors.
       <testcase classname="reports.dol" name="assertions">
         <failure message="assertions: violated after 6 steps: reports.dol:3:29: assertion failed: it is done" type="assertions">
           
-      program                               noptilus-1    where
+      program                               noptilus-1    where          variables
   1   pick(1 vehicle of type 'UUV')                       reports.dol:1
   2   picks noptilus-1                                    reports.dol:1
-  3   execute                                             reports.dol:3
+  3   execute                                             reports.dol:3  v = noptilus-1
   4                                         starts a &amp; b  reports.dol:3
   5                                         ends a &amp; b    reports.dol:3
   6   broken(assertion failed: it is done)                reports.dol:3
@@ -854,10 +918,10 @@ Bitstate hashing: as many states where the bits are many, and nothing is said to
   expected: 8.3e-14 states left out of those it came to; any at all with a chance of 8.26e-12%
   
   no deadlock: a shortest run in which nothing can happen any more, and the program has not ended
-      program                        noptilus-1  where
+      program                        noptilus-1  where           variables
   1   pick(1 vehicle of type 'UUV')              deadlock.dol:1
   2   picks noptilus-1                           deadlock.dol:1
-  3   execute                                    deadlock.dol:2
+  3   execute                                    deadlock.dol:2  v = noptilus-1
   4                                  starts a    deadlock.dol:2
   5                                  ends a      deadlock.dol:2
   6   act(post left:1)                           deadlock.dol:2

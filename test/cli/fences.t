@@ -402,10 +402,10 @@ run at the same time. Of what nobody knows nothing is claimed.
     lanes.dol:4:5: plan 'south' on n1, beside lanes.dol:4:5: plan 'north' on n2: 20.0 m between 1.Goto and 1.Goto, at (41.185450, -8.706000)
   
   fence distance 30.m: a shortest run in which plans run side by side whose ways come nearer to each other
-      program                         n1            n2            where
-  1   pick(2 vehicles of type 'UUV')                              lanes.dol:13
+      program                         n1            n2            where         variables
+  1   pick(2 vehicles of type 'UUV')                              lanes.dol:13  quay = (41.185000, -8.706000), gap = 20
   2   picks n1, n2                                                lanes.dol:13
-  3   execute                                                     lanes.dol:15
+  3   execute                                                     lanes.dol:15  vs = [n1, n2]
   4                                   starts south                lanes.dol:4
   5                                                 starts north  lanes.dol:4
   $ explored lanes.dol --set gap=40
@@ -443,10 +443,10 @@ By its order 'south' may run beside 'north', by time it is over before: so dolph
     later.dol:4:5: plan 'south' on n1, beside later.dol:4:5: plan 'north' on n2: 20.0 m between 1.Goto and 1.Goto, at (41.185450, -8.706000)
   
   fence distance 30.m: a shortest run in which plans run side by side whose ways come nearer to each other
-      program                         n1            n2            where
-  1   pick(2 vehicles of type 'UUV')                              later.dol:13
+      program                         n1            n2            where         variables
+  1   pick(2 vehicles of type 'UUV')                              later.dol:13  quay = (41.185000, -8.706000), gap = 20
   2   picks n1, n2                                                later.dol:13
-  3   execute                                                     later.dol:15
+  3   execute                                                     later.dol:15  vs = [n1, n2]
   4                                   starts south                later.dol:4
   5   timeout                                                     later.dol:15
   6                                                 starts north  later.dol:4

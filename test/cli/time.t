@@ -47,12 +47,12 @@ A deadline that holds, and one that does not, with the run that breaks it.
   34 states, depth 13, T
   
   a run that ends last:
-         program                      a              b             where
+         program                      a              b             where        variables
   0:00   pick(1 vehicle with id 'a')                               relay.dol:1
   0:00   picks a                                                   relay.dol:1
-  0:00   pick(1 vehicle with id 'b')                               relay.dol:2
+  0:00   pick(1 vehicle with id 'b')                               relay.dol:2  a = a
   0:00   picks b                                                   relay.dol:2
-  0:00   execute                                                   relay.dol:3
+  0:00   execute                                                   relay.dol:3  b = b
   0:00                                starts survey                relay.dol:3
   7:00                                ends survey                  relay.dol:3
   7:00   act(post ready:1)                                         relay.dol:3
@@ -76,12 +76,12 @@ A deadline that holds, and one that does not, with the run that breaks it.
   34 states, depth 13, T
   
   a run that is not over at the deadline, 8:00:
-         program                      a              b             where
+         program                      a              b             where        variables
   0:00   pick(1 vehicle with id 'a')                               relay.dol:1
   0:00   picks a                                                   relay.dol:1
-  0:00   pick(1 vehicle with id 'b')                               relay.dol:2
+  0:00   pick(1 vehicle with id 'b')                               relay.dol:2  a = a
   0:00   picks b                                                   relay.dol:2
-  0:00   execute                                                   relay.dol:3
+  0:00   execute                                                   relay.dol:3  b = b
   0:00                                starts survey                relay.dol:3
   7:00                                ends survey                  relay.dol:3
   7:00   act(post ready:1)                                         relay.dol:3
@@ -114,12 +114,12 @@ is not known.
   34 states, depth 13, T
   
   a run in which the battery of a runs empty:
-         program                      a              b             where
+         program                      a              b             where        variables
   0:00   pick(1 vehicle with id 'a')                               relay.dol:1
   0:00   picks a                                                   relay.dol:1
-  0:00   pick(1 vehicle with id 'b')                               relay.dol:2
+  0:00   pick(1 vehicle with id 'b')                               relay.dol:2  a = a
   0:00   picks b                                                   relay.dol:2
-  0:00   execute                                                   relay.dol:3
+  0:00   execute                                                   relay.dol:3  b = b
   0:00                                starts survey                relay.dol:3
   7:00                                ends survey                  relay.dol:3
   7:00   act(post ready:1)                                         relay.dol:3
@@ -227,12 +227,12 @@ A task that may not be done within its time.
   36 states, depth 13, T
   
   a run in which a task is not done within its time:
-         program                      a              where
+         program                      a              where         variables
   0:00   pick(1 vehicle with id 'a')                 within.dol:1
   0:00   picks a                                     within.dol:1
-  0:00   pick(1 vehicle with id 'b')                 within.dol:2
+  0:00   pick(1 vehicle with id 'b')                 within.dol:2  a = a
   0:00   picks b                                     within.dol:2
-  0:00   execute                                     within.dol:3
+  0:00   execute                                     within.dol:3  b = b
   0:00                                starts survey  within.dol:3
   5:00   timeout                                     within.dol:3
 
@@ -306,13 +306,13 @@ A program that goes round for ever, and one that waits in vain.
   12 states, depth 6, T
   
   a run that may go on for ever:
-      program                      where
+      program                      where         variables
   1   pick(1 vehicle with id 'a')  patrol.dol:1
   2   picks a                      patrol.dol:1
-  3   execute                      patrol.dol:2
+  3   execute                      patrol.dol:2  a = a
   and from there, again and again:
-      program  a            where
-  4            starts home  patrol.dol:2
+      program  a            where         variables
+  4            starts home  patrol.dol:2  a = a
   5            ends home    patrol.dol:2
   it goes round in the repeat at patrol.dol:2:9
   $ cat > loop.dol << 'X'
@@ -340,10 +340,10 @@ A program that goes round for ever, and one that waits in vain.
   8 states, depth 3, T
   
   a run in which nothing happens any more:
-         program                      where
+         program                      where       variables
   0:00   pick(1 vehicle with id 'a')  vain.dol:1
   0:00   picks a                      vain.dol:1
-  0:00   execute                      vain.dol:2
+  0:00   execute                      vain.dol:2  a = a
   waits for the condition at vain.dol:2:19, consume ready: 1
 
 The run that is shown, in a file that can be followed: here, and where there is one for the deadline.
@@ -452,11 +452,11 @@ Who joins, leaves, or loses a link by the fleet does so then: the order to c wai
   28 states, depth 13
   
   a run that ends last:
-         program           a                                 c              where
+         program           a                                 c              where       variables
   0:00   pick(2 vehicles)                                                   late.dol:1
   0:00   picks a, c                                                         late.dol:1
          if b is missing
-  0:00   pause(150)                                                         late.dol:2
+  0:00   pause(150)                                                         late.dol:2  vs = [a, c]
   2:30   resume                                                             late.dol:2
   2:30   execute                                                            late.dol:3
   2:30                     starts survey                                    late.dol:3
@@ -479,11 +479,11 @@ Who joins, leaves, or loses a link by the fleet does so then: the order to c wai
   22 states, depth 10
   
   a run that ends last:
-         program           b              where
+         program           b              where        variables
   0:00   pick(3 vehicles)                 joins.dol:1
   1:30   picks a, c, b                    joins.dol:1
          if b comes late
-  1:30   execute                          joins.dol:2
+  1:30   execute                          joins.dol:2  vs = [a, c, b]
   1:30                     starts survey  joins.dol:2
   8:30                     ends survey    joins.dol:2
   8:30   end
@@ -548,6 +548,7 @@ In a narrow terminal rows of tables go on in further lines, and a run is a list.
   1:30   program  picks a, c, b    joins.dol:1
          if b comes late
   1:30   program  execute          joins.dol:2
+         vs = [a, c, b]
   1:30   b        starts survey    joins.dol:2
   8:30   b        ends survey      joins.dol:2
   8:30   program  end
@@ -577,10 +578,10 @@ What code does with the date is exact where it compares it with constants. Else 
   41 states, depth 16
   
   a run that ends last:
-         program                                   a              where
-  0:00   pick(1 vehicle with id 'a')                              dusk.dol:2
+         program                                   a              where       variables
+  0:00   pick(1 vehicle with id 'a')                              dusk.dol:2  limit = 300
   0:00   picks a                                                  dusk.dol:2
-  0:00   execute                                                  dusk.dol:3
+  0:00   execute                                                  dusk.dol:3  v = a
   0:00                                             starts survey  dusk.dol:3
   3:00                                             ends survey    dusk.dol:3
   3:00   check                                                    dusk.dol:3

@@ -56,10 +56,10 @@ A counter-example: its labels are enough to find where in the program each step 
   16 distinct states, 17 generated, 1 not looked at
   
   no deadlock: a run in which nothing can happen any more, and the program has not ended
-      program                        noptilus-2  where
+      program                        noptilus-2  where           variables
   1   pick(1 vehicle of type 'UUV')              deadlock.dol:1
   2   picks noptilus-2                           deadlock.dol:1
-  3   execute                                    deadlock.dol:2
+  3   execute                                    deadlock.dol:2  v = noptilus-2
   4                                  starts a    deadlock.dol:2
   5                                  ends a      deadlock.dol:2
   6   act(post left:1)                           deadlock.dol:2
@@ -86,14 +86,14 @@ One that goes on for ever.
   5 distinct states, 6 generated
   
   termination: a run in which the program can go on for ever
-      program   where
-  1   pause(1)  round.dol:2
+      program   where        variables
+  1   pause(1)  round.dol:2  x = 1
   and from there, again and again:
-      program   where
+      program   where        variables
   2   resume    round.dol:2
-  3   pause(1)  round.dol:2
+  3   pause(1)  round.dol:2  x = 0
   4   resume    round.dol:2
-  5   pause(1)  round.dol:2
+  5   pause(1)  round.dol:2  x = 1
   [1]
 
 One that the explorer does not know: then the two statements of the semantics differ, and TLC's states are shown.

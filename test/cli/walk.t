@@ -116,6 +116,7 @@ A run by hand: the state, and what may happen next.
   1   pick(1 vehicle of type 'U...                 relay.dol:1
   2   picks noptilus-2                             relay.dol:1
   3   execute                                      relay.dol:3
+      v = noptilus-2, g = 1
   4                                 starts survey  relay.dol:3
   5                                 ends survey    relay.dol:3
   5> write by-hand.run

@@ -55,7 +55,7 @@ let print_run program property (run : Search.run) =
     (Printf.sprintf "%s: a%s run in which %s" (Property.name property)
        (if run.shortest then " shortest" else "")
        (Property.question property));
-  Run_columns.print program ~steps:run.steps ~cycle:run.cycle;
+  Run_columns.print ?decided:run.decided program ~steps:run.steps ~cycle:run.cycle;
   if property = Property.No_deadlock then Run_columns.print_waiting program run.steps;
   let tell call =
     Format.printf "the fleet lacks an entry: reply %a, and what the supplier may reply@." Value.pp (String call) in
@@ -106,6 +106,7 @@ let json_of_run (run : Search.run) =
   in
   let assumptions = List.filter_map Fun.id (List.mapi assumed (run.steps @ run.cycle)) in
   [ ("shortest", `Bool run.shortest); ("run", labels run.steps); ("cycle", labels run.cycle) ]
+  @ Option.fold run.decided ~none:[] ~some:(fun n -> [ ("decided", `Int n) ])
   @ if assumptions = [] then [] else [ ("assumptions", `List assumptions) ]
 
 let to_json (p : Program_file.t) (o : Search.outcome) : Yojson.Safe.t =

@@ -19,24 +19,31 @@ let tuples steps cycle =
   | Some c when not (Tuples.is_empty c.shared.tuples) -> [ Format.asprintf "tuples then: %a" Tuples.pp c.shared.tuples ]
   | Some _ | None -> []
 
-let lines ?columns (p : Program_file.t) ~steps ~cycle =
-  let lines ~first = Columns.lines ~first ?columns ~source:p.source p.program in
+let decides = "decides the formula: what follows makes no difference"
+
+let lines ?columns ?decided (p : Program_file.t) ~steps ~cycle =
+  let lines ~first ~before ~remarks = Columns.lines ~first ?columns ?before ~remarks ~source:p.source p.program in
   let around =
     if cycle = [] then []
-    else "and from there, again and again:" :: lines ~first:(List.length steps + 1) cycle
+    else
+      "and from there, again and again:"
+      :: lines ~first:(List.length steps + 1) ~before:(last steps []) ~remarks:[] cycle
   in
-  lines ~first:1 steps @ around @ tuples steps cycle
+  let remarks = Option.fold decided ~none:[] ~some:(fun n -> [ (n - 1, decides) ]) in
+  lines ~first:1 ~before:None ~remarks steps @ around @ tuples steps cycle
 
-let print p ~steps ~cycle = List.iter print_endline (lines ?columns:(columns ()) p ~steps ~cycle)
-let text p ~steps ~cycle = String.concat "\n" (lines p ~steps ~cycle)
+let print ?decided p ~steps ~cycle = List.iter print_endline (lines ?columns:(columns ()) ?decided p ~steps ~cycle)
+let text ?decided p ~steps ~cycle = String.concat "\n" (lines ?decided p ~steps ~cycle)
 
 let print_waiting (p : Program_file.t) steps =
   let guard (w : Waiting.t) =
     let place = Fmt.(option (any " at " ++ Dolphin_syntax.Location.pp)) in
     let lacking = Fmt.(option (any ": " ++ string)) in
-    Format.printf "waits for the condition%a, %s%a@." place w.at w.what lacking w.lacking
+    Format.asprintf "waits for the condition%a, %s%a" place w.at w.what lacking w.lacking
   in
+  let add found line = if List.mem line found then found else line :: found in
   match last steps [] with
   | Some ({ control = Executing _; _ } as c) ->
-    List.iter guard (Waiting.list p.program ~source:p.source (World.at Any World.empty) c)
+    let all = List.map guard (Waiting.list p.program ~source:p.source (World.at Any World.empty) c) in
+    List.iter print_endline (List.rev (List.fold_left add [] all))
   | Some _ | None -> ()

@@ -72,13 +72,14 @@ let print_tasks ?slacks (p : Program_file.t) (o : Timing.outcome) =
 let print_columns (p : Program_file.t) (run : Timing.run) =
   let heads = if run.dates = [] then None else Some (List.map time run.dates) in
   let columns = Run_columns.columns () in
-  let lines ?first ?heads steps =
-    List.iter print_endline (Columns.lines ?first ?heads ?columns ~source:p.source p.program steps)
+  let lines ?first ?heads ?before steps =
+    List.iter print_endline (Columns.lines ?first ?heads ?columns ?before ~source:p.source p.program steps)
   in
   lines ?heads run.steps;
   if run.cycle <> [] then begin
     print_endline "and from there, again and again:";
-    lines ~first:(List.length run.steps + 1) run.cycle
+    let before = List.fold_left (fun _ (t : Transition.t) -> Some t.next) None run.steps in
+    lines ~first:(List.length run.steps + 1) ?before run.cycle
   end
 
 let print_chain p (run : Timing.run) =

@@ -11,7 +11,8 @@ module Make (S : System.S) = struct
   module Depth_first = Depth_first.Make (S)
 
   let rec expand_all t ~is_plain look enough =
-    if (not (is_violated t || enough ())) && more t then begin
+    if t.next >= t.level_end then flush t;
+    if (not (is_settled t || (is_violated t && t.next >= t.level_end) || enough ())) && more t then begin
       if t.next >= t.level_end then begin
         deeper t;
         if is_plain && Together.is_possible t then Together.start t

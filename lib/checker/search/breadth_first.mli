@@ -45,9 +45,9 @@ module Make (S : System.S) : sig
       {!stopped} and the like. *)
 
   val run : ?watcher:Watcher.t -> ?look:(int -> unit) -> ?enough:(unit -> bool) -> t -> unit
-  (** [run t] expands all states, until a bound is met, [enough ()] is true, or it {!is_violated}. [watcher] sees
-      each of them; [look i] is called before state [i] is expanded, in order, in one process. Exceptions of
-      [S.expand], [look] and [enough] pass through, {!Limits.Stop} apart. *)
+  (** [run t] expands all states, until a bound is met, [enough ()] is true, or it {!is_violated} and no state less deep
+      shows that. [watcher] sees each of them; [look i] is called before state [i] is expanded, in order, in one
+      process. Exceptions of [S.expand], [look] and [enough] pass through, {!Limits.Stop} apart. *)
 
   val run_walks : ?look:(int -> unit) -> ?enough:(unit -> bool) -> t -> walks:int -> seed:int -> unit
   (** [run_walks t ~walks ~seed] is {!run} along random walks, as many as [walks], in place of all states: at each

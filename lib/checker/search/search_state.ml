@@ -33,6 +33,7 @@ module Make (S : System.S) = struct
     mutable allocated : float;  (* words by the last look around *)
     mutable deadlock : int;  (* the first such state, or -1; the fields below too *)
     mutable violation : int;
+    mutable violation_depth : int;
     broken : (S.property, int) Hashtbl.t;
     mutable stopped : Limits.bound option;
     mutable sample : Sample.t option;
@@ -73,16 +74,24 @@ module Make (S : System.S) = struct
   let deadlock t = found t.deadlock
   let broken t property = Hashtbl.find_opt t.broken property
   let is_violated t = t.violation >= 0
+  let is_settled t = is_violated t && t.violation_depth <= t.depth
 
   (* {1 Arriving in states} *)
 
   let mask t = (1 lsl t.reserved) - 1
-  let note_violation t i = if t.violation < 0 then t.violation <- i
+
+  (* A state of the level that is expanded, in which runs may rest, is less deep than those that are arrived in. *)
+  let note_violation t i ~depth =
+    if t.violation < 0 || depth < t.violation_depth then begin
+      t.violation <- i;
+      t.violation_depth <- depth
+    end
 
   let arrived t i word =
     Option.iter (fun sample -> Sample.see sample i ~from:t.next) t.sample;
     (match t.monitor with
-     | Some monitor when Monitor.is_certain monitor (word land mask t) -> note_violation t i
+     | Some monitor when Monitor.is_certain monitor (word land mask t) ->
+       note_violation t i ~depth:(t.depth + 1)
      | Some _ | None -> ());
     match S.broken t.system word with
     | Some property when not (Hashtbl.mem t.broken property) -> Hashtbl.add t.broken property i
@@ -90,7 +99,8 @@ module Make (S : System.S) = struct
 
   let rest t =
     (match t.monitor with
-     | Some monitor when Monitor.stays monitor t.from (S.valuation t.system 0 t.key) -> note_violation t t.next
+     | Some monitor when Monitor.stays monitor t.from (S.valuation t.system 0 t.key) ->
+       note_violation t t.next ~depth:t.depth
      | Some _ | None -> ());
     if t.deadlock < 0 && not (S.is_end t.system t.key.(0)) then t.deadlock <- t.next
 
@@ -254,7 +264,7 @@ module Make (S : System.S) = struct
     let guard = Limits.guard ?started (if spill = None then limits else before_spilling limits) in
     let rec t =
       { system; limits; phase; monitor; reserved = 0; states; key = [| 0 |]; from = Monitor.start; next = 0; depth = -1;
-        level_end = 0; transitions = 0; work = 0; allocated = 0.; deadlock = -1; violation = -1;
+        level_end = 0; transitions = 0; work = 0; allocated = 0.; deadlock = -1; violation = -1; violation_depth = -1;
         broken = Hashtbl.create 8; stopped = None; sample = None; deep = None; guard; spill; workers; fork_from;
         shared = None;
         fresh = (fun i word -> arrived t i word);

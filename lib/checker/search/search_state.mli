@@ -34,6 +34,7 @@ module Make (S : System.S) : sig
     mutable allocated : float;  (** words by the last look around *)
     mutable deadlock : int;  (** the first such state, or -1; the fields below too *)
     mutable violation : int;
+    mutable violation_depth : int;
     broken : (S.property, int) Hashtbl.t;
     mutable stopped : Limits.bound option;
     mutable sample : Sample.t option;
@@ -80,6 +81,9 @@ module Make (S : System.S) : sig
   val deadlock : t -> int option
   val broken : t -> S.property -> int option
   val is_violated : t -> bool
+
+  val is_settled : t -> bool
+  (** Whether it {!is_violated} and no state less deep can show it. *)
 
   val path_to : t -> int -> int list
   (** [path_to t i] is states from the initial one to [i], by their parents. *)

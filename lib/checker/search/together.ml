@@ -115,7 +115,7 @@ module Make (S : System.S) = struct
     Shared_states.when_full (shared_states t) grow;
     let rec go () =
       t.depth <- Team.depth team;
-      if is_violated t then Team.give_up team;
+      if is_settled t then Team.give_up team;
       match Team.take team with
       | Some block -> if expand_block t shared block then go () else rest ()
       | None -> rest ()

@@ -3,7 +3,7 @@ open Dolphin_environment
 open Dolphin_checker
 open Dolphin_ltl
 
-type run = { steps : Transition.t list; cycle : Transition.t list }
+type run = { steps : Transition.t list; cycle : Transition.t list; decided : int option }
 
 type t = {
   options : Environment.options;
@@ -74,10 +74,10 @@ let onwards tick x states =
   in
   let back, taken = go (State_graph.state x.graph (last states)) [] in
   let before = List.filteri (fun k _ -> k < back) taken and cycle = List.filteri (fun k _ -> k >= back) taken in
-  { steps = through x states @ before; cycle }
+  { steps = through x states @ before; cycle; decided = Some (List.length states - 1) }
 
 let of_violation ?(tick = ignore) options program world graph labelling (violation : Breadth_first.violation) =
   let x = { options; program; world; graph; labelling } in
   match violation with
   | Whatever_follows states -> onwards tick x states
-  | Around { stem; cycle } -> { steps = through x stem; cycle = around x (last stem) cycle }
+  | Around { stem; cycle } -> { steps = through x stem; cycle = around x (last stem) cycle; decided = None }

@@ -40,7 +40,7 @@ let default =
     fairness = Weak;
   }
 
-type run = { steps : Transition.t list; cycle : Transition.t list; shortest : bool }
+type run = { steps : Transition.t list; cycle : Transition.t list; shortest : bool; decided : int option }
 
 type verdict =
   | Holds
@@ -103,7 +103,7 @@ let termination_of_script graph ~shortest =
   let run ({ stem; around } : Breadth_first.lasso) =
     let steps, cycle = Replay.around graph ~stem around in
     let is_as_short = List.compare_lengths stem steps > 0 && List.compare_lengths around cycle > 0 in
-    { steps; cycle; shortest = shortest && is_as_short }
+    { steps; cycle; shortest = shortest && is_as_short; decided = None }
   in
   of_verdict run (State_graph.termination graph ~exact:(State_graph.is_exact graph))
 
@@ -111,7 +111,7 @@ let termination_of_script graph ~shortest =
 let rec termination_of_rounds x (options : options) graph =
   let shown ({ stem; around } : Fair_cycles.lasso) =
     let steps, cycle = Replay.around graph ~stem around in
-    Violated { steps; cycle; shortest = false }
+    Violated { steps; cycle; shortest = false; decided = None }
   in
   let all = not (Reduction.by_order options.reduction) in
   match State_graph.stopped graph with
@@ -134,7 +134,7 @@ let termination x options graph ~shortest =
   if Space.goes_round (State_graph.system graph) then termination_of_rounds x options graph
   else termination_of_script graph ~shortest
 
-let run_through graph ~shortest states = { steps = Replay.through graph states; cycle = []; shortest }
+let run_through graph ~shortest states = { steps = Replay.through graph states; cycle = []; shortest; decided = None }
 
 let invariant graph ~shortest i : verdict =
   match Invariant.broken i, Invariant.trouble i, State_graph.stopped graph with
@@ -211,7 +211,7 @@ let formula x (options : options) f : verdict * int * int =
     let tick = State_graph.ticker graph "checking formulas" in
     let run violation =
       let found = Counterexample.of_violation ~tick options.environment x.program x.world graph labelling violation in
-      { steps = found.steps; cycle = found.cycle; shortest = false }
+      { steps = found.steps; cycle = found.cycle; shortest = found.decided <> None; decided = found.decided }
     in
     let in_fair_runs (verdict : _ Breadth_first.verdict) : _ Breadth_first.verdict =
       match verdict, options.fairness with
@@ -420,7 +420,8 @@ let in_step options program world ~image found =
     | Holds | By_design _ | Unreached _ | Inconclusive _ -> Some (property, verdict)
     | Violated ({ steps; cycle; _ } as run) ->
       let real ({ steps; cycle } : Lockstep.run) =
-        (property, Violated { steps; cycle; shortest = run.shortest && List.compare_lengths steps run.steps = 0 })
+        (property,
+         Violated { run with steps; cycle; shortest = run.shortest && List.compare_lengths steps run.steps = 0 })
       in
       Option.map real (Lockstep.follow options.environment world program ~image ~ends_alike { steps; cycle })
   in
@@ -476,7 +477,7 @@ let pp_verdict (program : Core.program) ppf (property, verdict) =
     let all = List.map (fun site -> ("repeat", site)) repeats @ List.map (fun site -> ("retry", site)) retries in
     let left_by = if left_by = [] then "nothing that may happen here" else String.concat ", " left_by in
     print "by design not: %a; ended by %s" (Fmt.list ~sep:(Fmt.any ", ") at) all left_by
-  | Violated { steps = run; cycle = [] } when property = Assertions -> (
+  | Violated { steps = run; cycle = []; _ } when property = Assertions -> (
       print "violated after %s: " (steps (List.length run));
       match (List.nth run (List.length run - 1)).next.control with
       | Ended (Failed fault) ->
@@ -484,9 +485,10 @@ let pp_verdict (program : Core.program) ppf (property, verdict) =
         print "%s" fault.message
       | Ended (Completed | Halted _ | Interrupted) | Script _ | Waiting _ | Executing _ ->
         print "%s" (Property.question property))
-  | Violated { steps = run; cycle = [] } ->
+  | Violated { decided = Some n; _ } -> print "violated after %s: %s" (steps n) (Property.question property)
+  | Violated { steps = run; cycle = []; _ } ->
     print "violated after %s: %s" (steps (List.length run)) (Property.question property)
-  | Violated { steps = run; cycle } ->
+  | Violated { steps = run; cycle; _ } ->
     print "violated: after %s, %s that can repeat for ever" (steps (List.length run)) (steps (List.length cycle))
   | Unreached pieces ->
     let piece ppf (p : Coverage.piece) =

@@ -55,6 +55,9 @@ type run = {
   steps : Transition.t list;
   cycle : Transition.t list;  (** goes on from there for ever, if there is any *)
   shortest : bool;  (** no run shows it in fewer steps; with a cycle, none comes to it in fewer *)
+  decided : int option;
+  (** after how many steps a formula is known not to hold, whatever follows, or if the run rests there; then
+      [shortest] speaks of these steps. [None]: the cycle violates it, or no formula is asked *)
 }
 
 type verdict =

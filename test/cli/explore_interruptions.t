@@ -32,14 +32,15 @@ What must hold of every state or every run may be broken by it. The run can be f
   formula G (start(survey) -> F done(survey)): violated after 6 steps: it does not hold
   12 states, 16 transitions, depth 8; reduced by partial order, symmetry of vehicles; 25 states for formulas
   
-  formula G (start(survey) -> F done(survey)): a run in which it does not hold
-      program                        noptilus-1     where
+  formula G (start(survey) -> F done(survey)): a shortest run in which it does not hold
+      program                        noptilus-1     where       variables
   1   pick(1 vehicle of type 'UUV')                 lock.dol:1
   2   picks noptilus-1                              lock.dol:1
-  3   post lock:1                                   lock.dol:2
+  3   post lock:1                                   lock.dol:2  v = noptilus-1
   4   execute                                       lock.dol:3
   5                                  starts survey  lock.dol:3
   6   interrupt
+      decides the formula: what follows makes no difference
   tuples then: {lock:1}
   $ dolphin exec lock.dol --follow cut.run
   breaks: formula G (start(survey) -> F done(survey))
@@ -74,9 +75,10 @@ Who is stuck is stuck, though a person could interrupt; who goes on for ever doe
   vehicles for all tasks: holds
   note: all code reached: violated: no run reaches action at stuck.dol:1:50
   $ explore stuck.dol --faults interrupt --ltl 'F ended' | grep -A 5 '^formula.*run'
-  formula F ended: a run in which it does not hold
+  formula F ended: a shortest run in which it does not hold
       program  where
   1   execute  stuck.dol:1
+      decides the formula: what follows makes no difference
   $ cat > round.dol <<'END'
   > while (true) { pause 1.seconds }
   > END

@@ -25,8 +25,8 @@ How many vehicles it takes: six lanes, shared by as many vehicles as a parameter
   
   n=1:
   a run that is not over at the deadline, 35:00:
-            program                        a            where
-     0:00   pick(1 vehicle of type 'UUV')               lanes.dol:3
+            program                        a            where        variables
+     0:00   pick(1 vehicle of type 'UUV')               lanes.dol:3  n = 1
      0:00   picks a                                     lanes.dol:3
      0:00   execute                                     lanes.dol:7
      0:00                                  starts lane  lanes.dol:7
@@ -46,8 +46,8 @@ How many vehicles it takes: six lanes, shared by as many vehicles as a parameter
   
   n=2:
   a run that ends last:
-          program                         a            b            where
-   0:00   pick(2 vehicles of type 'UUV')                            lanes.dol:3
+          program                         a            b            where        variables
+   0:00   pick(2 vehicles of type 'UUV')                            lanes.dol:3  n = 2
    0:00   picks a, b                                                lanes.dol:3
    0:00   execute                                                   lanes.dol:7
    0:00                                   starts lane               lanes.dol:7
@@ -152,10 +152,10 @@ The least part of a fleet: the lanes are shared by all that are there.
   
   without a:
   a run that is not over at the deadline, 35:00:
-            program                           b            where
+            program                           b            where      variables
      0:00   pick(all vehicles of type 'UUV')               all.dol:2
      0:10   picks b                                        all.dol:2
-     0:10   execute                                        all.dol:6
+     0:10   execute                                        all.dol:6  vs = b
      0:10                                     starts lane  all.dol:6
     10:10                                     ends lane    all.dol:6
     10:10                                     starts lane  all.dol:6
@@ -173,10 +173,10 @@ The least part of a fleet: the lanes are shared by all that are there.
   
   with a, b:
   a run that ends last:
-          program                           a            b            where
+          program                           a            b            where      variables
    0:00   pick(all vehicles of type 'UUV')                            all.dol:2
    0:10   picks a, b                                                  all.dol:2
-   0:10   execute                                                     all.dol:6
+   0:10   execute                                                     all.dol:6  vs = [a, b]
    0:10                                     starts lane               all.dol:6
    0:10                                                  starts lane  all.dol:6
   10:10                                     ends lane                 all.dol:6

@@ -43,7 +43,7 @@ One task of all vehicles is done by one of them.
   $ sed '/for (v in/d; s/vs\[0\]/vs/' home.dol > one.dol
   $ explore one.dol --fleet home.fleet --faults interrupt --ltl 'G (interrupt & bound(x8-02) -> F done(home, x8-02))' | grep ^formula
   formula G (interrupt & bound(x8-02) -> F done(home, x8-02)): violated after 9 steps: it does not hold
-  formula G (interrupt & bound(x8-02) -> F done(home, x8-02)): a run in which it does not hold
+  formula G (interrupt & bound(x8-02) -> F done(home, x8-02)): a shortest run in which it does not hold
 
 A way home that has no value yet when it is wanted.
 

@@ -84,20 +84,20 @@ A search in a few lines finds what the explorer finds, and a run through the sta
   10 states, 11 transitions
   
   assertions: a shortest run in which an assertion fails
-      program                          noptilus-1  where
+      program                          noptilus-1  where        variables
   1   pick(1 vehicle of type 'UUV')                relay.dol:1
   2   picks noptilus-1                             relay.dol:1
-  3   execute                                      relay.dol:2
+  3   execute                                      relay.dol:2  v = noptilus-1
   4                                    starts a    relay.dol:2
   5                                    ends a      relay.dol:2
   6   act(post ready:1)                            relay.dol:2
   7   fault(assertion failed: posted)              relay.dol:3
   tuples then: {ready:1}
   $ dolphin successors relay.dol --run < run
-      program                          noptilus-1  where
+      program                          noptilus-1  where        variables
   1   pick(1 vehicle of type 'UUV')                relay.dol:1
   2   picks noptilus-1                             relay.dol:1
-  3   execute                                      relay.dol:2
+  3   execute                                      relay.dol:2  v = noptilus-1
   4                                    starts a    relay.dol:2
   5                                    ends a      relay.dol:2
   6   act(post ready:1)                            relay.dol:2

@@ -311,8 +311,8 @@ A program that goes round for ever, and one that waits in vain.
   2   picks a                      patrol.dol:1
   3   execute                      patrol.dol:2  a = a
   and from there, again and again:
-      program  a            where         variables
-  4            starts home  patrol.dol:2  a = a
+      program  a            where
+  4            starts home  patrol.dol:2
   5            ends home    patrol.dol:2
   it goes round in the repeat at patrol.dol:2:9
   $ cat > loop.dol << 'X'

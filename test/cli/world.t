@@ -21,10 +21,10 @@ Of a comparison with a sensor both outcomes are possible. A counter-example says
   8 states, 9 transitions, depth 5; reduced by partial order
   
   no halt: a shortest run in which the program halts
-      program                               where
+      program                               where         variables
   1   pick(1 vehicle with id 'noptilus-1')  charge.dol:1
   2   picks noptilus-1                      charge.dol:1
-  3   execute                               charge.dol:2
+  3   execute                               charge.dol:2  v = noptilus-1
   4   cut                                   charge.dol:2
       if battery(noptilus-1) < 0.3 is true
   5   halt(too late)
@@ -143,11 +143,11 @@ Vehicles may be late or missing: those that join, leave or drop, or if the fleet
   6 states, 5 transitions, depth 3; reduced by partial order
   
   no halt: a shortest run in which the program halts
-      program                           where
+      program                           where       variables
   1   pick(all vehicles of type 'UUV')  late.dol:1
   2   picks a                           late.dol:1
       if b is missing
-  3   halt(alone)
+  3   halt(alone)                                   vs = a
   [1]
   $ tail -2 late.run
   {"label":"bind(a)","event":"timer","timer":0,"assumed":[{"missing":"b"}]}
@@ -193,10 +193,10 @@ A lost vehicle stays bound. It is not there for a pick until something is heard 
   16 states, 15 transitions, depth 9; reduced by partial order
   
   vehicles for all picks: a shortest run in which vehicles are missing
-      program                                   noptilus-1                        where
+      program                                   noptilus-1                        where       variables
   1   pick(1 vehicle with id 'noptilus-1')                                        lost.dol:1
   2   picks noptilus-1                                                            lost.dol:1
-  3   execute                                                                     lost.dol:2
+  3   execute                                                                     lost.dol:2  v = noptilus-1
   4                                             starts survey                     lost.dol:2
   5                                             fails in survey: connection lost  lost.dol:2
   6   release noptilus-1                                                          lost.dol:3

@@ -7,6 +7,7 @@ from .transfer import Repeated
 from .wire import mavlink
 
 IN_PROGRESS = mavlink.MAV_RESULT_IN_PROGRESS
+LATE = 5.0  # seconds by which a copy of an order may come late
 LATER = 0.5  # seconds after which is asked for again what is refused for now
 
 
@@ -18,7 +19,7 @@ class Commands:
         self.waiting = None
         self._modes_sent, self._modes_acknowledged, self._modes_before = 0, 0, 0
         self._mode, self._mode_sent_at = None, {}  # the mode sent last; when each was sent last
-        self.mode_acknowledged_at = -math.inf  # when a mode, or a copy of one, was acknowledged last
+        self._mode_acknowledged_at = -math.inf  # when a mode, or a copy of one, was acknowledged last
 
     def once(self, command, *params):
         """A message with the command, which is not repeated."""
@@ -52,6 +53,13 @@ class Commands:
         """Seconds since it was ordered into another mode than `mode` last."""
         return min((now - at for sent, at in self._mode_sent_at.items() if sent != mode), default=math.inf)
 
+    def may_be_late(self, mode, seen_at):
+        """Whether a late copy of an order into `mode` may have taken the vehicle out of the mode in which it was seen
+        at `seen_at` for the last time: since then a copy may have come, or its acknowledgement has."""
+        if mode not in self._mode_sent_at:
+            return False
+        return self.since_mode(seen_at, mode) < LATE or self._mode_acknowledged_at >= seen_at
+
     def acknowledged(self, now, message):
         """Whether the command that waits is answered for good. An acknowledgement of a mode does not name the mode: it
         may answer an earlier order, and the one that waits is then still repeated."""
@@ -60,7 +68,7 @@ class Commands:
         is_mode = message.command == mavlink.MAV_CMD_DO_SET_MODE
         if is_mode:
             self._modes_acknowledged += 1
-            self.mode_acknowledged_at = now
+            self._mode_acknowledged_at = now
         if message.command != self.waiting or (is_mode and not self.is_last_mode):
             return False
         self._repeated.answered(now)

@@ -23,24 +23,18 @@ happened.
 from . import hands
 from .boarding import Boarding
 from .commands import Commands
-from .landing import OPEN, Disarmed
+from .departure import Departure
+from .landing import Disarmed
 from .modes import parameters_of
 from .progress import Progress
 from .refusal import Refusal
+from .restoration import Restoration
+from .stopping import AGAIN, GRACE, SETTLED, STOPPED, Stopping
 from .vehicle import DEAF, UNSIGNED
 from .wire import mavlink
 
-WORDS = 1.5  # seconds in which the reason for a mode that was left may come, and another heartbeat
-AFTERWARDS = 4.0  # seconds in which word may come that the last item was reached
-LOST = 10.0  # seconds in which such words come even if the link loses many
-LATE = 5.0  # seconds by which a copy of an order may come late
-SETTLED = 1.0  # seconds after which few copies still come
-GRACE = 5.0  # seconds in which a mode that was accepted shows in heartbeats, and is asked for that is refused for now
-BACK = 15.0  # seconds in which a mode is put back, on links that lose many messages too
-REFUSED = 5.0  # seconds for that if its autopilot refuses it
 SILENT = 3  # after so many commands without an answer the autopilot may not know it
 ACCEPTED = mavlink.MAV_RESULT_ACCEPTED
-OVER = ("MISSION_CURRENT", "GLOBAL_POSITION_INT")  # by these shows whether a mission is over
 TRANSFER = {
     "MISSION_COUNT",
     "MISSION_REQUEST",
@@ -65,16 +59,13 @@ class Execution:
         self._next_after_note = None
         self._mode_before, self._asked_mode, self._mode_asked = None, None, False
         self._first_mode, self._refusal_of = None, None  # where it was while it was not armed; what was refused
-        self._end_of_back, self._is_back, self._is_back_refused, self._back_at = None, False, False, 0.0
+        self._restoration, self._departure, self._stop = None, None, None
         self._stage_at = self._asked_at = self._begun = 0.0
         self._beats = 0
-        # A mode that was left: when a verdict falls, since when, for which mode, after how many heartbeats.
-        self._left, self._left_since, self._left_mode, self._left_beats = None, None, None, 0
         self._in_mission_at = 0.0  # when it was in the mode of the mission last
         self._rewinds_by_message = False
         self._known, self._asked_for = set(), set()  # the modes that it may be in; those that we asked for
-        self._mode_at_stop, self._stop_accepted = None, None
-        self._disarmed, self._lands = None, False  # since it is disarmed; whether it was at an item that lands it then
+        self._disarmed = None  # since it is disarmed
         self._armed_by_us, self._resumes, self._stopping, self._unknown = False, False, False, False
         self._unrecognised = None
 
@@ -101,7 +92,7 @@ class Execution:
         self._stopping = True
         if self._resumes and self.stage in ("link", "verify"):
             return []  # first it must be known whether it is ours that flies
-        if self._left is not None:
+        if self._departure is not None:
             return []  # first it must be known whether a hand is on it
         out = self._boarding.cancel() if self._boarding is not None else []
         if not self._mode_asked:
@@ -114,7 +105,7 @@ class Execution:
             return []
         kind = message.get_type()
         out = []
-        if self._left is not None and self.stage != "run" and kind != "HEARTBEAT":
+        if self._departure is not None and self.stage != "run" and kind != "HEARTBEAT":
             return []  # nothing goes on while a hand may be on it; what is not answered is repeated
         if kind == "COMMAND_ACK":
             out = self._acknowledged(now, message)
@@ -133,9 +124,9 @@ class Execution:
     def tick(self, now):
         if self.is_over:
             return []
-        if self._left is not None:
-            decided = self._is_left_for_good(now) or self._has_restarted
-            return self._judge_left(now) if decided else self._look(now)
+        if self._departure is not None:
+            is_ripe = self._departure.is_ripe(now, self.timeout) or self._has_restarted
+            return self._judge_departure(now) if is_ripe else self._look(now)
         out = []
         if self.stage == "link":
             out = self._try(now)
@@ -300,14 +291,15 @@ class Execution:
                 return self._run(now)
             return self._arm(now)
         if self.stage == "stop":
-            self._stop_accepted = now  # heartbeats after it decide
+            self._stop.accepted(now)
         if self.stage == "back":
-            self._is_back = True
+            self._restoration.is_back = True
         return []
 
     def _denied(self, now, result):
         if self.stage in ("stop", "back"):
-            self._is_back_refused = self.stage == "back"
+            if self.stage == "back":
+                self._restoration.is_refused = True
             self._commands.later(now)  # heartbeats decide, and it is repeated
             return []
         if self.stage == "hold" and self.vehicle.idle_mission:
@@ -331,24 +323,12 @@ class Execution:
         if self._refusal_of is None and not moved:
             self._end(*event)
             return out
-        self.stage, self._end_of_back, self._back_at, self._commands.waiting = "back", event, now, None
-        self._is_back = not moved or parameters_of(self.vehicle.autopilot, self.vehicle.frame, mode) is None
-        return out if self._is_back else out + self._set_mode(now, mode)
-
-    def _look_back(self, now):
-        """Whether the mode is put back, or is another's by now, and the reason has come."""
-        patience = REFUSED if self._is_back_refused else BACK
-        if not self._is_back and now - self._back_at < max(patience, 3 * self._round_trip.seconds):
-            return
-        if self._refusal_of is None:
-            self._end(*self._end_of_back)
-        elif self._refusal_of.is_ripe(now):
-            stays = "" if self._is_back else f", and stays in mode {self.vehicle.mode}"
-            self._end("failed", self._refusal_of.why + stays)
-
-    def _heartbeat_in_back(self):
-        mode = self.vehicle.mode
-        self._is_back = self._is_back or mode == self._first_mode or mode not in self._known
+        self.stage, self._commands.waiting = "back", None
+        if not moved or parameters_of(self.vehicle.autopilot, self.vehicle.frame, mode) is None:
+            mode = None
+        refusal = self._refusal_of
+        self._restoration = Restoration(now, self.vehicle, self._round_trip, mode, event, refusal)
+        return out if mode is None else out + self._set_mode(now, mode)
 
     # What the vehicle tells
 
@@ -359,7 +339,7 @@ class Execution:
         if self.stage == "run":
             return self._heartbeat_in_run(now)
         if self.stage == "back":
-            self._heartbeat_in_back()
+            self._restoration.heartbeat(self._known)
             return []
         if self.stage == "link" or self._resumes:
             return []
@@ -370,7 +350,7 @@ class Execution:
             return self._upload(now)
         if v.mode not in self._known:
             return self._taken_over(now)
-        if self._left is not None:
+        if self._departure is not None:
             out = self._is_back_again(now)
             if self._stopping:
                 return out
@@ -396,7 +376,7 @@ class Execution:
             return []
         if v.mode == v.modes.mission:
             self._asked_mode, self._in_mission_at = None, now
-            if self._left is not None:
+            if self._departure is not None:
                 out = self._is_back_again(now)
                 if self._stopping:
                     return out
@@ -413,27 +393,10 @@ class Execution:
         return self._taken_over(now)
 
     def _heartbeat_in_stop(self, now):
-        v = self.vehicle
-        if v.mode == v.modes.mission and v.armed:
-            if self._stop_accepted is not None and now - self._stop_accepted > 1:
-                self._stop_accepted = None
-                return self._set_mode(now, self.stop_mode)
-            return []  # it has not heard us yet: it is repeated
-        if not v.armed:
-            return self._finish_stop()
-        if self._commands.since_mode(now, v.modes.mission) < SETTLED and v.is_confused(now):
-            return []  # a late copy of the order to begin may still arrive
-        if v.mode == self.stop_mode:
-            # Was it in this mode when the mission was to begin, that order may still be on its way.
-            if self._stop_accepted is not None or self._mode_at_stop != self.stop_mode:
-                return self._finish_stop()
-        elif v.mode not in (self._mode_at_stop, self._mode_before):
-            return self._finish_stop()  # somebody else has stopped it, and flies
-        if self._progress.returns_by_itself():
-            return []
-        if now - self._stage_at > GRACE and v.heartbeats - self._beats >= 3:
-            return self._finish_stop()  # the mission was never begun
-        return []
+        what = self._stop.heartbeat(now)
+        if what == AGAIN:
+            return self._order_stop(now)
+        return self._finish_stop() if what == STOPPED else []
 
     def _finish_stop(self):
         self._end("stopped")
@@ -441,33 +404,17 @@ class Execution:
 
     def _was_disarmed(self, now):
         if now - self._stage_at >= GRACE:
-            self._disarmed, self._lands = Disarmed(self.vehicle), self._progress.lands
+            self._disarmed = Disarmed(self.vehicle, self._progress)
         return []
 
     def _judge_disarmed(self, now):
-        """Whether it has landed shows a moment later."""
-        v, disarmed, progress = self.vehicle, self._disarmed, self._progress
-        since = now - disarmed.since
+        verdict = self._disarmed.verdict(now)
         if self._has_restarted:
-            self._fail(hands.restarted(v))
-        elif progress.was_at_its_landing or (disarmed.was_away and progress.is_where_it_lands):
-            if disarmed.has_landed:
-                self._end("done")
-            elif disarmed.has_landed is False and (disarmed.fell or since >= AFTERWARDS):
-                self._fail("was disarmed in flight" + self._emergency(now))
-            elif since >= OPEN and v.link(now):
-                self._tell_unknown("was disarmed, and does not say whether it has landed")
-        elif since >= AFTERWARDS and v.link(now):
-            if disarmed.was_in_flight(self._lands):
-                self._fail("was disarmed in flight" + self._emergency(now))
-            elif disarmed.was_away:
-                self._fail("was disarmed while it was not heard: it may have flown its mission")
-            else:
-                self._fail("was disarmed")
-
-    def _emergency(self, now):
-        said_at, text = self.vehicle.distress
-        return f": {text}" if text and now - said_at <= hands.RECENT else ""
+            self._fail(hands.restarted(self.vehicle))
+        elif verdict is not None and verdict[0] == "unknown":
+            self._tell_unknown(verdict[1])
+        elif verdict is not None:
+            self._end(*verdict)
 
     def _mission_news(self, now):
         v, progress = self.vehicle, self._progress
@@ -481,9 +428,8 @@ class Execution:
         progress.news(now)
         if self.stage == "mode":
             return self._begun_already(now)
-        goes_on = v.mission_state not in (None, mavlink.MISSION_STATE_COMPLETE)
-        if goes_on and v.armed and self._left is not None and now - self._left_since >= 1:
-            self._left = now  # the mission is not over
+        if self._departure is not None and v.mission_state not in (None, mavlink.MISSION_STATE_COMPLETE):
+            self._departure.goes_on(now)
         if progress.is_replaced and self.stage == "run":
             return self._fail("its mission was replaced by another station")
         return []
@@ -500,8 +446,10 @@ class Execution:
         return self._accepted(now) if ordered and self._progress.has_begun else []
 
     def _look(self, now):
-        if self.stage == "back":
-            self._look_back(now)
+        if self.stage == "back" and not self.is_over:
+            verdict = self._restoration.verdict(now)
+            if verdict is not None:
+                self._end(*verdict)
         elif self.stage == "run" and not self.is_over and self._progress.is_over(now):
             self._end("done")
         elif self.stage == "run" and not self.is_over and self._disarmed is not None:
@@ -511,59 +459,25 @@ class Execution:
     # Ends
 
     def _taken_over(self, now):
-        """The mode is neither ours nor the one before. The words that tell who it was may be on their way."""
-        v = self.vehicle
-        self._left_mode = v.mode
-        if self._left is not None:
-            return []
-        # One that is not armed may have restarted: its clock tells once it is asked for it.
-        may_be_over = (self.stage == "run" and v.mode in v.modes.after) or not v.armed
-        self._left, self._left_since = now + (AFTERWARDS if may_be_over else WORDS), now
-        self._left_beats = v.heartbeats
+        """The mode is neither ours nor the one before."""
+        if self._departure is None:
+            self._departure = Departure(now, self.vehicle, self._progress if self.stage == "run" else None)
+        self._departure.heartbeat()
         return []
 
     def _is_back_again(self, now):
         """The heartbeat with the other mode was an old one, or a hand has given the vehicle back."""
-        self._left = None
+        self._departure = None
         if not self._stopping:
             return []
         self._stopping = False
         return self.stop(now)
 
-    def _is_left_for_good(self, now):
-        """Whether what decides has been heard since: another heartbeat, and of a mission that may be over where in it
-        the vehicle is, and where."""
-        v = self.vehicle
-        if self.stage != "run" and now - self._left_since > self.timeout:
-            return True
-        if now < self._left or v.heartbeats == self._left_beats:
-            return False
-        may_be_over = self.stage == "run" and self._left_mode in v.modes.after and not self._progress.was_over()
-        if not may_be_over or now - self._left_since >= LOST:
-            return True
-        return all(v.heard.get(kind, 0.0) > self._left_since for kind in OVER)
-
-    @property
-    def _may_be_ours(self):
-        """Whether a late copy of an order of ours may be what took it out of its mission: while it was not seen in that
-        mode, a copy may have come, or the acknowledgement of one has."""
-        mode, in_mission = self._left_mode, self._in_mission_at
-        if self.stage != "run" or mode not in self._asked_for:
-            return False
-        return self._commands.since_mode(in_mission, mode) < LATE or self._commands.mode_acknowledged_at >= in_mission
-
-    def _judge_left(self, now):
-        v, mode = self.vehicle, self._left_mode
-        if self.stage == "run" and mode in v.modes.after and self._progress.was_over():
-            self._end("done")
-            return []
-        if self._has_restarted:
-            return self._fail(hands.restarted(v))
-        if self._may_be_ours and not hands.is_emergency(now, v):
-            return self._fail(f"left mode {v.modes.mission} for {mode}: by its pilot, or by a late copy of an order")
-        v.pilot = mode
-        why, v.hand = hands.named(now, v, mode)
-        return self._fail(why)
+    def _judge_departure(self, now):
+        runs = self.stage == "run"
+        may_be_ours = runs and self._commands.may_be_late(self._departure.mode, self._in_mission_at)
+        self._end(*self._departure.verdict(now, self._has_restarted, may_be_ours))
+        return []
 
     @property
     def _has_restarted(self):
@@ -601,7 +515,11 @@ class Execution:
             return self._finish_stop()
         if self._mode_before is None:
             self._mode_before = v.mode
-        self._mode_at_stop = v.mode
+        self._stop = Stopping(v, self._commands, self._progress, self.stop_mode, self._mode_before)
+        return self._order_stop(now)
+
+    def _order_stop(self, now):
+        self._stop.ordered(now)
         return self._set_mode(now, self.stop_mode)
 
     def _resumed(self, now, why):

@@ -19,6 +19,12 @@ def is_emergency(now, vehicle):
     return vehicle.breach(now, RECENT) is not None or (bool(text) and now - said_at <= RECENT)
 
 
+def emergency(now, vehicle):
+    """What it has told of one just now, to be added to a reason."""
+    said_at, text = vehicle.distress
+    return f": {text}" if text and now - said_at <= RECENT else ""
+
+
 def named(now, vehicle, mode):
     """Why the task failed when the vehicle went into `mode`, and what keeps it from the next one, as a predicate."""
     fence = vehicle.breach(now, RECENT)

@@ -71,7 +71,7 @@ let of_program settings (program : Program_file.t) fleet ~strict ~json ~period ~
   let* outcome = find_or_explore settings program fleet ~json ~period ~cache in
   let written = write_files files program fleet ~strict outcome in
   Result.iter_error Report.tell written;
-  if json then print_endline (Yojson.Safe.to_string (Exploration_report.to_json program outcome))
+  if json then print_endline (Dolphin_json.Canonical.to_string (Exploration_report.to_json program outcome))
   else Exploration_report.print ~strict program outcome;
   match written with
   | Ok () -> Ok (Exit_status.of_verdict (Exploration.verdict ~strict outcome))
@@ -93,7 +93,7 @@ let of_values settings sweep fleet ~strict ~json ~period ~files ~cache =
           Ok (outcome, Exploration.verdict ~strict outcome))
     in
     let* rows = Watched.search ~json ?period ask in
-    if json then print_endline (Yojson.Safe.to_string (Explore_sweep.to_json sweep rows))
+    if json then print_endline (Dolphin_json.Canonical.to_string (Explore_sweep.to_json sweep rows))
     else Explore_sweep.print ~strict sweep rows;
     Ok (Exit_status.of_verdict (Sweep.verdict rows))
 

@@ -7,7 +7,7 @@ let ( let* ) = Result.bind
 let names found =
   String.concat ", " (List.sort_uniq compare (List.map (fun (f : Inline_plans.found) -> f.name) found))
 
-let show definition plan = print_endline (Yojson.Safe.pretty_to_string (Inline_plans.to_json definition plan))
+let show definition plan = print_endline (Dolphin_json.Canonical.to_lines (Inline_plans.to_json definition plan))
 
 let tell_end : Driver.outcome -> unit = function
   | Ended Completed -> ()
@@ -48,7 +48,9 @@ let print_all fences found outcome : Exit_status.t =
 let print_summary fences name found outcome : Exit_status.t =
   match name, List.filter (fun (f : Inline_plans.found) -> name = None || name = Some f.name) found with
   | Some name, [] -> print_named None name found outcome
-  | (Some _ | None), chosen -> print_endline (Yojson.Safe.to_string (Inline_plans.summary fences chosen outcome)); Done
+  | (Some _ | None), chosen -> 
+    print_endline (Dolphin_json.Canonical.to_string (Inline_plans.summary fences chosen outcome));
+    Done
 
 (* What adapters say of the plans; one that gets them prints them as it gets them. *)
 let print_checked adapters name found =
@@ -59,7 +61,7 @@ let print_checked adapters name found =
   | (Some _ | None), _ ->
     let* verdicts = Platform_options.ask adapters chosen in
     if name <> None then
-      List.iter (fun f -> print_endline (Yojson.Safe.pretty_to_string (Adapter_check.to_json f))) chosen;
+      List.iter (fun f -> print_endline (Dolphin_json.Canonical.to_lines (Adapter_check.to_json f))) chosen;
     List.iter (fun v -> List.iter print_endline (Adapter_check.lines v)) verdicts;
     Ok (if List.for_all Adapter_check.is_fine verdicts then Exit_status.Done else Failed)
 

@@ -115,7 +115,7 @@ let draw program s drawing =
 let print t program s =
   match t.output with
   | People -> Sampling_report.print program s
-  | Json -> print_endline (Yojson.Safe.to_string (Sampling_report.to_json program s))
+  | Json -> print_endline (Dolphin_json.Canonical.to_string (Sampling_report.to_json program s))
   | Each -> ()
 
 let run t ~drawing ~seed ~answers program fleet =

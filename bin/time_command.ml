@@ -22,7 +22,7 @@ let of_program (settings : Time_analysis.settings) (program : Program_file.t) fl
       ~html:(fun () -> Time_picture.html ?deadline program outcome)
   in
   let drawn = Option.fold drawing ~none:(Ok ()) ~some:draw in
-  if json then print_endline (Yojson.Safe.to_string (Time_report.to_json ?deadline ?slacks program outcome))
+  if json then print_endline (Dolphin_json.Canonical.to_string (Time_report.to_json ?deadline ?slacks program outcome))
   else Time_report.print ?deadline ?slacks program outcome;
   let* () = traced in
   let* () = drawn in
@@ -39,7 +39,7 @@ let of_values (settings : Time_analysis.settings) sweep fleet ~json =
         Ok (outcome, Time_sweep.verdict ?deadline outcome))
   in
   let* rows = Watched.search ~json ask in
-  if json then print_endline (Yojson.Safe.to_string (Time_sweep.to_json ?deadline sweep rows))
+  if json then print_endline (Dolphin_json.Canonical.to_string (Time_sweep.to_json ?deadline sweep rows))
   else Time_sweep.print ?deadline sweep rows;
   Ok (Exit_status.of_verdict (Sweep.verdict rows))
 
@@ -47,7 +47,7 @@ let of_fleets (settings : Time_analysis.settings) program fleet ~json =
   let { Time_analysis.deadline; _ } = settings in
   let ask ~interrupted ~progress = Fewest.find ~interrupted ~progress settings program fleet in
   let found = Watched.search ~json ask in
-  if json then print_endline (Yojson.Safe.to_string (Fewest.to_json ?deadline program found))
+  if json then print_endline (Dolphin_json.Canonical.to_string (Fewest.to_json ?deadline program found))
   else Fewest.print ?deadline program fleet found;
   Exit_status.of_verdict (Fewest.verdict (fst found))
 

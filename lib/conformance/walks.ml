@@ -19,8 +19,8 @@ let candidates ask place (s : Case.seen) =
 let nothing (s : Case.seen) steps =
   match s.event, steps.refused with
   | None, _ -> Printf.sprintf "nothing happens by itself, so %s does not" s.label
-  | Some event, code :: _ -> Printf.sprintf "the event %s is refused: %s" (Yojson.Safe.to_string event) code
-  | Some event, [] -> Printf.sprintf "the event %s causes nothing" (Yojson.Safe.to_string event)
+  | Some event, code :: _ -> Printf.sprintf "the event %s is refused: %s" (Dolphin_json.Canonical.to_string event) code
+  | Some event, [] -> Printf.sprintf "the event %s causes nothing" (Dolphin_json.Canonical.to_string event)
 
 (* {1 The leftmost run} *)
 

@@ -60,7 +60,8 @@ let most_steerers = 40
 
 let role_event (role : Access.role) client =
   let name = match role with Steers -> "steers" | Watches -> "watches" in
-  Printf.sprintf "event: role\ndata: {\"role\":\"%s\",\"client\":\"%s\"}\n\n" name client
+  let data = Dolphin_json.Canonical.to_string (`Assoc [ ("role", `String name); ("client", `String client) ]) in
+  Printf.sprintf "event: role\ndata: %s\n\n" data
 
 let events h (role : Access.role) r =
   let* client = client h role r in

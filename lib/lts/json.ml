@@ -1,4 +1,4 @@
-let string text = Yojson.Safe.to_string (`String text)
+let string text = Dolphin_json_text.Canonical.to_string (`String text)
 
 (* [separated out write n] is [write 0], ... [write (n - 1)], with commas between. *)
 let separated out write n =

@@ -58,7 +58,7 @@ let json_feature f : Yojson.Safe.t =
       ("geometry", geometry) ]
 
 let geojson features =
-  let lines = List.map (fun f -> Yojson.Safe.to_string ~std:true (json_feature f)) features in
+  let lines = List.map (fun f -> Dolphin_json_text.Canonical.to_string (json_feature f)) features in
   "{\"type\":\"FeatureCollection\",\"features\":[\n" ^ String.concat ",\n" lines ^ "\n]}\n"
 
 (* {1 XML} *)

@@ -58,7 +58,7 @@ let put_schemas all b =
         u16 b number;
         text b name;
         text b "jsonschema";
-        text b (Yojson.Safe.to_string ~std:true json_schema))
+        text b (Dolphin_json_text.Canonical.to_string json_schema))
   in
   List.iter schema all.schemas
 
@@ -202,7 +202,7 @@ let items all messages =
     let number = Hashtbl.find numbers channel.topic in
     let ordinal = Option.value (Hashtbl.find_opt ordinals number) ~default:0 in
     Hashtbl.replace ordinals number (ordinal + 1);
-    { number; ordinal; at = stamp time; json = Yojson.Safe.to_string ~std:true content }
+    { number; ordinal; at = stamp time; json = Dolphin_json_text.Canonical.to_string content }
   in
   List.rev (List.rev_map item messages)
 

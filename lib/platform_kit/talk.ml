@@ -33,7 +33,7 @@ let send_text t text =
   note t "<" text;
   Writer.send t.writer (text ^ "\n")
 
-let send t order = send_text t (Yojson.Safe.to_string (Order.to_json order))
+let send t order = send_text t (Dolphin_json.Canonical.to_string (Order.to_json order))
 
 (* {1 Reading} *)
 

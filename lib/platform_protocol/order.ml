@@ -61,7 +61,7 @@ let to_json = function
   | Refused why -> Line.make "refused" [ ("why", text (ascii why)) ]
   | Close -> Line.make "close" []
 
-let to_line order = Yojson.Safe.to_string (to_json order) ^ "\n"
+let to_line order = Canonical.to_string (to_json order) ^ "\n"
 
 (* {1 Reading} *)
 

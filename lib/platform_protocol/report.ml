@@ -105,7 +105,7 @@ let to_json = function
   | Log { vehicle; text = words } -> Line.make "log" (member "vehicle" text vehicle @ [ ("text", text words) ])
   | Quiet -> Line.make "quiet" []
 
-let to_line report = Yojson.Safe.to_string (to_json report) ^ "\n"
+let to_line report = Canonical.to_string (to_json report) ^ "\n"
 
 (* {1 Reading} *)
 

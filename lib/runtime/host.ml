@@ -35,7 +35,7 @@ let request id subject member arguments : (string, string) result =
       Ok [ ("call", `String member); ("arguments", arguments) ]
   in
   let subject = match subject with None -> [] | Some name -> [ ("object", `String name) ] in
-  Ok (Yojson.Safe.to_string (`Assoc ((("id", `Int id) :: subject) @ action)) ^ "\n")
+  Ok (Canonical.to_string (`Assoc ((("id", `Int id) :: subject) @ action)) ^ "\n")
 
 let excerpt text =
   let text = if String.length text <= 60 then text else String.sub text 0 60 ^ "..." in

@@ -4,14 +4,14 @@ module Order = Dolphin_platform_protocol.Order
 type t = out_channel
 
 let write channel json =
-  output_string channel (Yojson.Safe.to_string json ^ "\n");
+  output_string channel (Dolphin_json.Canonical.to_string json ^ "\n");
   flush channel
 
 let read_line text =
   let* line = members (try Yojson.Safe.from_string text with Yojson.Json_error _ -> `Null) in
   let* time = get number "time" line in
   let* order = get any "order" line in
-  let* order = Order.of_line (Yojson.Safe.to_string order) in
+  let* order = Order.of_line (Dolphin_json.Canonical.to_string order) in
   match order with Some order -> Ok (time, order) | None -> Error "an order that is not known"
 
 let read_beginning text =

@@ -237,7 +237,7 @@ let to_lines witness =
         ("steps", `Int (List.length witness.steps));
         ("cycle", `Int (List.length witness.cycle)) ]
   in
-  List.map (fun json -> Yojson.Safe.to_string json) (header :: List.map json_of_step (witness.steps @ witness.cycle))
+  List.map Dolphin_json.Canonical.to_string (header :: List.map json_of_step (witness.steps @ witness.cycle))
 
 let of_header json =
   match json with

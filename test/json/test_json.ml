@@ -47,6 +47,41 @@ let refused text =
   Alcotest.test_case (String.escaped text) `Quick (fun () ->
       Alcotest.(check bool) "is refused" true (Result.is_error (Host_value.parse text)))
 
+(* {1 Each writer of texts}
+
+   Whatever strings and numbers they are given, their lines are JSON in UTF-8, and have no NaN or infinity. *)
+
+let is_json text = is_utf8 (bytes text) && Result.is_ok (Host_value.parse text)
+
+let graph label =
+  let b = Dolphin_lts.Graph.Builder.create () in
+  Dolphin_lts.Graph.Builder.add b 0 label 1;
+  Dolphin_lts.Json.to_string (Dolphin_lts.Graph.Builder.finish ~initial:0 ~states:2 ~text:(fun _ -> label) b)
+
+let report text x =
+  let open Dolphin_platform_protocol.Report in
+  to_line (Request (text, Progress { share = Some x; remaining = Some x }))
+  ^ to_line (Log { vehicle = Some text; text })
+  ^ to_line (Note { request = text; note = `Assoc [ (text, `Float x) ]; id = None })
+
+let order text x =
+  let open Dolphin_platform_protocol.Order in
+  to_line (Start { request = text; vehicle = text; plan = `Assoc [ ("name", `String text); ("speed", `Float x) ];
+                   timeout = x })
+  ^ to_line (Timeout (Some [ text ], x))
+
+let entry text x =
+  let vehicle = Dolphin_trace.Entry.Note { time = 0.; vehicle = text; note = `Assoc [ (text, `Float x) ] } in
+  Dolphin_trace.Entry.to_string vehicle ^ "\n"
+  ^ Dolphin_trace.Entry.to_string (Label { time = 0.; label = text })
+
+let lines text = List.filter (fun line -> line <> "") (String.split_on_char '\n' text)
+
+let writers_are_valid (text, x) =
+  is_json (graph text)
+  && List.for_all is_json (List.concat_map lines [ report text x; order text x; entry text x ])
+  && is_json (Canonical.to_lines (`Assoc [ (text, `List [ `Float x; `String text ]) ]))
+
 let () =
   let case name ~print generator law = Test_support.Property.case ~count:1000 name ~print generator law in
   Alcotest.run "json"
@@ -54,7 +89,10 @@ let () =
         [ case "UTF-8 by the standard's table" ~print:String.escaped string validity_agrees;
           case "repaired texts are valid" ~print:String.escaped string repaired_is_valid;
           case "what is written is read" ~print:(fun json -> String.escaped (Yojson.Safe.to_string json)) json
-            written_is_json ] );
+            written_is_json;
+          case "lines of graphs, platforms and journals"
+            ~print:(fun (text, x) -> Printf.sprintf "%S, %h" text x)
+            (QCheck2.Gen.pair string float) writers_are_valid ] );
       ( "not JSON",
         List.map refused
           [ "1e999"; "[-1e999]"; "NaN"; "{\"a\": Infinity}"; "\"\xFF\""; "{\"\xC3\": 1}"; "[\"\xED\xA0\x80\"]" ] ) ]

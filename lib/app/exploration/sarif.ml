@@ -103,5 +103,5 @@ let json ~strict ~version p (o : Search.outcome) : json =
 
 let write ~strict ~version p path o =
   Text_file.write path (fun channel ->
-      Yojson.Safe.pretty_to_channel channel (json ~strict ~version p o);
+      output_string channel (Dolphin_json.Canonical.to_lines (json ~strict ~version p o));
       output_char channel '\n')

@@ -54,7 +54,7 @@ let of_memory e =
   let { Environment.failed; losses; lost; late; asked; called; sent } = Environment.memory e in
   let times name counted = `List (List.map (fun (x, n) -> `List [ name x; `Int n ]) counted) in
   let named name = `String name in
-  Yojson.Safe.to_string
+  Dolphin_json.Canonical.to_string
     (`List
        [ `Int failed; `Int losses; Field.texts lost; Field.texts late; times named asked; times named called;
          times (fun i -> `Int i) sent ])
@@ -101,7 +101,7 @@ let greeting_of ~version (settings : settings) program fleet =
       ("reduction", `String (if Reduction.by_order settings.reduction then "por" else "none"));
       ("invariants", Field.texts settings.invariants) ]
   in
-  Yojson.Safe.to_string
+  Dolphin_json.Canonical.to_string
     (`Assoc
        ([ ("dolphin", `String "successors"); ("protocol", `Int protocol) ]
         @ Provenance.members ~version program fleet

@@ -16,7 +16,7 @@ let witness (program : Program_file.t) (fleet : Fleet_file.t) run =
 
 let informal_trace (program : Program_file.t) { description; steps; cycle; breaks = _ } =
   let initial = Configuration.initial program.program in
-  [ Yojson.Safe.to_string (Itf.trace program.program ~description initial steps ~cycle) ]
+  [ Dolphin_json.Canonical.to_string (Itf.trace program.program ~description initial steps ~cycle) ]
 
 let write program fleet path run =
   Text_file.write path (fun channel ->

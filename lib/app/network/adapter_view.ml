@@ -41,7 +41,7 @@ let row (platform, (v : Dispatch.vehicle)) =
 
 let lines adapters ~json:as_json =
   match vehicles adapters with
-  | found when as_json -> [ Yojson.Safe.to_string (`List (List.map json found)) ]
+  | found when as_json -> [ Dolphin_json.Canonical.to_string (`List (List.map json found)) ]
   | [] -> [ "no vehicle was heard of" ]
   | found -> Dolphin_display.Text_table.lines heads (List.map row found)
 

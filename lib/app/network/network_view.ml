@@ -70,7 +70,7 @@ let heads = [ "VEHICLE"; "TYPE"; "IMC"; "ADDRESS"; "POSITION"; "MODE"; "BATTERY"
 
 let lines network definition ~json:as_json =
   match Udp_platform.systems network with
-  | sights when as_json -> [ Yojson.Safe.to_string (`List (List.map (json network definition) sights)) ]
+  | sights when as_json -> [ Dolphin_json.Canonical.to_string (`List (List.map (json network definition) sights)) ]
   | [] -> [ "no system was heard of" ]
   | sights -> Dolphin_display.Text_table.lines heads (List.map (row network definition) sights)
 

@@ -3,17 +3,23 @@ module Scenario = Dolphin_scenario.Scenario
 
 let ( let* ) = Result.bind
 
+exception Broken of string
+
+(* It may be read while it grows: each line is written at once. *)
 let open_log = function
-  | None -> Ok (ignore, ignore)
+  | None -> Ok (ignore, fun () -> ())
   | Some path -> (
+      let broken why = raise (Broken ("the log cannot be written: " ^ Text_file.named path why)) in
       match open_out path with
       | channel ->
         let write json =
-          output_string channel (Yojson.Safe.to_string json ^ "\n");
-          flush channel
+          try
+            output_string channel (Dolphin_json.Canonical.to_string json ^ "\n");
+            flush channel
+          with Sys_error why -> broken why
         in
         Ok (write, fun () -> close_out_noerr channel)
-      | exception Sys_error why -> Error (Error.Bad_input why))
+      | exception Sys_error why -> Error (Error.Unavailable ("the log cannot be written: " ^ Text_file.named path why)))
 
 let missing (s : Network.settings) =
   let exists name = List.exists (fun (v : Scenario.vehicle) -> v.id = name) s.scenario.vehicles in
@@ -36,5 +42,7 @@ let run settings interruption ~log ~lasts ~started =
       | Error why -> Error (Error.Unavailable why)
       | Ok network ->
         List.iter started (Network.vehicles network);
-        Fun.protect ~finally:(fun () -> Network.close network) (fun () -> live network interruption ~log lasts);
-        Ok ())
+        let live () = live network interruption ~log lasts in
+        match Fun.protect ~finally:(fun () -> Network.close network) live with
+        | () -> Ok ()
+        | exception Broken why -> Error (Error.Unavailable why))

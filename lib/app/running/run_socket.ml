@@ -94,7 +94,7 @@ let perform t (line : Lines.line) =
 type client = { socket : Lwt_unix.file_descr; lines : Lines.t; writing : Lwt_mutex.t }
 
 let write client text = Lwt_mutex.with_lock client.writing (fun () -> Writer.write client.socket text)
-let say client json = write client (Yojson.Safe.to_string json ^ "\n")
+let say client json = write client (Canonical.to_string json ^ "\n")
 
 (* The whole lines of the journal from [offset] on, up to a number of bytes, and their end. A line that is longer
    than that is read in one piece. *)
@@ -235,7 +235,7 @@ let connect ~journal =
 
 let ask c request =
   match
-    output_string c.output (Yojson.Safe.to_string (`Assoc request) ^ "\n");
+    output_string c.output (Canonical.to_string (`Assoc request) ^ "\n");
     flush c.output;
     input_line c.input
   with

@@ -143,7 +143,7 @@ let of_items x length get name =
 let of_elements x name =
   match x with
   | List xs -> of_items x (Vector.length xs) (Vector.get xs) name
-  | Vehicles vs -> of_items x (List.length vs) (fun i -> Vehicles [ List.nth vs i ]) name
+  | Vehicles vs -> of_items x (List.length vs) (Value.vehicle_at vs) name
   | _ -> Option.bind (Value.items x) (fun items -> of_items x (Array.length items) (Array.get items) name)
 
 let getter world x name =

@@ -224,7 +224,7 @@ let element x i =
       | Some i -> Ok (Integer (if first <= last then first + i else first - i))
       | None -> Error (Printf.sprintf "index %d is out of range: a range has %d elements" i length))
   | List xs, Integer i -> indexed x (Vector.length xs) (Vector.get xs) i
-  | Vehicles vs, Integer i -> indexed x (List.length vs) (fun i -> Vehicles [ List.nth vs i ]) i
+  | Vehicles vs, Integer i -> indexed x (List.length vs) (Value.vehicle_at vs) i
   | String _, Integer i -> (
       match Value.items x with
       | None -> expected "a list" x

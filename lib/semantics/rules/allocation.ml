@@ -76,30 +76,47 @@ let permitted leaf =
     let set = String_set.of_list vs in
     fun v -> String_set.mem v set
 
-let candidates all leaf : (Assignment.leaf, World.question) result =
-  let permitted = permitted leaf and lack = lack leaf.task and cost = cost leaf.task in
-  let rec from i found =
-    if i = Array.length all then Ok { Assignment.candidates = Array.of_list (List.rev found) }
-    else
-      let c = all.(i) in
-      if permitted c.vehicle && lack c.vehicle c.state = None then
-        Result.bind (cost c) (fun cost -> from (i + 1) ((i, cost) :: found))
-      else from (i + 1) found
+let next_below n i = if i < n then Some (i, i + 1) else None
+
+(* Of the vehicles [places], by their places in [all], ascending. *)
+let candidates_among all places leaf : (Assignment.leaf, World.question) result =
+  let lack = lack leaf.task and cost = cost leaf.task in
+  let add found i =
+    let c = all.(i) in
+    if lack c.vehicle c.state = None then
+      Result.bind found (fun found -> Result.map (fun cost -> (i, cost) :: found) (cost c))
+    else found
   in
-  from 0 []
+  let made found = { Assignment.candidates = Array.of_list (List.rev found) } in
+  Result.map made (Seq.fold_left add (Ok []) places)
+
+(* So few vehicles are found one by one. *)
+let few = 8
 
 (* Tasks by name under one [T[V]] have the same candidates, computed once. *)
 let candidates_once world bound =
   let known = ref [] in
   let all = Array.map (candidate_of world) bound in
+  let place_of = Hashtbl.create (Array.length bound) in
+  Array.iteri (fun i v -> Hashtbl.replace place_of v i) bound;
+  let candidates leaf =
+    let permitted = permitted leaf in
+    let places = Seq.filter (fun i -> permitted bound.(i)) (Seq.unfold (next_below (Array.length bound)) 0) in
+    candidates_among all places leaf
+  in
   fun leaf ->
-    match leaf.task.plan, List.assq_opt leaf.allowed !known with
-    | None, Some candidates -> candidates
-    | None, None ->
-      let candidates = candidates all leaf in
-      known := (leaf.allowed, candidates) :: !known;
-      candidates
-    | Some _, _ -> candidates all leaf
+    match leaf.allowed, leaf.task.plan with
+    | Some vs, _ when List.compare_length_with vs few <= 0 ->
+      let places = List.sort_uniq Int.compare (List.filter_map (Hashtbl.find_opt place_of) vs) in
+      candidates_among all (List.to_seq places) leaf
+    | (Some _ | None), Some _ -> candidates leaf
+    | (Some _ | None), None -> (
+        match List.assq_opt leaf.allowed !known with
+        | Some candidates -> candidates
+        | None ->
+          let candidates = candidates leaf in
+          known := (leaf.allowed, candidates) :: !known;
+          candidates)
 
 let names vs = String.concat ", " vs
 

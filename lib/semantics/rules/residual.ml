@@ -243,13 +243,16 @@ let rec activate r =
 
 (* {1 What is active} *)
 
-let rec exists_active p r =
-  match r with
-  | Sequence (a, _) | Watch (a, _) | Hold (_, a) | Recruited (_, a) | Repeat { round = Some a; _ } -> exists_active p a
-  | Parallel rs -> List.exists (exists_active p) rs
-  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ | One_of _ | All_of (None, _)
-  | During { started = false; _ } | Made _ | Unallocated _ | Recruit _ | Repeat { round = None; _ } -> p r
-  | All_of (Some a, _) | Until (_, _, a) | During { body = a; _ } -> p r || exists_active p a
+let exists_active p r =
+  let rec exists r =
+    match r with
+    | Sequence (a, _) | Watch (a, _) | Hold (_, a) | Recruited (_, a) | Repeat { round = Some a; _ } -> exists a
+    | Parallel rs -> List.exists exists rs
+    | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ | One_of _ | All_of (None, _)
+    | During { started = false; _ } | Made _ | Unallocated _ | Recruit _ | Repeat { round = None; _ } -> p r
+    | All_of (Some a, _) | Until (_, _, a) | During { body = a; _ } -> p r || exists a
+  in
+  exists r
 
 let rec fold_active f acc r =
   let acc = f acc r in

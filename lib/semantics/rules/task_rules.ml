@@ -391,7 +391,7 @@ let rec steps_at relevant r : step Seq.t =
     let branch before r after =
       Seq.map (composed (lift (around_parallel before after)) [ Beside before; Beside after ]) (steps_at relevant r)
     in
-    each ~relevant:(exists_active relevant) branch rs
+    each ~relevant:(fun r -> exists_active relevant r) branch rs
   | All_of (None, branches) -> every choose_of_all branches
   | One_of branches -> every (fun _ b _ -> choose_one b) branches
   | Idle { timer; _ } -> Seq.return (idle_end timer)

@@ -306,6 +306,7 @@ let to_number = function
 
 
 (* As [Operators.range] makes them. *)
+let vehicle_at vs i = Vehicles [ List.nth vs i ]
 let range_length first last = abs (last - first) + 1
 let range_item first last i = if first <= last then first + i else first - i
 

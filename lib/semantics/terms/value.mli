@@ -21,6 +21,9 @@ val hash_closure : Core.closure -> int
 
 (** {1:language As the language has it} *)
 
+val vehicle_at : Core.vehicle list -> int -> t
+(** [vehicle_at vs i] is the set of the [i]-th vehicle of [vs], from 0, which is less than their number. *)
+
 val range_length : int -> int -> int
 (** [range_length a b] is how many numbers the range from [a] to [b] has. *)
 

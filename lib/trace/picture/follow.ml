@@ -42,7 +42,7 @@ let known run moments : Yojson.Safe.t =
 
 (* A text in a script must not end it. *)
 let embedded json =
-  let text = Yojson.Safe.to_string json in
+  let text = Dolphin_json.Canonical.to_string json in
   String.concat "\\u003c" (String.split_on_char '<' text)
 
 let script =

@@ -2,7 +2,7 @@ open Cmdliner
 open Dolphin_app
 
 (* On a network nobody answers for people or a supplier, unless that is asked for: of a fleet only the answers, the
-   replies and the fences are used then. *)
+   replies, the fences and the place of plans are used then. *)
 let fleet_of ~path ~sim ~named ~is_simulated =
   if is_simulated then Fleet_file.load_for ~program:path named
   else if sim <> None || named = None then Ok Fleet_file.nobody
@@ -128,7 +128,7 @@ let run () show path set sim fleet network adapters definition speed seed answer
      let settings = { settings with recording = { settings.recording with drawing } } in
      let* program = Program_file.load_recorded ~set ~recorded:(settings_before ~follow:recorded ~resumed) path in
      let* fleet = if resumed = None then fleet_of ~path ~sim ~named ~is_simulated else Ok Fleet_file.nobody in
-     let* program = Program_file.within fleet program in
+     let* program = if resumed = None then Program_file.within fleet program else Ok program in
      let* () =
        match contradiction settings ~sim ~follow:recorded ~resumed ~changed with
        | Some why -> Error (Error.Bad_input why)
@@ -284,8 +284,8 @@ let man =
     `S Manpage.s_options;
     `S Imc_options.s_network;
     `P "With $(b,--imc) the program runs on real vehicles, or on whatever speaks IMC as they do. The page \
-        $(i,docs/imc.md) tells what it takes. Of a fleet that $(b,--fleet) names, only the answers and replies are \
-        used then.";
+        $(i,docs/imc.md) tells what it takes. Of a fleet that $(b,--fleet) names, only the answers, the \
+        replies, the fences and the place of plans are used then.";
     `S Platform_options.s_platforms;
     `P "With $(b,--platform) the program runs on vehicles of any kind, through adapters; with several of these \
         options, and $(b,--imc), on all of them at once. $(mname) $(b,sim --platform) is an adapter of the \

@@ -42,7 +42,7 @@ def run(dolphin, folder, seed, speed):
     try:
         vehicles.stdout.readline()
         console = subprocess.run(
-            [dolphin, "exec", PROGRAM, "--imc-loopback", "--imc-discovery-ports", ports, "--answer", "2"],
+            [dolphin, "exec", PROGRAM, "--imc-loopback", "--imc-discovery-ports", ports, "--fleet", FLEET],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True, timeout=PATIENCE)
         status, said = console.returncode, console.stdout
     except subprocess.TimeoutExpired as error:

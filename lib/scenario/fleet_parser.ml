@@ -124,6 +124,7 @@ type state = {
   inputs : input list;
   samples : sample list;
   fences : Fences.fence list;
+  plans_at : Dolphin_geo.Position.t option;
   constants : Constants.t;                      (* the names that fences may use: maps, and no variables *)
   unplaced : int;                               (* vehicles without a position *)
   faults : Diagnostic.t list;
@@ -258,23 +259,30 @@ let field state (word : string located) quantity values =
     { state with samples = { quantity; value; place; time = Option.value time ~default:0. } :: state.samples }
   | _, _ -> add_fault state (Diagnostic.error word.at (usage "field"))
 
+let without_variables (d : Diagnostic.t) =
+  match d.code, d.hint with
+  | Unknown_name, None ->
+    { d with hint = Some "there are no variables in a fleet: write the area itself, or map('harbour.geojson').basin" }
+  | _, _ -> d
+
 let fence state (word : string located) arguments =
-  let without_variables (d : Diagnostic.t) =
-    match d.code, d.hint with
-    | Unknown_name, None ->
-      { d with hint = Some "there are no variables in a fleet: write the area itself, or map('harbour.geojson').basin" }
-    | _, _ -> d
-  in
   match Fence_declarations.read state.constants word.at arguments with
   | Ok fences -> { state with fences = List.rev_append fences state.fences }
   | Error found -> add_faults state (List.map without_variables found)
 
-let entries = [ "vehicle"; "plan"; "answer"; "reply"; "input"; "field"; "fence" ]
+let locate state at arguments =
+  match Default_place.read state.constants at arguments with
+  | Ok _ when state.plans_at <> None -> add_fault state (Diagnostic.error at "locate stands twice")
+  | Ok place -> { state with plans_at = Some place }
+  | Error found -> add_faults state (List.map without_variables found)
+
+let entries = [ "vehicle"; "plan"; "answer"; "reply"; "input"; "field"; "fence"; "locate" ]
 
 let entry state (word : string located) arguments =
   let misused state = add_fault state (Diagnostic.error word.at (usage word.it)) in
   let positional = List.filter_map (function Positional e -> Some e | Named _ | Keyed _ -> None) arguments in
   if word.it = Fence_declarations.word then fence state word arguments
+  else if word.it = Default_place.word then locate state word.at arguments
   else if List.length positional < List.length arguments then misused state
   else
     match word.it, positional with
@@ -344,7 +352,7 @@ let rec take n = function
 let read ~chart ~file source =
   let* program = Parse.program ~file source in
   let start = { source; vehicles = []; plans = []; answers = []; replies = []; inputs = []; samples = []; fences = [];
-                constants = Constants.of_program ~chart []; unplaced = 0; faults = [] } in
+                plans_at = None; constants = Constants.of_program ~chart ~place:None []; unplaced = 0; faults = [] } in
   let state = List.fold_left statement start program in
   let faults =
     repeated "vehicle" (fun (v : vehicle) -> v.id) state.vehicles
@@ -358,7 +366,7 @@ let read ~chart ~file source =
     Ok
       { Entry.vehicles = entries state.vehicles; plans = entries state.plans; answers = entries state.answers;
         replies = entries state.replies; inputs = List.rev state.inputs;
-        samples = List.rev state.samples; fences = List.rev state.fences }
+        samples = List.rev state.samples; fences = List.rev state.fences; plans_at = state.plans_at }
   else Error (take Parse.most_faults (List.sort Diagnostic.compare faults))
 
 let names_at word ~file source =

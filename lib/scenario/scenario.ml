@@ -20,6 +20,7 @@ let equal_fence (a : Fences.fence) (b : Fences.fence) =
 let equal (a : t) (b : t) =
   a.vehicles = b.vehicles && a.plans = b.plans && a.answers = b.answers && List.equal equal_reply a.replies b.replies
   && List.equal equal_input a.inputs b.inputs && a.samples = b.samples && List.equal equal_fence a.fences b.fences
+  && a.plans_at = b.plans_at
 
 let beside program = Filename.remove_extension program ^ ".fleet"
 
@@ -178,7 +179,8 @@ let pp ppf (s : t) =
   List.iter (pp_reply ppf) s.replies;
   List.iter (pp_input ppf) s.inputs;
   List.iter (pp_sample ppf) s.samples;
-  List.iter (fun (fence : Fences.fence) -> Format.fprintf ppf "%s@\n" fence.text) s.fences
+  List.iter (fun (fence : Fences.fence) -> Format.fprintf ppf "%s@\n" fence.text) s.fences;
+  Option.iter (fun place -> Format.fprintf ppf "locate(location(%a))@\n" pp_coordinates place) s.plans_at
 
 (* {1 The default} *)
 
@@ -194,4 +196,4 @@ let default =
         underwater "noptilus-2" (at 41.18600 (-8.70720));
         underwater "noptilus-3" (at 41.18400 (-8.70760));
         vehicle "x8-02" "UAV" [ "Camera" ] (at 41.18450 (-8.70500)) 0.4 ];
-    plans = []; answers = []; replies = []; inputs = []; samples = []; fences = [] }
+    plans = []; answers = []; replies = []; inputs = []; samples = []; fences = []; plans_at = None }

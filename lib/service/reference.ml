@@ -109,7 +109,8 @@ let blocks =
   List.map (entry Block)
     [ "pick", "pick { count 3; type 'UUV' }", "Binds vehicles to the program and gives them as a set. \
                                                With `else { ... }`, what to do without.";
-      "imcPlan", "imcPlan { goTo speed: 1.2 }", "An inline plan: settings, and maneuvers in their order.";
+      "imcPlan", "imcPlan { locate 41.185, -8.706; goTo speed: 1.2 }",
+      "An inline plan: settings, and maneuvers in their order.";
       "mission", "mission { takeOff 30; goPos p; returnHomeAndLand() }",
       "A mission of items in their order, for vehicles such as those that speak MAVLink.";
       "pos", "pos { lat 41.18; lon 8.7.west }", "A position.";
@@ -142,7 +143,8 @@ let of_plan =
     [ "planName", "planName 'name'", "The plan's name.";
       "description", "description 'text'", "What the plan is for.";
       "vehicles", "vehicles 'id', ...", "Who may run the plan.";
-      "locate", "locate latitude, longitude", "Where the next maneuver is. Also `locate position`.";
+      "locate", "locate latitude, longitude",
+      "Where the next maneuver is. Also `locate position`. At the top of a program: where plans are without it.";
       "move", "move north, east", "Moves the place of the next maneuver, in metres.";
       "speed", "speed 1.5, Speed.Units.METERS_PS", "The speed of the maneuvers that follow.";
       "z", "z 2, Z.Units.DEPTH", "The depth, altitude or height of the maneuvers that follow." ]
@@ -305,6 +307,7 @@ let fleet_entries =
       "input", "input 'key', x1, x2", "What may be posted with a key from outside, one value after another.";
       "field", "field 'Temperature', 12, at(41.185, -8.706)", "What a quantity is at a place, from a time on.";
       "fence", "fence inside map('harbour.geojson').basin, margin: 20.m", "What vehicles must keep to, always.";
+      "locate", "locate 41.185, -8.706", "Where plans are, in programs that do not say so.";
       "reply", "reply 'call', r1, r2", "What a supplier replies to a call, one after another." ]
 
 let of_vehicle =

@@ -59,14 +59,21 @@ let elaborated d =
   let _, parsed = Include.program ~read:d.read ~file:d.file d.source in
   let elaborate ast =
     let chart = chart d.read ast in
-    let of_program (program, warnings) = (program, warnings, Elaborate.known_plans ~chart ast) in
+    let of_program (program, warnings) = (program, warnings, (chart, ast)) in
     Result.map of_program (Elaborate.program_with_charts ~chart ~source_name:d.file ast)
   in
   Result.bind parsed elaborate
 
-(* The operator's fences hold for each program. *)
-let of_fences (s : Scenario.t) plans =
-  if s.fences = [] then [] else Fence_declarations.broken (Fences.make s.fences) plans
+(* The operator's fences hold for each program, and the fleet's place is that of plans without one. *)
+let of_fleet (program : Dolphin_semantics.Core.program) (chart, ast) (s : Scenario.t) =
+  let place = match program.place with Some _ as own -> own | None -> s.plans_at in
+  let fences = if place = program.place then s.fences else Fences.list program.fences @ s.fences in
+  if fences = [] then []
+  else Fence_declarations.broken (Fences.make fences) (Elaborate.known_plans ~chart ~place ast)
+
+let without_place (program : Dolphin_semantics.Core.program) (chart, ast) (s : Scenario.t option) =
+  if program.place <> None || Option.bind s (fun s -> s.plans_at) <> None then []
+  else Elaborate.plans_without_place ~chart ast
 
 (* Faults in included files are reported in their own documents. *)
 let of_program d =
@@ -75,9 +82,9 @@ let of_program d =
   @@
   match elaborated d with
   | Error found -> found
-  | Ok (program, warnings, plans) ->
-    let of_fleet s = of_fences s plans @ Plan_names.misspelt program s in
-    warnings @ Option.fold d.scenario ~none:[] ~some:of_fleet
+  | Ok (program, warnings, text) ->
+    let of_fleet s = of_fleet program text s @ Plan_names.misspelt program s in
+    warnings @ without_place program text d.scenario @ Option.fold d.scenario ~none:[] ~some:of_fleet
 
 let diagnostics d =
   let found =

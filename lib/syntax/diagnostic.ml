@@ -9,7 +9,7 @@ type code =
   | Wildcard_value
   | Misplaced_jump | Misplaced_when | Misplaced_setting | Misplaced_function | Misplaced_input
   | Misplaced_parameter | Misplaced_interrupt
-  | Bad_map | Bad_fence | Broken_fence | Deed_in_answer
+  | Bad_map | Bad_fence | Broken_fence | No_place | Deed_in_answer
   | Deed_in_maker
   | Vehicle_twice
   | Unused_task | No_effect | Assigned_condition | Wide_value | Unknown_plan | Unread_input | Other_meaning
@@ -26,7 +26,7 @@ let codes =
     (Misplaced_setting, "misplaced-setting"); (Misplaced_function, "misplaced-function");
     (Misplaced_input, "misplaced-input"); (Misplaced_parameter, "misplaced-parameter");
     (Misplaced_interrupt, "misplaced-on-interrupt");
-    (Bad_map, "bad-map"); (Bad_fence, "bad-fence"); (Broken_fence, "broken-fence");
+    (Bad_map, "bad-map"); (Bad_fence, "bad-fence"); (Broken_fence, "broken-fence"); (No_place, "no-place");
     (Deed_in_answer, "deed-in-answer"); (Deed_in_maker, "deed-in-maker");
     (Vehicle_twice, "vehicle-twice"); (Unused_task, "unused-task");
     (No_effect, "no-effect"); (Assigned_condition, "assigned-condition"); (Wide_value, "wide-value");

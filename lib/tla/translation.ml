@@ -398,7 +398,8 @@ and plan_number t builder site settings =
     match (builder : Dolphin_syntax.Ast.builder) with
     | Mission -> Result.map (fun m -> Inline_plan.Mission m) (Mission_builder.build ~name:"plan" site settings)
     | Imc_plan | Pick | Recruit | Pos | All_of | One_of ->
-      Result.map (fun p -> Inline_plan.Maneuvers p) (Plan_builder.build ~name:"plan" site settings)
+      Result.map (fun p -> Inline_plan.Maneuvers p) 
+        (Plan_builder.build ~name:"plan" ~place:t.program.place site settings)
   in
   match built with
   | Error fault -> refuse t site "this plan cannot be built: %s" fault.message; 0

@@ -12,6 +12,7 @@ type t = {
   started : string;
   run : string option;
   fences : Dolphin_semantics.Fences.fence list;
+  place : Dolphin_geo.Position.t option;
 }
 
 let format = "dolphin-journal"
@@ -39,6 +40,19 @@ let of_utc text =
 
 (* {1 JSON} *)
 
+let of_place (p : Dolphin_geo.Position.t) : Yojson.Safe.t =
+  let number = Dolphin_json.Canonical.number in
+  `Assoc
+    [ ("latitude", number p.latitude); ("longitude", number p.longitude); ("height", number p.height) ]
+
+let to_place json =
+  let* found = members json in
+  let* latitude = get number "latitude" found in
+  let* longitude = get number "longitude" found in
+  let* height = get number "height" found in
+  let place = Dolphin_geo.Position.make ~latitude ~longitude ~height in
+  Result.map_error (Format.asprintf "%a" Dolphin_geo.Position.pp_error) place
+
 let format_members : members = [ ("format", `String format); ("version", `Int version) ]
 
 let of_order : Dolphin_semantics.World.order -> members = function
@@ -61,7 +75,8 @@ let to_json h : Yojson.Safe.t =
          ("started", `String h.started) ]
      @ Option.fold h.run ~none:[] ~some:(fun run -> [ ("run", `String run) ])
      @ of_order h.order
-     @ unless_empty "fences" (fun fences -> `List (List.map Dolphin_json.On_map.fence fences)) h.fences)
+     @ unless_empty "fences" (fun fences -> `List (List.map Dolphin_json.On_map.fence fences)) h.fences
+     @ Option.fold h.place ~none:[] ~some:(fun place -> [ ("place", of_place place) ]))
 
 let to_settings json =
   let add settings (x, value) =
@@ -98,4 +113,5 @@ let of_json json =
   let* speed = get (nullable number) "speed" found in
   let* started = get text "started" found in
   let* fences = optional (list Dolphin_json.On_map.to_fence) ~default:[] "fences" found in
-  Ok { program; fleet; platform; order; seed; speed; started; run; fences }
+  let* place = optional (fun json -> Result.map Option.some (to_place json)) ~default:None "place" found in
+  Ok { program; fleet; platform; order; seed; speed; started; run; fences; place }

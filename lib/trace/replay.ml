@@ -219,8 +219,9 @@ let feed r (entry : Entry.t) =
     | (Partial _ | Label _), _ -> mismatch r "such lines are those of a partial trace"
     | (Header _ | Vehicle _ | Event _ | Note _ | Resumed _ | End _), Some event ->
       mismatch r (Format.asprintf "the transition on %a is missing" Event.pp event)
-    | Header { program; order; _ }, None ->
-      Ok { r with places = program.hash = r.hash; world = World.nobody order }
+    | Header { program; order; place; _ }, None ->
+      let place = match r.program.place with Some _ as own -> own | None -> place in
+      Ok { r with places = program.hash = r.hash; world = World.nobody order; program = { r.program with place } }
     | Resumed { program; _ }, None -> Ok { r with places = program.hash = r.hash }
     | Note _, None -> Ok r
     | Vehicle { state; _ }, None -> Ok { r with world = World.add state r.world }

@@ -9,7 +9,8 @@ type t
 val start : hash:string -> Core.program -> t
 (** [start ~hash program] is before the first line; [hash] is that of the program's text, as in {!Header.source}. If
     a journal's header, or the line of its latest resumption, has another hash, the places of transitions are not
-    compared: in a program that was changed they are elsewhere. *)
+    compared: in a program that was changed they are elsewhere. If [program] has no place for its plans, they have that
+    of the header. *)
 
 (** Why no run has this line. *)
 type mismatch = {

@@ -71,10 +71,10 @@ let read path =
   let channel = open_in_bin path in
   Fun.protect ~finally:(fun () -> close_in channel) (fun () -> really_input_string channel (in_channel_length channel))
 
-let compiled path source =
+let compiled ?place path source =
   let explain ds = Format.asprintf "%a" (Fmt.list (Diagnostic.pp ~source)) ds in
   let result =
-    Result.bind (Test_support.Pure_run.read ~file:path source) (fun ast -> Elaborate.program ~source_name:path ast)
+    Result.bind (Test_support.Pure_run.read ~file:path source) (Elaborate.program_at ~place ~source_name:path)
   in
   match result with Ok (program, _) -> program | Error ds -> failwith (explain ds)
 
@@ -96,7 +96,8 @@ let in_scenario name source program (scenario : Scenario.t) faults =
 let example directory kinds file =
   let path = Filename.concat directory file in
   let source = read path in
-  let program = compiled path source and scenario = scenario_beside path in
+  let scenario = scenario_beside path in
+  let program = compiled ?place:scenario.plans_at path source in
   List.map (fun (kind, faults) -> (in_scenario (file ^ kind) source program scenario faults, scenario)) kinds
 
 let with_fleets kinds directory =

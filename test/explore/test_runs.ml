@@ -149,10 +149,11 @@ let examples = Test_support.Examples.names ()
 let example name =
   let check () =
     let file ending = Filename.concat folder (name ^ ending) in
-    let program = Test_support.Pure_run.compile_exn (contents (file ".dol")) in
     match Scenario.read ~file:name (contents (file ".fleet")) with
     | Error _ -> Alcotest.fail "the fleet is wrong"
-    | Ok scenario -> List.iter (fun seed -> is_explored ~seed scenario program) [ 0; 1; 2; 3; 4 ]
+    | Ok scenario ->
+      let program = Test_support.Pure_run.compile_exn ?place:scenario.plans_at (contents (file ".dol")) in
+      List.iter (fun seed -> is_explored ~seed scenario program) [ 0; 1; 2; 3; 4 ]
   in
   Alcotest.test_case name `Quick check
 
@@ -191,7 +192,7 @@ let fleet =
   let reply call : Scenario.reply = { call; rounds = Calls.replies call } in
   let replies = List.map reply Calls.names in
   let vehicles = List.map (fun v -> draining (steadily v)) vehicles in
-  return { Scenario.vehicles; plans; answers; replies; inputs = []; samples = []; fences = [] }
+  return { Scenario.vehicles; plans; answers; replies; inputs = []; samples = []; fences = []; plans_at = None }
 
 let random_case =
   QCheck2.Gen.(

@@ -223,7 +223,7 @@ let ok = function Ok x -> x | Error e -> failwith (Format.asprintf "%a" Error.pp
 
 let settle_example faults name () =
   let path = Filename.concat Examples.folder (name ^ ".dol") in
-  let program = ok (Program_file.load path) and fleet = ok (Fleet_file.load_for ~program:path None) in
+  let program, fleet = ok (Program_file.load_with_fleet ~set:[] ~fleet:None path) in
   let program = ok (Program_file.within fleet program) in
   let environment = Scenario_world.environment ~answers:[] ~faults program.program fleet.scenario in
   let world = Scenario_world.world fleet.scenario in
@@ -277,7 +277,8 @@ let told = ref 0
 let agrees ((ast, world), looped, (_, environment), reduction) =
   let core = Posts.declared environment (Generate.compile (if looped then Generate.for_ever ast else ast)) in
   let program : Program_file.t =
-    { path = "random.dol"; source = ""; parameters = []; set = []; program = core; plans = lazy []; warnings = [] } in
+    { path = "random.dol"; source = ""; parameters = []; set = []; program = core; without_place = lazy [];
+      plans = (fun ~place:_ -> []); warnings = [] } in
   let invariants =
     if Reduction.by_order reduction then []
     else match Condition.of_string core "!poll(x: 1)" with Ok condition -> [ condition ] | Error why -> failwith why
@@ -294,7 +295,7 @@ let test_random () =
 
 let rendezvous () =
   let path = Filename.concat Examples.folder "rendezvous.dol" in
-  let program = ok (Program_file.load path) and fleet = ok (Fleet_file.load_for ~program:path None) in
+  let program, fleet = ok (Program_file.load_with_fleet ~set:[] ~fleet:None path) in
   let environment = Scenario_world.environment ~answers:[] ~faults:Faults.none program.program fleet.scenario in
   (program, { Search.default with environment }, Scenario_world.world fleet.scenario)
 

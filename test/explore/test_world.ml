@@ -99,7 +99,7 @@ let beyond =
     unsettled "as a time" (pick ^ "pause battery(v)");
     unsettled "as a time of a task" (pick ^ "execute during { battery(v) } run idle(1)");
     unsettled "as a divisor" (pick ^ "x = 1 / battery(v)");
-    unsettled "in a plan" (pick ^ "p = imcPlan { goTo speed: battery(v) }");
+    unsettled "in a plan" (pick ^ "p = imcPlan { locate Location.APDL; goTo speed: battery(v) }");
     unsettled "thirteen comparisons in one step" (say (comparisons 13));
     unsettled "an argument that is named" (pick ^ "def f(m) { return m.level < 0.3 }\nmessage f(level: battery(v))");
     unsettled "captured" (pick ^ "def f(b) { return { -> b < 0.3 } }\nf(battery(v))");

@@ -64,7 +64,7 @@ let figure_8 () =
     }
     plan;
   Alcotest.(check (list string)) "required payload" [ "Camera" ] (Plan.required_payload plan);
-  Alcotest.check position "reference" first (Plan.reference plan)
+  Alcotest.(check (option position)) "reference" (Some first) (Plan.reference plan)
 
 (* {1 Settings} *)
 
@@ -292,6 +292,29 @@ let payload () =
     [ ("Camera", [ ("Active", "false"); ("Rate", "2") ]) ]
     (found (Map [ ("name", str "Camera"); ("rate", i 2); ("active", Boolean false) ]))
 
+(* {1 Plans without a place} *)
+
+let unplaced () =
+  let is_built settings = Result.is_ok (build ~place:None settings) in
+  let off = man "popup" [ ("currPos", Boolean false) ] and up = man "popup" [] in
+  let at = ("location", Position Place.feup) and points = ("points", items [ items [ i 1; i 2 ] ]) in
+  let all = [ "goTo"; "loiter"; "yoyo"; "skeeping"; "compassCalibration"; "launch"; "rows"; "followPath" ] in
+  let refuses setting =
+    let own = if setting = "followPath" then [ points ] else [] in
+    let expected = "'" ^ setting ^ "' has no place: this plan does not say where it is; " ^ Plan_builder.hint_for_place in
+    (match build ~place:None [ up; man setting own ] with
+     | Ok _ -> Alcotest.failf "%s needs no place" setting
+     | Error fault -> Alcotest.(check (pair int string)) setting (1, expected) (fault.site, fault.message));
+    Alcotest.(check bool) (setting ^ " with a location") true (is_built [ up; man setting (at :: own) ]);
+    Alcotest.(check bool) (setting ^ " after one") true (is_built [ set "locate" [ i 41; i (-8) ]; man setting own ])
+  in
+  List.iter refuses all;
+  Alcotest.(check bool) "popup where the vehicle is" true (is_built [ up ]);
+  Alcotest.(check bool) "popup elsewhere" false (is_built [ off ]);
+  Alcotest.(check bool) "move" false (is_built [ set "move" [ i 1; i 2 ]; up ]);
+  Alcotest.(check (option position)) "nowhere" None
+    (Option.bind (Result.to_option (build ~place:None [ up ])) Plan.reference)
+
 (* {1 What is exported} *)
 
 let vocabulary () =
@@ -317,4 +340,5 @@ let () =
         [ case "goTo and launch" simple_maneuvers; case "loiter" loiters; case "yoyo" yoyos; case "popup" pop_ups;
           case "skeeping" station_keepings; case "compassCalibration" compass_calibrations; case "rows" all_rows;
           case "followPath" paths; case "identifiers" identifiers; case "payload" payload ] );
+      ("places", [ case "none" unplaced ]);
       ("exports", [ case "vocabulary" vocabulary ]) ]

@@ -54,13 +54,13 @@ let by_hand =
       "failed: the way of plan 'plan-2' depends on where it begins: write length(v), with its vehicle"
       "m = mission { move 100, 0; returnHome() }\nmessage m.length";
     says "a plan without end" "failed: plan 'plan-2' goes on until it is stopped: nobody knows how long"
-      "m = imcPlan { goTo(); skeeping duration: 0 }\nmessage m.duration(v)";
+      "m = imcPlan { locate Location.APDL; goTo(); skeeping duration: 0 }\nmessage m.duration(v)";
     says "the length of a plan by name"
       "failed: the way of plan 'survey' is not described here: only its vehicle knows it" "message imcPlan('survey').length";
     says "of two vehicles" "failed: the set must be a single vehicle, it has 0"
-      "m = imcPlan { goTo() }\nmessage m.duration(v - v)";
+      "m = imcPlan { locate Location.APDL; goTo() }\nmessage m.duration(v - v)";
     says "of no vehicle" "failed: a task has no method 'duration' for 1 arguments of that kind"
-      "m = imcPlan { goTo() }\nmessage m.duration(3)";
+      "m = imcPlan { locate Location.APDL; goTo() }\nmessage m.duration(3)";
   ]
 
 (* {1 Where a vehicle may be anywhere} *)

@@ -15,8 +15,8 @@ let set ?(named = []) setting positional = { setting; positional; named; setting
 let man setting named = set setting [] ~named
 
 (* Each setting's site is its place in the list. *)
-let build ?(name = "p") settings =
-  Plan_builder.build ~name plan_site (List.mapi (fun k s -> { s with setting_site = k }) settings)
+let build ?(name = "p") ?(place = Some Dolphin_geo.Place.apdl) settings =
+  Plan_builder.build ~name ~place plan_site (List.mapi (fun k s -> { s with setting_site = k }) settings)
 
 let built settings =
   match build settings with Ok plan -> plan | Error fault -> Alcotest.fail fault.message

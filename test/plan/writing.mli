@@ -26,8 +26,9 @@ val go : setting
 val plan_site : site
 (** Where the plans of {!build} are. *)
 
-val build : ?name:string -> setting list -> (Plan.t, Fault.t) result
-(** [build settings] is the plan called ["p"]; the site of each setting is its place in the list. *)
+val build : ?name:string -> ?place:Dolphin_geo.Position.t option -> setting list -> (Plan.t, Fault.t) result
+(** [build settings] is the plan called ["p"]; the site of each setting is its place in the list. [place] is where it
+    begins, by default [Place.apdl]. *)
 
 val built : setting list -> Plan.t
 (** [built settings] is that plan; a fault fails the test. *)

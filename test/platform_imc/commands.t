@@ -154,6 +154,7 @@ A plan as vehicles get it.
   > v = pick { type 'UUV' }
   > execute imcPlan('survey') >> imcPlan {
   >   planName 'P'
+  >   locate Location.APDL
   >   speed 1.5, Speed.Units.METERS_PS
   >   goTo payload: [[name: 'Sidescan', Range: 50]]
   >   yoyo max_depth: 20, min_depth: 2

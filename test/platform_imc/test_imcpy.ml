@@ -3,6 +3,7 @@ let program =
 v = pick { type 'UUV'; payload 'Sidescan'; timeout 20.seconds }
 execute imcPlan('survey') >> imcPlan {
   planName 'lines'
+  locate Location.APDL
   speed 1.5, Speed.Units.METERS_PS
   z 3, Z.Units.DEPTH
   goTo payload: [[name: 'Sidescan', Range: 50]]

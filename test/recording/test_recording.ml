@@ -91,7 +91,7 @@ let compared = ref 0
 let is_unchanged ~seed scenario source =
   let program : Program_file.t =
     { path = "random.dol"; source; parameters = []; set = []; program = Test_support.Pure_run.compile_exn source;
-      warnings = []; plans = lazy [] }
+      warnings = []; without_place = lazy []; plans = (fun ~place:_ -> []) }
   in
   let plain = { name = ""; recording = Recording.nothing; telemetry = false; messages = false } in
   let expected = happened program scenario ~seed plain in
@@ -135,7 +135,8 @@ let fleet =
   let answers = { Scenario.prompt = "how many?"; texts = [ "1"; "2" ] } :: List.init 3 go in
   let reply call : Scenario.reply = { call; rounds = Calls.replies call } in
   return
-    { Scenario.vehicles; plans; answers; replies = List.map reply Calls.names; inputs; samples = []; fences = [] }
+    { Scenario.vehicles; plans; answers; replies = List.map reply Calls.names; inputs; samples = []; fences = [];
+      plans_at = None }
 
 (* Waits that only an input, a vehicle that comes, or nothing at all can end. *)
 let waits =

@@ -2,7 +2,7 @@ let source =
   {|radius = ask 'Radius? (km)'
 v = pick { count 2; type 'UUV'; timeout 1.min }
 post area: radius
-inline = imcPlan { planName 'inline'; skeeping duration: 8 }
+inline = imcPlan { planName 'inline'; locate Location.APDL; skeeping duration: 8 }
 there = imcPlan('out') >> inline >> action { post ready: 1 } >> imcPlan('back')
 here = until { consume ready: 1 } run imcPlan('endless')
 execute there | (here >> idle(0.2.seconds) >> imcPlan('around'))

@@ -59,7 +59,8 @@ let program ?(reads_sensors = false) ?(reads_now = false) ?(globals = 0) script 
     reads_sensors;
     reads_now;
     asks_running = false;
-    fences = Dolphin_semantics.Fences.none }
+    fences = Dolphin_semantics.Fences.none;
+    place = None }
 
 let on_interrupt t program =
   { program with on_interrupt = Some (lambda "onInterrupt" 1 (call Interrupted [ call Execute [ t ] ])) }

@@ -259,7 +259,8 @@ let scenario =
   in
   let* samples = list_size (int_range 1 3) sample in
   let* fences = list_size (int_bound 2) (oneofl (Lazy.force some_fences)) in
-  return { Scenario.vehicles; plans; answers; replies; inputs; samples; fences }
+  let* plans_at = option place in
+  return { Scenario.vehicles; plans; answers; replies; inputs; samples; fences; plans_at }
 
 (* Fences as JSON, in journals and on maps. *)
 let fences_as_json () =

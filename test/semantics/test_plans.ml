@@ -14,11 +14,11 @@ let places =
   [ ("p = ", ""); ("p = task('a') >> ", ""); ("p = [", "]"); ("p = true ? ", " : null"); ("def f() { ", " }\np = f()");
     ("p = [1].collect { ", " }") ]
 
-let constant ((before, after), body) =
-  Printf.sprintf "%s%simcPlan { description 'd'; %s }%s\n" constants before body after
+let constant (located, (before, after), body) =
+  Printf.sprintf "%s%s%simcPlan { description 'd'; %s }%s\n" constants located before body after
 
-let in_function (_, body) =
-  Printf.sprintf "%sdef f(q) { imcPlan { description q; %s } }\np = f('d')\n" constants body
+let in_function (located, _, body) =
+  Printf.sprintf "%s%sdef f(q) { imcPlan { description q; %s } }\np = f('d')\n" constants located body
 
 (* {1 Plans} *)
 
@@ -66,7 +66,7 @@ let setting =
     return (Printf.sprintf "%s(%s)" name (String.concat ", " (positional @ needed @ named)))
 
 let plan =
-  QCheck2.Gen.(pair (oneofl places) (map (String.concat "; ") (list_size (int_range 1 4) setting)))
+  QCheck2.Gen.(triple (oneofl [ ""; "locate here\n" ]) (oneofl places) (map (String.concat "; ") (list_size (int_range 1 4) setting)))
 
 (* {1 The law} *)
 

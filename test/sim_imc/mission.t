@@ -10,7 +10,7 @@ Programs on simulated vehicles, as two processes over UDP.
   > END
   $ cat > mission.dol <<'END'
   > v = pick { count 2; type 'UUV'; timeout 1.min }
-  > execute v: (imcPlan('out') >> imcPlan { planName 'inline'; skeeping duration: 10 } >> imcPlan('back')) | imcPlan('around')
+  > execute v: (imcPlan('out') >> imcPlan { planName 'inline'; locate Location.APDL; skeeping duration: 10 } >> imcPlan('back')) | imcPlan('around')
   > message 'Done!'
   > END
 

@@ -6,15 +6,15 @@ let read ~file source =
   let nobody path = Error (path ^ ": there are no other files") in
   snd (Dolphin_syntax.Include.program ~read:nobody ~file source)
 
-let compile source =
+let compile ?place source =
   match read ~file:"test.dol" source with
   | Error ds -> Error ds
-  | Ok ast -> Result.map fst (Elaborate.program ~source_name:"test.dol" ast)
+  | Ok ast -> Result.map fst (Elaborate.program_at ~place ~source_name:"test.dol" ast)
 
 let explain source ds = Format.asprintf "%a" (Fmt.list (Dolphin_syntax.Diagnostic.pp ~source)) ds
 
-let compile_exn source =
-  match compile source with Ok program -> program | Error ds -> failwith (explain source ds)
+let compile_exn ?place source =
+  match compile ?place source with Ok program -> program | Error ds -> failwith (explain source ds)
 
 let vehicle ?(kind = "UUV") ?(payload = [ "DVL"; "Sidescan"; "Camera" ]) ?(battery = 1.) ?(north = 0.) ?(readings = []) id =
   let position = Dolphin_geo.Wgs84.displace Dolphin_geo.Place.apdl ~north ~east:0. in

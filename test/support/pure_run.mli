@@ -7,10 +7,10 @@ open Dolphin_semantics
 val read : file:string -> string -> (Dolphin_syntax.Ast.program, Dolphin_syntax.Diagnostic.t list) result
 (** [read ~file source] is the program that [source] spells, which may include the prelude. *)
 
-val compile : string -> (Core.program, Dolphin_syntax.Diagnostic.t list) result
-(** [compile source] is the core program of [source], whose file is called ["test.dol"]; or the errors. *)
+val compile : ?place:Dolphin_geo.Position.t -> string -> (Core.program, Dolphin_syntax.Diagnostic.t list) result
+(** [compile ~place source] is the core program of [source], whose file is called ["test.dol"]; or the errors. *)
 
-val compile_exn : string -> Core.program
+val compile_exn : ?place:Dolphin_geo.Position.t -> string -> Core.program
 (** [compile_exn source] is as {!compile}.
 
     @raise Failure with the errors as the user sees them. *)

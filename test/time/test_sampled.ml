@@ -14,7 +14,7 @@ let ok = function Ok x -> x | Error e -> Alcotest.failf "%a" Error.pp e
 
 let load name =
   let path = Filename.concat folder (name ^ ".dol") in
-  (ok (Program_file.load path), ok (Fleet_file.load_for ~program:path None))
+  ok (Program_file.load_with_fleet ~set:[] ~fleet:None path)
 
 let sample ?until ?(runs = runs) ?(each = fun ~seed:_ _ -> ()) ~jobs (program, fleet) =
   let settings : Sampling.settings = { seed = 5; runs = Some runs; until; jobs; answers = [] } in
@@ -122,7 +122,7 @@ let test_counts () =
   write fleet "vehicle 'a', { type 'UUV' }\nplan 'bad', { duration 60; fails }\nplan 'good', { duration 60 }\n";
   let remove () = List.iter Sys.remove [ path; fleet ] in
   Fun.protect ~finally:remove (fun () ->
-      let s = sample_by_lines (ok (Program_file.load path), ok (Fleet_file.load_for ~program:path None)) in
+      let s = sample_by_lines (ok (Program_file.load_with_fleet ~set:[] ~fleet:None path)) in
       let task (t : Sampling.task) =
         (t.task.name, [ t.counts.began; t.counts.ended; t.counts.failed; t.counts.stopped; t.failing ]) in
       Alcotest.(check (list (pair string (list int)))) "tasks"

@@ -55,8 +55,8 @@ let refused ?world source line part () =
 let refusals =
   [ case "locations that the program computes" (refused "x = 41\np = location x, -8" 2 "coordinates are not constants");
     case "plans that it computes"
-      (refused "n = 5\np = imcPlan { planName 'p'\n loiter radius:n }" 3 "depends on what the program computes");
-    case "code in plans" (refused "p = imcPlan {\nif (1) { speed 2 }\ngoTo() }" 2 "code among its settings");
+      (refused "n = 5\np = imcPlan { planName 'p'; locate Location.APDL\n loiter radius:n }" 3 "depends on what the program computes");
+    case "code in plans" (refused "p = imcPlan {\nif (1) { speed 2 }\nlocate Location.APDL; goTo() }" 2 "code among its settings");
     case "large numbers" (refused "message 'a'\nmessage 10000000000" 2 "beyond TLC's whole numbers");
     case "trigonometry" (refused "x = 2\ny = Math.sin(x)" 2 "Math.sin");
     case "coordinates of a vehicle that is in a place"
@@ -64,8 +64,8 @@ let refusals =
     case "coordinates of what may be no vehicle"
       (refused ~world:open_world "v = [position: Location.APDL]\nmessage v.position.latitude > 41" 2 "latitude");
     case "how long plans take"
-      (refused "v = pick { }\np = imcPlan { goTo() }\nmessage p.duration(v)" 3 "the duration of a plan");
-    case "how long plans are" (refused "p = imcPlan { goTo() }\nmessage p.length" 2 "length, which may be that of a plan");
+      (refused "v = pick { }\np = imcPlan { locate Location.APDL; goTo() }\nmessage p.duration(v)" 3 "the duration of a plan");
+    case "how long plans are" (refused "p = imcPlan { locate Location.APDL; goTo() }\nmessage p.length" 2 "length, which may be that of a plan");
     case "when a vehicle is there" (refused "v = pick { }\nmessage eta(v, Location.APDL)" 2 "eta");
     case "methods of strings" (refused "message 'a'.toUpperCase()" 1 "toUpperCase") ]
 
@@ -84,7 +84,7 @@ let constants =
     case "coordinates of a vehicle that may be anywhere"
       (translated ~world:open_world
          "v = pick { }\nmessage position(v).latitude > 41 && position(v).bearing(Location.APDL) > 0");
-    case "plans by name" (translated "i = 1\np = imcPlan { planName 'p' + i\n loiter radius:100 }") ]
+    case "plans by name" (translated "i = 1\np = imcPlan { planName 'p' + i\n locate Location.APDL; loiter radius:100 }") ]
 
 (* {1 Replies} *)
 

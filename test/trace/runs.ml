@@ -28,8 +28,8 @@ let examples = Test_support.Examples.names ()
 let explain source ds =
   failwith (String.concat "\n" (List.map (Format.asprintf "%a" (Dolphin_syntax.Diagnostic.pp ~source)) ds))
 
-let compile name source =
-  let elaborate = Elaborate.program ~source_name:name in
+let compile ?place name source =
+  let elaborate = Elaborate.program_at ~place ~source_name:name in
   match Result.bind (Test_support.Pure_run.read ~file:name source) elaborate with
   | Ok (program, _) -> program
   | Error ds -> explain source ds
@@ -74,13 +74,13 @@ let drive r recorder platform ?beginning ?fenced ~answered host =
 let write_to journal entry = Buffer.add_string journal (Entry.to_string entry ^ "\n")
 
 let go ~seed ?period ~name ~source ~scenario host =
-  let program = compile name source in
+  let program = compile ?place:scenario.Scenario.plans_at name source in
   let journal = Buffer.create 65536 in
   let its_source = Header.source ~path:name source in
   let header : Header.t =
     { program = its_source; fleet = None; platform = "sim"; order = By_hearing; seed; speed = None; started;
       run = None;
-      fences = Fences.list program.fences }
+      fences = Fences.list program.fences; place = program.place }
   in
   let recorder = Recorder.make ?period program header (write_to journal) in
   let r = { name; program; hash = its_source.hash; journal = ""; scenario; seed; period; host } in

@@ -23,7 +23,7 @@ let partial ~observed journal =
     | End _ as last -> [ last ]
     | Event _ | Partial _ | Label _ | Note _ | Resumed _ -> []
   in
-  Runs.text (List.map Entry.to_string (List.concat_map line (Runs.lines journal)))
+  Runs.text (List.map (fun entry -> Entry.to_string entry) (List.concat_map line (Runs.lines journal)))
 
 let ends = [ "start"; "done"; "fail" ]
 let runs = lazy (List.map (fun name -> Runs.run ~period:1e9 name) Runs.examples)

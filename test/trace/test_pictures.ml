@@ -92,7 +92,7 @@ let escaped () =
 let header ~platform : Header.t =
   { program = Header.source ~path:"mission.dol" ""; fleet = None; platform; order = By_hearing; seed = 7;
     speed = None;
-    started = "2026-03-01T12:00:00Z"; run = None; fences = [] }
+    started = "2026-03-01T12:00:00Z"; run = None; fences = []; place = None }
 
 (* Areas are lines of the map, with what they mean below it; the pointer shows how they are declared. *)
 let fences () =

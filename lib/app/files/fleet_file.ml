@@ -44,5 +44,7 @@ let load_for ~program named = load (choose ~program named)
 
 let nobody =
   { path = None; source = ""; warnings = [];
-    scenario = { vehicles = []; plans = []; answers = []; replies = []; inputs = []; samples = []; fences = [] } }
+    scenario =
+      { vehicles = []; plans = []; answers = []; replies = []; inputs = []; samples = []; fences = [];
+        plans_at = None } }
 let header f = Option.map (fun path -> Dolphin_trace.Header.source ~path f.source) f.path

@@ -8,7 +8,8 @@ type t = {
   set : (string * string) list;
   program : Dolphin_semantics.Core.program;
   warnings : Diagnostic.t list;
-  plans : (Ast.expression * Dolphin_semantics.Inline_plan.t) list Lazy.t;
+  without_place : Diagnostic.t list Lazy.t;
+  plans : place:Dolphin_geo.Position.t option -> (Ast.expression * Dolphin_semantics.Inline_plan.t) list;
 }
 
 let ( let* ) = Result.bind
@@ -38,18 +39,24 @@ let load ?(set = []) ?(may_read = Text_file.anything) path =
   let elaborated = Dolphin_semantics.Elaborate.program_with_charts ~chart ~source_name:path ast in
   let* program, warnings = wrong source elaborated in
   Ok { path; source = source ^ Charts.identity charts; parameters; set; program; warnings;
-       plans = lazy (Dolphin_semantics.Elaborate.known_plans ~chart ast) }
+       without_place = lazy (Dolphin_semantics.Elaborate.plans_without_place ~chart ast);
+       plans = (fun ~place -> Dolphin_semantics.Elaborate.known_plans ~chart ~place ast) }
 
 let within (fleet : Fleet_file.t) p =
   let open Dolphin_semantics in
   let p = { p with warnings = p.warnings @ fleet.warnings } in
   let own = Fences.list p.program.fences in
-  match List.filter (fun fence -> not (List.memq fence own)) fleet.scenario.fences with
-  | [] -> Ok p
-  | further -> (
-      match Fence_declarations.broken (Fences.make further) (Lazy.force p.plans) with
-      | [] -> Ok { p with program = { p.program with fences = Fences.make (own @ further) } }
-      | found -> Error (Error.Bad_text { source = p.source; found }))
+  let further = List.filter (fun fence -> not (List.memq fence own)) fleet.scenario.fences in
+  let place = match p.program.place with Some _ as own -> own | None -> fleet.scenario.plans_at in
+  (* Plans whose place the fleet gives have not been compared with the program's own fences. *)
+  let to_compare = if place = p.program.place then further else own @ further in
+  let broken =
+    if to_compare = [] then [] else Fence_declarations.broken (Fences.make to_compare) (p.plans ~place) in
+  match (if place = None then Lazy.force p.without_place else []) @ broken with
+  | [] ->
+    let fences = if further = [] then p.program.fences else Fences.make (own @ further) in
+    Ok { p with program = { p.program with fences; place } }
+  | found -> Error (Error.Bad_text { source = p.source; found })
 
 let load_recorded ~set ~recorded path =
   match set, recorded with

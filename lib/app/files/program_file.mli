@@ -10,7 +10,9 @@ type t = {
   set : (string * string) list;  (** those that were set, each with the text of its value *)
   program : Dolphin_semantics.Core.program;
   warnings : Diagnostic.t list;
-  plans : (Ast.expression * Dolphin_semantics.Inline_plan.t) list Lazy.t;
+  without_place : Diagnostic.t list Lazy.t;
+  (** {!Dolphin_semantics.Elaborate.plans_without_place}: wrong unless program or fleet have a place *)
+  plans : place:Dolphin_geo.Position.t option -> (Ast.expression * Dolphin_semantics.Inline_plan.t) list;
   (** {!Dolphin_semantics.Elaborate.known_plans} *)
 }
 
@@ -21,8 +23,9 @@ val load :
     [may_read] decides for each file that the text names whether it may be read, by default all. *)
 
 val within : Fleet_file.t -> t -> (t, Error.t) result
-(** [within fleet p] is [p] with the fences and warnings of [fleet], besides its own; or which of its plans break one of
-    these, as far as that is known before it runs. *)
+(** [within fleet p] is [p] with the fences and warnings of [fleet], besides its own, and with the place of [fleet] for
+    plans if [p] has none; or which of its plans break a fence or have no place, as far as that is known before it
+    runs. *)
 
 val load_recorded :
   set:(string * string) list -> recorded:(string * string) list option -> string -> (t, Error.t) result

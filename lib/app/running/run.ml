@@ -135,7 +135,8 @@ let header r (fleet : Fleet_file.t) : Header.t =
     speed = r.settings.speed;
     run = r.run;
     started = Recording.utc_now ();
-    fences = Dolphin_semantics.Fences.list r.program.program.fences }
+    fences = Dolphin_semantics.Fences.list r.program.program.fences;
+    place = r.program.program.place }
 
 (* {1 Platforms} *)
 
@@ -354,8 +355,13 @@ let fleet_of_network ~named (resumed : Resumed.t) =
   | None, None -> Ok Fleet_file.nobody
   | None, Some path ->
     let* fleet = Fleet_file.load named in
-    if fleet.scenario.fences = [] then Ok fleet
-    else Error (Error.Bad_input (path ^ ": a run goes on with the fences that it began with, and it had no fleet"))
+    let refuse what =
+      let why = Printf.sprintf "%s: a run goes on with the %s that it began with, and it had no fleet" path what in
+      Error (Error.Bad_input why)
+    in
+    if fleet.scenario.fences <> [] then refuse "fences"
+    else if fleet.scenario.plans_at <> None then refuse "place for its plans"
+    else Ok fleet
 
 (* The fleet and the settings with which a run is resumed: seed and speed are those of its journal. *)
 let as_before (settings : settings) ~fleet (resumed : Resumed.t) =

@@ -295,6 +295,10 @@ let by_name env at name (callee : Ast.expression) arguments =
   | None, None, None when name = fence && not (Scope.is_assigned env.program name) ->
     error env Bad_fence at "fence declares what vehicles must keep to: it stands by itself at the top of the program";
     null env at
+  | None, None, None when name = locate && not (Scope.is_assigned env.program name) ->
+    error env Misplaced_setting at
+      "locate stands in imcPlan { ... }, or by itself at the top of the program for all plans without a place";
+    null env at
   | None, None, None when List.mem name Builtins.builder_names -> builder_in_parentheses env callee.at name arguments
   | None, None, None when misspells_builder env name arguments ->
     (* The meaning of the block is unknown, so nothing in it is reported. *)

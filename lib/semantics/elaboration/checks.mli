@@ -123,6 +123,9 @@ val check_repeated : env -> Ast.builder -> Ast.statement list -> unit
 val fence : string
 (** The word that declares a fence. *)
 
+val locate : string
+(** ["locate"], which declares where plans are, outside of [imcPlan]. *)
+
 val builder_name : Ast.builder -> string
 (** As programs spell it. *)
 

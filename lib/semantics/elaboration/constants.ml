@@ -9,6 +9,7 @@ type t = {
   known : value String_map.t;
   own : String_set.t;
   chart : string -> (Chart.t, string) result;
+  place : Dolphin_geo.Position.t option;        (* of plans that do not say where they are *)
   charted : (string * string) list;
 }
 
@@ -76,11 +77,11 @@ let elaborated constants (e : Ast.expression) =
   | [] -> Ok (lambda, Scope.locations program, Scope.globals program, List.map snd globals)
   | errors -> Error errors
 
-let run (lambda, locations, global_names, values) =
+let run place (lambda, locations, global_names, values) =
   let program =
     { source_name = ""; locations; global_names; functions = []; main = lambda; ordered_keys = No_key; inputs = [];
       on_interrupt = None; recruits = false; goes_round = false; reads_sensors = false; reads_now = false;
-      asks_running = false; fences = Fences.none } in
+      asks_running = false; fences = Fences.none; place } in
   let store = snd (List.fold_left (fun (i, store) x -> (i + 1, Store.set i x store)) (0, Store.empty) values) in
   let context : Code.context =
     { program; world = World.empty; allocation = Vehicle_map.empty; bound = []; held = lazy []; needed = lazy []; store;
@@ -96,7 +97,7 @@ let value constants (e : Ast.expression) =
   | None ->
     let wrong at message = Error [ Diagnostic.error ~code:Bad_fence at message ] in
     let known code =
-      match run code with
+      match run constants.place code with
       | `Value x -> Ok x
       | `Fault (at, message) -> wrong (Option.value at ~default:e.at) message
       | `Not_known -> wrong e.at "this is not known before the program runs"
@@ -116,7 +117,7 @@ let fault constants (e : Ast.expression) =
   match unknown constants e, lazy (elaborated constants e) with
   | Some _, _ | None, (lazy (Error _)) -> None
   | None, (lazy (Ok code)) -> (
-      match run code with
+      match run constants.place code with
       | `Fault (at, message) -> Some (Diagnostic.error ~code:Wrong_value (Option.value at ~default:e.at) message)
       | `Value _ | `Not_known -> None)
 
@@ -125,7 +126,7 @@ let fault constants (e : Ast.expression) =
 let function_names (ast : Ast.program) =
   List.filter_map (fun (s : Ast.statement) -> match s.it with Function { name; _ } -> Some name.it | _ -> None) ast
 
-let of_program ~chart ast =
+let of_program ~chart ~place ast =
   let once = String_set.of_list (Assigned.once (fun _ -> true) ast) in
   let add constants (s : Ast.statement) =
     match s.it with
@@ -139,4 +140,4 @@ let of_program ~chart ast =
     | _ -> constants
   in
   let own = String_set.of_list (Assigned.names ast @ function_names ast) in
-  List.fold_left add { known = String_map.empty; own; chart; charted = Chart_calls.assigned ast } ast
+  List.fold_left add { known = String_map.empty; own; chart; place; charted = Chart_calls.assigned ast } ast

@@ -10,9 +10,11 @@ type t
 val function_names : Ast.program -> string list
 (** The functions that it defines. *)
 
-val of_program : chart:(string -> (Chart.t, string) result) -> Ast.program -> t
-(** [of_program ~chart ast] is the variables of [ast] that are assigned once, by a statement of the script outside of
-    all braces, or declared as parameters, and of which the value is known. *)
+val of_program :
+  chart:(string -> (Chart.t, string) result) -> place:Dolphin_geo.Position.t option -> Ast.program -> t
+(** [of_program ~chart ~place ast] is the variables of [ast] that are assigned once, by a statement of the script
+    outside of all braces, or declared as parameters, and have a known value. [place] is that of plans which have none
+    of their own. *)
 
 val chart : t -> Ast.expression -> Chart.t option
 (** [chart constants e] is the chart that [e] surely is: a call of [map], or a variable that is one. *)

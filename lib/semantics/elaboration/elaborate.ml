@@ -133,20 +133,19 @@ let kinds_of_variables ast =
 
 let no_chart _ = Error "no file can be read here"
 
-(* Of the maps in the declarations of fences, which are not code. *)
+(* Of the maps in the declarations of fences and places, which are not code. *)
 let map_warnings program ~chart ast =
   let of_call (path, at) =
     match chart path with Ok chart -> Chart_calls.warnings at path chart | Error _ -> [] in
-  let statements = List.filter Fence_declarations.is_declaration ast in
+  let is_declaration s = Fence_declarations.is_declaration s || Default_place.is_declaration s in
+  let statements = List.filter is_declaration ast in
   if Chart_calls.is_call program Chart_calls.word then
     List.iter (Scope.report program) (List.concat_map of_call (Chart_calls.paths statements))
 
 (* Fences are known before anything runs; and so is it of some plans whether they break one. *)
-let fences program ~chart ast =
+let fences program constants ast =
   if Fence_declarations.is_own ast then Fences.none
-  else begin
-    map_warnings program ~chart ast;
-    let constants = lazy (Constants.of_program ~chart ast) in
+  else
     match Fence_declarations.of_program constants ast with
     | Error found -> List.iter (Scope.report program) found; Fences.none
     | Ok [] -> Fences.none
@@ -155,19 +154,24 @@ let fences program ~chart ast =
       let plans = Fence_declarations.plans (Lazy.force constants) ast in
       List.iter (Scope.report program) (Fence_declarations.broken fences plans);
       fences
-  end
 
-(* Plans of constants that cannot be built. *)
-let report_plans program ~chart ast =
+(* Plans of constants that cannot be built; where they are may be for the fleet to say. *)
+let report_plans program ~constants ast =
   let plans found (e : Ast.expression) =
     match e.it with Builder ((Imc_plan | Mission), _) -> e :: found | _ -> found in
   match List.fold_left (Fold.statement plans) [] ast with
   | [] -> ()
-  | plans ->
-    let constants = Constants.of_program ~chart ast in
-    List.iter (Scope.report program) (List.filter_map (Constants.fault constants) plans)
+  | plans -> List.iter (Scope.report program) (List.filter_map (Constants.fault (Lazy.force constants)) plans)
 
-let known_plans ~chart ast = Fence_declarations.plans (Constants.of_program ~chart ast) ast
+let known_plans ~chart ~place ast = Fence_declarations.plans (Constants.of_program ~chart ~place ast) ast
+
+let plans_without_place ~chart ast =
+  Default_place.missing (lazy (Constants.of_program ~chart ~place:None ast)) (without_unused_prelude ast)
+
+let default_place program ~chart ast =
+  match Default_place.of_program (lazy (Constants.of_program ~chart ~place:None ast)) ast with
+  | Ok place -> place
+  | Error found -> List.iter (Scope.report program) found; None
 
 let elaborated ?(chart = no_chart) ~source_name (ast : Ast.program) =
   let ast = without_unused_prelude ast in
@@ -201,8 +205,13 @@ let elaborated ?(chart = no_chart) ~source_name (ast : Ast.program) =
   report_blocking program;
   report_unread_inputs program;
   List.iter (Scope.report program) (Parallel_check.program ast @ Effect_check.program ast);
-  let fences = fences program ~chart ast in
-  if not (List.exists is_error (Scope.reports program)) then report_plans program ~chart ast;
+  map_warnings program ~chart ast;
+  let place = default_place program ~chart ast in
+  let fences = fences program (lazy (Constants.of_program ~chart ~place ast)) ast in
+  if not (List.exists is_error (Scope.reports program)) then begin
+    let place = Some (Option.value place ~default:Dolphin_geo.Place.feup) in
+    report_plans program ~constants:(lazy (Constants.of_program ~chart ~place ast)) ast
+  end;
   let reports = Scope.reports program in
   if List.exists is_error reports then Error reports
   else
@@ -222,10 +231,20 @@ let elaborated ?(chart = no_chart) ~source_name (ast : Ast.program) =
         reads_now = Scope.reads_now program;
         asks_running = Scope.asks_running program;
         fences;
+        place;
       },
         reports )
 
-let program ~source_name ast = elaborated ~source_name ast
+let program_at ~place ~source_name ast =
+  let placed ((p : Core.program), warnings) =
+    if p.place <> None then Ok (p, warnings)
+    else if place <> None then Ok ({ p with place }, warnings)
+    else match plans_without_place ~chart:no_chart ast with [] -> Ok (p, warnings) | found -> Error (warnings @ found)
+  in
+  Result.bind (elaborated ~source_name ast) placed
+
+let program ~source_name ast = program_at ~place:None ~source_name ast
+
 let program_with_charts ~chart ~source_name ast = elaborated ~chart ~source_name ast
 
 let first_message = function

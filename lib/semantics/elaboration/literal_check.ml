@@ -30,7 +30,7 @@ let context : Code.context =
     { source_name = ""; locations = [||]; global_names = [||]; functions = []; main; ordered_keys = No_key; inputs = [];
       on_interrupt = None;
       recruits = false; goes_round = false; reads_sensors = false; reads_now = false; asks_running = false;
-      fences = Fences.none }
+      fences = Fences.none; place = None }
   in
   let tuples = Tuples.empty No_key in
   { program; world = World.empty; allocation = Vehicle_map.empty; bound = []; held = lazy []; needed = lazy [];

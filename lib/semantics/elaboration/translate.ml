@@ -78,9 +78,13 @@ let check_index env (subject : Ast.expression) (index : Ast.expression) =
     error env Wrong_kind index.at "between [ and ] after a task stands a vehicle set, this is %s"
       (Builtins.describe found)
 
-(* The program's constants are needed for its messages: see {!Fence_declarations}. *)
+(* Its arguments are constants: {!Fence_declarations} reads them. *)
 let declares_fence env name =
   name = fence && (not (is_hidden env name)) && not (Scope.is_assigned env.program name)
+
+(* So does {!Default_place}. *)
+let declares_place env name =
+  name = locate && (not (is_hidden env name)) && not (Scope.is_assigned env.program name)
 
 (* {1 Expressions} *)
 
@@ -264,6 +268,8 @@ and statement env (s : Ast.statement) : expression =
     Calls.input env at arguments
   | Expression { it = Call { callee = { it = Variable name; _ }; _ } | Variable name; _ }
     when Scope.at_top env.code && declares_fence env name -> null env at
+  | Expression { it = Call { callee = { it = Variable name; _ }; _ } | Variable name; _ }
+    when Scope.at_top env.code && declares_place env name -> null env at
   | Expression ({ it = Call { arguments; _ }; _ } as e)
     when Scope.may_give_task env.code && confirmation env e <> None -> confirm_task env at arguments
   | Expression e when each_of_branches env e <> None ->

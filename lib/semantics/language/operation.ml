@@ -43,7 +43,8 @@ let build context at builder name arguments =
       | Pick -> look_for context settings ~otherwise:false
       | Imc_plan ->
         value
-          (fun plan -> platform_task at (Inline_plan.Maneuvers plan)) (Plan_builder.build ~name at settings)
+          (fun plan -> platform_task at (Inline_plan.Maneuvers plan))
+          (Plan_builder.build ~name ~place:context.program.place at settings)
       | Mission ->
         value (fun mission -> platform_task at (Inline_plan.Mission mission)) (Mission_builder.build ~name at settings)
       | Pos -> value Fun.id (Settings.position at settings)

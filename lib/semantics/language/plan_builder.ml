@@ -156,11 +156,14 @@ let common = [ "speed"; "z"; "location"; "id"; "payload" ]
 
 (* {1 Plans} *)
 
+let hint_for_place =
+  "write locate LATITUDE, LONGITUDE before it, or once for all plans at the top of the program or in its fleet"
+
 type draft = {
   name : string;
   description : string;
   vehicles : string list;
-  location : Position.t;
+  location : Position.t option;
   speed : float * Plan.speed_unit;
   speed_unit : Plan.speed_unit;  (* of speeds that name none *)
   z : float * Plan.z_unit;
@@ -168,12 +171,12 @@ type draft = {
   latest_first : Plan.maneuver list;
 }
 
-let empty name reserved =
+let empty name ~place reserved =
   {
     name;
     description = "";
     vehicles = [];
-    location = Dolphin_geo.Place.apdl;
+    location = place;
     speed = (900., Revolutions_per_minute);
     speed_unit = Metres_per_second;
     z = (2., Depth);
@@ -196,7 +199,7 @@ let set_common s draft =
   in
   let locate x draft =
     let* location = position s ("as location of " ^ s.setting) x in
-    Ok { draft with location }
+    Ok { draft with location = Some location }
   in
   let* draft = named "speed" (fun x -> set_speed s [ x ]) draft in
   let* draft = named "z" (fun x -> set_z s [ x ]) draft in
@@ -231,6 +234,16 @@ let arguments s =
   | [ Map entries ] -> { s with positional = []; named = s.named @ entries }
   | _ -> s
 
+let no_place name = Printf.sprintf "'%s' has no place: this plan does not say where it is" name
+let lacks_place s = fault s "%s; %s" (no_place s.setting) hint_for_place
+
+(* Of a maneuver that is done where the vehicle is, nobody looks at the location. *)
+let nowhere : Position.t = { latitude = 0.; longitude = 0.; height = 0. }
+
+let is_done_anywhere s =
+  s.setting = "popup"
+  && match List.assoc_opt "currPos" s.named with Some (Boolean false) -> false | Some _ | None -> true
+
 let add_maneuver (message, own, read) s draft =
   let s = arguments s in
   let* () = check_named s (own @ common) in
@@ -239,7 +252,12 @@ let add_maneuver (message, own, read) s draft =
     let* draft = set_common s draft in
     let* id = identifier s message draft in
     let* payloads = argument s "payload" ~default:[] devices in
-    let { location; speed; z; _ } = draft in
+    let* location =
+      match draft.location with
+      | Some location -> Ok location
+      | None -> if is_done_anywhere s then Ok nowhere else lacks_place s
+    in
+    let { speed; z; _ } = draft in
     let* m = read s { Plan.id; kind = Go_to; location; speed; z; payloads } in
     Ok { draft with latest_first = m :: draft.latest_first }
 
@@ -258,14 +276,13 @@ let description s draft =
 
 let vehicles s draft = Result.map (fun vehicles -> { draft with vehicles }) (vehicle_names s)
 
-let locate s draft =
-  let* location =
-    match s.positional with
-    | [ latitude; longitude ] -> coordinates s latitude longitude
-    | [ x ] -> position s "after locate" x
-    | [] | _ :: _ -> fault s "locate takes a position, or latitude and longitude in degrees"
-  in
-  Ok { draft with location }
+let located s =
+  match s.positional with
+  | [ latitude; longitude ] -> coordinates s latitude longitude
+  | [ x ] -> position s "after locate" x
+  | [] | _ :: _ -> fault s "locate takes a position, or latitude and longitude in degrees"
+
+let locate s draft = Result.map (fun location -> { draft with location = Some location }) (located s)
 
 let move s draft =
   let metres = within (-.Wgs84.farthest) Wgs84.farthest " m" s in
@@ -273,7 +290,9 @@ let move s draft =
   | [ north; east ] ->
     let* north = metres "move to the north" north in
     let* east = metres "move to the east" east in
-    Ok { draft with location = Wgs84.displace draft.location ~north ~east }
+    (match draft.location with
+     | Some from -> Ok { draft with location = Some (Wgs84.displace from ~north ~east) }
+     | None -> lacks_place s)
   | [] | _ :: _ -> fault s "move takes two numbers: metres to the north and metres to the east"
 
 let settings =
@@ -305,9 +324,9 @@ let given_id s =
   | Some (String id) -> Some id
   | Some _ | None -> None
 
-let build ~name site settings =
+let build ~name ~place site settings =
   let reserved = List.filter_map given_id settings in
-  let* draft = Results.fold add (empty name reserved) settings in
+  let* draft = Results.fold add (empty name ~place reserved) settings in
   match List.rev draft.latest_first with
   | [] -> Error (Fault.make site (Printf.sprintf "plan '%s' has no maneuver, such as goTo or loiter" draft.name))
   | maneuvers ->

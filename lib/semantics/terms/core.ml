@@ -207,4 +207,5 @@ type program = {
   reads_now : bool;                             (* some code may read the date *)
   asks_running : bool;                          (* some code may ask which vehicles run a task *)
   fences : Fences.t;                            (* the limits that platforms enforce on vehicles: no rule asks *)
+  place : Dolphin_geo.Position.t option;        (* of inline plans without a [locate] *)
 }

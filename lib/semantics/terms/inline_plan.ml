@@ -5,7 +5,7 @@ type t = Maneuvers of Plan.t | Mission of Mission_plan.t
 let name = function Maneuvers p -> p.name | Mission m -> m.name
 let vehicles = function Maneuvers p -> p.vehicles | Mission m -> m.vehicles
 let required_payload = function Maneuvers p -> Plan.required_payload p | Mission m -> Mission_plan.required_payload m
-let reference = function Maneuvers p -> Some (Plan.reference p) | Mission m -> Mission_plan.reference m
+let reference = function Maneuvers p -> Plan.reference p | Mission m -> Mission_plan.reference m
 
 type leg = {
   named : string;

@@ -46,10 +46,13 @@ let required_payload p =
   let of_maneuver names m = List.fold_left (fun names (d : payload) -> add names d.name) names m.payloads in
   List.rev (List.fold_left of_maneuver [] p.maneuvers)
 
+let is_done_anywhere m =
+  match m.kind with
+  | Pop_up { current_position; _ } -> current_position
+  | Go_to | Loiter _ | Yo_yo _ | Station_keeping _ | Compass_calibration _ | Launch | Rows _ | Follow_path _ -> false
+
 let reference p =
-  match p.maneuvers with
-  | first :: _ -> first.location
-  | [] -> invalid_arg "Plan.reference: a plan without maneuvers"
+  Option.map (fun m -> m.location) (List.find_opt (fun m -> not (is_done_anywhere m)) p.maneuvers)
 
 (* {1 The way} *)
 

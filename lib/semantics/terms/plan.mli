@@ -63,8 +63,8 @@ val required_payload : t -> string list
 (** [required_payload p] names the devices that [p] switches on, each once, in order of first use: the plan's
     requirement of its vehicle. *)
 
-val reference : t -> Dolphin_geo.Position.t
-(** [reference p] is the place of the first maneuver: allocation prefers vehicles near it. *)
+val reference : t -> Dolphin_geo.Position.t option
+(** [reference p] is the place of the first maneuver that has one: allocation prefers vehicles near it. *)
 
 (** {1:path The way that a vehicle goes} *)
 

@@ -109,7 +109,8 @@ class Programs(unittest.TestCase):
         fleet = os.path.join(EXAMPLE, "uuvs.fleet")
         imc = ["--imc", "--discovery-ports", ports, "--port", str(first + 10), "--announce", "1", "--contact", "1"]
         self.spawn([DOLPHIN, "sim", fleet, *imc, "--speed", "60", "--for", "600"], stdout=subprocess.DEVNULL)
-        command = [DOLPHIN, "exec", RENDEZVOUS, "--imc-loopback", "--imc-discovery-ports", ports, "--answer", "2"]
+        command = [DOLPHIN, "exec", RENDEZVOUS, "--imc-loopback", "--imc-discovery-ports", ports]
+        command += ["--fleet", RENDEZVOUS.replace(".dol", ".fleet")]
         run = subprocess.run(
             [*command, "--platform", self.adapter], env=self.environment, capture_output=True, text=True, timeout=300
         )

@@ -29,6 +29,7 @@ let settings journal = { Run.simulated with recording = { Recording.nothing with
 
 let run (program : Program_file.t) journal =
   let fleet = right (Fleet_file.load_for ~program:program.path None) in
+  let program = right (Program_file.within fleet program) in
   let interruption = Interruption.make () in
   ignore (right (Lwt_main.run (Run.start Run.unattended ~interruption (settings journal) program fleet)))
 

@@ -82,6 +82,13 @@ class Execution:
         self._resumes, self._mode_asked, self._unrecognised = True, True, unrecognised
         return self._try(now)
 
+    def watch(self, now):
+        """Judges a mission that another station has begun just now."""
+        self._stage_at = self._asked_at = self._begun = now
+        self._mode_asked = True
+        self._progress.begin()
+        return self._run(now)
+
     def kept(self, now):
         return self._next_after_note(now) if self.stage == "note" else []
 

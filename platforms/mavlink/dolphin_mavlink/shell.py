@@ -11,16 +11,13 @@ import termios
 import time
 
 from . import mission as missions
-from . import modes
+from . import replay
+from .options import Trouble, kinds_of, names_of, pairs
 from .station import Options, Station
 from .wire import Wire
 
 COMPONENT = 190  # MAV_COMP_ID_MISSIONPLANNER: a ground station
 LONGEST_LINE = 1 << 20
-
-
-class Trouble(Exception):
-    """Why the adapter cannot begin; a text for people."""
 
 
 # Links: each has a file descriptor, `read` (pairs of where from and data) and `write`.
@@ -276,29 +273,11 @@ class Shell:
                 self._over, self._output = True, b""
 
 
-def _pairs(values, what, numbers=False):
-    pairs = {}
-    for value in values:
-        name, equals, rest = value.partition("=")
-        if not equals or not name or not rest or (numbers and not name.isdigit()):
-            raise Trouble(f"{what} {value}: it is {'NUMBER' if numbers else 'VEHICLE'}=...")
-        pairs[int(name) if numbers else name] = rest
-    return pairs
-
-
-def _kind(number, text):
-    frame, _, autopilot = text.partition(":")
-    autopilots = {"px4": modes.PX4, "ardupilot": modes.ARDUPILOT}
-    if frame not in modes.TYPES or autopilot not in autopilots:
-        frames = ", ".join(modes.TYPES)
-        raise Trouble(f"--kind {number}={text}: it is one of {frames}, and :px4 or :ardupilot")
-    return autopilots[autopilot], frame
-
-
 def _arguments(arguments):
     parser = argparse.ArgumentParser(
         prog="dolphin-mavlink",
         description="An adapter for vehicles that speak MAVLink (ArduPilot, PX4), for dolphin's option --platform.",
+        epilog="dolphin-mavlink replay LOG prints what the adapter concludes from a recorded flight; see its --help.",
     )
     add = parser.add_argument
     add(
@@ -337,6 +316,9 @@ def _arguments(arguments):
 
 
 def main(arguments=None):
+    arguments = sys.argv[1:] if arguments is None else arguments
+    if arguments[:1] == ["replay"]:
+        return replay.main(arguments[1:])
     given = _arguments(arguments)
     try:
         if not 1 <= given.system <= 255:
@@ -350,9 +332,9 @@ def main(arguments=None):
                 raise Trouble(f"key {given.key_file}: {getattr(error, 'strerror', None) or error}") from None
         options = Options(
             system=given.system,
-            names=_pairs(given.name, "--name", numbers=True),
-            payloads={v: devices.split(",") for v, devices in _pairs(given.payload, "--payload").items()},
-            kinds={n: _kind(n, text) for n, text in _pairs(given.kind, "--kind", numbers=True).items()},
+            names=names_of(given.name),
+            payloads={v: devices.split(",") for v, devices in pairs(given.payload, "--payload").items()},
+            kinds=kinds_of(given.kind),
             stored=read_missions(given.missions),
             directory=given.missions or "the directory of missions: there is none (--missions DIRECTORY)",
             on_stop=given.on_stop,

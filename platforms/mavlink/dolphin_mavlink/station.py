@@ -12,6 +12,7 @@ the time go in; frames to send and lines to report come out, by `take`.
 
 import dataclasses
 import difflib
+import math
 
 from . import plans, version
 from . import mission as missions
@@ -96,6 +97,27 @@ class Station:
     @property
     def pace(self):
         return 0.05 if self._requests or self._closing is not None else 0.25
+
+    # Flights that others have ordered
+
+    @property
+    def vehicles(self):
+        """By their systems."""
+        return self._vehicles
+
+    def is_busy(self, vehicle):
+        return self._request_on(vehicle) is not None
+
+    def vehicle_of(self, name):
+        """The name of the vehicle of a request, also of one that is over."""
+        request = self._known(name)
+        return request and request.vehicle
+
+    def watch(self, now, name, vehicle, mission):
+        """Judges a mission that another station has begun, as the request `name`."""
+        request = self._requests[name] = _Request(self.name_of(vehicle.system), {}, math.inf, now)
+        request.execution = self._execution(vehicle, mission, math.inf)
+        self._do(now, request, request.execution.watch(now))
 
     # Names
 

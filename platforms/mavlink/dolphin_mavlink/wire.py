@@ -68,7 +68,7 @@ class Wire:
             if data[at] not in (mavlink.PROTOCOL_MARKER_V1, mavlink.PROTOCOL_MARKER_V2):
                 at += 1
                 continue
-            size = _size(data, at)
+            size = frame_size(data, at)
             if size is None or at + size > len(data):
                 # Perhaps the rest is still to come, perhaps a stray byte looks like a frame's first.
                 break
@@ -118,7 +118,7 @@ class Wire:
             self._doubts[system] = self._codec.doubt
 
 
-def _size(data, at):
+def frame_size(data, at):
     """How long the frame at `at` is, or None if its header is not there yet."""
     if at + 3 > len(data):
         return None

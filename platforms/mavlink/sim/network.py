@@ -15,6 +15,7 @@ class Network:
         self.now, self.reports, self.reported_at = 0.0, [], []
         self.sent, self.sent_messages = 0, []  # of the station
         self.down = False  # whether the links are dead
+        self.log = None  # what a ground station records: the time and the frame of each message that it hears or sends
         self.loses = lambda message: False  # which messages are lost
         self.vehicles = {v.system: v for v in vehicles}
         self._wires = {v.system: Wire(v.system, v.component, key) for v in vehicles}
@@ -105,9 +106,14 @@ class Network:
             self._number += 1
             heapq.heappush(self._queue, (self.now + self.delay + late, self._number, lambda: deliver(data)))
 
+    def _record(self, data):
+        if self.log is not None:
+            self.log.append((self.now, data))
+
     def _to_station(self, vehicle, data):
         if self.gone:
             return
+        self._record(data)
         for message in self._wire.decode_datagram(data):
             self.station.hear(self.now, ("link", vehicle.system), message)
         for system, why in self._wire.take_doubts().items():
@@ -132,6 +138,7 @@ class Network:
                     self.sent_messages.append(message)
                     vehicle = self.vehicles[address[1]]
                     data = self._wire.encode(message, version)
+                    self._record(data)
                     if self.loses(message):
                         continue
                     self._transmit(data, lambda data, v=vehicle: self._to_vehicle(v, data))

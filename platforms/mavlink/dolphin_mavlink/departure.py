@@ -18,7 +18,7 @@ class Departure:
     def __init__(self, now, vehicle, progress):
         self._vehicle, self._progress, self._since = vehicle, progress, now
         self._beats = vehicle.heartbeats
-        # One that is not armed may have restarted: its clock tells once it is asked for it.
+        # One that is not armed may have restarted: its clock shows it, once a message with it was asked for.
         may_be_over = (progress is not None and vehicle.mode in vehicle.modes.after) or not vehicle.armed
         self._due = now + (AFTERWARDS if may_be_over else WORDS)
         self.mode = vehicle.mode

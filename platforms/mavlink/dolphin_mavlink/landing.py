@@ -1,6 +1,6 @@
 """Whether a vehicle that is disarmed has landed, or lost its motors in flight. Pure.
 
-ArduCopter reports the ground as soon as it is disarmed, at any height: what it reports before, and how it sinks
+ArduCopter reports the ground as soon as it is disarmed, at any height: its reports before, and its sinking
 afterwards, decide. An autopilot disarms after the vehicle has been at rest on the ground for a second. So a vehicle
 that came down later than that, or faster than a landing, fell; also from heights from which its fall is too short to be
 seen in a report."""

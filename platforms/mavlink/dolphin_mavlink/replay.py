@@ -1,4 +1,4 @@
-"""`dolphin-mavlink replay LOG`: what the adapter concludes from a recorded flight. It sends nothing.
+"""`dolphin-mavlink replay LOG`: conclusions of the adapter from a recorded flight. It sends nothing.
 
 The messages of a telemetry log go to a station, at the times of the log. A mission is known from its transfer in the
 log, in either direction, or from a file. It counts as begun when its vehicle is armed in the mode of missions."""
@@ -84,7 +84,7 @@ class Replay:
             self._act()
 
     def finish(self):
-        """What follows from the silence after the log is not concluded: a mission that was flown is open."""
+        """The end of the log is not a loss of the link: a mission under way stays open."""
         for vehicle in self._station.vehicles.values():
             if self._station.is_busy(vehicle):
                 self._say(self._station.name_of(vehicle.system), "the log ends before its mission does")

@@ -7,8 +7,8 @@ REFUSED = 5.0  # seconds for that if its autopilot refuses it
 
 
 class Restoration:
-    """`end` is the event that follows, unless something was refused: `refusal`. `mode` is None if there is nothing to
-    put back."""
+    """`end` is the event that follows, unless something was refused: `refusal`. `mode` is None if the vehicle has
+    to stay as it is."""
 
     def __init__(self, now, vehicle, round_trip, mode, end, refusal):
         self._vehicle, self._round_trip, self._since = vehicle, round_trip, now
@@ -16,7 +16,7 @@ class Restoration:
         self.is_back, self.is_refused = mode is None, False
 
     def heartbeat(self, known):
-        """`known` are the modes that it may be in: another one is somebody's hand."""
+        """`known` are the modes that it may be in: another one was set by a pilot."""
         self.is_back = self.is_back or self._vehicle.mode == self._mode or self._vehicle.mode not in known
 
     def verdict(self, now):

@@ -3,7 +3,7 @@
 from .wire import frame_size, mavlink
 
 STAMP = 8
-# A time stamp before 2000 or after 2100 is none.
+# Time stamps lie between 2000 and 2100.
 _EARLIEST, _LATEST = 946684800 * 10**6, 4102444800 * 10**6
 _MARKERS = (mavlink.PROTOCOL_MARKER_V1, mavlink.PROTOCOL_MARKER_V2)
 
@@ -13,7 +13,7 @@ class Unreadable(Exception):
 
 
 def _record(data, at):
-    """The seconds since 1970 and the frame of the record at `at`; None if there is none."""
+    """The seconds since 1970 and the frame of the record at `at`; None if it is not one."""
     stamp = int.from_bytes(data[at : at + STAMP], "big")
     frame = at + STAMP
     if not _EARLIEST <= stamp <= _LATEST or frame >= len(data) or data[frame] not in _MARKERS:
@@ -25,7 +25,7 @@ def _record(data, at):
 
 
 def read(data):
-    """The records of a log, each (seconds since 1970, frame), and how many bytes belong to none."""
+    """The records of a log, each (seconds since 1970, frame), and the number of bytes outside of them."""
     records, at, left_out = [], 0, 0
     while at < len(data):
         record = _record(data, at)

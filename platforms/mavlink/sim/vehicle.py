@@ -84,7 +84,7 @@ class SimVehicle:
         return out
 
     def _later(self, at, say, *arguments):
-        """Says at the time `at` what `say` says then."""
+        """Calls `say` at the time `at`."""
         self._soon.append((at, say, arguments))
 
     def _say_due(self, now):
@@ -221,7 +221,7 @@ class SimVehicle:
         return self._take()
 
     def breach(self, now, mode, kind=mavlink.FENCE_BREACH_BOUNDARY, text=None):
-        """Its fence, as ArduPilot tells of it: by a message, and copters by a text too."""
+        """Its fence, as ArduPilot reports it: by a message, and copters by a text too."""
         self._advance(now)
         self._out.append(mavlink.MAVLink_fence_status_message(1, 1, kind, 0))
         if text is not None:

@@ -15,7 +15,7 @@ LATE_COPY = "by its pilot, or by a late copy of an order"
 
 
 def flown(kind="copter", px4=False, items=None, **more):
-    """A vehicle that flies a mission, and what the station has sent."""
+    """A vehicle that flies a mission, and its network."""
     vehicle, wires = one(kind, px4, items=items or way(12), **more)
     wires.start("r", "mav-1", stored())
     return vehicle, wires
@@ -35,7 +35,7 @@ def modes_sent(wires):
 
 
 class Ends(Case):
-    """A mission that was flown to its end is done, whichever of its reports arrive."""
+    """A mission that was flown to its end is done, even if some of its reports are lost."""
 
     def fly(self, kind, px4, loses, tells_state=True, items=None):
         vehicle, wires = flown(kind, px4, items)
@@ -56,7 +56,7 @@ class Ends(Case):
                     self.fly(kind, px4, loses, tells_state)
 
     def test_no_report_of_the_last_items_arrives(self):
-        """Where the vehicle stands decides."""
+        """The place of the vehicle decides."""
 
         def loses(vehicle):
             return lambda m: m.get_type() in NEWS and vehicle.current >= len(vehicle.items) - 3
@@ -95,7 +95,7 @@ class Ends(Case):
                 self.ends(wires, "r", "done")
 
     def test_neither_acknowledgement_nor_heartbeat_says_that_it_has_begun(self):
-        """What it reaches says so; the order is not repeated, which would fly a short mission twice."""
+        """Reached items show it. The order is not repeated: that would fly a short mission twice."""
         for kind, px4 in (("copter", True), ("plane", True), ("rover", False)):
             for seed in seeds(5):
                 with self.subTest(kind=kind, px4=px4, seed=seed):
@@ -179,7 +179,7 @@ class Copies(Case):
     """Of our orders."""
 
     def test_a_late_copy_is_named(self):
-        """Heartbeats after it may be lost: what counts is when the vehicle was seen in its mission last."""
+        """Heartbeats after it may be lost: the last time at which the vehicle was seen in its mission counts."""
         for kind, px4, mode in (("copter", False, "STABILIZE"), ("copter", True, "POSCTL"), ("rover", False, "MANUAL")):
             for seed in seeds(20):
                 with self.subTest(kind=kind, px4=px4, seed=seed):

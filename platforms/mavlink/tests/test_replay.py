@@ -1,4 +1,4 @@
-"""What `dolphin-mavlink replay` concludes from recorded flights."""
+"""Conclusions of `dolphin-mavlink replay` from recorded flights."""
 
 import os
 import random

@@ -20,7 +20,7 @@ and we send nothing more. No command is repeated blindly: only while the vehicle
 happened.
 """
 
-from . import hands
+from . import hands, resumption, rewinding
 from .boarding import Boarding
 from .commands import Commands
 from .departure import Departure
@@ -29,11 +29,11 @@ from .modes import parameters_of
 from .progress import Progress
 from .refusal import Refusal
 from .restoration import Restoration
+from .rewinding import Rewinding
 from .stopping import AGAIN, GRACE, SETTLED, STOPPED, Stopping
 from .vehicle import DEAF, UNSIGNED
 from .wire import mavlink
 
-SILENT = 3  # after so many commands without an answer the autopilot may not know it
 ACCEPTED = mavlink.MAV_RESULT_ACCEPTED
 TRANSFER = {
     "MISSION_COUNT",
@@ -63,7 +63,7 @@ class Execution:
         self._stage_at = self._asked_at = self._begun = 0.0
         self._beats = 0
         self._in_mission_at = 0.0  # when it was in the mode of the mission last
-        self._rewinds_by_message = False
+        self._rewinding = None
         self._known, self._asked_for = set(), set()  # the modes that it may be in; those that we asked for
         self._disarmed = None  # since it is disarmed
         self._armed_by_us, self._resumes, self._stopping, self._unknown = False, False, False, False
@@ -198,7 +198,8 @@ class Execution:
 
     def _rewind(self, now):
         self.stage = "rewind"
-        return self._send_command(now, mavlink.MAV_CMD_DO_SET_MISSION_CURRENT, self._progress.first, 1)
+        self._rewinding = Rewinding(self.vehicle, self._commands, self._progress.first)
+        return self._send_command(now, rewinding.COMMAND, self._progress.first, 1)
 
     def _prepare(self, now):
         """After the mission is at its first item: arms the vehicle, or begins."""
@@ -262,13 +263,7 @@ class Execution:
         if now - v.heard_at > 2.5:
             return []  # it would not be known what happened in the meantime
         out = self._commands.tick(now)
-        if out and self.stage == "rewind" and (self._rewinds_by_message or self._commands.times >= SILENT):
-            out = out + [self._set_current()]
-        return out
-
-    def _set_current(self):
-        """What autopilots know that do not know the command."""
-        return mavlink.MAVLink_mission_set_current_message(*self.vehicle.target, self._progress.first)
+        return out + self._rewinding.repeated() if out and self.stage == "rewind" else out
 
     def _acknowledged(self, now, message):
         if not self._commands.acknowledged(now, message):
@@ -276,9 +271,7 @@ class Execution:
         if message.result == ACCEPTED:
             return self._accepted(now)
         if self.stage == "rewind":
-            self._rewinds_by_message = True  # until MISSION_CURRENT confirms it
-            self._commands.later(now)
-            return [self._set_current()]
+            return self._rewinding.refused(now)
         return self._denied(now, message.result)
 
     def _accepted(self, now):
@@ -425,8 +418,7 @@ class Execution:
 
     def _mission_news(self, now):
         v, progress = self.vehicle, self._progress
-        confirms = self._rewinds_by_message or self._commands.times > SILENT
-        if self.stage == "rewind" and confirms and v.current == progress.first:
+        if self.stage == "rewind" and self._rewinding.is_confirmed:
             return self._accepted(now)
         if self.stage not in ("run", "mode"):
             return []
@@ -529,36 +521,22 @@ class Execution:
         self._stop.ordered(now)
         return self._set_mode(now, self.stop_mode)
 
-    def _resumed(self, now, why):
+    def _resumed(self, now, different):
         v = self.vehicle
-        flies = v.mode == v.modes.mission and v.armed
         self._mode_before, self._known = v.mode, {v.mode}
         self._resumes, self._asked_mode = False, None
-        if why is not None:
-            return self._not_recognised(now, why, flies)
-        self._progress.resume()
-        flies = flies or (v.armed and self._progress.returns_by_itself())
-        if v.mission_state == mavlink.MISSION_STATE_COMPLETE:
-            self._end("done")
-            return []
-        if not flies:
-            what = f"it is in mode {v.mode}" if v.armed else "it is not armed"
-            return self._fail(f"does not fly the mission that it was to begin, and may have flown it: {what}")
-        self._stage_at = now
-        if self._stopping:
-            return self._go_to_stop(now)
-        self.stage = "run"
-        self.events.append(("taken",))
-        return []
-
-    def _not_recognised(self, now, why, flies):
-        """It cannot be said what became of the mission. What the vehicle flies is stopped when Dolphin orders it."""
-        self.stage = "unrecognised"
-        if not flies:
-            what = f"is in mode {self.vehicle.mode}" if self.vehicle.armed else "is not armed"
-            return self._fail(f"{what}, and may have flown the mission that it was to begin: {why}")
-        self._tell_unknown(why)
-        return self._go_to_stop(now) if self._stopping else []
+        event = resumption.found(v, self._progress, different)
+        if event == resumption.FLIES:
+            self.stage, self._stage_at = "run", now
+            if not self._stopping:
+                self.events.append(event)
+        elif event[0] == "unknown":
+            # It cannot be known what became of the mission. The vehicle is stopped when Dolphin orders it.
+            self.stage = "unrecognised"
+            self._tell_unknown(event[1])
+        else:
+            self._end(*event)
+        return self._go_to_stop(now) if self._stopping and not self.is_over else []
 
     def _fail(self, why):
         self._end("failed", why)

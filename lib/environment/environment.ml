@@ -298,7 +298,8 @@ let hidden alike n world (pick : Settings.pick) bound =
 
 let assuming assumed choice =
   let t = choice.transition in
-  { choice with transition = { t with assumed = assumed @ t.assumed } }
+  let otherwise = List.map (fun other -> assumed @ other) t.otherwise in
+  { choice with transition = { t with assumed = assumed @ t.assumed; otherwise } }
 
 (* With remembered late vehicles, it matters which one of a class was late. *)
 let picking ?alike options program world e (c : Configuration.t) (pick : Settings.pick) =

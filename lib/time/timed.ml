@@ -394,7 +394,7 @@ let is_of_program step = step.transition.rules <> []
 (* That [item] is over leads to [next], in which [before] was pending. *)
 let of_outside s ~before ~over due next o =
   let transition : Transition.t =
-    { rules = []; label = Silent; next = s.configuration; effects = []; assumed = [] } in
+    { rules = []; label = Silent; next = s.configuration; effects = []; assumed = []; otherwise = [] } in
   let next, fresh = with_pending o ~before ~over [] next in
   { transition; due; fresh; next; urgent = false }
 

@@ -1,6 +1,7 @@
 open Dolphin_semantics
 module System = Dolphin_checker.System
 module Numbering = Dolphin_checker.Numbering
+module Looks = Dolphin_explore.Looks
 
 type goal = Latest | Earliest
 type via = unit
@@ -155,6 +156,19 @@ let add t node =
 
 let rec is_before t m n = m = n || (n > m && is_before t m t.nodes.(n).parent)
 
+(* What is seen of sensors from state [m] to state [n], which it leads to. *)
+let looks_of = function Step { step; _ } -> Looks.of_transition step.transition | Rest _ -> Looks.none
+
+let rec looks_between t m n =
+  if n = m then []
+  else
+    match t.nodes.(n) with
+    | { move = Some move; parent; _ } -> looks_of move :: looks_between t m parent
+    | { move = None; _ } -> []
+
+(* A run goes round in no time only if sensors show one thing all the way. *)
+let is_possible_in_no_time t looks = Looks.agree (Looks.at_one_moment t.options.program) looks
+
 (* A step from state [n] leads back to where an earlier state of the run to it was. *)
 let find_cycle t n move (place : Timed_place.t) zone =
   let comes_back m =
@@ -165,6 +179,9 @@ let find_cycle t n move (place : Timed_place.t) zone =
   | Earliest -> None
   | Latest ->
     let found = List.find_map comes_back place.here in
+    let is_possible (m, by) =
+      by > 0 || Zone.latest_date t.nodes.(m).zone = None
+      || is_possible_in_no_time t (looks_of move :: looks_between t m n) in
     let note (m, by) =
       if t.reduced then raise Broken;
       let known = match t.cycle with Some c -> not c.in_no_time || by = 0 | None -> false in
@@ -172,7 +189,7 @@ let find_cycle t n move (place : Timed_place.t) zone =
       | Step { step; _ } when not known -> t.cycle <- Some { from = m; last = n; back = step; in_no_time = by = 0 }
       | Step _ | Rest _ -> ()
     in
-    Option.iter note found;
+    Option.iter (fun cycle -> if is_possible cycle then note cycle) found;
     found
 
 (* The number of the state that stands for [place] with [zone], to which [move] leads from state [n]. *)
@@ -417,7 +434,21 @@ let cycle_of_returns t =
     match t.nodes.(n) with { move = Some move; parent; _ } -> follow parent (n, move) | { move = None; _ } -> ()
   done;
   List.iter (fun (n, m, move) -> follow n (m, move)) t.returns;
-  match cycle_in t.count successors with
+  let passes_time around = List.exists (fun (n, _) -> Zone.latest_date t.nodes.(n).zone = None) around in
+  let concerns = Looks.at_one_moment t.options.program in
+  (* A cycle that agrees with itself has, of each two looks that do not agree, one at most. *)
+  let rec possible known =
+    let admitted (_, (_, move)) = Looks.admits concerns known (looks_of move) in
+    let kept n edges = List.filter (fun edge -> admitted (n, edge)) edges in
+    match cycle_in t.count (Array.mapi kept successors) with
+    | Some around when not (passes_time around) -> (
+        match Looks.compare_all concerns known (List.map (fun (_, move) -> looks_of move) around) with
+        | Agree -> Some around
+        | Ask (one, other) -> (
+            match possible one with Some around -> Some around | None -> possible other))
+    | found -> found
+  in
+  match possible Looks.nothing with
   | None -> None
   | Some _ when t.reduced -> raise Broken
   | Some around ->

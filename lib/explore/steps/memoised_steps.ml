@@ -43,7 +43,7 @@ let outside_after t (Task_rules.Step { offer; _ }) event outside =
   | Start _ | Perform _ | Check _ | Refute _ | Decide _ | Take _ | Measure _ | Make _ | Allocate _
   | Expiry_of _ | Answer_to _ -> Some outside
 
-type taken = { local : Local_step.t; level : int; certain : bool }
+type taken = { local : Local_step.t; level : int; certain : bool; assumed : World.assumption list list }
 
 (* What [step] does, and at which level: several things, if it depends on sensors that may show this or that. *)
 let taken ?(around = []) t step s =
@@ -67,7 +67,7 @@ let taken ?(around = []) t step s =
   | None -> ([], outside)
   | Some after ->
     let equal local local' = Int.equal (level local) (level local') && Local_step.equal local local' in
-    let one (assumed, local) = { local; level = level local; certain = assumed = [] } in
+    let one (assumed, local) = { local; level = level local; certain = assumed = [ [] ]; assumed } in
     let decision = take () in
     (* Cases with one outcome may have run different handlers. *)
     let note (_, local) = Option.iter (note_handlers t step) local in
@@ -111,12 +111,12 @@ let action t step s =
   step.free_action
 
 let unknown_outcome =
-  { possible = false; certain = true; shared = -1; action = 0; level = 0; target = Gone; rounds = [];
+  { possible = false; certain = true; assumed = [ [] ]; shared = -1; action = 0; level = 0; target = Gone; rounds = [];
     others = [] }
 
 let find ?around t step s =
   let found, outside = taken ?around t step s in
-  let outcome others { local; level; certain } =
+  let outcome others { local; level; certain; assumed } =
     let target =
       match local.outcome with
       | Goes_on r -> Components.landed t.components step level r
@@ -125,7 +125,7 @@ let find ?around t step s =
     in
     let shared = shared_after t local outside and action = observed t local in
     Components.note_rounds t.components local.rounds;
-    { possible = true; certain; shared; action; level; target; rounds = local.rounds; others }
+    { possible = true; certain; assumed; shared; action; level; target; rounds = local.rounds; others }
   in
   match found with
   | [] -> { unknown_outcome with possible = false }

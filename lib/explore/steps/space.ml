@@ -233,7 +233,7 @@ let expand_some t (x : Expansion.source) =
 
 (* {1 Steps one by one} *)
 
-type possible = { at : int list; name : int list; stays : bool; step : Component.step }
+type possible = { at : int list; name : int list; stays : bool; depends : bool; step : Component.step }
 type layers = (int list * Residual.again) list
 
 let inside = -1
@@ -307,7 +307,7 @@ let examine t key ~possible ~taken visitor =
   let follow here place ~is_chosen ~may_end (step : Component.step) layers =
     let each (outcome : outcome) =
       if is_chosen || Memoised_steps.ends_run outcome then begin
-        taken here outcome.rounds layers;
+        taken here outcome.rounds layers outcome.assumed;
         Expansion.take_outcome x place outcome
       end
     in
@@ -317,7 +317,7 @@ let examine t key ~possible ~taken visitor =
         List.iter each (outcome :: outcome.others)
     end
     else if is_chosen then begin
-      taken here step.begins layers;
+      taken here step.begins layers [ [] ];
       ignore (take_step t x place step)
     end
   in
@@ -330,7 +330,8 @@ let examine t key ~possible ~taken visitor =
       | Impossible -> ()
       | Moves _ | Ends | Depends _ ->
         let at, name = position step.index in
-        let here = { at; name; stays = stays step.source; step } in
+        let depends = (match status with Depends _ -> true | Impossible | Moves _ | Ends -> false) in
+        let here = { at; name; stays = stays step.source; depends; step } in
         let is_chosen = (match choice with None -> true | Some chosen -> chosen c k) && is_followed t x step in
         possible here;
         follow here place ~is_chosen ~may_end:analysis.ends.(k) step layers
@@ -338,6 +339,17 @@ let examine t key ~possible ~taken visitor =
     Array.iteri take steps
   in
   Array.iteri go components
+
+let examine_script t key ~taken (visitor : via System.visitor) =
+  let c, outside = Encoding.script t.encoding (Layouts.shared t.layouts key.(0)) in
+  let go ((next : Transition.t), outside) =
+    let action = Observer.of_transition t.observer next in
+    taken next;
+    ignore (Expansion.write_and_visit t.expansion visitor next.rules next.next outside ~action)
+  in
+  Seq.iter go (choices t outside c)
+
+let world t = t.world
 
 (* {1 The system} *)
 

@@ -79,8 +79,9 @@ val may_cycle_in_script : t -> bool
 (** A step that is possible in a state of a task. [at] is where in the task: from the outside in, the place among those
     side by side, or {!inside} for what is inside of a context. With its [name] this is no other step of the state, and
     the same in all states until it is taken or cut off, or the part of the task that it belongs to is over. Until then
-    it [stays] possible, whatever others do, unless it is a guard. *)
-type possible = { at : int list; name : int list; stays : bool; step : Component.step }
+    it [stays] possible, whatever others do, unless it is a guard. It [depends] if sensors may show something with which
+    it is not possible, or does something else. *)
+type possible = { at : int list; name : int list; stays : bool; depends : bool; step : Component.step }
 
 val may_all_stay_away : t -> int array -> Dolphin_semantics.Core.vehicle list -> bool
 (** [may_all_stay_away t key vs] is {!Environment.may_all_stay_away} in the state [key], in which a task executes. *)
@@ -92,11 +93,19 @@ type layers = (int list * Dolphin_semantics.Residual.again) list
 
 val examine :
   t -> int array -> possible:(possible -> unit) -> 
-  taken:(possible -> Dolphin_semantics.Task_rules.round list -> layers -> unit) ->
+  taken:(possible -> Dolphin_semantics.Task_rules.round list -> layers -> World.assumption list list -> unit) ->
   via Dolphin_checker.System.visitor -> unit
 (** [examine t key ~possible ~taken v] is [expand t key v] for a state in which a task executes, where [possible] is
     called for each step that is possible in it, and [taken] before what a step that is followed leads to is visited,
-    with the rounds that begin, and the repeats around. Interruptions and inputs are left out: neither is on a cycle. *)
+    with the rounds that begin, the repeats around, and what sensors show: any of these lists. Interruptions and inputs
+    are left out: neither is on a cycle. *)
+
+val examine_script : t -> int array -> taken:(Transition.t -> unit) -> via Dolphin_checker.System.visitor -> unit
+(** [examine_script t key ~taken v] is [expand t key v] for a state in which no task executes; [taken] is called before
+    what a transition leads to is visited. *)
+
+val world : t -> World.t
+(** What sensors may show. *)
 
 val inputs_at : t -> Environment.t -> string list
 (** [inputs_at t e] is the keys of the inputs that may come where the environment remembers [e]. *)

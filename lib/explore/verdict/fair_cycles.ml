@@ -14,7 +14,8 @@ type verdict =
 (* {1 The part of the graph in which tasks execute} *)
 
 (* Of a step, by its number: see {!Space.possible}. [renews] is the places of the repeats that begin a round,
-   [valuation] that of a formula's propositions. *)
+   [valuation] that of a formula's propositions, [looks] what sensors show. A step that [chooses] does one thing or
+   another, whatever they show; others wait. *)
 type edge = {
   into : int;
   by : int;
@@ -22,10 +23,13 @@ type edge = {
   rounds : Task_rules.round list;
   renews : int list list;
   valuation : int;
+  looks : Looks.t;
+  chooses : bool;
 }
 
-(* The steps that are possible and that nobody may prevent by staying away, and where those lead that are followed. *)
-type node = { possible : int list; edges : edge list }
+(* The steps that are possible and that nobody may prevent by staying away, and where those lead that are followed. At a
+   node that [waits] time may pass: each step that needs no event may be impossible there. *)
+type node = { possible : int list; waits : bool; edges : edge list }
 
 type t = {
   program : Core.program;
@@ -34,10 +38,16 @@ type t = {
   steps : (int, Space.possible) Hashtbl.t;  (* by number *)
   nodes : (int, node) Hashtbl.t;  (* by state *)
   automaton : Monitor.t option;  (* then what is searched is pairs: see {!Formulas} below *)
+  is_open : bool;  (* whether sensors, or the date, may show several things *)
+  whole : bool;  (* whether no steps are left out *)
+  mutable unsure : bool;  (* whether steps that were left out may matter to what was looked at *)
 }
 
-let create ?automaton program graph =
-  { program; graph; numbers = Hashtbl.create 100; steps = Hashtbl.create 100; nodes = Hashtbl.create 1_000; automaton }
+let create ?automaton ?(whole = true) program graph =
+  let reads = program.Core.reads_sensors || program.reads_now in
+  let is_open = reads && World.is_open (Space.world (State_graph.system graph)) in
+  { program; graph; is_open; whole; unsure = false; numbers = Hashtbl.create 100; steps = Hashtbl.create 100;
+    nodes = Hashtbl.create 1_000; automaton }
 
 let number t (p : Space.possible) =
   let id = p.at @ (-2 :: p.name) in
@@ -77,27 +87,58 @@ let certain t key found =
   in
   List.sort_uniq Int.compare (List.map fst (List.filter is_certain found))
 
+let chooses (Task_rules.Step { offer; _ }) =
+  match offer with
+  | Start _ | Perform _ | Decide _ | Measure _ | Make _ | End_of _ | Expiry_of _ | Answer_to _ -> true
+  | Check _ | Take _ | Refute _ | Allocate _ | Recruit_for _ -> false
+
 let examined t i =
   State_graph.visiting t.graph i (fun key arrived visitor ->
-      let found = ref [] and edges = ref [] in
-      let possible p = found := (number t p, p) :: !found in
-      let taken (p : Space.possible) rounds layers =
+      let found = ref [] and edges = ref [] and waits = ref true in
+      let possible (p : Space.possible) =
+        if p.step.event = None && (chooses p.step.source || not p.depends) then waits := false;
+        found := (number t p, p) :: !found
+      in
+      let taken (p : Space.possible) rounds layers looks =
         let by = number t p and is_event = is_event p and renews = places_of rounds layers in
-        let arrive into valuation = edges := { into; by; is_event; rounds; renews; valuation } :: !edges in
+        let chooses = chooses p.step.source in
+        let arrive into valuation =
+          edges := { into; by; is_event; rounds; renews; valuation; looks; chooses } :: !edges in
         arrived := arrive
       in
       Space.examine (State_graph.system t.graph) key ~possible ~taken visitor;
-      { possible = certain t key !found; edges = List.rev !edges })
+      { possible = certain t key !found; waits = !waits; edges = List.rev !edges })
+
+(* The number of no step of a task. *)
+let of_script = -1
+
+let scripted t i =
+  State_graph.visiting t.graph i (fun key arrived visitor ->
+      let edges = ref [] in
+      let taken (next : Transition.t) =
+        let is_event = Looks.is_event next and looks = Looks.of_transition next in
+        let arrive into valuation =
+          edges :=
+            { into; by = of_script; is_event; rounds = []; renews = []; valuation; looks; chooses = true } :: !edges in
+        arrived := arrive
+      in
+      Space.examine_script (State_graph.system t.graph) key ~taken visitor;
+      let waits =
+        match (fst (State_graph.state t.graph i)).control with
+        | Waiting _ -> true
+        | Script _ | Executing _ | Ended _ -> false
+      in
+      { possible = []; waits; edges = List.rev !edges })
+
+let state_executes t i = Space.executes (State_graph.system t.graph) (State_graph.load t.graph i).(0)
 
 let node_of_state t i =
   match Hashtbl.find_opt t.nodes i with
   | Some node -> node
   | None ->
-    let node = examined t i in
+    let node = if state_executes t i then examined t i else scripted t i in
     Hashtbl.add t.nodes i node;
     node
-
-let state_executes t i = Space.executes (State_graph.system t.graph) (State_graph.load t.graph i).(0)
 
 (* {1 Pairs}
 
@@ -129,9 +170,9 @@ let node t i =
   | None -> node_of_state t i
   | Some automaton ->
     let state, q = split t i in
-    let { possible; edges } = node_of_state t state in
+    let found = node_of_state t state in
     let paired e = List.map (fun into -> { e with into }) (pairs_after automaton q e.into e.valuation) in
-    { possible; edges = List.concat_map paired edges }
+    { found with edges = List.concat_map paired found.edges }
 
 let executes t i = state_executes t (fst (split t i))
 
@@ -144,19 +185,24 @@ let acceptance t =
     List.init (Monitor.acceptance_sets automaton) set
 
 let is_accepting t members = List.for_all (fun is_in -> List.exists is_in members) (acceptance t)
-let successors t keeps i = List.filter (fun e -> keeps e && executes t e.into) (node t i).edges
+
+(* A part of the graph: its nodes and edges. *)
+type part = { within : int -> bool; keeps : edge -> bool }
+
+let successors t part i = List.filter (fun e -> part.keeps e && part.within e.into) (node t i).edges
+let of_tasks t keeps = { within = executes t; keeps }
 
 (* {1 Components} *)
 
 type place = { mutable low : int; at : int; mutable rest : edge list }
 
-(* The strongly connected components that have a cycle, of the graph of the edges that [keeps] holds of (Tarjan). *)
-let components t ~tick keeps states =
+(* The strongly connected components that have a cycle, of what can be reached in a part of the graph (Tarjan). *)
+let components t ~tick part states =
   let places = Hashtbl.create 1_000 and on_path = Hashtbl.create 100 in
   let path = Stack.create () and frames = Stack.create () and found = ref [] in
   let enter i =
     tick ();
-    let place = { low = Hashtbl.length places; at = Hashtbl.length places; rest = successors t keeps i } in
+    let place = { low = Hashtbl.length places; at = Hashtbl.length places; rest = successors t part i } in
     Hashtbl.add places i place;
     Hashtbl.add on_path i ();
     Stack.push i path;
@@ -176,7 +222,7 @@ let components t ~tick keeps states =
      | None -> ());
     if place.low = place.at then
       match members i [] with
-      | [ j ] when not (List.exists (fun e -> e.into = j) (successors t keeps j)) -> ()
+      | [ j ] when not (List.exists (fun e -> e.into = j) (successors t part j)) -> ()
       | component -> found := component :: !found
   in
   let step i =
@@ -200,14 +246,72 @@ let components t ~tick keeps states =
   List.iter explore states;
   !found
 
-(* {1 Fairness} *)
-
-type fairness = Fair | Perhaps | Unfair
-
 let inside members =
   let set = Hashtbl.create 100 in
   List.iter (fun i -> Hashtbl.replace set i ()) members;
   Hashtbl.mem set
+
+let kept_inside t part members =
+  let is_in = inside members in
+  fun i -> List.filter (fun e -> is_in e.into) (successors t part i)
+
+let edges_inside t part members = List.concat_map (kept_inside t part members) members
+
+(* {1 Looks}
+
+   Components whose [looks] all agree, each with its part of the graph. If two of them do not agree, a run that agrees
+   has one or the other, so the component is divided. *)
+
+let rec agreeing t ~tick ~looks concerns known part states =
+  let divided members =
+    let part = { part with within = inside members } in
+    match Looks.compare_all concerns known (List.map looks (edges_inside t part members)) with
+    | Agree -> [ (part, members) ]
+    | Ask (one, other) ->
+      let under known =
+        let keeps e = part.keeps e && Looks.admits concerns known (looks e) in
+        agreeing t ~tick ~looks concerns known { part with keeps } members
+      in
+      under one @ under other
+  in
+  let found = components t ~tick part states in
+  if t.is_open then List.concat_map divided found else List.map (fun members -> (part, members)) found
+
+let at_one_moment t ~tick part states =
+  agreeing t ~tick ~looks:(fun e -> e.looks) (Looks.at_one_moment t.program) Looks.nothing part states
+
+(* A step that waits for a date that has passed waits in vain: only what chooses is left to go on in another way. *)
+let choice e = if e.chooses then e.looks else Looks.none
+
+let of_one_date t ~tick part states =
+  agreeing t ~tick ~looks:choice (Looks.of_date t.program) Looks.nothing part states
+
+(* Once time has passed, sensors may show something else. *)
+let passes_time t part members =
+  List.exists (fun i -> (node t i).waits) members
+  || List.exists (fun e -> e.is_event) (edges_inside t part members)
+
+(* Those that some run may go round for ever. Where steps were left out, the node at which time passes may be, too. *)
+let lasting t ~tick part states =
+  let with_time (part, members) =
+    if (not t.is_open) || passes_time t part members then [ (part, members) ]
+    else
+      match at_one_moment t ~tick part members with
+      | [] ->
+        if not t.whole then t.unsure <- true;
+        []
+      | found -> found
+  in
+  List.concat_map with_time (of_one_date t ~tick part states)
+
+(* Those that some run may go round in no time. *)
+let spinning t ~tick part states =
+  let keeps e = part.keeps e && not e.is_event in
+  at_one_moment t ~tick { part with keeps } states
+
+(* {1 Fairness} *)
+
+type fairness = Fair | Perhaps | Unfair
 
 let rec begins_with prefix xs =
   match prefix, xs with
@@ -229,12 +333,8 @@ let owed t edges members =
   | [] -> []
   | first :: rest -> List.fold_left common (List.filter (fun k -> not (is_renewed k)) (node t first).possible) rest
 
-let kept_inside t keeps members =
-  let is_in = inside members in
-  fun i -> List.filter (fun e -> is_in e.into) (successors t keeps i)
-
-let fairness t keeps members =
-  let edges = kept_inside t keeps members in
+let fairness t part members =
+  let edges = kept_inside t part members in
   let taken = Hashtbl.create 100 in
   List.iter (fun i -> List.iter (fun e -> Hashtbl.replace taken e.by ()) (edges i)) members;
   match List.filter (fun k -> not (Hashtbl.mem taken k)) (owed t edges members) with
@@ -249,9 +349,11 @@ let cycle_graph edges : edge Cycles.graph =
 let rec last = function [ x ] -> x | _ :: rest -> last rest | [] -> invalid_arg "Fair_cycles.last"
 
 (* A way around the component that takes all steps that are owed, as far as the component does, comes to a state in
-   which another is not possible, and meets what it has to: its first node, and its edges. *)
-let around t keeps members =
-  let edges = kept_inside t keeps members and start = List.fold_left min max_int members in
+   which another is not possible, and meets what it has to: its first node, by default the least, and its edges. Where
+   looks do not agree, it comes to where time passes. *)
+let around ?start t part members =
+  let edges = kept_inside t part members in
+  let start = match start with Some start -> start | None -> List.fold_left min max_int members in
   let graph = cycle_graph edges in
   let to_goal from goal =
     if goal from then []
@@ -262,8 +364,8 @@ let around t keeps members =
   in
   let is_taken k = List.exists (fun i -> List.exists (fun e -> e.by = k) (edges i)) members in
   let owed = List.filter is_taken (owed t edges members) in
-  let go_on (from, cycle) k =
-    let takes i = List.find_opt (fun e -> e.by = k) (edges i) in
+  let go_on (from, cycle) is_wanted =
+    let takes i = List.find_opt is_wanted (edges i) in
     let way = to_goal from (fun i -> takes i <> None) in
     let at = match way with [] -> from | way -> (last way).into in
     match takes at with
@@ -277,8 +379,17 @@ let around t keeps members =
   let elsewhere k i = not (List.mem k (node t i).possible) in
   let everywhere k = List.for_all (fun i -> List.mem k (node t i).possible) members in
   let sometimes = List.filter (fun k -> not (everywhere k)) (node t start).possible in
-  let goals = List.map elsewhere sometimes @ acceptance t in
-  let from, cycle = List.fold_left meet (List.fold_left go_on (start, []) owed) goals in
+  let looks () = List.map (fun e -> e.looks) (edges_inside t part members) in
+  let agree () = Looks.agree (Looks.at_one_moment t.program) (looks ()) in
+  let waits i = (node t i).waits in
+  let to_wait, to_take =
+    if (not t.is_open) || agree () then ([], [])
+    else if List.exists waits members then ([ waits ], [])
+    else ([], [ (fun e -> e.is_event) ])
+  in
+  let goals = List.map elsewhere sometimes @ acceptance t @ to_wait in
+  let wanted = List.map (fun k e -> e.by = k) owed @ to_take in
+  let from, cycle = List.fold_left meet (List.fold_left go_on (start, []) wanted) goals in
   let back =
     if from = start && cycle <> [] then []
     else
@@ -288,13 +399,33 @@ let around t keeps members =
   in
   (start, cycle @ back)
 
-let lasso t keeps members =
-  let start, cycle = around t keeps members in
+let lasso ?start t part members =
+  let start, cycle = around ?start t part members in
   { stem = State_graph.path t.graph start; around = start :: List.map (fun e -> e.into) cycle }
 
 (* {1 Cycles of the script} *)
 
-let script_cycle t ~tick =
+(* Whether some run goes round these states for ever. *)
+let may_last t states =
+  let hop (i, j) = List.filter (fun e -> e.into = j) (node_of_state t i).edges in
+  let rec pairs = function i :: (j :: _ as rest) -> (i, j) :: pairs rest | [ _ ] | [] -> [] in
+  let hops = List.map hop (pairs states) in
+  let agree concerns looks = Looks.agree concerns (List.map (List.concat_map looks) hops) in
+  let passes_time =
+    List.exists (List.exists (fun e -> e.is_event)) hops || List.exists (fun i -> (node_of_state t i).waits) states in
+  if passes_time then agree (Looks.of_date t.program) choice
+  else agree (Looks.at_one_moment t.program) (fun e -> e.looks)
+
+let whole = { within = (fun _ -> true); keeps = (fun _ -> true) }
+
+(* The least node of the script among these. *)
+let script_node t members = List.find_opt (fun i -> not (executes t i)) (List.sort Int.compare members)
+
+let script_cycle_that_lasts t ~tick =
+  let shown (part, members) = Option.map (fun start -> lasso ~start t part members) (script_node t members) in
+  List.find_map shown (lasting t ~tick whole (State_graph.all t.graph))
+
+let first_script_cycle t ~tick =
   if not (Space.may_cycle_in_script (State_graph.system t.graph)) then None
   else
     let arrivals i = List.map (fun (a : State_graph.arrival) -> (a.into, ())) (State_graph.arrivals t.graph i) in
@@ -310,6 +441,21 @@ let script_cycle t ~tick =
       | None -> invalid_arg "Fair_cycles.script_cycle: a state that is on no cycle"
     in
     Option.map lasso (Cycles.find ~tick graph [ 0 ])
+
+(* With symmetry of vehicles a name need not be the same vehicle's in all states of the script. *)
+let script_cycle t ~tick =
+  match first_script_cycle t ~tick with
+  | Some { around; _ } when t.is_open && not (may_last t around) ->
+    if Space.has_vehicle_symmetry (State_graph.system t.graph) then begin
+      t.unsure <- true;
+      None
+    end
+    else script_cycle_that_lasts t ~tick
+  | found -> found
+
+let may_go_round program graph (lasso : lasso) =
+  let t = create program graph in
+  (not t.is_open) || may_last t lasso.around
 
 (* {1 Verdicts} *)
 
@@ -340,7 +486,7 @@ let left_by t members ~done_too =
   List.sort_uniq String.compare (inputs @ List.filter_map told (List.concat_map leaving members))
 
 let by_design t members =
-  let edges = kept_inside t (fun _ -> true) members in
+  let edges = kept_inside t (of_tasks t (fun _ -> true)) members in
   let endless = function Task_rules.Endless again -> Some again.site | Asked _ | Retried _ -> None in
   let retried = function Task_rules.Retried site -> Some site | Endless _ | Asked _ -> None in
   let rounds = List.concat_map (fun e -> e.rounds) (List.concat_map edges members) in
@@ -349,31 +495,32 @@ let by_design t members =
   (found endless, retries, left_by t members ~done_too:(retries <> []))
 
 let judge program graph ~all:whole =
-  let t = create program graph in
+  let t = create ~whole program graph in
   let tick = State_graph.ticker graph "looking for cycles" in
   let states = List.filter (executes t) (State_graph.all graph) in
   let of_kind keeps =
-    let judged members =
-      match fairness t keeps members with
-      | Perhaps when whole -> (Unfair, members)
-      | fairness -> (fairness, members)
+    let judged (part, members) =
+      match fairness t part members with
+      | Perhaps when whole -> (Unfair, (part, members))
+      | fairness -> (fairness, (part, members))
     in
-    List.map judged (components t ~tick keeps states)
+    List.map judged (lasting t ~tick (of_tasks t keeps) states)
   in
-  let without_event e = not e.is_event and without_endless e = not (is_endless e) and all _ = true in
-  match script_cycle t ~tick, components t ~tick without_event states with
+  let without_endless e = not (is_endless e) and all _ = true in
+  match script_cycle t ~tick, spinning t ~tick (of_tasks t all) states with
   | Some lasso, _ -> Goes_on lasso
-  | None, members :: _ -> Spins (lasso t without_event members)
+  | None, (part, members) :: _ -> Spins (lasso t part members)
   | None, [] -> (
       let asked = of_kind without_endless in
       match List.assoc_opt Fair asked with
-      | Some members -> Goes_on (lasso t without_endless members)
-      | None when List.mem_assoc Perhaps asked -> Unsure
+      | Some (part, members) -> Goes_on (lasso t part members)
+      | None when List.mem_assoc Perhaps asked || t.unsure -> Unsure
       | None -> (
           let endless = of_kind all in
-          let design (fairness, members) = if fairness = Fair then Some (by_design t members) else None in
+          let design (fairness, (_, members)) = if fairness = Fair then Some (by_design t members) else None in
           let designs = List.filter_map design endless in
           match designs with
+          | _ when t.unsure -> Unsure
           | [] -> if List.mem_assoc Perhaps endless then Unsure else Ends
           | designs ->
             let together f = List.sort_uniq Stdlib.compare (List.concat_map f designs) in
@@ -383,9 +530,20 @@ let judge program graph ~all:whole =
 
 (* {1 Formulas} *)
 
+let shown ?start t part members =
+  let start, cycle = around ?start t part members in
+  (fst (split t start), List.map (fun e -> (fst (split t e.into), e.valuation)) cycle)
+
 (* An accepting cycle through the script, in which no step stays possible all around. *)
 let accepting_through_script t automaton ~tick =
   if not (Space.may_cycle_in_script (State_graph.system t.graph)) then None
+  else if t.is_open then
+    let found (part, members) =
+      if is_accepting t members then
+        Option.map (fun start -> shown ~start t part members) (script_node t members)
+      else None
+    in
+    List.find_map found (lasting t ~tick whole (pairs_of t automaton (State_graph.all t.graph)))
   else
     let successors i =
       let state, q = split t i in
@@ -404,23 +562,20 @@ let accepting_through_script t automaton ~tick =
     in
     Option.map shown (Cycles.find ~tick graph (pairs_of t automaton starts))
 
-let violation program graph automaton : Breadth_first.violation option =
+let violation program graph automaton ~fair : Breadth_first.violation option =
   let t = create ~automaton program graph in
   let tick = State_graph.ticker graph "checking formulas" in
   let pairs = pairs_of t automaton (List.filter (state_executes t) (State_graph.all graph)) in
-  let accepting keeps is_fair =
-    let is_it members = is_accepting t members && is_fair members in
-    let shown members =
-      let start, cycle = around t keeps members in
-      (fst (split t start), List.map (fun e -> (fst (split t e.into), e.valuation)) cycle)
-    in
-    Option.map shown (List.find_opt is_it (components t ~tick keeps pairs))
+  let tasks = of_tasks t (fun _ -> true) in
+  let accepting found is_fair =
+    let is_it (part, members) = is_accepting t members && is_fair part members in
+    Option.map (fun (part, members) -> shown t part members) (List.find_opt is_it found)
   in
-  let all _ = true in
+  let is_fair part members = (not fair) || fairness t part members = Fair in
   let ways =
     [ (fun () -> accepting_through_script t automaton ~tick);
-      (fun () -> accepting (fun e -> not e.is_event) (fun _ -> true));
-      (fun () -> accepting all (fun members -> fairness t all members = Fair)) ]
+      (fun () -> accepting (spinning t ~tick tasks pairs) (fun _ _ -> true));
+      (fun () -> accepting (lasting t ~tick tasks pairs) is_fair) ]
   in
   let rec first = function
     | [] -> None

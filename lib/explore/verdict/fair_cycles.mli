@@ -23,11 +23,16 @@ val judge : Dolphin_semantics.Core.program -> State_graph.t -> all:bool -> verdi
     it is never [Unsure].
     @raise Dolphin_checker.Limits.Stop *)
 
+val may_go_round : Dolphin_semantics.Core.program -> State_graph.t -> lasso -> bool
+(** Whether some run goes round the lasso for ever: what it sees of sensors and of the date does not contradict itself
+    without any time in between ({!Looks}). *)
+
 val violation :
   Dolphin_semantics.Core.program ->
   State_graph.t ->
   Dolphin_ltl.Monitor.t ->
+  fair:bool ->
   Dolphin_checker.Breadth_first.violation option
-(** [violation p g m] is a cycle of [p], the runs around it accepted by [m] and fair, or without any event; [g] has been
-    searched with [m], without reductions.
+(** [violation p g m ~fair] is a cycle that a run of [p] may go round for ever, the runs around it accepted by [m], and
+    if [fair], they are fair, or without any event; [g] has been searched with [m], without reductions.
     @raise Dolphin_checker.Limits.Stop *)

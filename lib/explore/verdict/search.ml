@@ -131,8 +131,13 @@ and in_all_states x options =
       termination_of_rounds x options graph)
 
 let termination x options graph ~shortest =
+  let is_kept = options.walks = None && options.bitstate = None in
   if Space.goes_round (State_graph.system graph) then termination_of_rounds x options graph
-  else termination_of_script graph ~shortest
+  else
+    match if is_kept then State_graph.termination graph ~exact:(State_graph.is_exact graph) else Holds with
+    | Violated { stem; around } when not (Fair_cycles.may_go_round x.program graph { stem; around }) ->
+      termination_of_rounds x options graph
+    | Holds | Violated _ | Inconclusive _ -> termination_of_script graph ~shortest
 
 let run_through graph ~shortest states = { steps = Replay.through graph states; cycle = []; shortest; decided = None }
 
@@ -214,12 +219,18 @@ let formula x (options : options) f : verdict * int * int =
       { steps = found.steps; cycle = found.cycle; shortest = found.decided <> None; decided = found.decided }
     in
     let in_fair_runs (verdict : _ Breadth_first.verdict) : _ Breadth_first.verdict =
-      match verdict, options.fairness with
-      | Violated (Breadth_first.Around _), Weak when Space.goes_round (State_graph.system graph) -> (
-          match Fair_cycles.violation x.program graph (Labelling.monitor labelling) with
+      let fair = options.fairness = Weak in
+      let is_kept stem cycle =
+        let around = List.nth stem (List.length stem - 1) :: List.map fst cycle in
+        not (fair && Space.goes_round (State_graph.system graph))
+        && Fair_cycles.may_go_round x.program graph { stem; around }
+      in
+      match verdict with
+      | Violated (Breadth_first.Around { stem; cycle }) when not (is_kept stem cycle) -> (
+          match Fair_cycles.violation x.program graph (Labelling.monitor labelling) ~fair with
           | Some violation -> Violated violation
           | None -> Holds)
-      | (Holds | Violated _ | Inconclusive _), (Weak | No_fairness) -> verdict
+      | Holds | Violated _ | Inconclusive _ -> verdict
     in
     State_graph.run graph;
     let verdict = told (fun () -> of_verdict run (in_fair_runs (State_graph.formula graph))) in

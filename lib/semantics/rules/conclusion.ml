@@ -4,10 +4,11 @@ type t = {
   next : Configuration.t;
   effects : Effect.t list;
   assumed : World.assumption list;
+  otherwise : World.assumption list list;
 }
 
 let make ?(effects = []) rule label control shared =
-  { rules = [ rule ]; label; next = { control; shared }; effects; assumed = [] }
+  { rules = [ rule ]; label; next = { control; shared }; effects; assumed = []; otherwise = [] }
 
 let begun = List.map Effect.begins
 
@@ -27,4 +28,4 @@ let ending ?(waits = []) ?(recruits = []) ?(before = []) rules label (s : Shared
   let bound = s.bound @ List.filter (fun v -> not (List.mem v left)) recruits in
   let released = if bound = [] then [] else [ Effect.Release bound ] in
   let effects = before @ cut waits s @ released @ [ Effect.End ending ] in
-  { rules; label; next = ended s ending; effects; assumed = [] }
+  { rules; label; next = ended s ending; effects; assumed = []; otherwise = [] }

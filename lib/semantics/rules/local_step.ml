@@ -313,7 +313,8 @@ let next m outcome shared : Configuration.t =
 
 let conclude m r { after; outcome; derivation; named; asked; rounds = _ } : Conclusion.t =
   let go_on rules : Conclusion.t =
-    { rules; label = named; next = next m outcome after; effects = asked; assumed = [] }
+    { rules; label = named; next = next m outcome after; effects = asked; assumed = [];
+      otherwise = [] }
   in
   match outcome with
   | Goes_on _ -> go_on derivation

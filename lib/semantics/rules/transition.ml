@@ -22,6 +22,7 @@ type t = Conclusion.t = {
   next : Configuration.t;
   effects : Effect.t list;
   assumed : World.assumption list;
+  otherwise : World.assumption list list;
 }
 
 type refusal = Not_awaited | Bad_answer of string
@@ -101,7 +102,9 @@ let equal (t : t) (t' : t) = Label.equal t.label t'.label && Configuration.equal
 let with_assumed (assumed, (t : t)) = { t with assumed }
 
 (* Without duplicates. If all cases have one transition, it assumes nothing. *)
-let different d = Result.map (List.map with_assumed) (Decision.outcomes ~equal d)
+let different d =
+  let with_all (assumed, (t : t)) = { t with assumed = List.hd assumed; otherwise = List.tl assumed } in
+  Result.map (List.map with_all) (Decision.outcomes ~equal d)
 
 module Seen = Hashtbl.Make (struct
     type nonrec t = t

@@ -31,17 +31,18 @@ let cases d =
   Results.map (fun (assumed, x) -> Result.map (fun x -> (assumed, x)) x) (List.of_seq (leaves d))
 
 let outcomes ~equal d =
+  let rec add assumed x = function
+    | (found, y) :: kept when equal x y -> (assumed :: found, y) :: kept
+    | other :: kept -> other :: add assumed x kept
+    | [] -> [ ([ assumed ], x) ]
+  in
   let of_all all =
-    let add kept (assumed, result) =
-      match result with
-      | Some x when not (List.exists (fun (_, y) -> equal x y) kept) -> (assumed, x) :: kept
-      | Some _ | None -> kept
-    in
-    match List.rev (List.fold_left add [] all) with
-    | [ (_, x) ] when List.for_all (fun (_, result) -> Option.is_some result) all -> [ ([], x) ]
-    | kept -> kept
+    let add kept (assumed, result) = Option.fold result ~none:kept ~some:(fun x -> add assumed x kept) in
+    match List.fold_left add [] all with
+    | [ (_, x) ] when List.for_all (fun (_, result) -> Option.is_some result) all -> [ ([ [] ], x) ]
+    | kept -> List.map (fun (found, x) -> (List.rev found, x)) kept
   in
   match d with
-  | Decided (Some x) -> Ok [ ([], x) ]
+  | Decided (Some x) -> Ok [ ([ [] ], x) ]
   | Decided None -> Ok []
   | Open _ | Unclear _ -> Result.map of_all (cases d)

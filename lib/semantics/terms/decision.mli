@@ -21,6 +21,6 @@ val leaves : 'a t -> (World.assumption list * ('a, Fault.t) result) Seq.t
 val cases : 'a t -> ((World.assumption list * 'a) list, Fault.t) result
 (** [cases d] is {!leaves} of [d] all at once, or its first error. *)
 
-val outcomes : equal:('a -> 'a -> bool) -> 'a option t -> ((World.assumption list * 'a) list, Fault.t) result
-(** [outcomes ~equal d] is the results in {!cases} without duplicates, each with the assumptions of its first case. If
-    every case has the same result, that one assumes nothing. *)
+val outcomes : equal:('a -> 'a -> bool) -> 'a option t -> ((World.assumption list list * 'a) list, Fault.t) result
+(** [outcomes ~equal d] is the results in {!cases} without duplicates, each with the assumptions of all of its cases, at
+    least one. If every case has the same result, it has one case, which assumes nothing. *)

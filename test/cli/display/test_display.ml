@@ -48,7 +48,7 @@ let configuration bound running : Configuration.t =
   }
 
 let transition ?(rules = []) ?(effects = []) ?(running = []) ?(bound = []) label : Transition.t =
-  { rules; label; next = configuration bound running; effects; assumed = [] }
+  { rules; label; next = configuration bound running; effects; assumed = []; otherwise = [] }
 
 let told ts =
   let tell (log, reversed) (time, t) =

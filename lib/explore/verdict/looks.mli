@@ -1,0 +1,50 @@
+(** Whether what runs see of sensors can be seen at one moment. Between two events a sensor keeps its value, and a date
+    that has passed stays passed: docs/explorer.md has the rules. *)
+
+open Dolphin_semantics
+
+type t = World.assumption list list
+(** What a transition takes for granted: any of these lists would do. *)
+
+val none : t
+(** Nothing. *)
+
+val of_transition : Transition.t -> t
+
+val is_event : Transition.t -> bool
+(** Whether it answers an event, which time may go before. *)
+
+val contradict : World.assumption -> World.assumption -> bool
+(** Whether no world has both at one moment. *)
+
+(** {1:concerns What is compared} *)
+
+type concerns = World.assumption -> bool
+
+val at_one_moment : Core.program -> concerns
+(** All that sensors and the date show. A comparison with a variable is left out, for the variable may be assigned. *)
+
+val of_date : Core.program -> concerns
+(** Comparisons of the date with numbers: on a run that goes on for ever each of them comes to one outcome, and keeps
+    it. *)
+
+(** {1:known What is known} *)
+
+type known
+(** What holds at that moment, and what does not. *)
+
+val nothing : known
+
+val admits : concerns -> known -> t -> bool
+(** [admits c k looks] is whether some list of [looks] agrees with [k], as far as [c] concerns it. *)
+
+(** What many looks have in common. *)
+type outcome =
+  | Agree  (** all can be of one moment *)
+  | Ask of known * known  (** it takes to know more: each moment is of the one kind or of the other *)
+
+val compare_all : concerns -> known -> t list -> outcome
+(** [compare_all c k all] is whether a moment at which [k] holds may have all of [all]. *)
+
+val agree : concerns -> t list -> bool
+(** [agree c all] is whether [all] can be of one moment. *)

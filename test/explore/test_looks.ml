@@ -1,0 +1,219 @@
+(* What runs see of sensors does not contradict itself without any time in between. On random programs that go round by
+   what sensors and the date show, a run without events is found exactly if there is one in some world in which all
+   sensors keep their values: each such world is closed, and its transitions are those of the semantics. All programs
+   stand in a [during], so no fair run goes on for ever in another way. PROGRAMS in the environment is how many are
+   tried, 1,500 by default. *)
+
+open Dolphin_semantics
+open Dolphin_environment
+open Dolphin_explore
+module Generate = Test_support.Generate
+module Pure_run = Test_support.Pure_run
+
+let programs = match Sys.getenv_opt "PROGRAMS" with Some n -> int_of_string n | None -> 1_500
+
+let open_world =
+  World.at Any (World.open_battery "b" [] (World.open_battery "a" [] Generate.world))
+
+(* {1 Worlds in which sensors keep their values} *)
+
+let with_battery v x world =
+  match World.find v world with
+  | Some state -> World.add { state with battery = Some x } world
+  | None -> Alcotest.failf "no vehicle %s" v
+
+let shares = [ 0.1; 0.3; 0.45; 0.6; 0.9 ]
+
+let closed_worlds =
+  let world a b date = World.at (Exactly date) (with_battery "b" b (with_battery "a" a Generate.world)) in
+  List.concat_map (fun a -> List.concat_map (fun b -> List.map (world a b) [ 0; 60; 100 ]) shares) shares
+
+let is_event (t : Transition.t) =
+  match t.label with Done _ | Fail _ | Time_out | Resume -> true | _ -> false
+
+(* Whether some run goes round without events in [world], from some state of [g]. *)
+let spins_in (g : Reference.t) world =
+  let colours = Hashtbl.create 100 in
+  let key (c, e) = (Configuration.hash c, c, e) in
+  let same (h, c, e) (h', c', e') = h = h' && Configuration.equal c c' && Environment.compare e e' = 0 in
+  let find k = List.find_opt (fun (k', _) -> same k k') (Hashtbl.find_all colours (let h, _, _ = k in h)) in
+  let rec visit state =
+    let ((h, c, e) as k) = key state in
+    match find k with
+    | Some (_, colour) -> !colour = `On_path
+    | None ->
+      let colour = ref `On_path in
+      Hashtbl.add colours h (k, colour);
+      let next ((t : Transition.t), e) = if is_event t then None else Some (t.next, e) in
+      let choices = Seq.filter_map next (Environment.choices g.options g.program world e c) in
+      let found = List.exists visit (List.of_seq choices) in
+      colour := `Left;
+      found
+  in
+  Array.exists (fun (s : Reference.state) -> visit (s.configuration, s.outside)) g.states
+
+(* {1 Programs} *)
+
+let guard =
+  QCheck2.Gen.oneofl
+    [ "battery(v1) < 0.3"; "battery(v1) >= 0.3"; "battery(v1) > 0.6"; "battery(v1) <= 0.45"; "battery(v2) < 0.3";
+      "battery(v2) > 0.3"; "now() >= 60"; "now() < 60"; "now() > 60"; "battery(v1) < 0.3 && now() < 60";
+      "battery(v1) < 0.3 || battery(v2) > 0.6"; "h == 1"; "poll k: 1"; "consume k: 1" ]
+
+let leaf part =
+  let open QCheck2.Gen in
+  frequency
+    [ (5, map (Printf.sprintf "condition { %s }") guard);
+      (2, return (Printf.sprintf "task('p')[v%d]" part));
+      (1, return "idle(1)"); (1, return "action { h = 1 - h }"); (1, return "action { post k: 1 }");
+      (1, map (Printf.sprintf "action { if (%s) h = 1 else h = 0 }") guard) ]
+
+let rec task depth part =
+  let open QCheck2.Gen in
+  if depth = 0 then leaf part
+  else
+    let inside = task (depth - 1) part in
+    frequency
+      [ (2, leaf part);
+        (4, map2 (Printf.sprintf "(%s >> %s)") inside inside);
+        (3, map2 (Printf.sprintf "(until { %s } run %s)") guard inside);
+        (3, map2 (fun (g, g') (t, t') -> Printf.sprintf "oneOf { when { %s } then %s when { %s } then %s }" g t g' t')
+           (pair guard guard) (pair inside inside));
+        (1, map (Printf.sprintf "(watch %s onError { retry() })") inside);
+        (1, map2 (Printf.sprintf "(repeat %s until { %s })") inside guard) ]
+
+let source =
+  let open QCheck2.Gen in
+  let* n = int_range 1 2 in
+  let* parts = flatten_l (List.init n (fun i -> task 2 (i + 1))) in
+  let around t = Printf.sprintf "(repeat %s)" t in
+  return
+    ("v1 = pick { id 'a' }\nv2 = pick { id 'b' }\nh = 0\n"
+     ^ Printf.sprintf "execute (%s) during 9" (String.concat " | " (List.map around parts)))
+
+(* {1 Comparison} *)
+
+let found = Hashtbl.create 3
+let note what = Hashtbl.replace found what (1 + Option.value ~default:0 (Hashtbl.find_opt found what))
+
+let said (verdict : Search.verdict) =
+  match verdict with
+  | Holds -> "holds"
+  | Violated _ -> "violated"
+  | By_design _ -> "by design"
+  | Unreached _ | Inconclusive _ -> "inconclusive"
+
+let reductions = [ Reduction.Whole; Partial_order; All ]
+
+let verdict program world reduction =
+  let o = Search.run { Search.default with reduction; search_again = 0 } program world in
+  said (List.assoc Property.Termination o.verdicts)
+
+let agrees source =
+  match Pure_run.compile source with
+  | Error _ -> note "refused"; true
+  | Ok program -> (
+      match Reference.explore ~limit:400 Environment.default program open_world with
+      | None | (exception Environment.Unclear _) -> note "skipped"; true
+      | Some g ->
+        let expected = if List.exists (spins_in g) closed_worlds then "violated" else "holds" in
+        note expected;
+        let agrees reduction =
+          let verdict = verdict program open_world reduction in
+          verdict = expected
+          || QCheck2.Test.fail_reportf "%s, %s expected (%s)" verdict expected
+            (String.concat ", " (Reduction.names reduction))
+        in
+        List.for_all agrees reductions)
+
+let test_random () =
+  let test = QCheck2.Test.make ~count:programs ~print:Fun.id ~name:"spins are those of some world" source agrees in
+  Test_support.Property.on_each_seed ~usual:20_261_127 ~programs test;
+  Hashtbl.iter (Printf.printf "%s: %d\n") found
+
+let test_variety () =
+  let enough what =
+    if Option.value ~default:0 (Hashtbl.find_opt found what) * 40 < programs then
+      Alcotest.failf "too few programs for: %s" what
+  in
+  List.iter enough [ "holds"; "violated" ]
+
+(* {1 Examples} *)
+
+let head = "v = pick { id 'a' }\nw = pick { id 'b' }\nh = 0\npost k: 1\n"
+
+let examples =
+  [ (* The battery is low, then it is not, then it is low. *)
+    ( "repeat oneOf {\n\
+       when { battery(v) < 0.3 } then (until { battery(v) >= 0.3 } run task('p'))\n\
+       when { battery(v) >= 0.3 } then (until { battery(v) < 0.3 } run task('q'))\n\
+       }", "by design" );
+    ("repeat (condition { battery(v) < 0.3 } >> condition { battery(v) >= 0.3 })", "by design");
+    ("repeat (condition { battery(v) < 0.3 } >> condition { battery(v) > 0.5 })", "by design");
+    ("repeat (condition { battery(v) < 0.3 } >> condition { battery(v) < 0.5 })", "violated");
+    ("repeat (condition { battery(v) < 0.3 } >> condition { battery(w) >= 0.3 })", "violated");
+    (* A date that has passed stays passed, whatever happens in between. *)
+    ("repeat (condition { now() > 60 } >> condition { now() < 60 })", "by design");
+    ("repeat (condition { poll k: 1 } >> action { h = now() > 60 } >>\n\
+      action { if (h == (now() > 60)) halt 'same' })", "holds");
+    ("repeat (action { h = now() > 60 } >> idle(1) >> action { if (h == (now() > 60)) halt 'same' })", "holds");
+    ("repeat (condition { poll k: 1 } >> action { h = battery(v) > 0.6 } >>\n\
+      action { if (h == (battery(v) > 0.6)) halt 'same' })", "holds");
+    ("repeat (action { h = battery(v) > 0.6 } >> idle(1) >> action { if (h == (battery(v) > 0.6)) halt 'same' })",
+     "by design");
+    ("(repeat oneOf {\n\
+      when { now() > 60 } then (until { now() <= 60 } run task('p'))\n\
+      when { now() <= 60 } then (until { now() > 60 } run task('q'))\n\
+      }) during 2.hours", "holds");
+    ("repeat (condition { now() > 60 } >> idle(1) >> condition { now() > 30 })", "by design");
+    ("repeat (condition { now() > 60 } >> condition { now() > 30 })", "violated");
+    (* A kept reading is of another moment than the next. *)
+    ("repeat (action { h = battery(v) } >> condition { h < 0.3 } >> action { h = battery(w) } >>\n\
+      condition { h >= 0.3 })", "violated") ]
+
+let scripts =
+  [ ("while (true) { message 'a'; h = battery(v) < 0.3; message 'b'; if (h == (battery(v) < 0.3)) halt 'same' }",
+     "holds");
+    ("while (true) { message 'a'; h = battery(v) < 0.3; pause 1; if (h == (battery(v) < 0.3)) halt 'same' }",
+     "violated");
+    ("while (true) { execute condition { battery(v) < 0.3 }; execute condition { battery(v) >= 0.3 } }", "violated");
+    ("while (battery(v) < 0.3) { message 'low' }", "violated");
+    ("late = false\nwhile (!late || now() <= 60) { pause 10; late = now() > 60 }", "violated");
+    ("while (true) { pause 10; if (now() <= 60) halt 'early'; pause 10; if (now() > 60) halt 'late' }", "holds") ]
+
+let test_example (text, expected) () =
+  let program = Pure_run.compile_exn (head ^ text) in
+  let check reduction =
+    let names = String.concat ", " (Reduction.names reduction) in
+    Alcotest.(check string) (names ^ ": " ^ text) expected (verdict program open_world reduction)
+  in
+  List.iter check reductions
+
+let formula program text ~fairness =
+  let f = match Temporal.of_string program text with Ok f -> f | Error why -> failwith why in
+  let o = Search.run { Search.default with formulas = [ f ]; fairness } program open_world in
+  said (snd (List.find (fun (p, _) -> match p with Property.Formula _ -> true | _ -> false) o.verdicts))
+
+let test_formulas () =
+  let program =
+    Pure_run.compile_exn
+      (head ^ "execute (repeat (condition { battery(v) < 0.3 } >> condition { battery(v) >= 0.3 })) during 9") in
+  Alcotest.(check string) "F ended" "holds" (formula program "F ended" ~fairness:Weak);
+  let spinning =
+    Pure_run.compile_exn
+      (head ^ "execute (repeat (condition { battery(v) < 0.3 } >> condition { battery(v) < 0.5 })) during 9") in
+  Alcotest.(check string) "F ended" "violated" (formula spinning "F ended" ~fairness:Weak);
+  let kept sensor = Pure_run.compile_exn (head ^ "execute repeat (action { h = " ^ sensor ^ " > 60 } >> idle(1))") in
+  let stays = "F G { h == true } | F G { h == false } | G F !timeout & !G F timeout" in
+  Alcotest.(check string) "date" "holds" (formula (kept "now()") stays ~fairness:Weak);
+  Alcotest.(check string) "date" "holds" (formula (kept "now()") stays ~fairness:No_fairness);
+  Alcotest.(check string) "battery" "violated" (formula (kept "battery(v)") stays ~fairness:Weak)
+
+let () =
+  let case name f = Alcotest.test_case name `Quick f in
+  Alcotest.run "looks"
+    [ ("tasks", List.map (fun (text, expected) -> case text (test_example ("execute " ^ text, expected))) examples);
+      ("scripts", List.map (fun (text, expected) -> case text (test_example (text, expected))) scripts);
+      ("formulas", [ case "cycles that no world has" test_formulas ]);
+      ("random programs",
+       [ case "a spin is one of some world" test_random; case "there are programs of both kinds" test_variety ]) ]

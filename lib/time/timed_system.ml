@@ -156,7 +156,7 @@ let add t node =
 
 let rec is_before t m n = m = n || (n > m && is_before t m t.nodes.(n).parent)
 
-(* What is seen of sensors from state [m] to state [n], which it leads to. *)
+(* The looks from state [m] to state [n], which it leads to. *)
 let looks_of = function Step { step; _ } -> Looks.of_transition step.transition | Rest _ -> Looks.none
 
 let rec looks_between t m n =

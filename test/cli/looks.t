@@ -1,5 +1,5 @@
-What a run sees of sensors does not contradict itself as long as no time passes: the battery that is low is not full at
-the same moment. So these programs do not go round in no time.
+Looks at sensors do not contradict each other as long as no time passes: a battery that is low is not full at the same
+moment. So these programs do not go round in no time.
 
   $ explore() { dolphin explore "$@" --fleet one.fleet | grep -e termination -e deadlock; }
   $ timed() { dolphin time "$@" --fleet one.fleet | grep -e completed -e 'for ever'; }

@@ -1,7 +1,7 @@
-(* What runs see of sensors does not contradict itself without any time in between. On random programs that go round by
-   what sensors and the date show, a run without events is found exactly if there is one in some world in which all
-   sensors keep their values: each such world is closed, and its transitions are those of the semantics. All programs
-   stand in a [during], so no fair run goes on for ever in another way. PROGRAMS in the environment is how many are
+(* Looks at sensors do not contradict each other without any time in between. On random programs that go round by
+   readings and the date, a run without events is found exactly if there is one in some world in which all sensors
+   keep their values: each such world is closed, and its transitions are those of the semantics. All programs
+   stand in a [during], so no fair run goes on without end in another way. PROGRAMS in the environment is how many are
    tried, 1,500 by default. *)
 
 open Dolphin_semantics

@@ -69,7 +69,7 @@ and guard = {
 and outcome = {
   possible : bool;
   certain : bool;  (* whatever sensors show, where they may show this or that *)
-  assumed : World.assumption list list;  (* what sensors show, if not: any of these *)
+  assumed : World.assumption list list;  (* otherwise the readings that it needs: any of these lists *)
   shared : int;  (* after the step *)
   action : int;
   level : int;  (* whose place [target] takes: that of what the step belongs to (0), of the nest around it (1), ... *)

@@ -181,15 +181,16 @@ let footprint ?(own = []) c { source = Step { offer; continue; _ } as source; ev
 
 let concerns_holding c = c.makes || c.asks_held
 
-(* If all goes well: what the residual [r], in contexts that hold [outer], names no longer. *)
-let lost r outer { source = Step { offer; continue; _ }; _ } =
+(* The vehicles that the residual [r], in contexts that hold [outer], names no longer if all goes well; [failed] if an
+   error is handled. *)
+let lost r outer ~failed { source = Step { offer; continue; _ }; _ } =
   let of_change (change : Task_rules.change) =
     match change.outcome with
     | Next r' ->
       let after = Residual.named r' in
       Footprint.these (List.filter (fun v -> not (List.mem v after)) (Residual.named r))
     | Finished -> Footprint.these (Residual.named r @ outer)
-    | Failed _ | Handling _ -> Footprint.all_vehicles
+    | Failed _ | Handling _ -> failed
   in
   match offer with
   | Start _ -> of_change (continue ())
@@ -202,14 +203,14 @@ let lost r outer { source = Step { offer; continue; _ }; _ } =
   | Answer_to _ -> of_change (continue (Ok true))
   | Make _ | Allocate _ | Recruit_for _ -> Footprint.these []
   | Decide _ -> Footprint.these (Residual.named r @ outer)
-  | Refute _ -> Footprint.all_vehicles
+  | Refute _ -> failed
 
-(* [f], the footprint of [step], with what it frees. An error that is ignored frees whatever it cuts off. *)
-let with_lost c ~ignoring lost step (f : Footprint.t) =
+(* [f], the footprint of [step], with the vehicles that it frees. An ignored error also frees those that it cuts off. *)
+let with_lost c ~ignoring ~failed lost step (f : Footprint.t) =
   if not (concerns_holding c) then f
   else
-    let frees = if f.breaks && ignoring then Footprint.all_vehicles else lost step in
-    union f { Footprint.empty with frees }
+    let lost = union f { Footprint.empty with frees = lost step } in
+    if f.breaks && ignoring then union lost { Footprint.empty with frees = failed } else lost
 
 (* {1 Branches that may run first} *)
 
@@ -287,11 +288,14 @@ let may_be_put_off c { source = Step { offer; _ }; _ } =
   | Start _ | Perform _ | Check _ | Refute _ | Decide _ | Take _ | Measure _ | Make _ | Allocate _ | End_of _
   | Expiry_of _ | Answer_to _ -> false
 
-(* [first] is what the component itself may do. An error may reach any handler around. *)
-let analyse ?own c nests (first : Footprint.t) branches ~lost steps =
+(* [first] is the future of the component itself. An error may reach any handler around. If none of these ignores it,
+   the error cuts off the component alone, whose vehicles are [failed]. *)
+let analyse ?own c nests (first : Footprint.t) branches ~failed ~lost steps =
   let around = all (List.concat_map (handlers_of c) nests) in
   let ignoring = around.ignores || first.ignores in
-  let first = with_lost c ~ignoring (fun () -> Footprint.these []) () first in
+  let failed = if around.ignores then Footprint.all_vehicles else failed in
+  let with_lost lost = with_lost c ~ignoring ~failed lost in
+  let first = with_lost (fun () -> Footprint.these []) () first in
   let with_handlers (f : Footprint.t) = if f.breaks then union f around else f in
   let further futures contexts =
     match futures with
@@ -301,7 +305,7 @@ let analyse ?own c nests (first : Footprint.t) branches ~lost steps =
   let futures = Array.of_list (List.rev (List.fold_left further (further [] []) nests)) in
   let ignores (f : Footprint.t) = f.ignores in
   let cut_by_error level contexts = futures.(level).breaks && List.exists ignores (handlers_of c contexts) in
-  let footprints = Array.map (fun step -> with_lost c ~ignoring lost step (footprint ?own c step)) steps in
+  let footprints = Array.map (fun step -> with_lost (lost ~failed) step (footprint ?own c step)) steps in
   let may_end (f : Footprint.t) = f.breaks || f.halts in
   {
     footprints;
@@ -329,7 +333,8 @@ let of_component c nests r steps =
     | Before _ | Branch_of _ | Body_until _ | Body_during _ | Watched_by _ | Round_of _ -> false
   in
   let branches = if List.exists (List.exists holds) nests then [] else first_branches c around r in
-  analyse ~own c nests (future c r) branches ~lost:(lost r outer) steps
+  let failed = Footprint.these (Residual.named r @ outer) in
+  analyse ~own c nests (future c r) branches ~failed ~lost:(lost r outer) steps
 
 let of_cuts c nests steps =
   match nests with
@@ -337,9 +342,9 @@ let of_cuts c nests steps =
   | contexts :: nests ->
     let f = all (following c contexts :: Array.to_list (Array.map (footprint c) steps)) in
     let first = if f.breaks then all (f :: handlers_of c contexts) else f in
-    let lost _ = Footprint.all_vehicles in
-    let first = if concerns_holding c then union first { Footprint.empty with frees = lost () } else first in
-    analyse c nests first [] ~lost steps
+    let lost = Footprint.all_vehicles in
+    let first = if concerns_holding c then union first { Footprint.empty with frees = lost } else first in
+    analyse c nests first [] ~failed:lost ~lost:(fun ~failed:_ _ -> lost) steps
 
 (* {1 Steps that look at what is held} *)
 

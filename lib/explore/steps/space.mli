@@ -97,15 +97,15 @@ val examine :
   via Dolphin_checker.System.visitor -> unit
 (** [examine t key ~possible ~taken v] is [expand t key v] for a state in which a task executes, where [possible] is
     called for each step that is possible in it, and [taken] before what a step that is followed leads to is visited,
-    with the rounds that begin, the repeats around, and what sensors show: any of these lists. Interruptions and inputs
+    with the rounds that begin, the repeats around, and its assumptions: any of these lists. Interruptions and inputs
     are left out: neither is on a cycle. *)
 
 val examine_script : t -> int array -> taken:(Transition.t -> unit) -> via Dolphin_checker.System.visitor -> unit
 (** [examine_script t key ~taken v] is [expand t key v] for a state in which no task executes; [taken] is called before
-    what a transition leads to is visited. *)
+    the target of a transition is visited. *)
 
 val world : t -> World.t
-(** What sensors may show. *)
+(** The world of {!create}. *)
 
 val inputs_at : t -> Environment.t -> string list
 (** [inputs_at t e] is the keys of the inputs that may come where the environment remembers [e]. *)

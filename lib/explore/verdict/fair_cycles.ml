@@ -14,8 +14,8 @@ type verdict =
 (* {1 The part of the graph in which tasks execute} *)
 
 (* Of a step, by its number: see {!Space.possible}. [renews] is the places of the repeats that begin a round,
-   [valuation] that of a formula's propositions, [looks] what sensors show. A step that [chooses] does one thing or
-   another, whatever they show; others wait. *)
+   [valuation] that of a formula's propositions, [looks] its assumptions. A step that [chooses] is possible
+   with any readings; others wait. *)
 type edge = {
   into : int;
   by : int;
@@ -291,7 +291,7 @@ let passes_time t part members =
   List.exists (fun i -> (node t i).waits) members
   || List.exists (fun e -> e.is_event) (edges_inside t part members)
 
-(* Those that some run may go round for ever. Where steps were left out, the node at which time passes may be, too. *)
+(* Those that a run may repeat without end. If steps were left out, so may be the node at which time passes. *)
 let lasting t ~tick part states =
   let with_time (part, members) =
     if (not t.is_open) || passes_time t part members then [ (part, members) ]
@@ -304,7 +304,7 @@ let lasting t ~tick part states =
   in
   List.concat_map with_time (of_one_date t ~tick part states)
 
-(* Those that some run may go round in no time. *)
+(* Those that a run may repeat in no time. *)
 let spinning t ~tick part states =
   let keeps e = part.keeps e && not e.is_event in
   at_one_moment t ~tick { part with keeps } states
@@ -349,8 +349,8 @@ let cycle_graph edges : edge Cycles.graph =
 let rec last = function [ x ] -> x | _ :: rest -> last rest | [] -> invalid_arg "Fair_cycles.last"
 
 (* A way around the component that takes all steps that are owed, as far as the component does, comes to a state in
-   which another is not possible, and meets what it has to: its first node, by default the least, and its edges. Where
-   looks do not agree, it comes to where time passes. *)
+   which another is not possible, and meets what it has to: its first node, by default the least, and its edges. If
+   looks do not agree, time passes on it. *)
 let around ?start t part members =
   let edges = kept_inside t part members in
   let start = match start with Some start -> start | None -> List.fold_left min max_int members in
@@ -405,7 +405,7 @@ let lasso ?start t part members =
 
 (* {1 Cycles of the script} *)
 
-(* Whether some run goes round these states for ever. *)
+(* Whether some run repeats these states without end. *)
 let may_last t states =
   let hop (i, j) = List.filter (fun e -> e.into = j) (node_of_state t i).edges in
   let rec pairs = function i :: (j :: _ as rest) -> (i, j) :: pairs rest | [ _ ] | [] -> [] in

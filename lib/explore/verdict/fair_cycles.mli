@@ -24,7 +24,7 @@ val judge : Dolphin_semantics.Core.program -> State_graph.t -> all:bool -> verdi
     @raise Dolphin_checker.Limits.Stop *)
 
 val may_go_round : Dolphin_semantics.Core.program -> State_graph.t -> lasso -> bool
-(** Whether some run goes round the lasso for ever: what it sees of sensors and of the date does not contradict itself
+(** Whether some run repeats the lasso without end: its looks at sensors and the date do not contradict each other
     without any time in between ({!Looks}). *)
 
 val violation :
@@ -33,6 +33,6 @@ val violation :
   Dolphin_ltl.Monitor.t ->
   fair:bool ->
   Dolphin_checker.Breadth_first.violation option
-(** [violation p g m ~fair] is a cycle that a run of [p] may go round for ever, the runs around it accepted by [m], and
+(** [violation p g m ~fair] is a cycle that a run of [p] may repeat without end, the runs around it accepted by [m], and
     if [fair], they are fair, or without any event; [g] has been searched with [m], without reductions.
     @raise Dolphin_checker.Limits.Stop *)

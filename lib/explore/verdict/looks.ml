@@ -81,7 +81,7 @@ let contradict (a : World.assumption) (b : World.assumption) =
   | Placed (v, p), Placed (v', p') -> String.equal v v' && Dolphin_geo.Position.compare p p' <> 0
   | (Late _ | Missing _ | Sensed _ | Placed _ | Claim _), _ -> false
 
-(* {1 What is compared} *)
+(* {1 Concerns} *)
 
 type concerns = World.assumption -> bool
 
@@ -111,7 +111,7 @@ let at_one_moment program : concerns = function
   | Sensed _ | Placed _ -> true
   | Late _ | Missing _ -> false
 
-(* What may be computed of a date and numbers. *)
+(* Operations on a date and numbers. *)
 let computing =
   [ "now"; "abs"; "round"; "intValue"; "toInteger"; "doubleValue"; "toDouble"; "Math"; "floor"; "ceil"; "min"; "max" ]
 
@@ -122,7 +122,7 @@ let of_date program : concerns = function
     && not (mentions_variable program text)
   | Sensed _ | Placed _ | Late _ | Missing _ -> false
 
-(* {1 What is known} *)
+(* {1 Knowledge} *)
 
 type known = { holds : World.assumption list; fails : World.assumption list }
 
@@ -139,7 +139,7 @@ let admits concerns known looks = kept concerns known looks <> []
 
 type outcome = Agree | Ask of known * known
 
-(* Each look takes the first of its lists that agrees with those before. Where none does, its first assumption that is
+(* Each look takes the first of its lists that agrees with those before. If none does, its first assumption that is
    not known decides. *)
 let compare_all concerns known all =
   let is_known a = List.exists (same a) known.holds in

@@ -1,10 +1,10 @@
-(** Whether what runs see of sensors can be seen at one moment. Between two events a sensor keeps its value, and a date
+(** Looks at sensors, and whether they can be of one moment. Between two events a sensor keeps its value, and a date
     that has passed stays passed: docs/explorer.md has the rules. *)
 
 open Dolphin_semantics
 
 type t = World.assumption list list
-(** What a transition takes for granted: any of these lists would do. *)
+(** The assumptions of a transition: any of these lists would do. *)
 
 val none : t
 (** Nothing. *)
@@ -17,7 +17,7 @@ val is_event : Transition.t -> bool
 val contradict : World.assumption -> World.assumption -> bool
 (** Whether no world has both at one moment. *)
 
-(** {1:concerns What is compared} *)
+(** {1:concerns Concerns} *)
 
 type concerns = World.assumption -> bool
 
@@ -25,20 +25,19 @@ val at_one_moment : Core.program -> concerns
 (** All that sensors and the date show. A comparison with a variable is left out, for the variable may be assigned. *)
 
 val of_date : Core.program -> concerns
-(** Comparisons of the date with numbers: on a run that goes on for ever each of them comes to one outcome, and keeps
-    it. *)
+(** Comparisons of the date with numbers: on a run without end each of them comes to one outcome, and keeps it. *)
 
-(** {1:known What is known} *)
+(** {1:known Knowledge} *)
 
 type known
-(** What holds at that moment, and what does not. *)
+(** Assumptions that hold at that moment, and others that do not. *)
 
 val nothing : known
 
 val admits : concerns -> known -> t -> bool
 (** [admits c k looks] is whether some list of [looks] agrees with [k], as far as [c] concerns it. *)
 
-(** What many looks have in common. *)
+(** Whether many looks agree. *)
 type outcome =
   | Agree  (** all can be of one moment *)
   | Ask of known * known  (** it takes to know more: each moment is of the one kind or of the other *)

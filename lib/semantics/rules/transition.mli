@@ -28,7 +28,7 @@ type t = Conclusion.t = {
   next : Configuration.t;
   effects : Effect.t list;  (** in the order in which they are to be carried out *)
   assumed : World.assumption list;  (** its assumptions about an open world; otherwise nothing *)
-  otherwise : World.assumption list list;  (** what it could assume instead, each with the same conclusion *)
+  otherwise : World.assumption list list;  (** other assumptions with the same conclusion *)
 }
 
 (** Why an event makes no transition. *)

@@ -942,8 +942,8 @@ let unknown =
        {|if child == place then [] else (ignore (standing x child); [])|}) ]
   @ in_file "lib/explore/order/step_footprints.ml" ~noticed_by:"reduction/test_traps"
     [ ("ends free no vehicle", 
-       {|let frees = if f.breaks && ignoring then Footprint.all_vehicles else lost step in|},
-       {|let frees = if f.breaks && ignoring then Footprint.all_vehicles else (ignore (lost step); Footprint.empty.frees) in|} ) ]
+       {|let lost = union f { Footprint.empty with frees = lost step } in|},
+       {|let lost = ignore (lost step); f in|} ) ]
   @ in_file "lib/explore/order/footprint.ml" ~noticed_by:"reduction/test_traps"
     [ ("to ask who runs is nobody's concern",
        {|  | Builtin (Make_idle | Is_running), _ -> { breaking with claims = All; looks = true }|},

@@ -1079,6 +1079,14 @@ let limits =
         {|(used + (0 * g.unseen) + growth)|} );
     ]
 
+let looks =
+  in_file "lib/explore/verdict/looks.ml" ~noticed_by:"explore/test_looks"
+    [ ("looks never contradict each other", {|(not (List.exists (contradict a) known.holds))|},
+       {|(not (List.exists (contradict a) known.holds && false))|}) ]
+  @ in_file "lib/explore/verdict/fair_cycles.ml" ~noticed_by:"explore/test_looks"
+    [ ("time passes before an action that reads sensors", {|(chooses p.step.source || not p.depends)|},
+       {|(not p.depends)|}) ]
+
 let fair_cycles =
   in_file "lib/explore/verdict/fair_cycles.ml" ~noticed_by:"explore/test_fairness"
     [
@@ -1703,6 +1711,6 @@ let all =
       task_rules; local_step; run_code; answers_in_words; confirm; unknown; on_interrupt;
       fences; pick_rules; conclusion; recruits; allocation; tuple_space; task_rules_in_walks; local_step_in_walks;
       conclusion_in_walks; allocation_in_traps; local_step_in_traps; pick_rules_in_traps;
-      sets_with_events; driver; fair_cycles; limits;
+      sets_with_events; driver; looks; fair_cycles; limits;
       alike_values; division; arrangement; coverage; search_pattern; travel; heights; narrow_bars; vector;
       zone; timed; place; timed_system; schedule; recorded; durations; share; sampled; processes; prelude ]

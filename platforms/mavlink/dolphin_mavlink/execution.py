@@ -548,4 +548,4 @@ class Execution:
             self.events.append(event)
             self._commands.waiting, self._boarding = None, None
             if event[0] == "done":
-                self.vehicle.idle_mission = True
+                self.vehicle.finished(unseen=self._asked_mode is not None)

@@ -116,7 +116,7 @@ class Station:
     def watch(self, now, name, vehicle, mission):
         """Judges a mission that another station has begun, as the request `name`."""
         request = self._requests[name] = _Request(self.name_of(vehicle.system), {}, math.inf, now)
-        request.execution = self._execution(vehicle, mission, math.inf)
+        request.execution = self._execution(now, vehicle, mission, math.inf)
         self._do(now, request, request.execution.watch(now))
 
     # Names
@@ -331,7 +331,7 @@ class Station:
             self._end(now, name, {"kind": "failed", "why": why})
             return
         # A mission that may have been begun is stopped, even if it cannot be recognised.
-        request.execution = self._execution(vehicle, missions.UNKNOWN if why else mission, request.timeout)
+        request.execution = self._execution(now, vehicle, missions.UNKNOWN if why else mission, request.timeout)
         execution = request.execution
         out = execution.resume(now, why) if request.resumes else execution.begin(now)
         if request.stops:
@@ -348,8 +348,8 @@ class Station:
             return noted
         return plans.compile_plan(request.plan, self._stored, plans.vehicle(request.vehicle, vehicle))
 
-    def _execution(self, vehicle, mission, timeout):
-        vehicle.idle_mission = vehicle.idle_mission and vehicle.mode == vehicle.modes.mission
+    def _execution(self, now, vehicle, mission, timeout):
+        vehicle.begins(now)
         return Execution(vehicle, self._trips[vehicle.system], mission, timeout, self._options.on_stop)
 
     def _order_stop(self, now, line):

@@ -119,6 +119,7 @@ class Vehicle:
         self.pilot = None  # the mode in which a pilot took it over; until it is given back
         self.hand = None  # what keeps it from the next plan then
         self.idle_mission = False  # its mission has ended, and it is still in that mode
+        self._idle_until = -math.inf  # until then the mode of a mission that is over may show for the first time
         self._orders = {}
 
     @property
@@ -128,6 +129,17 @@ class Vehicle:
     @property
     def home_is_item_0(self):
         return self.autopilot == modes.ARDUPILOT
+
+    def finished(self, unseen):
+        """Its mission is over. `unseen`: whether no heartbeat has shown the mode of the mission yet."""
+        self.idle_mission = True
+        now = max(self.heard.values(), default=self.heard_at)
+        self._idle_until = now + LINK_SILENCE if unseen and self.mode != self.modes.mission else -math.inf
+
+    def begins(self, now):
+        """Another mission is to begin: of the one before only its mode may be left, now or in the next heartbeat."""
+        may_show = self.mode == self.modes.mission or now <= self._idle_until
+        self.idle_mission = self.idle_mission and may_show
 
     def link(self, now):
         return now - self.heard_at <= LINK_SILENCE
@@ -176,7 +188,8 @@ class Vehicle:
         if not armed or (mode != self.mode and mode in self.modes.given_back and mode != self.pilot):
             self.pilot = None
         if mode != self.mode or not armed:
-            self.idle_mission = False
+            still_shows = armed and mode == self.modes.mission and now <= self._idle_until
+            self.idle_mission = self.idle_mission and still_shows
         if armed:
             self.armed_at, self.grounded = now, bool(self.landed)
         elif self.disarmed_at <= self.armed_at:

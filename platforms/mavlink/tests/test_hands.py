@@ -109,6 +109,52 @@ class Ends(Case):
                     self.assertEqual(len(vehicle.began), 1)
 
 
+    def test_the_next_mission_while_a_heartbeat_still_shows_the_mode_of_the_one_before(self):
+        """Of a short mission of which no heartbeat arrived before its end."""
+        for kind, px4 in (("copter", True), ("plane", True), ("rover", False)):
+            for again in (False, True):
+                with self.subTest(kind=kind, px4=px4, again=again):
+                    vehicle, wires = flown(kind, px4, way(3))
+                    vehicle.tells_state = False
+                    mission, act = vehicle.modes.mission, wires._act
+                    wires.loses = lambda m: vehicle.began and m.get_type() == "HEARTBEAT"
+
+                    def at_once():
+                        act()
+                        if wires.end_of("r") is not None and not wires.said(None, "r2"):
+                            wires._act = act
+                            wires.loses = lambda m: False
+                            if again:
+                                wires.start("r2", "mav-1", stored())
+                            late, vehicle.mode = vehicle.mode, mission
+                            vehicle._beat(wires.now)
+                            vehicle.mode = late
+                            wires.say(vehicle, vehicle._take())
+                            wires.run(0.02)
+                            if not again:
+                                wires.start("r2", "mav-1", stored())
+
+                    wires._act = at_once
+                    self.ends(wires, "r2", "done")
+                    self.assertEqual(len(vehicle.began), 2)
+
+    def test_a_mission_of_another_station_after_ours(self):
+        """It is not taken for ours."""
+        for kind, px4, mode in AFTER:
+            with self.subTest(kind=kind, px4=px4):
+                vehicle, wires = flown(kind, px4, way(3))
+                self.ends(wires, "r", "done")
+                wires.run(8)
+                vehicle.items = [i.message((1, 1), n) for n, i in enumerate((waypoint(0, 0), *way(30)))]
+                vehicle._rewind()
+                wires.say(vehicle, vehicle.pilot(wires.now, vehicle.modes.mission))
+                wires.run(2)
+                wires.start("r2", "mav-1", stored())
+                end = wires.run_to_end("r2")
+                self.assertEqual(end["kind"], "failed")
+                self.assertIn("flies a mission of another station", end["why"])
+
+
 class Pilots(Case):
     """A pilot's hand is recognised, soon, and nothing is sent after it."""
 
@@ -236,8 +282,11 @@ class Copies(Case):
                     draw = random.Random(seed)
                     vehicle, wires = one(kind, px4, way(12), seed=seed, doubled=0.4, reordered=0.4)
                     wires.run(5)
+                    wires.doubled = wires.reordered = 0.0  # the upload is another matter
                     wires.start("r", "mav-1", stored())
-                    wires.run(30, lambda: vehicle.began)
+                    self.assertTrue(wires.run(30, lambda: wires.said("note")))
+                    wires.doubled = wires.reordered = 0.4
+                    self.assertTrue(wires.run(30, lambda: vehicle.began))
                     wires.run(0.4 * draw.random())
                     wires.stop("r")
                     self.ends(wires, "r", "stopped")

@@ -478,6 +478,21 @@ let test_violated text ~stem ~cycle () =
     check_states "cycle" cycle (numbers search (List.map fst around.cycle))
   | _, (Holds | Inconclusive _) -> Alcotest.failf "%s is not violated" text
 
+(* Of a level with more states than are added at once, the last may rest, where the formula does not hold. The others
+   lead to states, one step deeper, at which it cannot hold any more. *)
+let wide () =
+  let successors = function
+    | [ 0 ] -> List.init 300 (fun i -> [ 10 + i ]) @ [ [ 1_000 ] ]
+    | [ n ] when n < 1_000 -> [ [ 5_000 + n ] ]
+    | _ -> []
+  in
+  Vectors.make ~is_end:true [ 0 ] successors
+
+let test_soonest () =
+  match verdict (wide ()) "(X X three) & F three" with
+  | search, Violated (Whatever_follows path) -> check_states "path" [ [ 0 ]; [ 1_000 ] ] (numbers search path)
+  | _, (Holds | Violated (Around _) | Inconclusive _) -> Alcotest.fail "it is not decided"
+
 (* {1 Disk} *)
 
 let stopped search = Option.map (Format.asprintf "%a" Limits.pp_bound) (Search.stopped search)
@@ -548,6 +563,7 @@ let () =
         [ case "F three" (test_holds (counter ()) "F three"); case "F G !three" (test_holds (counter ()) "F G !three");
           case "three or not" (test_holds (counter ()) "G (three | !three)");
           case "F G three, at rest" (test_holds (resting ()) "F G three");
+          case "the least deep violation is shown" test_soonest;
           case "G !three" (test_violated "G !three" ~stem:(range 0 3) ~cycle:[]);
           case "G F three" (test_violated "G F three" ~stem:(range 0 5) ~cycle:(range 6 9 @ [ [ 5 ] ])) ] );
     ]

@@ -82,7 +82,7 @@ Act(r) ==
   CASE r.op = "seq" -> [ r EXCEPT !.first = Act(@) ]
     [] r.op = "par" -> [ r EXCEPT !.branches = Each(@, Act) ]
     [] r.op \in { "allOf", "repeat" } -> [ r EXCEPT !.runs = Each(@, Act) ]
-    [] r.op \in { "until", "watch", "hold", "recruited" } -> [ r EXCEPT !.body = Act(@) ]
+    [] r.op \in { "until", "watch", "hold", "recruited", "fresh" } -> [ r EXCEPT !.body = Act(@) ]
     [] r.op = "during" -> IF Is(r.time, "closure") THEN r ELSE [ r EXCEPT !.started = TRUE, !.body = Act(@) ]
     [] OTHER -> r
 
@@ -93,7 +93,7 @@ Running(r) ==
     [] r.op = "seq" -> Running(r.first)
     [] r.op = "par" -> Flatten(Each(r.branches, Running))
     [] r.op \in { "allOf", "repeat" } -> Flatten(Each(r.runs, Running))
-    [] r.op \in { "until", "watch", "hold", "recruited" } -> Running(r.body)
+    [] r.op \in { "until", "watch", "hold", "recruited", "fresh" } -> Running(r.body)
     [] r.op = "during" -> IF r.started THEN Running(r.body) ELSE << >>
     [] OTHER -> << >>
 
@@ -106,7 +106,7 @@ Timers(r) ==
     [] r.op = "seq" -> Timers(r.first)
     [] r.op = "par" -> Flatten(Each(r.branches, Timers))
     [] r.op \in { "allOf", "repeat" } -> Flatten(Each(r.runs, Timers))
-    [] r.op \in { "until", "watch", "hold", "recruited" } -> Timers(r.body)
+    [] r.op \in { "until", "watch", "hold", "recruited", "fresh" } -> Timers(r.body)
     [] r.op = "during" -> IF r.started THEN << [ i |-> r.timer, time |-> r.time ] >> \o Timers(r.body) ELSE << >>
     [] OTHER -> << >>
 
@@ -117,8 +117,19 @@ Recruits(r) ==
     [] r.op = "seq" -> Recruits(r.first)
     [] r.op = "par" -> Flatten(Each(r.branches, Recruits))
     [] r.op \in { "allOf", "repeat" } -> Flatten(Each(r.runs, Recruits))
-    [] r.op \in { "until", "watch", "hold" } -> Recruits(r.body)
+    [] r.op \in { "until", "watch", "hold", "fresh" } -> Recruits(r.body)
     [] r.op = "during" -> IF r.started THEN Recruits(r.body) ELSE << >>
+    [] OTHER -> << >>
+
+(* The numbers of the keys of tasks in the active part of r. *)
+RECURSIVE Keys(_)
+Keys(r) ==
+  CASE r.op = "fresh" -> r.keys \o Keys(r.body)
+    [] r.op = "seq" -> Keys(r.first)
+    [] r.op = "par" -> Flatten(Each(r.branches, Keys))
+    [] r.op \in { "allOf", "repeat" } -> Flatten(Each(r.runs, Keys))
+    [] r.op \in { "until", "watch", "hold", "recruited" } -> Keys(r.body)
+    [] r.op = "during" -> IF r.started THEN Keys(r.body) ELSE << >>
     [] OTHER -> << >>
 
 RecruitsOf(kappa) == IF kappa.at = "exec" THEN Recruits(kappa.r) ELSE << >>
@@ -174,6 +185,7 @@ IsResidual(r, active) ==
        [] r.op = "hold" ->
             active /\ r.vehicles # << >> /\ Range(r.vehicles) \subseteq Bound /\ IsResidual(r.body, active)
        [] r.op = "recruit" -> r.timer \in Nat \ { 0 } /\ r.place \in Nat \ { 0 } /\ Is(r.code, "closure")
+       [] r.op = "fresh" -> Range(r.keys) \subseteq Nat \ { 0 } /\ IsResidual(r.body, active)
        [] r.op = "recruited" -> active /\ r.v \notin Range(B) /\ IsResidual(r.body, active)
        [] OTHER -> FALSE
 
@@ -265,7 +277,7 @@ Leaves(t, allowed) ==
     [] t.op = "on" ->
          Leaves(t.body, << IF allowed = << >> THEN t.vehicles ELSE Intersection(t.vehicles, allowed[1]) >>)
     [] t.op \in { "allOf", "oneOf" } -> Flatten(Each(t.branches, LAMBDA b : Leaves(b.body, allowed)))
-    [] t.op \in { "until", "during", "watch", "repeat" } -> Leaves(t.body, allowed)
+    [] t.op \in { "until", "during", "watch", "repeat", "fresh" } -> Leaves(t.body, allowed)
     [] OTHER -> << >>
 
 LeafCount(t) == Len(Leaves(t, << >>))
@@ -281,7 +293,7 @@ Exclusive(t, n) ==
     [] t.op \in { "allOf", "oneOf" } ->
          UNION { LET before == Flatten(Each(SubSeq(t.branches, 1, j - 1), LAMBDA b : Leaves(b.body, << >>)))
                  IN Exclusive(t.branches[j].body, n + Len(before)) : j \in DOMAIN t.branches }
-    [] t.op \in { "on", "until", "during", "watch", "repeat" } -> Exclusive(t.body, n)
+    [] t.op \in { "on", "until", "during", "watch", "repeat", "fresh" } -> Exclusive(t.body, n)
     [] OTHER -> { }
 
 (* The devices that v lacks for p, or nothing. *)
@@ -342,7 +354,7 @@ TimerCount(t, first) ==
          LET counts[j \in 0 .. Len(t.branches)] ==
                IF j = 0 THEN 0 ELSE counts[j - 1] + TimerCount(t.branches[j].body, first)
          IN counts[Len(t.branches)]
-    [] t.op \in { "on", "until", "repeat" } -> TimerCount(t.body, first)
+    [] t.op \in { "on", "until", "repeat", "fresh" } -> TimerCount(t.body, first)
     [] OTHER -> 0
 
 (* Timers for a task made at a place of the executed task, as many as it needs: none of those in use. *)
@@ -356,10 +368,11 @@ FreshFrom(i, used, count) ==
 FreshTimers(place, used, count) == FreshFrom(place + Generation, used, count)
 
 (* The data for the parts of a task besides vehicles of q.bound: q.numbers, if it is made at its turn, are its
-   timers. *)
-Executed == [ allowed |-> << >>, place |-> 0, depth |-> 0, numbers |-> << >>, bound |-> B ]
+   timers; those of q.used are taken. *)
+Executed == [ allowed |-> << >>, place |-> 0, depth |-> 0, numbers |-> << >>, used |-> { }, bound |-> B ]
 IsExecuted(q) == q.place = 0
 TimerOf(i, q) == IF IsExecuted(q) THEN i ELSE q.numbers[i]
+KeyNumber(i, q) == IF IsExecuted(q) THEN i ELSE FreshTimers(q.place, q.used, i)[i]
 
 RECURSIVE Assigned(_, _, _, _, _)
 Assigned(t, f, n, i, q) ==
@@ -395,13 +408,15 @@ Assigned(t, f, n, i, q) ==
     [] t.op = "watch" ->
          LET place == IF IsExecuted(q) THEN i + 1 ELSE q.place
              next == IF IsExecuted(q) /\ Recovers(t) THEN i + 1 ELSE i
-             request == [ task |-> t.body, allowed |-> q.allowed, place |-> place, depth |-> q.depth ]
+             watched == IF "closed" \in DOMAIN t THEN t.closed ELSE t.body
+             request == [ task |-> watched, allowed |-> q.allowed, place |-> place, depth |-> q.depth ]
          IN [ op |-> "watch", body |-> Assigned(t.body, f, n, next, q), handler |-> t.handler,
               anew |-> IF Recovers(t) THEN << request >> ELSE << >> ]
     [] t.op = "repeat" ->
          LET each == Assigned(t.body, f, n, i, q)
              left == IF t.rounds = << >> THEN << >> ELSE << t.rounds[1] - 1 >>
          IN [ op |-> "repeat", runs |-> << each >>, left |-> left, until |-> t.until, each |-> each, at |-> t.at ]
+    [] t.op = "fresh" -> [ op |-> "fresh", keys |-> t.keys, body |-> Assigned(t.body, f, n, i, q) ]
     [] t.op \in { "action", "condition" } -> t
 
 NoCandidate(leaf, V) ==
@@ -433,19 +448,19 @@ Conflict(leaves, exclusive, V) ==
 DependsOnPlaces(t) == \E leaf \in Range(Leaves(t, << >>)) : leaf.p.plan # 0
 
 (* alloc(t, V) for those V that are allowed, where vehicles are at their seen places: <<"ok", r and the vehicles that
-   it has>>, or <<"wrong", fault>>. *)
-AllocWithin(t, allowed, q, sees) ==
+   it has>>, or <<"wrong", fault>>. The tasks of each fresh in t are known; their keys have the first i numbers. *)
+AllocWithin(t, i, allowed, q, sees) ==
   LET leaves == Leaves(t, allowed)
       hopeless == SelectSeq(leaves, LAMBDA leaf : Candidates(leaf, q.bound) = { })
       exclusive == Exclusive(t, 0)
       feasible == Feasible(leaves, exclusive, Len(leaves), q.bound)
   IN CASE hopeless # << >> -> Bad(NoCandidate(hopeless[1], q.bound))
        [] feasible = { } -> Bad(Conflict(leaves, exclusive, q.bound))
-       [] OTHER -> Only({ Ok([ r |-> Assigned(t, f, 0, 0, q),
+       [] OTHER -> Only({ Ok([ r |-> Assigned(t, f, 0, i, q),
                                vehicles |-> SelectSeq(q.bound, LAMBDA v : \E j \in Range(f) : q.bound[j] = v) ]) :
                           f \in { Best(leaves, feasible, sees, q.bound) } })
 
-Alloc(t, sees) == AllocWithin(t, << >>, Executed, sees)
+Alloc(t, i, sees) == AllocWithin(t, i, << >>, Executed, sees)
 
 -----------------------------------------------------------------------------
 (* {1 Steps of residuals} *)
@@ -467,8 +482,22 @@ GoesOn(s) == s.out[1] = "next"
 IsDone(s) == s.out[1] = "ok"
 IsErr(s) == s.out[1] = "err"
 
+(* s, after which N is without pairs of the keys of these numbers. *)
+Forgetting(s, numbers) ==
+  LET keys == { KeyText(i) : i \in Range(numbers) }
+      gone == PairsWith(s.S.N, keys)
+  IN IF gone = << >> THEN s
+     ELSE [ s EXCEPT !.S.N = WithoutKeys(@, keys), !.deeds = Append(@, [ did |-> "forget", pairs |-> gone ]) ]
+
+(* s, by which the executed task is over: no key of fresh has a pair. *)
+ForgettingAll(s) ==
+  LET keys == { pair[1] : pair \in { pair \in DOMAIN s.S.N.bag : IsKeyText(pair[1]) } }
+  IN IF keys = { } THEN s
+     ELSE [ s EXCEPT !.S.N = WithoutKeys(@, keys),
+                     !.deeds = Append(@, [ did |-> "forget", pairs |-> PairsWith(s.S.N, keys) ]) ]
+
 (* s, by which the turn of r comes, which is active now. *)
-Entering(s, r) == Asking(s, SetTimers(Timers(r)))
+Entering(s, r) == Asking(Forgetting(s, Keys(r)), SetTimers(Timers(r)))
 
 (* S without A(V). *)
 WithoutA(S, V) == [ S EXCEPT !.A = [ v \in DOMAIN @ \ V |-> @[v] ] ]
@@ -720,6 +749,10 @@ InRepeat(s, r) ==
 Unallocated(r, t) ==
   [ op |-> "unallocated", task |-> t, allowed |-> r.allowed, place |-> r.place, depth |-> r.depth + 1 ]
 
+OnlyComputes(code) ==
+  "{ " \o LambdaNames[code[2]] \o " }"
+  \o " makes a task, so it may only compute: it may not post, consume, assign or say anything"
+
 (* Why the code of r made no task, though it ran: << >>, if it did. *)
 WhyNotMade(S, r, run) ==
   LET lambda == Lambdas[r.code[2]]
@@ -733,13 +766,76 @@ WhyNotMade(S, r, run) ==
             << "closures in tasks that closures give nest more than " \o ToString(Deepest)
                \o " deep: what goes on and on is a repeat" >>
        [] run.deeds # << >> \/ run.S.store # S.store ->
-            << text \o " makes a task, so it may only compute: it may not post, consume, assign or say anything" >>
+            << OnlyComputes(r.code) >>
        [] ~IsTask(run.value) -> << text \o ": " \o Sentence(Expected("a task", run.value)) >>
        [] OTHER -> << >>
 
 MAKE(S, r, run) ==
   Step("MAKE", "make", Program, Knowing(S, run.S.sees), Next_(Unallocated(r, TaskOf(run.value))), << >>)
 MAKE_ERR(s) == By(s, "MAKE-ERR", s.out)
+
+(* {2 Fresh keys} *)
+
+RECURSIVE HasFresh(_)
+HasFresh(t) ==
+  CASE t.op = "fresh" -> TRUE
+    [] t.op \in { "seq", "par" } -> HasFresh(t.left) \/ HasFresh(t.right)
+    [] t.op \in { "allOf", "oneOf" } -> \E j \in DOMAIN t.branches : HasFresh(t.branches[j].body)
+    [] t.op \in { "on", "until", "during", "watch", "repeat" } -> HasFresh(t.body)
+    [] OTHER -> FALSE
+
+(* The task t, the last key of which has the i-th number; or the fault of its code. *)
+OpenedAs(S, t, i) == [ S |-> S, t |-> t, i |-> i, why |-> << >> ]
+Unopened(S, t, i, fault) == [ OpenedAs(S, t, i) EXCEPT !.why = << fault >> ]
+And(outcomes, F(_)) == Flatten(Each(outcomes, LAMBDA o : IF o.why = << >> THEN F(o) ELSE << o >>))
+
+(* t with the task of each fresh in it, of keys with the numbers after the i-th, from left to right: once for each
+   outcome that the code may have by the sensors. A handler that retries its task keeps it unopened. *)
+RECURSIVE Opened(_, _, _, _, _)
+Opened(S, t, i, depth, q) ==
+  CASE ~HasFresh(t) -> << OpenedAs(S, t, i) >>
+    [] t.op \in { "seq", "par" } ->
+         And(Opened(S, t.left, i, depth, q),
+             LAMBDA o : And(Opened(o.S, t.right, o.i, depth, q),
+                            LAMBDA p : << OpenedAs(p.S, [ t EXCEPT !.left = o.t, !.right = p.t ], p.i) >>))
+    [] t.op = "watch" ->
+         And(Opened(S, t.body, i, depth, q),
+             LAMBDA o : << OpenedAs(o.S, [ t EXCEPT !.body = o.t ] @@ [ closed |-> t.body ], o.i) >>)
+    [] t.op \in { "on", "until", "during", "repeat" } ->
+         And(Opened(S, t.body, i, depth, q), LAMBDA o : << OpenedAs(o.S, [ t EXCEPT !.body = o.t ], o.i) >>)
+    [] t.op \in { "allOf", "oneOf" } ->
+         LET upTo[j \in 0 .. Len(t.branches)] ==
+               IF j = 0 THEN << OpenedAs(S, << >>, i) >>
+               ELSE And(upTo[j - 1],
+                        LAMBDA o : And(Opened(o.S, t.branches[j].body, o.i, depth, q),
+                                       LAMBDA p : << OpenedAs(p.S, Append(o.t, [ t.branches[j] EXCEPT !.body = p.t ]),
+                                                              p.i) >>))
+         IN And(upTo[Len(t.branches)], LAMBDA o : << OpenedAs(o.S, [ t EXCEPT !.branches = o.t ], o.i) >>)
+    [] t.op = "fresh" ->
+         LET count == Lambdas[t.code[2]].parameters
+             keys == << >> \o [ j \in 1 .. count |-> KeyNumber(i + j, q) ]
+             r == [ code |-> t.code, given |-> Each(keys, LAMBDA k : String(KeyText(k))), depth |-> depth ]
+             wrong(run, message, at) == << Unopened(Knowing(S, run.S.sees), t, i, Fault(message, at)) >>
+             of(run) ==
+               CASE run.is = "fault" -> wrong(run, run.value.message, run.value.at)
+                 [] run.is = "halt" -> wrong(run, OnlyComputes(t.code), -t.code[2])
+                 [] IsReading(run.value) -> Assert(FALSE, OpenHere(run.value[3], -t.code[2]))
+                 [] WhyNotMade(S, r, run) # << >> -> wrong(run, WhyNotMade(S, r, run)[1], -t.code[2])
+                 [] OTHER -> And(Opened(Knowing(S, run.S.sees), TaskOf(run.value), i + count, depth + 1, q),
+                                 LAMBDA o : << OpenedAs(o.S, [ op |-> "fresh", keys |-> keys, body |-> o.t ], o.i) >>)
+         IN Flatten(Each(RunCode(S, "task", t.code, r.given), of))
+
+FRESH_1(s, r) == By(s, "FRESH-1", Next_([ r EXCEPT !.body = s.out[2] ]))
+FRESH_2(s, r) == Forgetting(By(s, "FRESH-2", Done_), r.keys)
+FRESH_ERR(s, r) == Forgetting(By(s, "FRESH-ERR", s.out), r.keys)
+
+InFresh(s, r) ==
+  CASE GoesOn(s) -> FRESH_1(s, r)
+    [] IsDone(s) -> FRESH_2(s, r)
+    [] IsErr(s) -> FRESH_ERR(s, r)
+    [] OTHER -> s
+
+(* {2 Vehicles at the turn} *)
 
 Hold(V, r) == IF V = << >> THEN r ELSE [ op |-> "hold", vehicles |-> V, body |-> r ]
 
@@ -767,16 +863,22 @@ AllocateSteps(S, r) ==
       bound == B \o S.recruits
       free == SelectSeq(bound, LAMBDA v : v \notin held)
       within(V) == << IF r.allowed = << >> THEN V ELSE Intersection(r.allowed[1], V) >>
-      q == [ allowed |-> r.allowed, place |-> r.place, depth |-> r.depth, bound |-> bound,
-             numbers |-> FreshTimers(r.place, NumbersIn(S.whole), TimerCount(r.task, FALSE)) ]
-      in(V, sees) == AllocWithin(r.task, within(V), q, sees)
+      used == NumbersIn(S.whole)
+      q(o) == [ allowed |-> r.allowed, place |-> r.place, depth |-> r.depth, bound |-> bound, used |-> used,
+                numbers |-> IF o = << >> THEN << >>
+                            ELSE FreshTimers(r.place, used, o[1].i + TimerCount(o[1].t, FALSE)) ]
+      alloc(o, allowed, sees) == AllocWithin(o.t, o.i, allowed, q(<< o >>), sees)
       outcome(S2, found, any) ==
         CASE IsOk(found) -> << ALLOCATE(S2, found[2]) >>
           [] IsOk(any) -> << >>
           [] OTHER -> << ALLOCATE_ERR(S2, any[2]) >>
-      at(sees) == Only({ outcome(Knowing(S, sees), found, AllocWithin(r.task, r.allowed, q, sees)) :
-                         found \in { in(free, sees) } })
-      outcomes == Flatten(Each(Placings(S.sees, IF DependsOnPlaces(r.task) THEN bound ELSE << >>), at))
+      at(o, sees) == Only({ outcome(Knowing(S, sees), found, alloc(o, r.allowed, sees)) :
+                            found \in { alloc(o, within(free), sees) } })
+      of(o) ==
+        IF o.why # << >> THEN << ALLOCATE_ERR(o.S, o.why[1]) >>
+        ELSE Flatten(Each(Placings(o.S.sees, IF DependsOnPlaces(o.t) THEN bound ELSE << >>),
+                          LAMBDA sees : at(o, sees)))
+      outcomes == Flatten(Each(Opened(S, r.task, 0, r.depth, q(<< >>)), of))
   IN IF outcomes = << >> THEN << >> ELSE << outcomes >>
 
 (* {2 Recruits} *)
@@ -896,6 +998,7 @@ Steps(S, r, E) ==
     [] r.op = "until" -> In(Steps(S, r.body, E), LAMBDA s : InUntil(s, r))
     [] r.op = "unallocated" -> AllocateSteps(S, r)
     [] r.op = "hold" -> In(Steps(S, r.body, E), LAMBDA s : InHold(s, r))
+    [] r.op = "fresh" -> In(Steps(S, r.body, E), LAMBDA s : InFresh(s, r))
     [] r.op = "recruit" ->
          OnThose(E, LAMBDA e : e[1] = "recruited" /\ e[2] = r.timer, LAMBDA e : RECRUIT(S, r, e))
     [] r.op = "recruited" ->
@@ -929,7 +1032,7 @@ EndedBy(s, timers, V) ==
       stops == Each(SelectSeq(bound, LAMBDA v : v \in DOMAIN s.S.A), LAMBDA v : << "stop", v >>)
       released == Releasing(bound)
       asking == Asking(s, running \o stops \o released \o << << "end", s.out[2] >> >>)
-  IN Becoming([ asking EXCEPT !.S.A = << >>, !.S.B = << >> ], Ended(s.out[2]))
+  IN Becoming(ForgettingAll([ asking EXCEPT !.S.A = << >>, !.S.B = << >> ]), Ended(s.out[2]))
 
 (* The same where no timer runs any more. *)
 EndStep(rule, label, event, S, ending) == EndedBy(Step(rule, label, event, S, Ends(ending), << >>), << >>, << >>)
@@ -973,14 +1076,18 @@ CALL(m, S, call, arguments) == WaitStep("CALL", "call(" \o call \o ")", m, S, <<
 
 EXECUTE(m, S, r) ==
   LET active == Act(r)
-  IN Transition("EXECUTE", "execute", Program, Executing(Machine(m), active), S, SetTimers(Timers(active)))
+      t == Transition("EXECUTE", "execute", Program, Executing(Machine(m), active), S, SetTimers(Timers(active)))
+  IN Forgetting(t, Keys(active))
 ALLOC_ERR(S, fault) ==
   EndStep("ALLOC-ERR", "cannot-execute(" \o fault.message \o ")", Program, S, FailedFor("vehicles", fault))
 
 ExecuteSteps(m, S, t) ==
   LET step(allocated) == IF IsOk(allocated) THEN EXECUTE(m, S, allocated[2].r) ELSE ALLOC_ERR(S, allocated[2])
-  IN Each(Placings(S.sees, IF DependsOnPlaces(t) THEN B ELSE << >>),
-          LAMBDA sees : Only({ step(allocated) : allocated \in { Alloc(t, sees) } }))
+      of(o) ==
+        IF o.why # << >> THEN << ALLOC_ERR(S, o.why[1]) >>
+        ELSE Each(Placings(o.S.sees, IF DependsOnPlaces(o.t) THEN B ELSE << >>),
+                  LAMBDA sees : Only({ step(allocated) : allocated \in { Alloc(o.t, o.i, sees) } }))
+  IN Flatten(Each(Opened(S, t, 0, 0, Executed), of))
 
 Wait(m, S, request) ==
   CASE request[1] = "pick" -> << PICK_(m, S, request[2]) >>
@@ -1007,8 +1114,9 @@ TimersOf(kappa) ==
 ON_INTERRUPT(kappa) ==
   LET bound == B \o RecruitsOf(kappa)
       stops == Each(SelectSeq(bound, LAMBDA v : v \in DOMAIN A), LAMBDA v : << "stop", v >>)
-  IN Transition("ON-INTERRUPT", "interrupt", Interruption, Script(Call(OnInterrupt[1], << Vehicles(bound) >>)),
-                [ Shared EXCEPT !.A = << >>, !.B = bound ], CancelTimers(TimersOf(kappa)) \o stops)
+      t == Transition("ON-INTERRUPT", "interrupt", Interruption, Script(Call(OnInterrupt[1], << Vehicles(bound) >>)),
+                      [ Shared EXCEPT !.A = << >>, !.B = bound ], CancelTimers(TimersOf(kappa)) \o stops)
+  IN ForgettingAll(t)
 
 INTERRUPT(kappa) ==
   EndedBy(Step("INTERRUPT", "interrupt", Interruption, Shared, Ends(Interrupted), << >>), TimersOf(kappa),
@@ -1131,7 +1239,7 @@ CALL_ERR(M, call, m) ==
 
 (* {2 Executing tasks} *)
 
-EXECUTE_DONE(M, s) == LET t == By(s, "EXECUTE-DONE", Done_) IN Becoming(t, Script(GoOn(M, Null)))
+EXECUTE_DONE(M, s) == LET t == ForgettingAll(By(s, "EXECUTE-DONE", Done_)) IN Becoming(t, Script(GoOn(M, Null)))
 
 (* The failure has cut off all that ran. *)
 EXECUTE_ERR(s) == EndedBy(By(s, "EXECUTE-ERR", Ends(Failed(s.out[2]))), << >>, << >>)

@@ -82,7 +82,7 @@ Waiting_(r) ==
     [] r.op = "seq" -> Waiting_(r.first)
     [] r.op = "par" -> Flatten(Each(r.branches, Waiting_))
     [] r.op \in { "allOf", "repeat" } -> Flatten(Each(r.runs, Waiting_))
-    [] r.op \in { "until", "watch", "hold", "recruited" } -> Waiting_(r.body)
+    [] r.op \in { "until", "watch", "hold", "recruited", "fresh" } -> Waiting_(r.body)
     [] r.op = "during" -> IF r.started THEN Waiting_(r.body) ELSE << >>
     [] OTHER -> << >>
 
@@ -374,7 +374,7 @@ RecruitedOnce ==
 
 EmptyAfterEnd == HasEnded => A = << >> /\ B = << >>
 
-(* N changes by posts and consumes, and by nothing else. *)
+(* N changes by posts and consumes, and by keys that are forgotten. *)
 RECURSIVE Tally(_)
 Tally(pairs) ==
   IF pairs = << >> THEN EmptyBag
@@ -390,7 +390,8 @@ AllPairs(n) ==
   IN [ pair \in pairs |-> count(pair) ] (+) n.bag
 
 ConservesTuples(t) ==
-  AllPairs(t.S.N) (+) Tally(PairsOf(t.deeds, "consume")) = AllPairs(N) (+) Tally(PairsOf(t.deeds, "post"))
+  AllPairs(t.S.N) (+) Tally(PairsOf(t.deeds, "consume")) (+) Tally(PairsOf(t.deeds, "forget"))
+    = AllPairs(N) (+) Tally(PairsOf(t.deeds, "post"))
 
 (* Of every program. TLC checks it on every program that it is given: `dolphin tla --run`, crosscheck.exe. *)
 THEOREM Invariants ==

@@ -74,6 +74,24 @@ TakeAll(N, pairs, taken) ==
           THEN LET y == Taken(N, k, x) IN TakeAll(WithoutPair(N, k, y), Tail(pairs), Append(taken, << k, y >>))
           ELSE << >>
 
+(* N without the pairs of these keys, none of which is ordered; and those pairs. *)
+WithoutKeys(N, keys) ==
+  LET bag == N.bag IN [ N EXCEPT !.bag = [ pair \in { pair \in DOMAIN bag : pair[1] \notin keys } |-> bag[pair] ] ]
+
+RECURSIVE OneByOne(_)
+OneByOne(bag) ==
+  IF DOMAIN bag = { } THEN << >>
+  ELSE LET pair == CHOOSE pair \in DOMAIN bag : TRUE IN << pair >> \o OneByOne(bag (-) SetToBag({ pair }))
+
+PairsWith(N, keys) ==
+  LET bag == N.bag IN OneByOne([ pair \in { pair \in DOMAIN bag : pair[1] \in keys } |-> bag[pair] ])
+
+(* The key of this number. *)
+KeyText(i) == "#" \o ToString(i)
+IsKeyText(k) ==
+  /\ Len(k) > 1 /\ SubSeq(k, 1, 1) = "#"
+  /\ \A i \in 2 .. Len(k) : SubSeq(k, i, i) \in { "0", "1", "2", "3", "4", "5", "6", "7", "8", "9" }
+
 (* {1 The world} *)
 
 (* Of vehicle v; the fleet alone determines the rest. *)
@@ -148,7 +166,7 @@ Nodes(rs) ==
           [] r.op = "allOf" -> r.runs \o Each(r.choices, LAMBDA b : b.body)
           [] r.op = "repeat" -> Append(r.runs, r.each)
           [] r.op = "oneOf" -> Each(r.choices, LAMBDA b : b.body)
-          [] r.op \in { "until", "during", "watch", "hold", "recruited" } -> << r.body >>
+          [] r.op \in { "until", "during", "watch", "hold", "recruited", "fresh" } -> << r.body >>
           [] OTHER -> << >>
   IN Flatten(Each(rs, LAMBDA r : << r >> \o Nodes(below(r))))
 
@@ -158,9 +176,10 @@ HeldBy(rs) ==
             [] r.op = "hold" -> Range(r.vehicles)
             [] OTHER -> { } : r \in Range(Nodes(rs)) }
 
-(* The timers that they name, the questions, and the recruits. *)
+(* The timers that they name, the questions, the recruits, and the keys. *)
 NumbersIn(rs) ==
   { r.timer : r \in { r \in Range(Nodes(rs)) : r.op \in { "idle", "confirm", "during", "recruit" } } }
+  \cup UNION { Range(r.keys) : r \in { r \in Range(Nodes(rs)) : r.op = "fresh" } }
 
 (* {1 Machines} *)
 
@@ -706,6 +725,8 @@ MakeTask(op, at, xs) ==
        [] op = "watch" ->
             IF IsTask(x) THEN Ok(TaskValue([ op |-> "watch", body |-> TaskOf(x), handler |-> y ]))
             ELSE Expected("a task after watch", x)
+       [] op = "fresh" ->
+            IF Is(x, "closure") THEN Ok(TaskValue([ op |-> "fresh", code |-> x ])) ELSE Expected("code { k -> T }", x)
        [] op = "idle" ->
             IF IsTime(x) THEN Ok(TaskValue([ op |-> "idle", time |-> Time(x) ]))
             ELSE TimeWanted("idle", "a time after idle, as in idle(10.seconds)", x)
@@ -718,7 +739,7 @@ MakeTask(op, at, xs) ==
                  [] IsTime(x) -> during(Time(x))
                  [] OTHER -> TimeWanted(op, "a time after " \o op \o ", as in " \o op \o " 10.minutes run T", x)
 
-TaskNames == { "action", "condition", "waitFor", "until", "assure", "watch", "idle", "confirm", "during",
+TaskNames == { "action", "condition", "waitFor", "until", "assure", "watch", "fresh", "idle", "confirm", "during",
                "within" }
 
 (* Whether t is done without any wait. *)

@@ -27,7 +27,9 @@ NormalPair(pair) == << pair[1], Normal(pair[2]) >>
 EventsOfEvent(event) == IF event[1] \in { "done", "failed" } THEN << << "end", event[2] >> >> ELSE << >>
 
 EventsOfDeed(d) ==
-  IF d.did \in { "post", "consume" } THEN Each(d.pairs, LAMBDA pair : << d.did, NormalPair(pair) >>) ELSE << >>
+  CASE d.did \in { "post", "consume" } -> Each(d.pairs, LAMBDA pair : << d.did, NormalPair(pair) >>)
+    [] d.did = "forget" -> Each(d.pairs, LAMBDA pair : << "consume", NormalPair(pair) >>)
+    [] OTHER -> << >>
 
 EventsOfEffect(e) ==
   CASE e[1] \in { "start", "stop" } -> << e >>

@@ -266,6 +266,7 @@ TaskText(t, level) ==
              until == IF t.until = << >> THEN "" ELSE " until { ... }"
          IN Parenthesised(0, level, "repeat " \o rounds \o TaskText(t.body, 1) \o until)
     [] t.op = "recruit" -> Parenthesised(0, level, "recruit { ... } then { ... }")
+    [] t.op = "fresh" -> "fresh { " \o LambdaNames[t.code[2]] \o " }"
     [] t.op = "made" -> "{ " \o LambdaNames[t.code[2]] \o " }"
 
 HasCorners(area) == area[3] = -1

@@ -47,6 +47,7 @@ let rec of_residual budget (r : Residual.t) : json =
   | Recruit { number; asked; code = c; place; depth; site } ->
     tagged "recruit" [ `Int site; `Int number; of_filter budget asked; code c; `Int place; `Int depth ]
   | Recruited (v, a) -> tagged "recruited" [ `String v; part a ]
+  | Fresh (ns, a) -> tagged "fresh" [ of_list (fun n -> `Int n) ns; part a ]
 
 let rec residual nodes (json : json) : Residual.t =
   let part = residual nodes and code = closure nodes in
@@ -89,6 +90,7 @@ let rec residual nodes (json : json) : Residual.t =
     Recruit { number = whole number; asked = filter nodes asked; code = code c; place = whole place;
               depth = whole depth; site = whole site }
   | `List [ `String "recruited"; v; a ] -> Recruited (text v, part a)
+  | `List [ `String "fresh"; ns; a ] -> Fresh (list whole ns, part a)
   | json -> wrong "a residual" json
 
 (* {1 Machines} *)

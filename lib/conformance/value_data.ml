@@ -72,6 +72,7 @@ and of_task budget (t : task) : json =
     let rounds = of_option (fun n : json -> `Int n) rounds in
     tagged "repeat" [ `Int site; rounds; of_option code until; part body ]
   | Made c -> tagged "made" [ code c ]
+  | Fresh c -> tagged "fresh" [ code c ]
   | Recruit { asked; code = c; site } -> tagged "recruit" [ `Int site; of_filter budget asked; code c ]
 
 and of_filter budget (q : Vehicle_filter.t) : json =
@@ -166,6 +167,7 @@ and task nodes (json : json) : task =
   | `List [ `String "repeat"; site; rounds; until; body ] ->
     Repeat { rounds = option whole rounds; until = option code until; body = part body; site = whole site }
   | `List [ `String "made"; c ] -> Made (code c)
+  | `List [ `String "fresh"; c ] -> Fresh (code c)
   | `List [ `String "recruit"; site; asked; c ] ->
     Recruit { asked = filter nodes asked; code = code c; site = whole site }
   | json -> wrong "a task" json

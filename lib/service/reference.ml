@@ -41,6 +41,8 @@ let procedures =
       "imcPlan", "imcPlan('name')", "The plan of this name, as a task; `imcPlan { ... }` describes one.";
       "action", "action { ... }", "A task without a vehicle that runs code at once, in one step.";
       "condition", "condition { C }", "A task without a vehicle that is done when C holds.";
+      "fresh", "fresh { k -> T }",
+      "A task with a key of its own, for `post((k): 1)` and the like, unknown to the rest of the program.";
       "idle", "idle(10.seconds)", "A task without a vehicle that is done after this time.";
       "assert", "assert { C }, 'text'",
       "The program ends with the text if C does not hold. As part of a task, a task that is done at once.";

@@ -36,6 +36,7 @@ type code =
   | Unread_input  (** a warning: pairs that the outside posts with this key are never read *)
   | Other_meaning  (** a warning: the original language means something else *)
   | Partial_map  (** a warning: features of a map are flawed, left out or repaired *)
+  | No_end  (** a warning: a repeat without an end of its own beside a task that ends *)
 
 val codes : (code * string) list
 (** Every code with its name, which does not change: ["unknown-name"]. *)

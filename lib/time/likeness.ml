@@ -47,6 +47,7 @@ type head =
   | Confirm of int * string
   | During of Core.on_cut * bool
   | Watch
+  | Fresh
   | Repeat of int option
 
 and takes = Milliseconds of int * int | As_its_plan of label
@@ -139,6 +140,7 @@ let rec spell s (r : Residual.t) =
   | Watch (a, { code = c; _ }) -> tree s Watch [ code s ~handler:true part c; spell s a ]
   | Repeat { round; again = { left; until; each; site = _ } } ->
     tree s (Repeat left) [ optional s (code s part) until; optional s (spell s) round; spell s each ]
+  | Fresh (_, a) -> tree s Fresh [ spell s a ]
   | Made _ | Unallocated _ | Hold _ | Recruit _ | Recruited _ -> invalid_arg "Likeness: a task that is made at its turn"
 
 and optional : 'a. spelling -> ('a -> Form.tree) -> 'a option -> Form.tree =
@@ -219,7 +221,7 @@ let closures r =
     | Repeat { again = { until = Some c; _ }; _ } | Made { code = c; _ } | Recruit { code = c; _ } ->
       (false, c) :: found
     | Ready _ | Running _ | Sequence _ | Parallel _ | Idle _ | Confirm _ | During _ | Repeat _ | Unallocated _ | Hold _
-    | Recruited _ -> found
+    | Recruited _ | Fresh _ -> found
   in
   Residual.fold_all add [] r
 

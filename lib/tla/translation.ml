@@ -226,6 +226,7 @@ and procedure t site builtin : Tla.t =
   | Make_during Completes -> plain "during"
   | Make_during Fails -> plain "within"
   | Make_watch -> plain "watch"
+  | Make_fresh -> plain "fresh"
   | Make_repeat { counted; asked } -> record "repeat" [ ("counted", Boolean counted); ("asked", Boolean asked) ]
   | Execute -> plain "execute"
   | Execute_for vehicles -> record "executeFor" [ ("names", Tla.strings vehicles) ]

@@ -99,6 +99,22 @@ let tasks =
        "onInterrupt task('q')\na = pick { id 'a' }\nexecute task('p')[a] >> recruit { id 'b' } then { task('q') }");
       ("whom a task recruited is free for the next one",
        "a = pick { id 'a' }\nexecute (recruit { id 'b' } then { task('p') }) >> recruit { id 'b' } then { task('q') }\nrelease a");
+      ("two races of the same tasks at once, one of which has an error",
+       two ^ "def race(t) { fresh { k -> until { consume((k): 1) } run t >> action { post((k): 1) } } }\n\
+              execute (watch race(task('p')[a]) onError { ignore() }) | (idle(1.seconds) >> race(task('q')[b]))");
+      ("fresh keys in rounds that are cut off, and no pair is left of a round before",
+       "execute repeat 2, fresh { k -> (action { post((k): 1) } >> idle(1.seconds) >> action { post((k): 1, x: 1) }) | idle(2.seconds) } \
+        during 3.seconds\nif (consume(x: 1)) { message 'one' }");
+      ("a task with two fresh keys is tried again, beside one that is made of them",
+       two ^ "def t(n) { fresh { k, l -> (action { post((k): n) } >> { fresh { m -> condition { poll((k): n) } >> action { post((m): n) } >> task('p')[a] } }) \
+              | action { post((l): n) } } }\n\
+              execute (watch t(1) >> action { post again: 1 } onError { poll('again') ? retry() : ignore() }) | { t(2)[b] within 2.seconds }");
+      ("a task whose keys are new each time that it is tried, while another is made",
+       two ^ "execute { (watch fresh { k -> action { post((k): 1) } >> task('p')[a] } onError { consume(again: 1) ? retry() : ignore() }) \
+              | (task('q')[b] >> { fresh { k -> condition { !poll((k): 1) } >> idle(1.seconds) } }) } | action { post again: 1 }");
+      ("code of fresh that fails, and that does something",
+       "def f() { post x: 1; idle(1.seconds) }\n\
+        execute watch { fresh { k -> 1 / 0 } } onError { e -> message e; fresh { k -> f() } }");
       ("within a time, and not",
        two ^ "execute watch ((task('p')[a] | task('q')[b]) within 10.seconds) onError { why -> message why; ignore() }");
       ("rounds by number, of parts that run together",

@@ -132,8 +132,8 @@ let order_of_recruits =
         {|if is_own request then breaking|},
         {|if is_own request || request.allowed <> None then breaking|} );
       ( "a branch that runs first may be in a nest that holds a vehicle",
-        {|if List.exists (List.exists holds) nests then|},
-        {|if List.exists (List.exists holds) nests && false then|} );
+        {|if c.leaks || List.exists (List.exists holds) nests then|},
+        {|if c.leaks || List.exists (List.exists holds) nests && false then|} );
     ]
 
 let stubborn =
@@ -657,8 +657,8 @@ let task_rules =
         {|  | body -> check b.guard ~holds:(fun label -> enter label enters around body) ~error|},
         {|  | body -> check b.guard ~holds:(fun label -> change label enters (Next (around body))) ~error|} );
       ( "DURING-SET sets no timer",
-        {|Rule.During_set (Next next)) with timers = (timer, Time seconds) :: timers }|},
-        {|Rule.During_set (Next next)) with timers = List.tl ((timer, Time seconds) :: timers) }|} );
+        {|Rule.During_set (Next next)) with timers = Wait (timer, Time seconds) :: timers }|},
+        {|Rule.During_set (Next next)) with timers = List.tl (Wait (timer, Time seconds) :: timers) }|} );
       ( "CONFIRM-NO ends as done",
         {|Rule.Confirm_no (failed (Printf.sprintf "'%s' was answered no" prompt))|},
         {|Rule.Confirm_no (if site < 0 then failed prompt else Finished)|} );
@@ -825,8 +825,8 @@ let allocation =
   in_file "lib/semantics/rules/allocation.ml" ~noticed_by:"semantics/test_rules"
     [
       ( "tasks side by side share vehicles",
-        {|Parallel (a, b) -> Disjoint [|},
-        {|Parallel (a, b) -> Shared [|} );
+        {|Parallel (a, b) -> Disjoint (both|},
+        {|Parallel (a, b) -> Shared (both|} );
     ]
 
 let tuple_space =
@@ -888,8 +888,8 @@ let allocation_in_traps =
         {|| Some ws -> Some (List.filter (fun v -> List.mem v ws) vs)|},
         {|| Some _ -> Some vs|} );
       ( "tasks in turn need different vehicles",
-        {|Sequence (a, b) -> Shared [|},
-        {|Sequence (a, b) -> Disjoint [|} );
+        {|Sequence (a, b) -> Shared (both|},
+        {|Sequence (a, b) -> Disjoint (both|} );
     ]
 
 let answers_in_words =
@@ -930,8 +930,6 @@ let unknown =
   @ in_file "lib/semantics/rules/local_step.ml" ~noticed_by:"semantics/test_rules"
     [
       ("a task that is made takes what others hold", {|(from free)|}, {|(from (if free = [] then bound else bound))|});
-      ( "code that makes a task may do something",
-        {|else if deeds <> [] || Store.compare|}, {|else if List.length deeds > 9 || Store.compare|} );
     ]
   @ in_file "lib/semantics/rules/residual.ml" ~noticed_by:"semantics/test_rules"
     [ ("what was given to a task is not held", 
@@ -1695,15 +1693,56 @@ let prelude =
   in_file "lib/syntax/prelude.dol" ~noticed_by:"prelude/test_prelude"
     [
       ("one less than atLeast says is enough", {|count((done): _) >= k|}, {|count((done): _) >= k - 1|});
-      ("a barrier holds nobody", {|condition { count((came): _) == n }|}, {|condition { count((came): _) >= 1 }|});
-      ("a follower is told of one end again and again", {|consume("done by $name": 1)|}, {|poll("done by $name": 1)|});
+      ("a barrier holds nobody", {|condition { count((name): { it == 'came' }) == n }|}, {|condition { count((name): _) >= 1 }|});
+      ("a follower is told of one end again and again", {|consume((name): 'done')|}, {|poll((name): 'done')|});
       ("the goal of who fails is lost", {|post((goal): g, (out): 1)|}, {|post((out): 1)|});
       ("who is at the very distance is not near", {|<= d }|}, {|< d }|});
     ]
 
+let fresh_keys =
+  in_file "lib/semantics/rules/maker.ml" ~noticed_by:"semantics/test_rules"
+    [
+      ( "tasks side by side have the same keys",
+        {|let ns, numbers = split code.lambda.parameters numbers in|},
+        {|let ns, _ = split code.lambda.parameters numbers in|} );
+      ( "code that makes a task may do something",
+        {|else if deeds <> [] || Store.compare|}, {|else if List.length deeds > 9 || Store.compare|} );
+    ]
+  @ in_file "lib/semantics/rules/task_rules.ml" ~noticed_by:"prelude/test_prelude"
+    [
+      ( "a task begins with the pairs of one that was cut off",
+        {|List.concat_map ended change.undone @ List.filter_map begun change.timers|},
+        {|ignore begun; List.concat_map ended change.undone|} );
+    ]
+  @ in_file "lib/semantics/rules/local_step.ml" ~noticed_by:"prelude/test_prelude"
+    [
+      ( "pairs of fresh keys stay",
+        {|  let s = Shared.without_keys (List.map Residual.key (Task_rules.keys change)) s in
+|},
+        {||} );
+      ( "pairs of fresh keys outlive the executed task",
+        {|shared = Shared.without_fresh shared|},
+        {|shared|} );
+    ]
+  @ in_file "lib/explore/order/step_footprints.ml" ~noticed_by:"reduction/test_traps"
+    [ ("keys that are passed on touch nothing", {|if c.leaks then union f Footprint.anything else f|}, {|ignore c; f|}) ]
+  @ in_file "lib/explore/symmetry/name_flow.ml" ~noticed_by:"reduction/test_traps"
+    [
+      ( "keys are not passed on by posts",
+        {|match place with Posted | Variable _ -> has key k|},
+        {|match place with Posted -> false | Variable _ -> has key k|} );
+    ]
+  @ in_file "lib/explore/encoding/components.ml" ~noticed_by:"explore/test_agreement"
+    [
+      ( "steps that forget keys depend on nothing",
+        {|when Task_rules.keys change <> [] -> dependent event|},
+        {|when false -> dependent event|} );
+    ]
+
 let all =
   List.concat
-    [ maps; missions; footprint; step_footprints; order_of_recruits; stubborn; automorphism; task_isomorphism;
+    [ fresh_keys; maps; missions; footprint; step_footprints; order_of_recruits; stubborn; automorphism;
+      task_isomorphism;
       task_groups; quotient; expansion; portable; transition_systems; files_of_states;
       vehicle_orbits; canonical_vehicles; bitstate; workers; disk; name_flow; liveness; recruiting; later_picks;
       environment; picks; inputs;

@@ -115,6 +115,39 @@ let told_of_themselves =
       "n = 0\nexecute race([p >> action { n++ }, q >> action { n++ }])\nassert { n == 2 }";
     holds "race: an error is one of the race" ~failures:true ~ends:[ "completed"; broken ] "execute race([p, q])";
     holds "race: again and again" "n = 0\nwhile (n < 3) { execute race([p, q])\n n++ }";
+    holds "race: two of the same tasks at once, each by itself"
+      "n = 0\n\
+       short = action { n++ }\n\
+       def t() { race([short, condition { false }]) }\n\
+       execute t() | t()\n\
+       assert { n == 2 }";
+    holds "race: round after round" "n = 0\nexecute repeat 3, race([action { n++ }, condition { false }])\nassert { n == 3 }";
+    holds "fresh: a round that is cut off leaves nothing to the next"
+      "n = 0\n\
+       def t() {\n\
+       fresh { k -> action { if (!poll((k): 1)) { n++ }\n post((k): 1, x: 1) } >> condition { false } }\n\
+       }\n\
+       execute repeat 2, (t() until { consume x: 1 })\n\
+       assert { n == 2 }";
+    holds "race: two of the same tasks, of which one is cut off" ~failures:true ~ends:[ "completed" ]
+      "n = 0\n\
+       def t() { race([watch p onError { ignore() }, condition { false }]) >> action { n++ } }\n\
+       execute (t() until { n > 0 }) | t()\n\
+       assert { n >= 1 }";
+    holds "team: two with the same goals at once"
+      "n = 0\n\
+       def t(v) { team(1, 1, v, ['p', 'q']) { g -> imcPlan(g) >> action { n++ } } }\n\
+       execute t(vs[0]) | t(vs[1])\n\
+       assert { n == 4 }";
+    holds "barrier: two of one task at once, with a fresh name"
+      "n = 0\n\
+       def t() { fresh { k -> par([1, 2].collect { i -> action { n++ } >> barrier(k, 2) }) } }\n\
+       execute t() | t()\n\
+       assert { n == 4 }";
+    holds "leader: two of one convoy at once, with fresh names"
+      "n = 0\n\
+       def t(a) { fresh { k -> leader(k, [a >> action { n++ }]) | follower(k, [action { if (n < 1) { halt() } }]) } }\n\
+       execute t(p) | t(q)";
     holds "atLeast: so many are done"
       "n = 0\nexecute atLeast(2, [p, q, r].collect { t -> t >> action { n++ } })\nassert { n >= 2 }";
     holds "atLeast: after an error as before"
@@ -148,6 +181,8 @@ let told_of_themselves =
       "d = position(vs[0]).distance(position(vs[1]))\n\
        assert { d > 0 && near(vs[0], vs[1], d) == vs[1] && near(vs[0], vs[1], d / 2).size() == 0 }";
     nothing "race: leaves nothing" "execute race([p, q, r])";
+    nothing "race: leaves nothing, cut off" "execute race([p, q]) during 1.minutes";
+    nothing "team: leaves nothing, cut off" "execute team(1, 2, vs, [p, q]) { g -> g } during 1.minutes";
     nothing "barrier: leaves nothing" "execute par([p, q].collect { t -> t >> barrier('x', 2) })";
     nothing "team: leaves nothing" "execute team(1, 2, vs, [p, q]) { g -> g }" ]
 

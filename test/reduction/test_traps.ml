@@ -39,6 +39,20 @@ let saves name ?environment most text =
 
 let traps =
   [
+    breaks "a key that is passed on, whose task ends" [ No_deadlock ]
+      {|execute fresh { k -> action { post door: k } >> task('p')[a] } |
+        (waitFor { consume door: _ } then { k ->
+          action { post((k): 1) } >> task('q')[b] >> condition { poll((k): 1) } })|};
+    breaks "a key that is passed on, and given again" [ No_deadlock ]
+      {|g = 0
+        execute (repeat 2, task('p')[a] >> fresh { k ->
+            action { if (g == 0) { post door: k }
+              g = g + 1 } >> condition { g < 2 || !poll((k): 1) } }) |
+          (waitFor { consume door: _ } then { k -> action { post((k): 1) } })|};
+    breaks "a key in a variable" [ No_deadlock ]
+      {|g = 0
+        execute fresh { k -> action { g = k } >> task('p')[a] } |
+          (condition { g != 0 } >> action { post((g): 1) } >> task('q')[b] >> condition { poll((g): 1) })|};
     breaks "until cuts a body before it posts" [ No_leftover ]
       {|execute (until { poll stop: 1 } run (task('p')[a] >> action { post x: 1 })) | action { post stop: 1 } |
         (task('q')[b] >> condition { consume stop: 1 } )|};

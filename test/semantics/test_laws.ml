@@ -103,8 +103,25 @@ let as_actions (l : Label.t) =
 
 let nothing_done = call "action" [ Positional (closure []) ]
 
+let fresh names t =
+  let name x = { Ast.it = x; at = Dolphin_syntax.Location.none } in
+  let code = { Ast.parameters = Some (List.map name names); body = [ statement t ] } in
+  call "fresh" [ Positional (expression (Closure code)) ]
+
+(* A task that posts pairs of a key of its own, and ends by taking one. *)
+let with_key k t =
+  let pair = Ast.Keyed (variable k, expression (Integer 1)) in
+  let posts = call "action" [ Positional (closure [ statement (call "post" [ pair ]) ]) ] in
+  until (code [ statement (call "consume" [ pair ]) ]) (binary Parallel posts t)
+
 let laws =
-  [ law ">> is associative" (fun x -> (x.a >> x.b) >> x.c) (fun x -> x.a >> (x.b >> x.c));
+  [ law "fresh is its task" (fun x -> fresh [ "k" ] (x.c >> x.a)) (fun x -> x.c >> x.a);
+    law "fresh is its task, in a context" (fun x -> fresh [ "k" ] (x.c >> x.a) >> x.b) (fun x -> (x.c >> x.a) >> x.b);
+    law "the name of a key does not matter" (fun x -> fresh [ "k" ] (with_key "k" x.a))
+      (fun x -> fresh [ "other" ] (with_key "other" x.a));
+    law "fresh twice is fresh with two keys" (fun x -> fresh [ "k" ] (fresh [ "l" ] (with_key "l" x.a)))
+      (fun x -> fresh [ "k"; "l" ] (with_key "l" x.a));
+    law ">> is associative" (fun x -> (x.a >> x.b) >> x.c) (fun x -> x.a >> (x.b >> x.c));
     law "| is associative" (fun x -> (x.a <|> x.b) <|> x.c) (fun x -> x.a <|> (x.b <|> x.c));
     law "| is commutative" (fun x -> x.a <|> x.b) (fun x -> x.b <|> x.a);
     law "during a run during b run T is the shorter" (fun x -> during 5 (during 3 x.a)) (fun x -> during 3 x.a);

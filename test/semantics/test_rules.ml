@@ -212,6 +212,24 @@ let tasks : example list =
     example On_interrupt "whom a task recruited is brought home as well"
       "onInterrupt { vs -> task('home') }\nexecute(recruit { id 'noptilus-3' } then { task('a') })" "interrupt"
       "ON-INTERRUPT" "script" [ "stop noptilus-3" ];
+    example Fresh_1 "it has keys of its own, from left to right" (task "fresh { k -> %p } | fresh { k, l -> idle(1) }")
+      "start(noptilus-1, p)" "START, FRESH-1, PAR-1" "(fresh #1 p[noptilus-1]... | fresh #2, #3 idle(1))"
+      [ "start p on noptilus-1" ];
+    example Fresh_1 "its keys are known to the code of its task" (task "fresh { k -> action { post((k): 7) } >> idle(1) }")
+      "act(post #1:7)" "ACTION, SEQ-2, FRESH-1" "fresh #1 idle(1)" [ "set timer 2 to 1 s" ];
+    example Fresh_2 "it is done" (task "fresh { k -> %p } >> idle(1)") "done(noptilus-1, p)" "DONE, FRESH-2, SEQ-2"
+      "idle(1)" [ "set timer 2 to 1 s" ];
+    example Fresh_err "it fails" (task "watch fresh { k -> %p } onError { ignore() }") "fail(noptilus-1, p, broken)"
+      "FAIL, FRESH-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [];
+    example Allocate "keys in a task that is made are new" (task "fresh { k -> idle(3) } | { fresh { k -> idle(1) } }")
+      "allocate()" "ALLOCATE, PAR-1" "(fresh #1 idle(3) | fresh #1000003 idle(1))" [ "set timer 2000003 to 1 s" ];
+    example Alloc_err "code of fresh is faulty" (task "fresh { k -> 1 / 0 }") "cannot-execute(division by zero)"
+      "ALLOC-ERR" "failed: division by zero" [ released; "end: division by zero" ];
+    example Allocate_err "code of fresh does more than compute"
+      ("def f(t) { post a: 1; t }\n" ^ task "watch { fresh { k -> f(%p) } } onError { ignore() }")
+      "cannot-execute({ f task('p')[v] } makes a task, so it may only compute: it may not post, consume, assign or say \
+       anything)"
+      "ALLOCATE-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [];
     example Idle_end "the time is up" (task "idle(5) >> idle(1)") "timeout" "IDLE-END, SEQ-2" "idle(1)"
       [ "set timer 2 to 1 s" ];
     example Confirm_yes "somebody says yes" (task "confirm('go?') >> idle(1)") "answer(yes)" "CONFIRM-YES, SEQ-2" "idle(1)"

@@ -330,13 +330,42 @@ let dealt n vehicles =
 
 let branch guard t = statement (expression (When (guard, t)))
 
+(* A task with a key of its own, which [t] may end by, wait for, or pass on. *)
+let with_key ~sensing t =
+  let* name = oneofl [ "k"; "l" ] and* x = number and* other = code_task ~sensing in
+  let pair x = Keyed (variable name, integer x) in
+  let action body = call "action" [ Positional (expression (Closure (code body))) ] in
+  let posts = action [ statement (call "post" [ pair x ]) ] in
+  let* asks = oneofl [ "poll"; "consume" ] in
+  let there = code [ statement (call asks [ pair x ]) ] in
+  let untaken = code [ statement (expression (Unary (Not, call "poll" [ pair x ]))) ] in
+  let passed_on = action [ statement (call "post" [ named "x" (variable name) ]) ] in
+  let made e = expression (Closure { parameters = None; body = [ statement e ] }) in
+  let* body =
+    frequencyl
+      [ (1, t); (2, binary Parallel posts t); (1, binary Sequence posts t);
+        (3, expression (Until (Completes, there, binary Parallel (binary Sequence other posts) t)));
+        (1, expression (Until (Fails, untaken, binary Parallel (binary Sequence other posts) t)));
+        (2, binary Parallel (expression (Wait_for (there, other))) (binary Sequence t posts));
+        (1, binary Parallel (made (expression (Wait_for (there, posts)))) (binary Sequence other posts));
+        (1, binary Parallel passed_on (binary Sequence posts t)) ]
+  in
+  return (call "fresh" [ Positional (expression (Closure { parameters = Some [ located name ]; body = [ statement body ] })) ])
+
+let some_keys ~sensing t =
+  let* n = frequencyl [ (6, 0); (2, 1); (1, 2) ] in
+  let rec wrap n t = if n = 0 then return t else Gen.bind (with_key ~sensing t) (wrap (n - 1)) in
+  wrap n t
+
 let in_context ~sensing vehicles t =
   let leaf = leaf ~sensing and guard = guard_of ~sensing in
   let* shape =
     frequencyl
-      [ (3, `Until); (2, `During); (4, `Watch); (2, `Before); (1, `After); (2, `All_of); (1, `One_of); (1, `Repeat) ]
+      [ (3, `Until); (2, `During); (4, `Watch); (2, `Before); (1, `After); (2, `All_of); (1, `One_of); (1, `Repeat);
+        (2, `Fresh) ]
   in
   match shape with
+  | `Fresh -> with_key ~sensing t
   | `Until -> map2 (fun e c -> expression (Until (e, c, t))) on_cut guard
   | `During -> map2 (fun e d -> expression (During (e, d, t))) on_cut duration
   | `Watch -> map (fun c -> expression (Watch (t, c))) (handler ~sensing)
@@ -422,7 +451,8 @@ and some_statements ~sensing vehicles level =
   match shape with
   | `Execute ->
     let* depth = int_bound (3 - level) in
-    map (fun t -> [ statement (call "execute" [ Positional t ]) ]) (task_of ~sensing ~vehicles ~depth)
+    let* t = Gen.bind (task_of ~sensing ~vehicles ~depth) (some_keys ~sensing) in
+    return [ statement (call "execute" [ Positional t ]) ]
   | `Post -> map (fun e -> [ statement e ]) posting
   | `Consume -> map (fun e -> [ statement e ]) (taking "consume")
   | `Message -> one (statement (call "message" [ Positional (variable "g") ]))
@@ -465,7 +495,7 @@ let programs ~sensing =
   let* depth = frequencyl [ (1, 0); (1, 1); (2, 2); (5, 3); (4, 4) ] in
   let* posts = oneofl [ []; [ ("x", 1) ]; [ ("x", 1); ("y", 2); ("z", 1) ] ] in
   let posts = List.map (fun (k, x) -> statement (post k x)) posts in
-  let* t = task_of ~sensing ~vehicles ~depth in
+  let* t = Gen.bind (task_of ~sensing ~vehicles ~depth) (some_keys ~sensing) in
   let* after = body ~sensing vehicles 0 in
   let* first = bool in
   let executed = [ statement (call "execute" [ Positional t ]) ] in

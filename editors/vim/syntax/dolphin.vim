@@ -9,7 +9,7 @@ syntax match dolphinStatement '\v^\s*\zsparameter\ze\s+\h\w*\s*\='
 syntax keyword dolphinOperatorWord when then watch onError waitFor repeat run until assure during within allOf oneOf choose recruit
 syntax keyword dolphinBoolean true false
 syntax keyword dolphinConstant null _
-syntax keyword dolphinTask task imcPlan mission action condition idle assert pick pos
+syntax keyword dolphinTask task imcPlan mission action condition fresh idle assert pick pos
 syntax keyword dolphinProcedure execute release setConnectionTimeout ask confirm message println pause halt post
 syntax keyword dolphinProcedure input onInterrupt consume poll position battery speed connected reading running now eta location map fence area polygon corridor along coverage expandingSquare sector spiral footprint fail ignore propagate retry dismiss getSupplier
 syntax keyword dolphinFleet vehicle plan answer reply field

@@ -35,7 +35,8 @@ let hole = Residual.hole
 
 let may_renew : Residual.context -> bool = function
   | Round_of { left = None; _ } | Watched_by { anew = Some _; _ } -> true
-  | Round_of _ | Watched_by _ | Before _ | Branch_of _ | Body_until _ | Body_during _ | Holding _ | Having _ -> false
+  | Round_of _ | Watched_by _ | Before _ | Branch_of _ | Body_until _ | Body_during _ | Holding _ | Having _
+  | With_keys _ -> false
 
 let new_path id contexts outer body =
   let components = Residuals.create 16 and inner = Residuals.create 1 in
@@ -197,6 +198,7 @@ and compile t home kin index (Step { offer; continue; _ } as source : Task_rules
     let settled successor = { (dependent event) with dependence; successor; begins } in
     note_rounds t begins;
     match change.outcome with
+    | (Next _ | Finished) when Task_rules.keys change <> [] -> dependent event
     | Next r -> settled (target_of t home kin r)
     | Finished -> settled Gone
     | Failed _ | Handling _ -> dependent event

@@ -345,6 +345,7 @@ let rec is_composed looked (lambda : lambda) e =
   | Apply
       (Builtin (Ignore | Propagate | Retry | Dismiss | Fail | Halt | Message | Post _ | Consume _ | Poll _), _) -> true
   | Apply (Builtin (Make_wait_for | Make_until _ | Make_during _), [ _; t ]) -> go t
+  | Apply (Builtin Make_fresh, [ c ]) -> go c
   | Apply (Builtin Make_watch, [ t; { node = Make_closure (handler, _); _ } ]) ->
     go t && ((not (Recovery.may_give handler)) || gives_composed looked handler)
   | Apply (Element, t :: _) -> go t

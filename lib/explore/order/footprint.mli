@@ -40,6 +40,9 @@ type t = {
 }
 
 val empty : t
+val anything : t
+(** Of code that cannot be seen. *)
+
 val union : t -> t -> t
 
 val touches_nothing : t -> bool

@@ -18,13 +18,14 @@ type context = {
   makes : bool;
   asks_held : bool;
   asks_running : bool;
+  leaks : bool;  (* a key of some [fresh] may be known outside of its task *)
 }
 
 (* {1 Tasks made at their turn} *)
 
 let context options program =
   { options; code = Footprint.code program; makes = false; asks_held = Footprint.asks_held program;
-    asks_running = program.Core.asks_running }
+    asks_running = program.Core.asks_running; leaks = (Name_flow.of_program program ~asked:[]).leaks }
 let with_holding c = { c with makes = true }
 let union = Footprint.union
 let all = List.fold_left union Footprint.empty
@@ -95,6 +96,7 @@ let rec future c (r : Residual.t) =
   | Hold (vs, r) -> union { Footprint.empty with frees = freed c vs } (future c r)
   | Recruit { code; _ } -> recruiting c code
   | Recruited (v, r) -> union { Footprint.empty with frees = freed c [ v ] } (future c r)
+  | Fresh (_, r) -> future c r
 
 and rounds c (again : Residual.again) =
   let asked = Option.fold again.until ~none:Footprint.empty ~some:(Footprint.of_code c.code) in
@@ -128,14 +130,17 @@ and of_term c (t : task) =
     if not f.breaks then f
     else if not (Recovery.possible code.lambda) then union f (Footprint.of_code c.code code)
     else all [ f; Footprint.of_code c.code code; recovering c code { allowed = None; place = 0; depth = 0 } ]
-  | Made code -> Footprint.of_maker c.code code
+  | Made code | Fresh code -> Footprint.of_maker c.code code
   | Recruit { code; _ } -> recruiting c code
   | Repeat { until; body; _ } ->
     union (Option.fold until ~none:Footprint.empty ~some:(Footprint.of_code c.code)) (of_term c body)
 
 and of_branch c (b : Residual.branch) = union (Footprint.of_guard c.code b.guard) (future c b.body)
 
-let of_residual = future
+(* Whose keys others may know, it may touch what they do at any step. *)
+let widened c f = if c.leaks then union f Footprint.anything else f
+
+let of_residual c r = widened c (future c r)
 
 (* {1 Steps} *)
 
@@ -173,7 +178,9 @@ let footprint ?(own = []) c { source = Step { offer; continue; _ } as source; ev
     | Take g, _ -> Footprint.of_guard c.code g
     | Measure d, _ -> union breaking (Footprint.of_code c.code d)
     | Make (code, _, _), _ -> union breaking (Footprint.of_code c.code code)
-    | Allocate (_, request), _ -> if is_own request then breaking else claiming request
+    | Allocate (task, request), _ ->
+      let code = all (List.map (Footprint.of_code c.code) (Allocation.fresh task)) in
+      union code (if is_own request then breaking else claiming request)
   in
   if f.breaks then all (f :: List.map (handling c) (handlers source)) else f
 
@@ -226,7 +233,7 @@ let rec is_settled c (r : Residual.t) =
   | Sequence (r, rest) -> List.for_all (is_settled c) (r :: rest)
   | Parallel rs -> List.for_all (is_settled c) rs
   | Condition _ | All_of _ | One_of _ | Until _ | During _ | Watch _ | Repeat _ | Made _ | Unallocated _
-  | Hold _ | Recruit _ | Recruited _ -> false
+  | Hold _ | Recruit _ | Recruited _ | Fresh _ -> false
 
 let only_takes (f : Footprint.t) =
   Footprint.(Pairs.is_empty f.posts && Pairs.is_empty f.tests && Globals.is_empty f.writes && not f.anything)
@@ -257,7 +264,7 @@ let rec first_branches c around (r : Residual.t) =
     first_branches c (union around (of_handler c handler)) r
   | All_of (None, bs) -> branches_first c around bs
   | Parallel _ | Ready _ | Running _ | Action _ | Condition _ | One_of _ | Until _ | Idle _ | Confirm _
-  | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ | Recruit _ | Recruited _ -> []
+  | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ | Recruit _ | Recruited _ | Fresh _ -> []
 
 (* {1 Components} *)
 
@@ -265,7 +272,7 @@ let rec first_branches c around (r : Residual.t) =
 let handlers_of c contexts =
   let handler = function
     | Residual.Watched_by handler -> Some (of_handler c handler)
-    | Before _ | Branch_of _ | Body_until _ | Body_during _ | Round_of _ | Holding _ | Having _ -> None
+    | Before _ | Branch_of _ | Body_until _ | Body_during _ | Round_of _ | Holding _ | Having _ | With_keys _ -> None
   in
   List.filter_map handler contexts
 
@@ -276,7 +283,7 @@ let following c contexts =
     | Round_of again -> rounds c again
     | Holding vs -> { Footprint.empty with frees = freed c vs }
     | Having v -> { Footprint.empty with frees = freed c [ v ] }
-    | Body_until _ | Body_during _ | Watched_by _ -> Footprint.empty
+    | Body_until _ | Body_during _ | Watched_by _ | With_keys _ -> Footprint.empty
   in
   all (List.map following contexts)
 
@@ -300,12 +307,13 @@ let analyse ?own c nests (first : Footprint.t) branches ~failed ~lost steps =
   let further futures contexts =
     match futures with
     | f :: _ -> with_handlers (union f (following c contexts)) :: futures
-    | [] -> [ with_handlers first ]
+    | [] -> [ with_handlers (widened c first) ]
   in
   let futures = Array.of_list (List.rev (List.fold_left further (further [] []) nests)) in
   let ignores (f : Footprint.t) = f.ignores in
   let cut_by_error level contexts = futures.(level).breaks && List.exists ignores (handlers_of c contexts) in
-  let footprints = Array.map (fun step -> with_lost (lost ~failed) step (footprint ?own c step)) steps in
+  let of_step step = widened c (with_lost (lost ~failed) step (footprint ?own c step)) in
+  let footprints = Array.map of_step steps in
   let may_end (f : Footprint.t) = f.breaks || f.halts in
   {
     footprints;
@@ -324,15 +332,15 @@ let of_component c nests r steps =
     | Holding vs -> vs
     | Having v -> [ v ]
     | Round_of again -> Residual.named again.each
-    | Body_until _ | Body_during _ | Watched_by _ -> []
+    | Body_until _ | Body_during _ | Watched_by _ | With_keys _ -> []
   in
   let outer = if concerns_holding c then List.concat_map (List.concat_map named) nests else [] in
   let own = Residual.recruits (Residual.plug (fst (Residual.decompose r)) Residual.hole) in
   let holds = function
     | Residual.Holding _ | Having _ -> true
-    | Before _ | Branch_of _ | Body_until _ | Body_during _ | Watched_by _ | Round_of _ -> false
+    | Before _ | Branch_of _ | Body_until _ | Body_during _ | Watched_by _ | Round_of _ | With_keys _ -> false
   in
-  let branches = if List.exists (List.exists holds) nests then [] else first_branches c around r in
+  let branches = if c.leaks || List.exists (List.exists holds) nests then [] else first_branches c around r in
   let failed = Footprint.these (Residual.named r @ outer) in
   analyse ~own c nests (future c r) branches ~failed ~lost:(lost r outer) steps
 

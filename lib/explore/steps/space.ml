@@ -265,7 +265,7 @@ let stays (Task_rules.Step { offer; _ }) =
 
 let may_cut = function
   | Residual.Body_until _ | Body_during _ -> true
-  | Before _ | Branch_of _ | Watched_by _ | Round_of _ | Holding _ | Having _ -> false
+  | Before _ | Branch_of _ | Watched_by _ | Round_of _ | Holding _ | Having _ | With_keys _ -> false
 
 let repeats layers =
   let repeat (at, context) = match context with Residual.Round_of again -> Some (at, again) | _ -> None in

@@ -122,7 +122,8 @@ and applied code operation arguments given =
       List.iter2 post keys given;
       Other
     | ( (Builtin
-           (Make_watch | Make_until _ | Make_during _ | Make_wait_for | Make_action | Make_condition | Make_repeat _)
+           (Make_watch | Make_fresh | Make_until _ | Make_during _ | Make_wait_for | Make_action | Make_condition
+           | Make_repeat _)
         | Binary (Sequence | Parallel | Divide)), _, _ ) -> task given
     | Element, _, [ Task; Other ] | Make_recruit, _, [ Other; Task ] -> Task
     | Call names, { node = Constant (Closure { lambda; captured = [||] }) | Make_closure (lambda, []); _ } :: _,

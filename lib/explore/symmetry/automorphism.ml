@@ -69,7 +69,7 @@ let subtasks context r =
     | Parallel rs -> List.map subtask rs :: List.concat_map lists rs
     | All_of (a, bs) -> (List.map of_branch bs :: List.concat_map lists (Option.to_list a)) @ bodies bs
     | One_of bs -> List.map of_branch bs :: bodies bs
-    | Until (_, _, a) | Watch (a, _) | Hold (_, a) | Recruited (_, a) | During { body = a; _ } -> lists a
+    | Until (_, _, a) | Watch (a, _) | Hold (_, a) | Recruited (_, a) | Fresh (_, a) | During { body = a; _ } -> lists a
   and bodies bs = List.concat_map (fun (b : Residual.branch) -> lists b.body) bs in
   lists r
 

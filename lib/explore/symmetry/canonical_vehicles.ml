@@ -260,7 +260,7 @@ let rec check_plans r (t : Residual.t) =
   | All_of (a, bs) -> Option.iter (check_plans r) a; branches bs
   | One_of bs -> branches bs
   | Until (_, _, a) | During { body = a; _ } | Watch (a, { anew = None; _ }) | Hold (_, a) | Recruited (_, a)
-  | Repeat { again = { each = a; _ }; _ } -> check_plans r a
+  | Fresh (_, a) | Repeat { again = { each = a; _ }; _ } -> check_plans r a
   | Made _ | Unallocated _ | Recruit _ | Watch (_, { anew = Some _; _ }) -> check_all_plans r
 
 let choices r outside (c : Configuration.t) =

@@ -8,6 +8,7 @@ type t = {
   sensors : bool;
   abilities : bool;
   picks : bool;
+  leaks : bool;
   texts : string list;
 }
 
@@ -20,6 +21,7 @@ let text = 2
 let map = 4
 let reading = 8
 let code = 16
+let key = 32  (* of [fresh]; also of code and tasks that contain one *)
 let nothing = 0
 let has content k = k land content <> 0
 let all = List.fold_left ( lor ) nothing
@@ -172,7 +174,7 @@ let rec value w (lambda : lambda) e =
       add w (Slot (inner.id, slot)) (content w (Slot (lambda.id, outer)))
     in
     List.iter2 capture (Array.to_list inner.captures) slots;
-    code
+    code lor (all (List.map (fun slot -> content w (Slot (lambda.id, slot))) slots) land key)
   | If (test, yes, no) ->
     ignore (value_of test);
     let k = value_of yes in
@@ -193,7 +195,10 @@ and applied w lambda at operation arguments =
   let values es = all (List.map value_of es) in
   match operation, arguments with
   | Builtin (Message | Halt | Assert), [ e ] -> said w lambda e; nothing
-  | Concatenate, es -> put_into_text w at (values es); text
+  | Concatenate, es ->
+    let k = values es in
+    put_into_text w at k;
+    text lor (k land key)
   | Builtin Ask, es -> put_into_text w at (values es); text lor map
   | Builtin Make_confirm, es -> put_into_text w at (values es); nothing
   | Builtin Get_supplier, _ -> replies
@@ -258,24 +263,28 @@ and applied w lambda at operation arguments =
       add w (Slot (handler.id, 1)) vehicles;
       add w (Slot (handler.id, 2)) text
     end;
-    values [ t; code ] land vehicles
+    values [ t; code ] land (vehicles lor key)
   | (Builtin Make_wait_for | Make_branch), es ->
     (* Code in the place of a task gets what the guard took. *)
     let taken = content w Posted in
     let give e k = ignore (call_value w e k (fun _ -> taken)) in
     let ks = List.map value_of es in
     List.iter2 give es ks;
-    all ks land vehicles
+    all ks land (vehicles lor key)
+  | Builtin Make_fresh, [ c ] ->
+    (* Its keys are known to its task alone, unless that passes them on. *)
+    call_value w c (value_of c) (fun _ -> text lor key) land vehicles
   | ( ( Builtin (Platform_task | Make_action | Make_condition | Make_until _ | Make_idle | Make_during _
-                | Make_watch | Make_repeat _) ),
-      es ) -> values es land vehicles
+                | Make_watch | Make_fresh | Make_repeat _) ),
+      es ) -> values es land (vehicles lor key)
   | Make_recruit, [ settings; code ] ->
     w.found <- { w.found with picks = true };
     ignore (value_of settings);
-    ignore (call_value w code (value_of code) (fun _ -> vehicles));
-    vehicles
+    let k = value_of code in
+    let k = k lor call_value w code k (fun _ -> vehicles) in
+    vehicles lor (k land key)
   | Builtin (Post keys), es ->
-    let k = values es in
+    let k = posted w lambda keys es in
     if List.mem None keys && has vehicles k then uses_name w at;
     add w Posted (if keys = [] then k lor text else k);
     nothing
@@ -306,6 +315,18 @@ and applied w lambda at operation arguments =
       | Add_setting _ | Make_recruit ),
       es ) -> values es
 
+(* The content posted under these keys; the keys themselves are not passed on. *)
+and posted w lambda keys es =
+  match keys, es with
+  | Some _ :: keys, x :: es ->
+    let k = value w lambda x in
+    k lor posted w lambda keys es
+  | None :: keys, k :: x :: es ->
+    let k = value w lambda k land lnot key in
+    let k' = value w lambda x in
+    k lor k' lor posted w lambda keys es
+  | _, es -> all (List.map (value w lambda) es)
+
 and built w builder k =
   match (builder : Dolphin_syntax.Ast.builder) with
   | Pick ->
@@ -313,7 +334,7 @@ and built w builder k =
     vehicles
   | Imc_plan | Mission -> reads_places w; nothing
   | Pos -> nothing
-  | All_of | One_of | Recruit -> k land vehicles
+  | All_of | One_of | Recruit -> k land (vehicles lor key)
 
 (* Texts for people may say names. *)
 and said w lambda e =
@@ -330,7 +351,8 @@ and said w lambda e =
 
 let of_program (program : program) ~asked =
   let found =
-    { names = None; readings = None; places = false; sensors = false; abilities = false; picks = false; texts = [] }
+    { names = None; readings = None; places = false; sensors = false; abilities = false; picks = false; leaks = false;
+      texts = [] }
   in
   let w =
     { contents = Hashtbl.create 64; lambdas = Hashtbl.create 16; handlers = Hashtbl.create 8; grown = true; found }
@@ -343,7 +365,8 @@ let of_program (program : program) ~asked =
     w.grown <- false;
     Hashtbl.iter walk (Hashtbl.copy w.lambdas)
   done;
-  w.found
+  let leaks place k found = found || (match place with Posted | Variable _ -> has key k | Slot _ | Result _ -> false) in
+  { w.found with leaks = Hashtbl.fold leaks w.contents false }
 
 let rec computes e =
   match e.node with

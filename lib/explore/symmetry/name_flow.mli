@@ -14,6 +14,7 @@ type t = {
   sensors : bool;  (** whether they depend on what other sensors show: batteries, speeds, links, measurements *)
   abilities : bool;  (** whether they depend on how fast vehicles are and what that takes of their batteries *)
   picks : bool;  (** whether there is a [pick] or a [recruit] *)
+  leaks : bool;  (** whether a key of some [fresh] may be posted as a value, or assigned to a variable *)
   texts : string list;  (** all texts in the program *)
 }
 

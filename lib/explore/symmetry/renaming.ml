@@ -65,6 +65,7 @@ and task r t =
     let until = Option.map (closure r) x.until in
     Repeat { x with until; body = task r x.body }
   | Made c -> Made (closure r c)
+  | Fresh c -> Fresh (closure r c)
   | Recruit x -> Recruit { x with code = closure r x.code }
 
 and branch r b =
@@ -114,6 +115,7 @@ let rec residual_by r (t : Residual.t) : Residual.t =
   | Recruited (v, a) ->
     let v = r.f v in
     Recruited (v, go a)
+  | Fresh (ns, a) -> Fresh (ns, go a)
 
 and made r (q : Residual.request) = { q with allowed = Option.map (List.map r.f) q.allowed }
 

@@ -174,6 +174,7 @@ let rec image_of_residual g p (r : Residual.t) : Residual.t =
   | Until (on_cut, c, a) -> Until (on_cut, code c, go a)
   | During ({ duration = Given_by c; _ } as d) -> During { d with duration = Given_by (code c); body = go d.body }
   | During ({ duration = Seconds _; _ } as d) -> During { d with body = go d.body }
+  | Fresh (ns, a) -> Fresh (ns, go a)
   | Watch (a, { code; anew = None }) -> Watch (go a, { code = image_of_closure g p ~handler:true code; anew = None })
   | Repeat { round; again } ->
     let again = { again with until = Option.map code again.until; each = go again.each } in

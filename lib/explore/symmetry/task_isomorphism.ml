@@ -31,7 +31,7 @@ let rec fold f acc (r : Residual.t) =
     fold f (Option.fold until ~none:acc ~some:(fun c -> f acc (Of_code (false, c)))) each
   | Made { code; _ } | Recruit { code; _ } -> f acc (Of_code (false, code))
   | Unallocated _ -> acc
-  | Hold (_, a) | Recruited (_, a) -> fold f acc a
+  | Hold (_, a) | Recruited (_, a) | Fresh (_, a) -> fold f acc a
 
 and fold_branch f acc (b : Residual.branch) = fold f (f acc (Of_code (false, b.guard))) b.body
 
@@ -86,6 +86,7 @@ let rec spell s (r : Residual.t) =
       (optional (spell s) round) (spell s each)
   | Made { code = c; _ } -> "made" ^ code s ~handler:false c
   | Recruit { code = c; _ } -> "recruit" ^ code s ~handler:false c
+  | Fresh (ns, a) -> Printf.sprintf "fresh(%d,%s)" (List.length ns) (spell s a)
   | Unallocated _ | Hold _ | Recruited _ -> invalid_arg "Task_isomorphism: a task that has begun"
 
 and spell_branch s (b : Residual.branch) = code s ~handler:false b.guard ^ "?" ^ spell s b.body
@@ -157,13 +158,14 @@ let matched context ~rename r r' =
       when d.started = d'.started && ends_alike d.on_cut d'.on_cut ->
       same_code ~handler:false c c';
       go d.body d'.body
+    | Fresh (ns, a), Fresh (ns', a') when List.compare_lengths ns ns' = 0 -> go a a'
     | Repeat { round; again }, Repeat { round = round'; again = again' } when again.left = again'.left ->
       both (same_code ~handler:false) again.until again'.until;
       both go round round';
       go again.each again'.each
     | ( ( Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _
         | Idle _ | Confirm _ | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ | Recruit _
-        | Recruited _ ),
+        | Recruited _ | Fresh _ ),
         _ ) -> raise_notrace Different
   and branch (b : Residual.branch) (b' : Residual.branch) =
     same_code ~handler:false b.guard b'.guard;

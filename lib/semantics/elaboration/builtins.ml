@@ -23,6 +23,7 @@ type arguments =
   | Input
   | On_interrupt
   | Assert
+  | Fresh
 
 type place = Anywhere | Script_only | Handler_only | In_handler
 type t = { arguments : arguments; place : place; result : kind; reads_sensors : bool }
@@ -45,6 +46,7 @@ let table : (string * t) list =
     ("action", these Make_action [ Closure ] ~result:Task);
     ("condition", these Make_condition [ Closure ] ~result:Task);
     ("idle", these Make_idle [ Number ] ~result:Any);
+    ("fresh", { (other Fresh) with result = Task });
     ("assert", { (other Assert) with result = Task });
     ("execute", other Execute ~place:Script_only);
     ("release", these Release [ Vehicles ] ~place:Script_only ~result:Other);

@@ -30,6 +30,7 @@ type arguments =
   | Input
   | On_interrupt  (** keys, in a declaration *)
   | Assert  (** code, and perhaps a text *)
+  | Fresh  (** code of keys *)
 
 type place =
   | Anywhere

@@ -62,10 +62,28 @@ let confirm env at arguments =
     let again = ask (apply env at Concatenate [ local env at question; constant env at (String " (yes or no)") ]) in
     block env at [ first; asked; expression env at (While (open_, again)); local env at answer ]
 
+(* [fresh { k, k' -> T }]: code of keys, run when the task is given its vehicles. *)
+let fresh env at arguments =
+  let example = "write fresh { k -> T }; code in T may use the key k: post((k): 1)" in
+  match arguments with
+  | [ Ast.Positional { it = Closure ({ parameters = Some (_ :: _); _ } as c); at = code_at } ] ->
+    apply env at (Builtin Make_fresh) [ told c (closure env code_at Scope.Maker "fresh" c) ]
+  | [ Ast.Positional { it = Closure _; at } ] ->
+    error env Wrong_parameters at "the code of fresh takes its keys as parameters" ~hint:example;
+    null env at
+  | [ Ast.Positional e ] ->
+    check_kind env "fresh" Closure e;
+    apply env at (Builtin Make_fresh) [ elaborate env e ]
+  | [ Ast.Named (k, _) ] -> error env Unknown_argument k.at "fresh takes no argument by name"; null env at
+  | arguments ->
+    error env Wrong_arity at "fresh takes 1 argument, not %d" (List.length arguments) ~hint:example;
+    null env at
+
 let input env at arguments =
   let wrong at = error env Wrong_kind at "input takes keys in quotes" ~hint:"write input 'abort'" in
   let key = function
     | Ast.Positional { it = String key; at } when key <> "" ->
+      Pairs.check_own env key at;
       if List.exists (fun (other : string Ast.located) -> other.it = key) (Scope.inputs env.program) then
         error env Defined_twice at "input '%s' is declared twice" key
       else Scope.note_input env.program { Ast.it = key; at }
@@ -242,6 +260,7 @@ let rec to_builtin env at name (builtin : Builtins.t) arguments =
       "onInterrupt declares what an interruption executes: it stands by itself at the top of the program";
     null env at
   | Assert -> assertion_task env at arguments
+  | Fresh -> fresh env at arguments
 
 let builder_in_parentheses env at name arguments =
   let setting = function

@@ -11,8 +11,8 @@ let computing =
     "toString"; "toUpperCase"; "trim"; "unique"; "values" ]
 
 let procedures =
-  [ "task"; "imcPlan"; "action"; "condition"; "idle"; "location"; "area"; "position"; "battery"; "speed"; "connected";
-    "reading"; "running"; "now"; "eta"; "poll" ]
+  [ "task"; "imcPlan"; "action"; "condition"; "fresh"; "idle"; "location"; "area"; "position"; "battery"; "speed";
+    "connected"; "reading"; "running"; "now"; "eta"; "poll" ]
 
 (* Expressions that surely only compute. [is_own x] is whether the program itself defines [x]; [has_host], whether
    there may be objects of the supplier, whose members may do anything. *)

@@ -204,7 +204,7 @@ let elaborated ?(chart = no_chart) ~source_name (ast : Ast.program) =
   report_unknown program;
   report_blocking program;
   report_unread_inputs program;
-  List.iter (Scope.report program) (Parallel_check.program ast @ Effect_check.program ast);
+  List.iter (Scope.report program) (Parallel_check.program ast @ Effect_check.program ast @ Endless_check.program ast);
   map_warnings program ~chart ast;
   let place = default_place program ~chart ast in
   let fences = fences program (lazy (Constants.of_program ~chart ~place ast)) ast in

@@ -25,9 +25,15 @@ let is_pattern p = match p.wanted with Pattern _ -> true | Any | Equal_to _ -> f
 
 (* {1 Checks} *)
 
+let check_own env key at =
+  if Residual.is_key key then
+    error env No_pairs at "'%s' is a key as fresh gives them: a program may not spell it out" key
+      ~hint:"choose another name, or write fresh { k -> ... post((k): 1) ... }"
+
 let check_key env p =
   match p.key with
-  | Written _ -> ()
+  | Written k -> check_own env k.it k.at
+  | Computed { it = String k; at } -> check_own env k at
   | Computed k -> (
       match known_kind env k with
       | Any | String | Number -> ()

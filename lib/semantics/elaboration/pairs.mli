@@ -5,3 +5,6 @@ val elaborate :
   Checks.env -> Dolphin_syntax.Location.t -> string -> Builtins.pairs -> Dolphin_syntax.Ast.argument list ->
   Core.expression
 (** [elaborate env at name construct arguments] is the call of [construct], which the program spells [name]. *)
+
+val check_own : Checks.env -> string -> Dolphin_syntax.Location.t -> unit
+(** [check_own env k at] reports the key [k], spelled out at [at], if it is a key of [fresh]. *)

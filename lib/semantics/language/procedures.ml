@@ -22,7 +22,7 @@ let rec never_waits = function
   | Allocated (a, _) | Until (_, _, a) | During (_, Seconds _, a) | Watch (a, _) | Repeat { body = a; _ } ->
     never_waits a
   | Platform _ | Condition _ | All_of _ | One_of _ | Idle _ | Confirm _ | During (_, Given_by _, _) | Made _
-  | Recruit _ -> false
+  | Recruit _ | Fresh _ -> false
 
 let repeat at n body until =
   let made rounds =
@@ -59,6 +59,8 @@ let make_task context at = function
   | (Make_wait_for | Make_until _), ([ Closure _; x ] | [ x; _ ]) -> expected "a task" x
   | Make_watch, [ Task t; Closure c ] -> Value (Task (Watch (t, c)))
   | Make_watch, (x :: _) -> expected "a task after watch" x
+  | Make_fresh, [ Closure c ] -> Value (Task (Fresh c))
+  | Make_fresh, [ x ] -> expected "code { k -> T }" x
   | Make_idle, [ Vehicles vs ] ->
     let is_idle v = List.mem v context.bound && not (List.mem v (Lazy.force context.held)) in
     Value (Vehicles (List.filter is_idle vs))
@@ -254,7 +256,7 @@ let apply context at operation arguments =
   | Platform_task, [ String name ] when name <> "" ->
     Value (Task (Platform { name; plan = None; task_site = at }))
   | ( ( Platform_task | Make_action | Make_condition | Make_wait_for | Make_until _ | Make_idle | Make_confirm
-      | Make_during _ | Make_watch | Make_repeat _ ),
+      | Make_during _ | Make_watch | Make_fresh | Make_repeat _ ),
       _ ) -> make_task context at (operation, List.mapi (as_task operation) arguments)
   | Execute, [ Closure c ] -> blocking context "execute" (Execute (Made c))
   | Execute, [ Task t ] -> blocking context "execute" (Execute t)

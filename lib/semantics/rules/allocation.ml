@@ -9,16 +9,22 @@ let restrict allowed vs =
   | None -> Some vs
   | Some ws -> Some (List.filter (fun v -> List.mem v ws) vs)
 
-let rec tree_of allowed t : leaf Assignment.tree =
+(* [next_opened ()] is the keys and the task of the next [fresh]: parts are walked from left to right. *)
+let rec tree_of next_opened allowed t : leaf Assignment.tree =
+  let of_task = tree_of next_opened allowed in
+  let both a b =
+    let a = of_task a in
+    [ a; of_task b ]
+  in
   match t with
   | Platform task -> Leaf { task; allowed }
   | Action _ | Condition _ | Idle _ | Confirm _ | Made _ | Recruit _ -> Shared []
-  | Sequence (a, b) -> Shared [ tree_of allowed a; tree_of allowed b ]
-  | Parallel (a, b) -> Disjoint [ tree_of allowed a; tree_of allowed b ]
-  | Allocated (a, vs) -> tree_of (restrict allowed vs) a
-  | All_of branches | One_of branches ->
-    Shared (List.map (fun (b : Core.branch) -> tree_of allowed b.body) branches)
-  | Until (_, _, a) | During (_, _, a) | Watch (a, _) | Repeat { body = a; _ } -> tree_of allowed a
+  | Sequence (a, b) -> Shared (both a b)
+  | Parallel (a, b) -> Disjoint (both a b)
+  | Allocated (a, vs) -> tree_of next_opened (restrict allowed vs) a
+  | All_of branches | One_of branches -> Shared (List.map (fun (b : Core.branch) -> of_task b.body) branches)
+  | Until (_, _, a) | During (_, _, a) | Watch (a, _) | Repeat { body = a; _ } -> of_task a
+  | Fresh _ -> of_task (snd (next_opened ()))
 
 let rec map_tree f : 'a Assignment.tree -> ('b Assignment.tree, 'e) result = function
   | Leaf x -> Result.map (fun y -> Assignment.Leaf y) (f x)
@@ -148,6 +154,7 @@ type supply = {
   next_vehicle : unit -> vehicle;
   next_timer : unit -> Residual.timer;
   next_place : unit -> Residual.timer;  (* of code that makes a task *)
+  next_opened : unit -> Residual.timer list * task;  (* the keys and the task of the next [fresh] *)
   depth : int;  (* of such code *)
 }
 
@@ -183,6 +190,9 @@ let rec residual supply allowed t : Residual.t =
     let place = supply.next_place () in
     Watch (recurse a, { code; anew = Some (a, { allowed; place; depth = supply.depth }) })
   | Watch (a, code) -> Watch (recurse a, { code; anew = None })
+  | Fresh _ ->
+    let ns, a = supply.next_opened () in
+    Fresh (ns, recurse a)
   | Repeat { rounds; until; body; site } ->
     let each = recurse body in
     Residual.repeat { left = Option.map pred rounds; until; each; site } each
@@ -202,7 +212,7 @@ let is_too_large t =
       else
         let down ts = from (count + 1) (List.rev_append (List.rev_map (fun t -> (depth + 1, t)) ts) rest) in
         (match t with
-         | Platform _ | Action _ | Condition _ | Idle _ | Confirm _ | Made _ | Recruit _ ->
+         | Platform _ | Action _ | Condition _ | Idle _ | Confirm _ | Made _ | Recruit _ | Fresh _ ->
            from (count + 1) rest
          | Sequence (a, b) | Parallel (a, b) -> down [ a; b ]
          | Allocated (a, _) | Until (_, _, a) | During (_, _, a) | Watch (a, _) | Repeat { body = a; _ } -> down [ a ]
@@ -210,41 +220,64 @@ let is_too_large t =
   in
   from 0 [ (0, t) ]
 
-let counter () =
-  let last = ref 0 in
-  fun () -> incr last; !last
+(* The code of each [fresh] in [t], from left to right; the other tasks that it gives are not seen. *)
+let fresh t =
+  let rec add t rest =
+    match t with
+    | Fresh code -> code :: rest
+    | Platform _ | Action _ | Condition _ | Idle _ | Confirm _ | Made _ | Recruit _ -> rest
+    | Sequence (a, b) | Parallel (a, b) -> add a (add b rest)
+    | Allocated (a, _) | Until (_, _, a) | During (_, _, a) | Watch (a, _) | Repeat { body = a; _ } -> add a rest
+    | All_of bs | One_of bs -> List.fold_right (fun (b : Core.branch) rest -> add b.body rest) bs rest
+  in
+  if is_too_large t then [] else add t []
+
+type opened = { tasks : (Residual.timer list * task) list; numbers : Residual.timer Seq.t }
+
+(* [one_by_one xs] gives the elements of [xs], one in each call. *)
+let one_by_one xs =
+  let left = ref xs in
+  fun () ->
+    match !left () with
+    | Seq.Nil -> invalid_arg "Allocation: too few numbers, or tasks"
+    | Seq.Cons (x, rest) ->
+      left := rest;
+      x
 
 let too_large =
   Printf.sprintf "the task has more than %d parts, or is nested more than %d deep" most_parts deepest
 
 (* [supply next_vehicle] gives what else the parts get. The vehicles are those that are used, in pick order. *)
-let allocate_small world bound ~allowed ~supply t =
+let allocate_small world bound ~allowed ~supply opened t =
   let bound = Array.of_list bound in
-  let tree = tree_of allowed t in
+  let tree = tree_of (one_by_one (List.to_seq opened.tasks)) allowed t in
   let tasks = Array.of_list (leaves tree []) in
   let solved candidates =
     match Assignment.solve ~vehicles:(Array.length bound) candidates with
     | Ok vehicles ->
-      let next = counter () in
       let used = List.sort_uniq Int.compare (Array.to_list vehicles) in
-      let supply = supply (fun () -> bound.(vehicles.(next () - 1))) in
+      let next_vehicle = one_by_one (Seq.map (Array.get bound) (Array.to_seq vehicles)) in
+      let supply = supply next_vehicle (one_by_one (List.to_seq opened.tasks)) in
       Ok (List.map (Array.get bound) used, residual supply allowed t)
     | Error (No_candidate i) -> Error (no_candidate world bound tasks.(i))
     | Error (Conflict { leaves; vehicles }) -> Error (conflict bound tasks leaves vehicles)
   in
   Result.map solved (map_tree (candidates_once world bound) tree)
 
-let allocate_with world bound ~allowed ~supply t =
+let allocate_with world bound ~allowed ~supply opened t =
   if is_too_large t then Ok (Error (Fault.make Fault.unknown_site too_large))
-  else allocate_small world bound ~allowed ~supply t
+  else allocate_small world bound ~allowed ~supply opened t
 
-let allocate world bound t =
-  let next = counter () in
-  let supply next_vehicle = { next_vehicle; next_timer = next; next_place = next; depth = 0 } in
-  Result.map (Result.map snd) (allocate_with world bound ~allowed:None ~supply t)
-
-let allocate_made world bound ~timers (request : Residual.request) t =
-  let supply next_vehicle =
-    { next_vehicle; next_timer = timers (); next_place = (fun () -> request.place); depth = request.depth }
+let allocate world bound opened t =
+  let next = one_by_one opened.numbers in
+  let supply next_vehicle next_opened =
+    { next_vehicle; next_timer = next; next_place = next; next_opened; depth = 0 }
   in
-  allocate_with world bound ~allowed:request.allowed ~supply t
+  Result.map (Result.map snd) (allocate_with world bound ~allowed:None ~supply opened t)
+
+let allocate_made world bound opened (request : Residual.request) t =
+  let next_timer = one_by_one opened.numbers in
+  let supply next_vehicle next_opened =
+    { next_vehicle; next_timer; next_place = (fun () -> request.place); next_opened; depth = request.depth }
+  in
+  allocate_with world bound ~allowed:request.allowed ~supply opened t

@@ -10,10 +10,11 @@ type t = {
 let make ?(effects = []) rule label control shared =
   { rules = [ rule ]; label; next = { control; shared }; effects; assumed = []; otherwise = [] }
 
-let begun = List.map Effect.begins
+let begun =
+  List.filter_map (function Residual.Wait (number, wait) -> Some (Effect.begins (number, wait)) | Key _ -> None)
 
 let ended (s : Shared.t) ending : Configuration.t =
-  { control = Ended ending; shared = { s with allocation = Vehicle_map.empty; bound = [] } }
+  { control = Ended ending; shared = Shared.without_fresh { s with allocation = Vehicle_map.empty; bound = [] } }
 
 let cut waits (s : Shared.t) =
   List.map Effect.ceases waits

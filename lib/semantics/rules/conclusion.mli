@@ -12,8 +12,8 @@ type t = {
 val make : ?effects:Effect.t list -> Rule.t -> Label.t -> Configuration.control -> Shared.t -> t
 (** [make rule l k s] is the transition by [rule] alone, labelled [l], to <k, s>. *)
 
-val begun : (Residual.timer * Residual.wait) list -> Effect.t list
-(** To set these timers, and put these questions. *)
+val begun : Residual.begun list -> Effect.t list
+(** To set the timers, and put the questions. *)
 
 (** {1:ends Ends} *)
 
@@ -21,7 +21,8 @@ val cut : (Residual.timer * Residual.wait) list -> Shared.t -> Effect.t list
 (** [cut waits s] ends [waits] and stops all that A runs. *)
 
 val ended : Shared.t -> Configuration.ending -> Configuration.t
-(** [ended s e] is the end [e] of a run with shared part [s]: A and B are empty. *)
+(** [ended s e] is the end [e] of a run with shared part [s]: A and B are empty, and N is without pairs
+    of the keys of [fresh]. *)
 
 val ending :
   ?waits:(Residual.timer * Residual.wait) list -> ?recruits:Core.vehicle list -> ?before:Effect.t list -> Rule.t list ->

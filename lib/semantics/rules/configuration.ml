@@ -93,7 +93,8 @@ let rec are_apart r =
   | Sequence (a, rest) -> List.for_all are_apart (a :: rest)
   | All_of (a, bs) -> List.for_all are_apart (Option.to_list a) && are_apart (One_of bs)
   | One_of bs -> List.for_all (fun (b : Residual.branch) -> are_apart b.body) bs
-  | Until (_, _, a) | Watch (a, _) | Hold (_, a) | Recruited (_, a) | During { body = a; _ } -> are_apart a
+  | Until (_, _, a) | Watch (a, _) | Hold (_, a) | Recruited (_, a) | Fresh (_, a) | During { body = a; _ } ->
+    are_apart a
   | Repeat { round; again } -> List.for_all are_apart (again.each :: Option.to_list round)
 
 let is_apart c = match c.control with Executing (_, r) -> are_apart r | Script _ | Waiting _ | Ended _ -> true

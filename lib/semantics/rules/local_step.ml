@@ -61,14 +61,15 @@ let released = function [] -> [] | vs -> [ Effect.Release vs ]
 let undo : Task_rules.undoing -> vehicle list * Effect.t list = function
   | Cancel timer -> ([], [ Cancel_timer timer ])
   | Leave v -> ([], [ Release [ v ] ])
+  | Forget _ -> ([], [])
   | Cut cut ->
     let cancelled = List.map Effect.ceases (List.concat_map Residual.waits cut) in
     let stopped = List.concat_map Residual.running cut in
     let recruits = List.concat_map Residual.recruits cut in
     (stopped, cancelled @ List.map (fun v -> Effect.Stop v) stopped @ released recruits)
 
-(* So deep are closures in tasks that closures made, and tasks in the place of those that failed. *)
-let deepest = 100
+(* So deep are tasks in the place of those that failed. *)
+let deepest = Maker.deepest
 
 (* The task [t] that a handler gives, in the place of its own. *)
 let instead (handler : Residual.handler) t propagated recovered =
@@ -108,6 +109,7 @@ let rec settle around program world s derivation asked (change : Task_rules.chan
   let stopped, undone = List.split (List.map undo change.undone) in
   let derivation = derivation @ change.rules in
   let s = without_tasks (List.concat stopped) s in
+  let s = Shared.without_keys (List.map Residual.key (Task_rules.keys change)) s in
   let asked = asked @ List.concat undone @ Conclusion.begun change.timers in
   let come_to outcome = { after = s; outcome; derivation; named = change.label; asked; rounds = change.rounds } in
   match change.outcome with
@@ -181,29 +183,10 @@ let settled (code : closure) x f =
 
 (* {2 Tasks made at their turn} *)
 
-(* The task that [code] gives, if all went well: it computed the value [x], without a deed, and left the store alone. *)
-let made (code : closure) given (request : Residual.request) (s : Shared.t) (after : Shared.t) x deeds =
-  let fault format = Printf.ksprintf (fun m -> Error (Fault.make code.lambda.lambda_site m)) format in
-  let many n = Printf.sprintf "%d value%s" n (if n = 1 then "" else "s") in
-  let n = List.length given and { parameters; implicit; label; _ } = code.lambda in
-  if parameters > n && not implicit then
-    fault "{ %s } takes %s, and its guard took %s" label (many parameters) (if n = 0 then "none" else many n)
-  else if request.depth >= deepest then
-    fault "closures in tasks that closures give nest more than %d deep: what goes on and on is a repeat" deepest
-  else if deeds <> [] || Store.compare after.store s.store <> 0 then
-    fault "{ %s } makes a task, so it may only compute: it may not post, consume, assign or say anything" label
-  else
-    match x with
-    | Task t -> Ok t
-    | Closure c -> Ok (Made c)
-    | x -> fault "{ %s }: %s" label (Operators.instead_of "a task" x)
-
 (* Free vehicles for [task]; [None] if it waits for some. *)
-let allocated world bound held task (request : Residual.request) around =
+let allocated world bound held opened task (request : Residual.request) around =
   let bound = bound @ Residual.recruited_for around in
-  let used = lazy (Residual.timers_around around) in
-  let timers () = Residual.fresh_timers request.place (Lazy.force used) in
-  let from bound = Allocation.allocate_made world bound ~timers request task in
+  let from bound = Allocation.allocate_made world bound opened request task in
   let free = List.filter (fun v -> not (List.mem v (Lazy.force held))) bound in
   let waits_or_fails = function
     | Ok (_ : vehicle list * Residual.t) -> Ok None
@@ -243,16 +226,25 @@ let internal program world (s : Shared.t) (Task_rules.Step { offer; continue; ar
   | Take guard -> if_true guard continue
   | Make (code, given, request) ->
     let gives world x after deeds =
-      settled code x (fun x -> go world s (continue (made code given request s after x deeds)))
+      settled code x (fun x -> go world s (continue (Maker.task_of code given ~depth:request.depth s after x deeds)))
     in
     coded ~given program world s code ~gives ~fails:(fails continue)
   | Allocate (task, request) ->
-    let look world = Result.map (fun found -> (world, found)) (allocated world s.bound held task request around) in
-    let go_on = function
-      | _, None -> Decision.Decided None
-      | world, Some found -> go world s (continue found)
+    let used = lazy (Residual.timers_around around) in
+    let numbers () = Residual.fresh_timers request.place (Lazy.force used) () in
+    let opened = function
+      | world, Error fault -> go world s (continue (Error fault))
+      | world, Ok opened ->
+        let look world =
+          Result.map (fun found -> (world, found)) (allocated world s.bound held opened task request around)
+        in
+        let go_on = function
+          | _, None -> Decision.Decided None
+          | world, Some found -> go world s (continue found)
+        in
+        Decision.bind (Decision.look world look) go_on
     in
-    Decision.bind (Decision.look world look) go_on
+    Decision.bind (Maker.opened ~held program world s ~numbers ~depth:request.depth task) opened
   | Refute guard ->
     let gives world x _ _ =
       settled guard x (fun x ->
@@ -308,7 +300,7 @@ let on_event program world s (Task_rules.Step { offer; continue; around = surrou
 let next m outcome shared : Configuration.t =
   match outcome with
   | Goes_on r -> { control = Executing (m, r); shared }
-  | Over -> { control = Script (Machine.give Null m); shared }
+  | Over -> { control = Script (Machine.give Null m); shared = Shared.without_fresh shared }
   | Ends ending -> Conclusion.ended shared ending
 
 let conclude m r { after; outcome; derivation; named; asked; rounds = _ } : Conclusion.t =

@@ -6,6 +6,7 @@ let script_timer = 0
 let alarm = -1
 
 type wait = Time of float | Answer of string
+type begun = Wait of timer * wait | Key of timer
 
 type t =
   | Ready of platform_task * vehicle
@@ -27,6 +28,7 @@ type t =
   | Hold of vehicle list * t
   | Recruit of { number : timer; asked : Vehicle_filter.t; code : closure; place : timer; depth : int; site : site }
   | Recruited of vehicle * t
+  | Fresh of timer list * t
 
 and again = { left : int option; until : closure option; each : t; site : site }
 
@@ -42,7 +44,7 @@ let rank = function
   | Ready _ -> 0 | Running _ -> 1 | Action _ -> 2 | Condition _ -> 3 | Sequence _ -> 4 | Parallel _ -> 5
   | All_of _ -> 6 | One_of _ -> 7 | Until _ -> 8 | Idle _ -> 9 | During _ -> 10 | Watch _ -> 11 | Repeat _ -> 12
   | Made _ -> 13 | Unallocated _ -> 14 | Hold _ -> 15 | Confirm _ -> 16
-  | Recruit _ -> 17 | Recruited _ -> 18
+  | Recruit _ -> 17 | Recruited _ -> 18 | Fresh _ -> 19
 
 let rec compare r r' =
   if r == r' then 0
@@ -79,6 +81,7 @@ let rec compare r r' =
       Order.both (Value.compare_task a.task b.task) (fun () -> compare_request a.request b.request)
     | Hold (vs, a), Hold (vs', a') ->
       Order.both (List.compare String.compare vs vs') (fun () -> compare a a')
+    | Fresh (ns, a), Fresh (ns', a') -> Order.both (List.compare Int.compare ns ns') (fun () -> compare a a')
     | Recruited (v, a), Recruited (v', a') -> Order.both (String.compare v v') (fun () -> compare a a')
     | Recruit a, Recruit b ->
       Order.both (Int.compare a.number b.number) (fun () ->
@@ -89,7 +92,7 @@ let rec compare r r' =
                           Vehicle_filter.compare a.asked b.asked)))))
     | ( ( Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _
         | Idle _ | Confirm _ | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ | Recruit _
-        | Recruited _ ),
+        | Recruited _ | Fresh _ ),
         _ ) -> Int.compare (rank r) (rank r')
 
 and compare_branch b b' = Order.both (Value.compare_closure b.guard b'.guard) (fun () -> compare b.body b'.body)
@@ -146,6 +149,18 @@ let rec hash r =
   | Hold (vs, a) -> List.fold_left (fun h v -> Order.mix h (Hashtbl.hash v)) (Order.mix h (hash a)) vs
   | Recruit { number; code; _ } -> Order.mix (Order.mix h number) (Value.hash_closure code)
   | Recruited (v, a) -> Order.mix (Order.mix h (hash a)) (Hashtbl.hash v)
+  | Fresh (ns, a) -> List.fold_left Order.mix (Order.mix h (hash a)) ns
+
+(* {1 Keys} *)
+
+let key_prefix = "#"
+let key number = key_prefix ^ string_of_int number
+
+let is_key k =
+  let n = String.length key_prefix in
+  String.length k > n
+  && String.equal (String.sub k 0 n) key_prefix
+  && String.for_all (function '0' .. '9' -> true | _ -> false) (String.sub k n (String.length k - n))
 
 let rec pp ppf r =
   let separated text pp = Format.pp_print_list ~pp_sep:(fun ppf () -> Format.pp_print_string ppf text) pp in
@@ -178,6 +193,7 @@ let rec pp ppf r =
   | Recruit { asked; code; _ } ->
     Format.fprintf ppf "recruit {%a } then { %s }" Settings.pp_filter asked code.lambda.label
   | Recruited (v, a) -> Format.fprintf ppf "recruited %s %a" v pp a
+  | Fresh (ns, a) -> Format.fprintf ppf "fresh %s %a" (String.concat ", " (List.map key ns)) pp a
 
 and pp_branch ppf b = Format.fprintf ppf "when { %s } then %a" b.guard.lambda.label pp b.body
 
@@ -219,8 +235,11 @@ let rec activate r =
   | Recruited (v, a) ->
     let a, timers = activate a in
     (Recruited (v, a), timers)
-  | Idle { timer; seconds } -> (r, [ (timer, Time seconds) ])
-  | Confirm { question; prompt; _ } -> (r, [ (question, Answer prompt) ])
+  | Fresh (ns, a) ->
+    let a, begun = activate a in
+    (Fresh (ns, a), List.map (fun n -> Key n) ns @ begun)
+  | Idle { timer; seconds } -> (r, [ Wait (timer, Time seconds) ])
+  | Confirm { question; prompt; _ } -> (r, [ Wait (question, Answer prompt) ])
   | Sequence (a, rest) ->
     let a, timers = activate a in
     (Sequence (a, rest), timers)
@@ -239,14 +258,15 @@ let rec activate r =
   | During { duration = Given_by _; _ } -> (r, [])
   | During ({ duration = Seconds seconds; timer; body; _ } as d) ->
     let body, timers = activate body in
-    (During { d with started = true; body }, (timer, Time seconds) :: timers)
+    (During { d with started = true; body }, Wait (timer, Time seconds) :: timers)
 
 (* {1 What is active} *)
 
 let exists_active p r =
   let rec exists r =
     match r with
-    | Sequence (a, _) | Watch (a, _) | Hold (_, a) | Recruited (_, a) | Repeat { round = Some a; _ } -> exists a
+    | Sequence (a, _) | Watch (a, _) | Hold (_, a) | Recruited (_, a) | Fresh (_, a) | Repeat { round = Some a; _ } ->
+      exists a
     | Parallel rs -> List.exists exists rs
     | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ | One_of _ | All_of (None, _)
     | During { started = false; _ } | Made _ | Unallocated _ | Recruit _ | Repeat { round = None; _ } -> p r
@@ -261,7 +281,7 @@ let rec fold_active f acc r =
   | Unallocated _ | Recruit _ -> acc
   | During { started = false; _ } | Repeat { round = None; _ } -> acc
   | Sequence (a, _) | All_of (Some a, _) | Until (_, _, a) | Watch (a, _) | Hold (_, a) | Recruited (_, a)
-  | During { body = a; _ } | Repeat { round = Some a; _ } -> fold_active f acc a
+  | Fresh (_, a) | During { body = a; _ } | Repeat { round = Some a; _ } -> fold_active f acc a
   | Parallel rs -> List.fold_left (fold_active f) acc rs
 
 let collect f r = List.rev (fold_active (fun found r -> match f r with Some x -> x :: found | None -> found) [] r)
@@ -274,7 +294,7 @@ let waits =
         Some (timer, Time seconds)
       | Confirm { question; prompt; _ } -> Some (question, Answer prompt)
       | Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _
-      | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ | Recruit _ | Recruited _ -> None)
+      | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ | Recruit _ | Recruited _ | Fresh _ -> None)
 
 let recruits = collect (function Recruited (v, _) -> Some v | _ -> None)
 
@@ -288,7 +308,7 @@ let rec may_go_round r =
   | All_of (a, bs) -> Option.fold a ~none:false ~some:may_go_round || List.exists (fun b -> may_go_round b.body) bs
   | One_of bs -> List.exists (fun b -> may_go_round b.body) bs
   | Watch (a, { anew; _ }) -> anew <> None || may_go_round a
-  | Until (_, _, a) | During { body = a; _ } | Hold (_, a) | Recruited (_, a) -> may_go_round a
+  | Until (_, _, a) | During { body = a; _ } | Hold (_, a) | Recruited (_, a) | Fresh (_, a) -> may_go_round a
   | Repeat { again = { left; each; _ }; _ } -> left = None || may_go_round each
 
 (* {1 Contexts} *)
@@ -302,6 +322,7 @@ type context =
   | Round_of of again
   | Holding of vehicle list
   | Having of vehicle
+  | With_keys of timer list
 
 let opened = function
   | Sequence (a, rest) -> Some (Before rest, a)
@@ -313,6 +334,7 @@ let opened = function
   | Repeat { round = Some a; again } -> Some (Round_of again, a)
   | Hold (vs, a) -> Some (Holding vs, a)
   | Recruited (v, a) -> Some (Having v, a)
+  | Fresh (ns, a) -> Some (With_keys ns, a)
   | Ready _ | Running _ | Action _ | Condition _ | Parallel _ | All_of (None, _) | One_of _ | Idle _ | Confirm _
   | Made _ | Unallocated _ | Recruit _ | Repeat { round = None; _ } -> None
 
@@ -327,6 +349,7 @@ let within context r =
   | Round_of again, r -> Repeat { round = Some r; again }
   | Holding vs, r -> Hold (vs, r)
   | Having v, r -> Recruited (v, r)
+  | With_keys ns, r -> Fresh (ns, r)
 
 let decompose r =
   let rec from contexts r =
@@ -347,7 +370,8 @@ let rec fold_all f acc r =
   | Parallel rs -> all acc rs
   | All_of (running, bs) -> branches (all acc (Option.to_list running)) bs
   | One_of bs -> branches acc bs
-  | Until (_, _, a) | Watch (a, _) | Hold (_, a) | Recruited (_, a) | During { body = a; _ } -> fold_all f acc a
+  | Until (_, _, a) | Watch (a, _) | Hold (_, a) | Recruited (_, a) | Fresh (_, a) | During { body = a; _ } ->
+    fold_all f acc a
   | Repeat { round; again } -> all acc (again.each :: Option.to_list round)
 
 module Timer_set = Set.Make (Int)
@@ -356,11 +380,12 @@ let add_named found = function
   | Ready (_, v) | Running (_, v) | Recruited (v, _) -> Vehicle_set.add v found
   | Hold (vs, _) -> List.fold_left (fun found v -> Vehicle_set.add v found) found vs
   | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _ | Idle _ | Confirm _ | During _
-  | Watch _ | Repeat _ | Made _ | Unallocated _ | Recruit _ -> found
+  | Watch _ | Repeat _ | Made _ | Unallocated _ | Recruit _ | Fresh _ -> found
 
 let add_timer found = function
   | Idle { timer; _ } | During { timer; _ } | Confirm { question = timer; _ } | Recruit { number = timer; _ } ->
     Timer_set.add timer found
+  | Fresh (ns, _) -> List.fold_left (fun found n -> Timer_set.add n found) found ns
   | Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _ | Watch _
   | Repeat _ | Made _ | Unallocated _ | Hold _ | Recruited _ -> found
 
@@ -370,7 +395,7 @@ let makes_tasks r =
   let makes found = function
     | Made _ | Unallocated _ | Hold _ | Recruit _ | Recruited _ | Watch (_, { anew = Some _; _ }) -> true
     | Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _ | Idle _
-    | Confirm _ | During _ | Watch _ | Repeat _ -> found
+    | Confirm _ | During _ | Watch _ | Repeat _ | Fresh _ -> found
   in
   fold_all makes false r
 
@@ -443,9 +468,8 @@ let timers_around around =
 let generation = 1_000_000
 
 let fresh_timers place used =
-  let last = ref place in
-  let rec next () =
-    last := !last + generation;
-    if List.mem !last used then next () else !last
+  let rec from n () =
+    let n = n + generation in
+    if List.mem n used then from n () else Seq.Cons (n, from n)
   in
-  next
+  from place

@@ -19,6 +19,9 @@ val alarm : timer
 (** The event that a timer waits for: that a number of seconds pass, or the answer to a question. *)
 type wait = Time of float | Answer of string
 
+(** A wait, or the key of a {!constructor-Fresh} by its number: these begin by activation. *)
+type begun = Wait of timer * wait | Key of timer
+
 type t =
   | Ready of platform_task * vehicle  (** about to start *)
   | Running of platform_task * vehicle
@@ -44,6 +47,7 @@ type t =
   | Recruit of { number : timer; asked : Vehicle_filter.t; code : closure; place : timer; depth : int; site : site }
   (** waits for a vehicle; [place] and [depth] are of the {!type-request} for the task that [code] gives of it *)
   | Recruited of vehicle * t  (** has the vehicle, which is released when it ends *)
+  | Fresh of timer list * t  (** has the keys of these numbers, for itself alone *)
 
 and branch = { guard : closure; body : t }
 
@@ -90,9 +94,9 @@ val repeat : again -> t -> t
 val holding : vehicle list -> t -> t
 (** [holding vs r] is [r], which holds [vs] until it ends. *)
 
-val activate : t -> t * (timer * wait) list
-(** [activate r] is [r] about to run, and the timers that start and the questions that are put with it. A [during]
-    whose time is given by code starts in a step of its own. *)
+val activate : t -> t * begun list
+(** [activate r] is [r] about to run, and the timers, questions and keys that begin with it. A [during] whose time
+    is given by code starts in a step of its own. *)
 
 (** {1:active What is active} *)
 
@@ -132,6 +136,7 @@ type context =
   | Round_of of again
   | Holding of vehicle list
   | Having of vehicle
+  | With_keys of timer list
 
 val opened : t -> (context * t) option
 (** [opened r] is the outermost context of [r], and its contents, if any part in it has begun. *)
@@ -196,6 +201,15 @@ val timers_around : surrounding list -> timer list
 val hole : t
 (** Stands for the inside of contexts: it names no vehicle and no timer. *)
 
-val fresh_timers : timer -> timer list -> unit -> timer
-(** [fresh_timers place used] gives new timers, one after the other, for a task made at [place], while those [used]
-    are taken. They differ from all timers of tasks made at other places, and of the executed task. *)
+val key : timer -> string
+(** [key n] is the key of N that a {!constructor-Fresh} with the number [n] has: ["#n"]. *)
+
+val key_prefix : string
+(** The first characters of all these keys. *)
+
+val is_key : string -> bool
+(** [is_key k] is whether [k] is [key n] for some [n]. *)
+
+val fresh_timers : timer -> timer list -> timer Seq.t
+(** [fresh_timers place used] is new timers, without end, for a task made at [place], where those [used] are taken. They
+    differ from all timers of tasks made at other places, and of the executed task. *)

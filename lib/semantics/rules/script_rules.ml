@@ -12,23 +12,31 @@ let rule_of_deed : Code.deed -> Rule.t = function
 let do_deed (deed : Code.deed) s m =
   Conclusion.make ~effects:(Run_code.effects [ deed ]) (rule_of_deed deed) (Did deed) (Script m) s
 
-let execute world (s : Shared.t) m t =
+let rec from n () = Seq.Cons (n, from (n + 1))
+
+let execute program world (s : Shared.t) m t =
   let allocated = function
     | Error (fault : Fault.t) ->
       let fault = if fault.site = Fault.unknown_site then { fault with site = Machine.site m } else fault in
       Conclusion.ending [ Alloc_err ] (Cannot_execute fault.message) s (Failed fault)
     | Ok r ->
-      let r, timers = Residual.activate r in
-      Conclusion.make ~effects:(Conclusion.begun timers) Execute Execute (Executing (m, r)) s
+      let r, begun = Residual.activate r in
+      let keys = List.filter_map (function Residual.Key n -> Some (Residual.key n) | Wait _ -> None) begun in
+      Conclusion.make ~effects:(Conclusion.begun begun) Execute Execute (Executing (m, r)) (Shared.without_keys keys s)
   in
-  Decision.map allocated (Decision.look world (fun world -> Allocation.allocate world s.bound t))
+  let opened = function
+    | _, Error fault -> Decision.Decided (allocated (Error fault))
+    | world, Ok opened ->
+      Decision.map allocated (Decision.look world (fun world -> Allocation.allocate world s.bound opened t))
+  in
+  Decision.bind (Maker.opened program world s ~numbers:(from 1) ~depth:0 t) opened
 
-let wait world s m (request : Code.request) =
+let wait program world s m (request : Code.request) =
   let waiting rule label action =
     Decision.Decided (Conclusion.make ~effects:[ action ] rule label (Waiting (m, request)) s)
   in
   match request with
-  | Execute t -> execute world s m t
+  | Execute t -> execute program world s m t
   | Pick pick -> waiting Pick (Pick (Format.asprintf "%a" Settings.pp_pick pick)) (Look_for pick)
   | Ask prompt -> waiting Ask (Ask prompt) (Ask prompt)
   | Pause seconds -> waiting Pause (Pause seconds) (Set_timer (Residual.script_timer, seconds))
@@ -43,7 +51,7 @@ let step program world s m =
     match stop with
     | Exhausted -> Decision.Decided (Conclusion.make Script Silent (Script m) s)
     | Did deed -> Decided (do_deed deed s m)
-    | Waits request -> wait context.world s m request
+    | Waits request -> wait program context.world s m request
     | Finished _ -> Decided (Conclusion.ending [ End ] End s Completed)
     | Left_off -> Decided (Conclusion.ending [ End ] End s Interrupted)
     | Halted message -> Decided (Conclusion.ending [ Halt ] (Halt message) s (Halted message))
@@ -56,7 +64,7 @@ let on_interrupt ?(recruits = []) (program : Core.program) (s : Shared.t) m : Co
   match program.on_interrupt with
   | Some lambda when bound <> [] && not (Machine.is_leaving m) ->
     let m = Machine.call { lambda; captured = [||] } [ Vehicles bound ] in
-    Some { control = Script m; shared = { s with allocation = Vehicle_map.empty; bound } }
+    Some { control = Script m; shared = Shared.without_fresh { s with allocation = Vehicle_map.empty; bound } }
   | Some _ | None -> None
 
 let interrupt program (c : Configuration.t) m =

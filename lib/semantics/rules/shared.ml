@@ -11,6 +11,12 @@ let initial program =
   { store = Store.empty; allocation = Vehicle_map.empty; bound = []; tuples = Tuples.empty program.ordered_keys }
 
 let post k x s = { s with tuples = Tuples.post k (Value.canonical x) s.tuples }
+let without_keys keys s =
+  if keys = [] then s else { s with tuples = List.fold_left (fun n k -> Tuples.without k n) s.tuples keys }
+
+let without_fresh s =
+  without_keys (List.filter Residual.is_key (Tuples.keys_with Residual.key_prefix s.tuples)) s
+
 let compare_platform_task p p' = Value.compare_task (Platform p) (Platform p')
 
 let compare s s' =

@@ -16,6 +16,12 @@ val initial : program -> t
 val post : string -> value -> t -> t
 (** [post k x s] is [s] with one pair [k:x] more in N. *)
 
+val without_keys : string list -> t -> t
+(** [without_keys ks s] is [s] without the pairs of N with one of these keys. *)
+
+val without_fresh : t -> t
+(** [without_fresh s] is [s] without the pairs of N with a key of some [fresh]: that of no task that is left. *)
+
 val compare : t -> t -> int
 (** A total order, of which {!equal} is the equality. *)
 

@@ -18,7 +18,7 @@ type _ offer =
   | Answer_to : timer * string -> (bool, string) result offer
   | Recruit_for : timer * Vehicle_filter.t -> vehicle offer
 
-type undoing = Cancel of timer | Leave of vehicle | Cut of t list
+type undoing = Cancel of timer | Leave of vehicle | Forget of timer list | Cut of t list
 
 type round = Endless of again | Asked of again | Retried of site
 
@@ -40,12 +40,17 @@ and change = {
   label : Label.t;
   outcome : outcome;
   rules : Rule.t list;
-  timers : (timer * wait) list;
+  timers : begun list;
   undone : undoing list;
   rounds : round list;
 }
 
 type step = Step : { offer : 'reply offer; continue : 'reply -> change; around : surrounding list } -> step
+
+let keys change =
+  let ended = function Forget ns -> ns | Cancel _ | Leave _ | Cut _ -> [] in
+  let begun = function Key n -> Some n | Wait _ -> None in
+  List.concat_map ended change.undone @ List.filter_map begun change.timers
 
 let alone offer continue = Step { offer; continue; around = [] }
 
@@ -195,6 +200,12 @@ let around_recruited v =
     on_finished = (fun c -> undoing (Leave v) (plain.on_finished c));
     on_failed = (fun fault c -> undoing (Leave v) (plain.on_failed fault c)) }
 
+let around_fresh ns =
+  let plain = around ~next:(within (With_keys ns)) (Rule.Fresh_1, Rule.Fresh_2, Rule.Fresh_err) in
+  { plain with
+    on_finished = (fun c -> undoing (Forget ns) (plain.on_finished c));
+    on_failed = (fun fault c -> undoing (Forget ns) (plain.on_failed fault c)) }
+
 let around_context = function
   | Round_of again -> around_round again
   | Before rest -> around_sequence rest
@@ -204,6 +215,7 @@ let around_context = function
   | Watched_by handler -> around_watch handler
   | Holding vs -> around_hold vs
   | Having v -> around_recruited v
+  | With_keys ns -> around_fresh ns
 
 let change_within context change = lift (around_context context) change
 let change_within_all contexts change = List.fold_left (fun c context -> change_within context c) change contexts
@@ -226,7 +238,7 @@ let too_late = function
 let cut context body =
   let cut change = undoing (Cut [ body ]) change in
   match context with
-  | Before _ | Branch_of _ | Watched_by _ | Round_of _ | Holding _ | Having _ -> None
+  | Before _ | Branch_of _ | Watched_by _ | Round_of _ | Holding _ | Having _ | With_keys _ -> None
   | Body_until (Completes, condition) ->
     let continue = function
       | Ok deeds -> cut (change (Label.Cut deeds) Rule.Until_cut Finished)
@@ -364,7 +376,7 @@ let set_during on_cut timer code body =
     | Ok seconds ->
       let body, timers = activate body in
       let next = During { on_cut; timer; duration = Seconds seconds; started = true; body } in
-      { (change (Set_time seconds) Rule.During_set (Next next)) with timers = (timer, Time seconds) :: timers }
+      { (change (Set_time seconds) Rule.During_set (Next next)) with timers = Wait (timer, Time seconds) :: timers }
   in
   alone (Measure code) continue
 
@@ -403,7 +415,7 @@ let rec steps_at relevant r : step Seq.t =
   | Made { code; given; request } -> Seq.return (make code given request)
   | Unallocated { task; request } -> Seq.return (allocate task request)
   | Recruit { number; asked; code; place; depth; site = _ } -> Seq.return (recruit number asked code place depth)
-  | Sequence _ | All_of (Some _, _) | Until _ | During _ | Watch _ | Hold _ | Recruited _
+  | Sequence _ | All_of (Some _, _) | Until _ | During _ | Watch _ | Hold _ | Recruited _ | Fresh _
   | Repeat { round = Some _; _ } -> (
       match opened r with
       | None -> Seq.empty
@@ -417,7 +429,7 @@ let steps = steps_at (fun _ -> true)
 
 let may_step_alone = function
   | Running _ | Idle _ | Confirm _ | During { duration = Seconds _; _ } | Sequence _ | Parallel _ | All_of (Some _, _)
-  | Watch _ | Hold _ | Recruit _ | Recruited _ | Repeat { round = Some _; _ } -> false
+  | Watch _ | Hold _ | Recruit _ | Recruited _ | Fresh _ | Repeat { round = Some _; _ } -> false
   | Made _ | Unallocated _ | Ready _ | Action _ | Condition _ | All_of (None, _) | One_of _ | Until _
   | During { duration = Given_by _; _ } | Repeat { round = None; _ } -> true
 

@@ -33,6 +33,7 @@ type _ offer =
 type undoing =
   | Cancel of timer
   | Leave of vehicle  (** it was recruited, and is released if it is in B *)
+  | Forget of timer list  (** the keys of these numbers *)
   | Cut of t list  (** residuals that were cut off: their timers are cancelled, then their vehicles stop, and
                        those that were recruited are released *)
 
@@ -60,10 +61,13 @@ and change = {
   label : Label.t;
   outcome : outcome;
   rules : Rule.t list;  (** the derivation, innermost rule first; after a handler, the rules that follow it *)
-  timers : (timer * wait) list;  (** that start, and the questions that are put *)
+  timers : begun list;  (** that start, the questions that are put, and the keys of tasks that begin *)
   undone : undoing list;  (** in the order of the derivation, innermost rule first *)
   rounds : round list;  (** that begin: without these, every step leaves less of the residual *)
 }
+
+val keys : change -> timer list
+(** [keys c] is the numbers of the keys of tasks that begin or end by [c]: N is without pairs of them afterwards. *)
 
 type step = Step : { offer : 'reply offer; continue : 'reply -> change; around : surrounding list } -> step
 (** [around] is the surroundings of the part that takes the step. *)

@@ -77,6 +77,7 @@ and task =
   | Made of closure                             (* the task that this code gives, once its turn comes *)
   | Recruit of { asked : Vehicle_filter.t; code : closure; site : site }
   (* waits for such a vehicle; the task that the code gives of it *)
+  | Fresh of closure                            (* the task that this code gives of keys of its own *)
 
 and branch = { guard : closure; body : task }
 
@@ -143,6 +144,7 @@ and builtin =
   | Make_confirm
   | Make_during of Dolphin_syntax.Ast.on_cut
   | Make_watch
+  | Make_fresh
   | Make_repeat of { counted : bool; asked : bool }  (* how many rounds, the task, the condition *)
   | Execute
   | Execute_for of string list                  (* [execute v1: T1, ...]; names for messages, ["_"] no vehicles *)

@@ -31,6 +31,10 @@ module type S = sig
 
   val consume_oldest : string -> t -> (value * t) option
 
+  val without : string -> t -> t
+
+  val keys_with : string -> t -> string list
+
   val poll : string -> value -> t -> bool
 
   val poll_any : string -> t -> bool
@@ -135,6 +139,28 @@ module Make (Value : VALUE) = struct
     | Some (Queued queue) ->
       let number, x = By_arrival.min_binding queue in
       Some (x, shrunk k (Queued (By_arrival.remove number queue)) n)
+
+  let without k n =
+    match By_key.find_opt k n.pairs with
+    | None -> n
+    | Some pairs ->
+      let count =
+        match pairs with
+        | Counted counts -> By_value.fold (fun _ count sum -> count + sum) counts 0
+        | Queued queue -> By_arrival.cardinal queue
+      in
+      { n with cardinal = n.cardinal - count; pairs = By_key.remove k n.pairs }
+
+  let keys_with prefix n =
+    let has_prefix k =
+      String.length k >= String.length prefix && String.equal (String.sub k 0 (String.length prefix)) prefix
+    in
+    let rec from seq =
+      match seq () with
+      | Seq.Cons ((k, _), rest) when has_prefix k -> k :: from rest
+      | Seq.Cons _ | Seq.Nil -> []
+    in
+    from (By_key.to_seq_from prefix n.pairs)
 
   let poll k x n =
     match By_key.find_opt k n.pairs with

@@ -60,6 +60,12 @@ module type S = sig
 
       @raise Invalid_argument if [k] is not ordered, since its order was not kept. *)
 
+  val without : string -> t -> t
+  (** [without k n] is [n] without its pairs with key [k]. *)
+
+  val keys_with : string -> t -> string list
+  (** [keys_with prefix n] is the keys of [n] that begin with [prefix], ascending. Time: log p for each. *)
+
   val poll : string -> value -> t -> bool
   (** [poll k x n] is whether [n] has a pair [k:x]. Time: log p; p for ordered keys. *)
 

@@ -14,7 +14,7 @@ let rank = function
 let rank_task = function
   | Platform _ -> 0 | Action _ -> 1 | Condition _ -> 2 | Sequence _ -> 3 | Parallel _ -> 4 | Allocated _ -> 5
   | All_of _ -> 6 | One_of _ -> 7 | Until _ -> 8 | Idle _ -> 9 | During _ -> 10 | Watch _ -> 11
-  | Repeat _ -> 12 | Made _ -> 13 | Confirm _ -> 14 | Recruit _ -> 15
+  | Repeat _ -> 12 | Made _ -> 13 | Confirm _ -> 14 | Recruit _ -> 15 | Fresh _ -> 16
 
 (* Two values may hold their parts many times over. Pairs of parts that took long to compare, and are equal, are
    remembered: this number of the latest. *)
@@ -92,7 +92,7 @@ and order_parts m t t' =
     Order.both (String.compare p.name p'.name) (fun () ->
         Order.both (Int.compare p.task_site p'.task_site) (fun () ->
             Option.compare Inline_plan.compare p.plan p'.plan))
-  | Action c, Action c' | Condition c, Condition c' | Made c, Made c' -> order_closure m c c'
+  | Action c, Action c' | Condition c, Condition c' | Made c, Made c' | Fresh c, Fresh c' -> order_closure m c c'
   | Sequence (a, b), Sequence (a', b') | Parallel (a, b), Parallel (a', b') ->
     Order.both (order_task m a a') (fun () -> order_task m b b')
   | Allocated (a, vs), Allocated (a', vs') ->
@@ -113,7 +113,8 @@ and order_parts m t t' =
     Order.both (order_closure m a.code b.code) (fun () ->
         Order.both (Int.compare a.site b.site) (fun () -> Vehicle_filter.compare a.asked b.asked))
   | ( ( Platform _ | Action _ | Condition _ | Sequence _ | Parallel _ | Allocated _ | All_of _ | One_of _
-      | Until _ | Idle _ | Confirm _ | During _ | Watch _ | Repeat _ | Made _ | Recruit _ ),
+      | Until _ | Idle _ | Confirm _ | During _ | Watch _ | Repeat _ | Made _ | Recruit _
+      | Fresh _ ),
       _ ) -> Int.compare (rank_task t) (rank_task t')
 
 and order_branch m b b' =
@@ -173,7 +174,7 @@ and hash_task left depth t =
   else
     match t with
     | Platform p -> Hashtbl.hash p.name
-    | Action c | Condition c | Made c | Recruit { code = c; _ } -> Order.mix (rank_task t) (hash_code left c)
+    | Action c | Condition c | Made c | Fresh c | Recruit { code = c; _ } -> Order.mix (rank_task t) (hash_code left c)
     | Sequence (a, b) | Parallel (a, b) -> Order.mix (Order.mix (rank_task t) (part a)) (part b)
     | Allocated (a, vs) -> Order.mix (part a) (Hashtbl.hash vs)
     | All_of bs | One_of bs ->
@@ -442,6 +443,7 @@ and print_task left level ppf t =
       let last = if until = None then "" else " until { ... }" in
       parenthesised 0 (fun ppf -> Format.fprintf ppf "repeat %s%a%s" first (task 1) body last)
     | Made c -> print "{ %s }" c.lambda.label
+    | Fresh c -> print "fresh { %s }" c.lambda.label
     | Recruit _ -> parenthesised 0 (fun ppf -> Format.fprintf ppf "recruit { ... } then { ... }")
 
 let to_string x = Format.asprintf "%a" (print ~bare:true) x

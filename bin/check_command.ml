@@ -3,7 +3,7 @@ open Dolphin_app
 
 let verdict path found = Format.printf "%s: %s@." (Dolphin_trace.Phrase.harmless path) (Report.counts found)
 
-(* Tells what is wrong with the file [path], if it can be read at all. *)
+(* Reports the faults of the file [path], if it can be read at all. *)
 let checked path = function
   | Ok x -> Some x
   | Error e ->
@@ -13,7 +13,7 @@ let checked path = function
      | Some _, [] | None, _ -> ());
     None
 
-(* What adapters say of the plans that a run of the program gives vehicles. *)
+(* The verdicts of adapters on the plans that a run of the program gives vehicles. *)
 let checked_plans program fleet = function
   | [] -> Exit_status.Done
   | adapters ->

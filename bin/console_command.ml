@@ -8,7 +8,7 @@ module Page = Dolphin_console.Page
 let ( let* ) = Result.bind
 let trouble result = Result.map_error (fun why -> Error.Bad_input why) result
 
-(* On a desktop; whoever has none is told the address. *)
+(* On a desktop; without one, the address is printed. *)
 let open_browser address =
   let is_set name = match Sys.getenv_opt name with Some "" | None -> false | Some _ -> true in
   if Unix.isatty Unix.stdout && (is_set "DISPLAY" || is_set "WAYLAND_DISPLAY") then
@@ -46,7 +46,7 @@ let serve settings ~port ~browser =
   Lwt_main.run (Interruption.promise interruption >>= fun () -> Console.close console);
   Ok Exit_status.Done
 
-(* A fleet that cannot be read is told of now, and not at the first run. *)
+(* A fleet that cannot be read is reported now, and not at the first run. *)
 let check_fleet = function None -> Ok () | Some path -> Result.map ignore (Fleet_file.load (Some path))
 
 let run () folder sim fleet network adapters definition supplier supplier_timeout tiles listen port no_browser =

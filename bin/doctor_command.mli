@@ -1,3 +1,3 @@
-(** [dolphin doctor]: what of this machine Dolphin may want, and what is missing. *)
+(** [dolphin doctor]: the optional software of this machine, and the missing parts. *)
 
 val command : Exit_status.t Cmdliner.Cmd.t

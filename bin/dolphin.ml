@@ -72,9 +72,9 @@ let () =
     with
     | status -> status
     | exception Sys_error why ->
-      (* Where SIGPIPE is ignored, this says that nobody reads on, which is no trouble. *)
+      (* If SIGPIPE is ignored, this error means that the reader has gone; ignore it. *)
       if why <> Unix.error_message EPIPE then Report.complain ("the output cannot be written: " ^ why);
-      (* What is at the exit would try once more. *)
+      (* The output at exit would be tried once more. *)
       Unix._exit (Exit_status.code Platform_trouble)
     | exception Unix.Unix_error (((EAGAIN | ENOMEM | EMFILE | ENFILE) as code), call, _) ->
       Report.complain (Printf.sprintf "the system lacks resources: %s: %s" call (Unix.error_message code));

@@ -8,7 +8,7 @@ let fleet_of ~path ~sim ~named ~is_simulated =
   else if sim <> None || named = None then Ok Fleet_file.nobody
   else Fleet_file.load named
 
-(* What options do not go together, if so. *)
+(* The options that do not go together, if any. *)
 let contradiction (s : Run.settings) ~sim ~follow ~resumed ~changed =
   let { Recording.journal; drawing = _; follower = _ } = s.recording in
   let on_network = not (Run.is_simulated s) in
@@ -54,7 +54,7 @@ let follow (program : Program_file.t) (fleet : Fleet_file.t) ~drawing path =
 
 let ( let* ) = Result.bind
 
-(* A vehicle that the fleet does not have is a slip; of a network nobody knows. *)
+(* A vehicle that the fleet does not have is a slip; on a network it may exist. *)
 let check_only (s : Run.settings) (fleet : Fleet_file.t) only =
   let known = List.map (fun (v : Dolphin_scenario.Scenario.vehicle) -> v.id) fleet.scenario.vehicles in
   match Run.is_simulated s, List.find_opt (fun v -> not (List.mem v known)) only with
@@ -64,7 +64,7 @@ let check_only (s : Run.settings) (fleet : Fleet_file.t) only =
     let hint = Option.fold near ~none:"" ~some:(Printf.sprintf " (did you mean '%s'?)") in
     Error (Error.Bad_input (Printf.sprintf "--only: the fleet has no vehicle '%s'%s" v hint))
 
-(* Where the journal is to be. Vehicles that move have one: their run can then be resumed. *)
+(* The place of the journal. Vehicles that move have one: their run can then be resumed. *)
 let journal_of ~path ~is_simulated ~keep ~follow ~resumed journal =
   if journal <> None || resumed <> None || follow <> None then
     if keep then Error (Error.Bad_input "--keep goes with none of --journal, --resume and --follow") else Ok journal
@@ -77,14 +77,14 @@ let journal_of ~path ~is_simulated ~keep ~follow ~resumed journal =
       Report.complain (Format.asprintf "this run has no journal, and cannot be resumed: %a" Error.pp e);
       Ok None
 
-(* What the parameters were set to in the run that is taken up again. *)
+(* The parameters of the run that is resumed. *)
 let settings_before ~follow ~resumed =
   match follow, resumed with
   | Some path, _ -> Witness_file.settings path
   | None, Some path -> Journal_file.settings path
   | None, None -> None
 
-(* Runs that nobody watches: what shows, keeps or steers a single one does not go with them. *)
+(* Runs without a display: options that show, keep or steer a single one do not go with them. *)
 let check_sampling (s : Run.settings) show ~follow ~resumed ~keep =
   if not (Run.is_simulated s) || s.speed <> None then
     Error (Error.Bad_input "--runs and --until are for simulated runs, as fast as they go: without --imc, --platform \

@@ -1,7 +1,7 @@
 (** [dolphin explore]: is every run of a program sound? *)
 
 val answers : string list Cmdliner.Term.t
-(** [--answer TEXT], repeated: what may be answered. *)
+(** [--answer TEXT], repeated: the possible answers. *)
 
 val faults : Dolphin_environment.Faults.t Cmdliner.Term.t
 (** [--faults]. *)

@@ -11,4 +11,4 @@ val format : t -> (Dolphin_maps.Map_format.t, Dolphin_app.Error.t) result
 (** The format that was named, or else that of the file's name. *)
 
 val man : Manpage.block
-(** What the formats have. *)
+(** The contents of the formats. *)

@@ -1,3 +1,3 @@
-(** [dolphin fleet]: who is out there. *)
+(** [dolphin fleet]: the reachable vehicles. *)
 
 val command : Exit_status.t Cmdliner.Cmd.t

@@ -23,7 +23,7 @@ let format_file check path =
     Ok false
   end
 
-(* The worst of what became of them: each is tried. *)
+(* The worst of their outcomes: each is tried. *)
 let each check paths =
   let one worst path =
     let status =

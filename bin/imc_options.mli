@@ -1,4 +1,4 @@
-(** Where IMC vehicles are looked for, on command lines. *)
+(** The places where IMC vehicles are searched, on command lines. *)
 
 open Cmdliner
 open Dolphin_platform_imc

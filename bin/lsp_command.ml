@@ -1,7 +1,7 @@
 open Cmdliner
 module Server = Dolphin_lsp.Server
 
-(* A header, up to its empty line; the length that it tells. [None] at the end of the input. *)
+(* A header, up to its empty line; its length. [None] at the end of the input. *)
 let rec header length =
   match input_line stdin with
   | exception End_of_file -> None
@@ -18,7 +18,7 @@ let send message =
   let text = Dolphin_json.Canonical.to_string message in
   Printf.printf "Content-Length: %d\r\n\r\n%s%!" (String.length text) text
 
-(* No message is larger: what is, is no header. *)
+(* No message is larger: a larger number is not a header. *)
 let most_bytes = 256 * 1024 * 1024
 
 let rec serve server =

@@ -1,4 +1,4 @@
-(** What commands share on their command lines. *)
+(** The common part of the command lines. *)
 
 open Cmdliner
 
@@ -12,10 +12,10 @@ val set : (string * string) list Term.t
 (** [--set NAME=VALUE], each time that it is given. *)
 
 val set_range : (string * string) list Term.t
-(** Likewise, of a command that takes a range of values too. *)
+(** The same for a command that takes a range of values too. *)
 
 val whole : docv:string -> string -> int Arg.conv
-(** [whole ~docv what] is the whole numbers from 1 on; of others it is told that they are [what]. *)
+(** [whole ~docv what] is the whole numbers from 1 on; the error for others is that they are [what]. *)
 
 val between : docv:string -> least:int -> most:int -> string -> int Arg.conv
 (** [between ~docv ~least ~most what] is the whole numbers from [least] to [most]; others are not [what]. *)
@@ -47,7 +47,7 @@ val s_setup : string
 (** {1 Parts of every manual page} *)
 
 val exits : Exit_status.t list -> Cmd.Exit.info list
-(** What each of them means, for a manual page. *)
+(** The meaning of each of them, for a manual page. *)
 
 val see_also : Manpage.block list
 (** The end of every manual page. *)

@@ -52,7 +52,7 @@ let print_summary fences name found outcome : Exit_status.t =
     print_endline (Dolphin_json.Canonical.to_string (Inline_plans.summary fences chosen outcome));
     Done
 
-(* What adapters say of the plans; one that gets them prints them as it gets them. *)
+(* The verdicts of adapters on the plans; a command that gets them prints them at once. *)
 let print_checked adapters name found =
   let is_wanted (f : Inline_plans.found) = name = None || name = Some f.name in
   let chosen = List.filter is_wanted found in

@@ -14,4 +14,4 @@ val s_many : string
 val run :
   t -> drawing:Drawing.t option -> seed:int option -> answers:string list -> Program_file.t -> Fleet_file.t ->
   (Exit_status.t, Error.t) result
-(** Makes the runs, or reads them, prints what is to be said of them, and draws when they are over. *)
+(** Makes the runs, or reads them, prints the report, and draws when they are over. *)

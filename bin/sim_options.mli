@@ -1,9 +1,9 @@
-(** The options of [dolphin sim] that say what the vehicles are like. *)
+(** The options of [dolphin sim] that describe the vehicles. *)
 
 open Cmdliner
 
 val settings : (Dolphin_scenario.Scenario.t -> Dolphin_sim_imc.Network.settings) Term.t
-(** What the command line makes of a fleet. *)
+(** The fleet of a command line. *)
 
 val natural : float Arg.conv
 (** A number, 0 or greater. *)
@@ -11,7 +11,7 @@ val natural : float Arg.conv
 (** {1:sections Sections of the manual page} *)
 
 val faults_section : string
-(** The section of manual pages that has the options on what goes wrong. *)
+(** The section of manual pages with the options on faults. *)
 
 val network_section : string
-(** Likewise on what the network does to datagrams. *)
+(** The same for the effects of the network on datagrams. *)

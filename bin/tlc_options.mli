@@ -15,4 +15,4 @@ val coverage : bool Term.t
 (** [--coverage] *)
 
 val man : Manpage.block list
-(** What the manual says of running TLC. *)
+(** The manual's text about running TLC. *)

@@ -30,7 +30,7 @@ let status path : Verdict.t -> (Exit_status.t, Error.t) result = function
   | Unknown _ -> Ok Inconclusive
   | Unreadable { number; why } -> Error (Journal_file.wrong path ~number why)
 
-(* What took longer or shorter than the fleet says. *)
+(* The tasks that took longer or shorter than in the fleet. *)
 let check_times program_path set path fleet tolerance =
   if path = "-" then Error (Error.Bad_input "--timed reads the journal twice, so it must be a file")
   else

@@ -3,12 +3,12 @@ open Dolphin_app
 
 let ( let* ) = Result.bind
 
-(* Of a terminal its own; of anything else what the user says. *)
+(* A terminal's own width; for other outputs, the user's. *)
 let columns () =
   if Unix.isatty Unix.stdout then snd (Dolphin_display.Terminal.size Unix.stdout)
   else Option.value (Option.bind (Sys.getenv_opt "COLUMNS") int_of_string_opt) ~default:80
 
-(* What is typed on a terminal stands there already. *)
+(* Text typed on a terminal stands there already. *)
 let read prompt =
   print_string prompt;
   flush stdout;

@@ -46,7 +46,7 @@ let only ids packets =
   let wanted s = List.mem (get (Header.read s)).id ids in
   Array.of_list (List.filter wanted (Array.to_list packets))
 
-(* What a console does: reads the messages that some part of it listens to, by the header. *)
+(* The work of a console: it reads the messages that some part of it listens to, by the header. *)
 let reads =
   Message.
     [

@@ -160,7 +160,7 @@ let latency () =
   Printf.printf "plans started: %d of 200\n" !starts;
   Printf.printf "last vehicle there to first START: %.1f ms\n%!" (milliseconds (!started -. !connected))
 
-(* What it costs to wait for [n] vehicles that run long plans. *)
+(* The cost of waiting for [n] vehicles that run long plans. *)
 let waiting ?flood ~seconds n =
   let source =
     Printf.sprintf

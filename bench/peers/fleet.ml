@@ -1,10 +1,10 @@
-(* fleet N F [MAX_STATES]: explores the program of the peers' models, N vehicles, F = 1 with failures, and prints
-   one line: states, transitions, depth, seconds of CPU, bytes a state as the explorer counts them. With
-   REDUCTION=por, symmetry or all in the environment the search is reduced, with COMPRESS=yes states are compressed,
-   with MEMORY=MIB and SPILL=DIR those beyond so much memory are on disk. WORKERS=N is how many processes search; the
-   seconds are of the first of them. CONTEXT (watch, ignore, during, until or then) says what stands around the task
-   that is executed; plain has nothing. LTL is a formula to be checked as well: a second line says how many states that
-   took, and what comes of it. *)
+(* fleet N F [MAX_STATES]: explores the program of the peers' models, N vehicles, F = 1 with failures, and prints one
+   line: states, transitions, depth, seconds of CPU, bytes a state as the explorer counts them. With REDUCTION=por,
+   symmetry or all in the environment the search is reduced, with COMPRESS=yes states are compressed, with MEMORY=MIB
+   and SPILL=DIR those beyond this memory are on disk. WORKERS=N is how many processes search; the seconds are of the
+   first of them. CONTEXT (watch, ignore, during, until or then) is the construct around the task that is executed;
+   plain has none. LTL is a formula to be checked as well: a second line has the number of states that this took, and
+   the verdict. *)
 
 open Dolphin_environment
 open Dolphin_checker

@@ -1,7 +1,7 @@
-(* picks N FAULTS [MAX_STATES]: explores a program that picks vehicles from a fleet of N that are alike, and prints one
-   line: states, transitions, depth, seconds of CPU. FAULTS is what else may happen: none, or faults as the command
-   takes them. PROGRAM in the environment is which program: teams (three teams of three, side by side) or turns (a team
-   of three, four times, one after the other). REDUCTION is none, por, symmetry or all, the default. *)
+(* picks N FAULTS [MAX_STATES]: explores a program that picks vehicles from a fleet of N that are alike, and prints
+   one line: states, transitions, depth, seconds of CPU. FAULTS is the possible faults: none, or faults as the
+   command takes them. PROGRAM in the environment is which program: teams (three teams of three, side by side) or
+   turns (a team of three, four times, one after the other). REDUCTION is none, por, symmetry or all, the default. *)
 
 open Dolphin_environment
 open Dolphin_checker

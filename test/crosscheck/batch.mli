@@ -17,7 +17,7 @@ type result = {
 
 type t = {
   results : result list;
-  warnings : string list;  (** what SANY and TLC warn of *)
+  warnings : string list;  (** the warnings of SANY and TLC *)
   used : string -> int;  (** in how many of TLC's transitions the rule of this name stands in the derivation *)
   counted : Coverage.count list;  (** by TLC itself, if it was to *)
 }
@@ -28,7 +28,7 @@ type prepared
 type unfit =
   | Refused of string  (** by the translation: why *)
   | Too_large
-  | Unsettled of string  (** more than comparisons depends on what a sensor shows: why the explorer gives up *)
+  | Unsettled of string  (** more than comparisons depends on a sensor: why the explorer gives up *)
 
 val prepare : limit:int -> Case.t -> (prepared, unfit) Stdlib.result
 (** [prepare ~limit c] explores at most [limit] states. *)
@@ -45,8 +45,8 @@ val uses : prepared -> Dolphin_semantics.Rule.t -> bool
 
 val run :
   ?coverage:bool -> Installation.t -> specification:(string * string) list -> prepared list -> (t, string) Stdlib.result
-(** [run i ~specification ps] is what comes out, or what TLC says went wrong. Counts of TLC that are not those of
-    what it printed are wrong too. With [coverage], TLC takes an action for each rule, and counts them. *)
+(** [run i ~specification ps] is the result, or TLC's error. Counts of TLC that differ from its printed graph are
+    wrong too. With [coverage], TLC takes an action for each rule, and counts them. *)
 
 val in_directory : (string * string) list -> (string -> 'a) -> 'a
 (** [in_directory files f] is [f d] where [d] is a directory with these files, which is gone afterwards. *)

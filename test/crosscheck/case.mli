@@ -7,30 +7,30 @@ type t = {
   world : Dolphin_semantics.World.t;
   environment : Dolphin_environment.Environment.options;
   plans : string list;  (** that the environment may treat in a way of their own *)
-  prompts : string list;  (** likewise *)
+  prompts : string list;  (** the same in reverse *)
   calls : string list;  (** likewise *)
 }
 
 val random : seed:int -> int -> t list
 (** [random ~seed n] is [n] programs of [Test_support.Generate]: without faults, with failures, with losses, with
-    vehicles that are late, with and without a bound, with interruptions, by turns; a quarter of them repeat for ever
-    what they do, a third call the supplier of [Test_support.Calls]. The same for the same seed. *)
+    vehicles that are late, with and without a bound, with interruptions, by turns; a quarter of them repeat their
+    task without end, a third call the supplier of [Test_support.Calls]. The same for the same seed. *)
 
 val sensing : seed:int -> int -> t list
-(** Likewise, programs that look at sensors, in a world where these may show this or that. *)
+(** Programs that look at sensors, in a world where these have listed or open values. *)
 
 val examples : string -> t list
-(** [examples directory] is the programs there, each with its fleet, first as the fleet says and then with failures of
-    all plans. A program that cannot be compiled is an error of ours, and raises [Failure]. *)
+(** [examples directory] is the programs there, each with its fleet, first by the fleet and then with failures of all
+    plans. A program that cannot be compiled is an error of ours, and raises [Failure]. *)
 
 val faulty_examples : string -> t list
-(** Likewise with losses, with a vehicle that is late, with at most one fault of each kind, with interruptions, and with
-    calls of a supplier that fail. *)
+(** The same with losses, with a vehicle that is late, with at most one fault of each kind, with interruptions, and
+    with calls of a supplier that fail. *)
 
 val with_fleets :
   (string * Dolphin_environment.Faults.t) list -> string -> (t * Dolphin_scenario.Scenario.t) list
-(** [with_fleets kinds directory] is the programs there, each with its fleet, with each kind of faults; the name says
-    which. *)
+(** [with_fleets kinds directory] is the programs there, each with its fleet, with each kind of faults; the name has
+    the kind. *)
 
 (** {1:texts Programs by their texts} *)
 

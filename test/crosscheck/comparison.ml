@@ -36,7 +36,7 @@ let prepared_or_not ~limit cases =
 let prepare ~limit cases = fst (prepared_or_not ~limit cases)
 let sum f = List.fold_left (fun total x -> total + f x) 0
 
-(* Whether the two agree; a difference is told. *)
+(* Whether the two agree; a difference is printed. *)
 let agrees (r : Batch.result) =
   match r.verdict with
   | Agrees -> true
@@ -46,7 +46,7 @@ let agrees (r : Batch.result) =
       (Format.asprintf "left is the explorer, right TLC@.%a" Dolphin_lts.Isomorphism.pp_difference difference);
     false
 
-(* How many programs do not agree, or have a warning. Where TLC fails, it is given each program by itself. *)
+(* How many programs do not agree, or have a warning. If TLC fails, it gets each program by itself. *)
 let rec failures_of installation prepared =
   match Batch.run installation ~specification:Translated.specification prepared, prepared with
   | Ok { results; warnings; _ }, _ ->

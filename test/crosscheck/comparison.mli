@@ -1,4 +1,4 @@
-(** Many programs, given to TLC and to the explorer; what came out is printed. *)
+(** Many programs, given to TLC and to the explorer; the results are printed. *)
 
 open Dolphin_tlc
 

@@ -15,7 +15,7 @@ let examples_directory = Option.value (Sys.getenv_opt "EXAMPLES") ~default:"exam
 let examples () = Case.examples examples_directory
 let faulty_examples () = Case.faulty_examples examples_directory
 
-(* Programs that are over in so many ticks: small ones, [random] random ones, and examples. *)
+(* Programs that are over within a number of ticks: small ones, [random] random ones, and examples. *)
 let dated ~random ~ticks =
   Dated.prepare ~ticks:40 ~states:400 Dated.small
   @ Dated.prepare ~ticks ~states:400 (Dated.random ~seed random)
@@ -39,7 +39,7 @@ let all installation =
   let dates = Dated.report installation ~batch (dated ~random:programs ~ticks:20) in
   List.for_all Comparison.passed [ examples; faulty; small; random_ones; sensing; verdicts; dates ]
 
-(* What `dune test` runs, in some ten seconds. *)
+(* The part that `dune test` runs, in some ten seconds. *)
 let quick installation =
   let limit = number "LIMIT" 150 and programs = number "PROGRAMS" 30 in
   let graphs =

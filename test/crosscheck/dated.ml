@@ -8,7 +8,7 @@ type t = { case : Case.t; durations : Durations.t; plans : string list }
 
 (* {1 Programs} *)
 
-(* So many seconds, by the name of the plan and the vehicle: some exactly, some none, some that overlap. A plan of
+(* Durations in seconds, by the name of the plan and the vehicle: some exact, some zero, some overlapping. A plan of
    another name takes the same on each vehicle. *)
 let hashed seed plans : Durations.t =
   let task v _ (p : Core.platform_task) =
@@ -130,7 +130,7 @@ let small =
     in_fleet (Case.in_fleet (name ^ kind) source scenario faults, scenario) in
   List.map (case scenario) texts @ List.map (case linked) linked_texts
 
-(* {1 What dolphin time says} *)
+(* {1 The results of dolphin time} *)
 
 type prepared = {
   name : string;

@@ -7,8 +7,7 @@ val random : seed:int -> int -> t list
 (** [random ~seed n] is [n] programs of {!Case.random}, with durations of some seconds. *)
 
 val examples : string -> t list
-(** [examples directory] is the programs there with the durations of their fleets, as these say, and with one
-    failure. *)
+(** [examples directory] is the programs there with the durations of their fleets, and with one failure. *)
 
 val small : t list
 (** Small programs, each about one thing that is timed. *)
@@ -16,8 +15,8 @@ val small : t list
 type prepared
 
 val prepare : ticks:int -> states:int -> t list -> prepared list
-(** Those of the programs that TLC can be given, with what [dolphin time] says of them: that are over in so many ticks,
-    and of which it looks at so many states at most. *)
+(** Those of the programs that TLC can be given, with the results of [dolphin time]: that are over within the limit
+    of ticks, and of states. *)
 
 val programs :
   Dolphin_tlc.Installation.t -> (string * string) list -> prepared list -> (unit, string) result

@@ -46,7 +46,7 @@ let without_constants lines =
   and inside = function "" :: rest -> "" :: outside rest | _ :: rest -> inside rest | [] -> [] in
   outside lines
 
-(* What is assumed of constants is no longer of constants: it is an invariant ({!assumed}). *)
+(* Assumptions on constants are no longer about constants: they are an invariant ({!assumed}). *)
 let assumed = [ "PlacesOK"; "ProgramOK"; "FleetOK"; "EnvironmentOK" ]
 let assumed_of_time = "TimedOK"
 

@@ -1,9 +1,9 @@
 (** One model of several programs, so that TLC starts once for all: the graph has an initial state for each, and their
-    states have nothing in common, by a variable that says which program they are of.
+    states have nothing in common, by a variable with the program's number.
 
     The specification is for one program, which is its constants. Here its [CONSTANTS] are definitions instead, that
-    look up what the constant is for the program at hand; beside that, its text is changed only so that the variable is
-    one of [vars], and each transition leaves it as it is; and what it assumes of constants is an invariant. *)
+    look up the constant of the program at hand; beside that, its text is changed only so that the variable is one of
+    [vars], and each transition leaves it as it is; and its assumptions on constants are an invariant. *)
 
 type constant = { name : string; parameters : string list; definition : string }
 
@@ -26,6 +26,6 @@ val dates : string
 (** Of one that prints dates ({!Dolphin_tlc.Printed_dates}), for programs that are given with their times. *)
 
 val files : specification:(string * string) list -> constant list list -> ((string * string) list, string) result
-(** [files ~specification programs] is the model's files, names and texts: each program is given by its constants, and
-    has a number, from 1, in what the model prints ({!Dolphin_tlc.Printed_graph}). It is an error if the text of the
-    specification is not as expected. *)
+(** [files ~specification programs] is the model's files, names and texts: each program is given by its constants,
+    and has a number, from 1, in the printed output of the model ({!Dolphin_tlc.Printed_graph}). It is an error if
+    the text of the specification is not as expected. *)

@@ -9,7 +9,7 @@ let abstract = "Abstract.tla"
 let refinement = "DolphinRefinement.tla"
 let time = "Timed.tla"
 
-(* A mistake in what states are is no mistake in the rules: graphs stay as they are. *)
+(* A mistake in the definition of states is not one in the rules: graphs stay as they are. *)
 let types = "no residual has a task that runs"
 
 let all =
@@ -722,7 +722,7 @@ let all =
       pattern = {|active /\ r.v \in DOMAIN A /\ A[r.v] = r.p|};
       replacement = {|FALSE|} } ]
 
-(* Where [part] begins in [text], each time. *)
+(* The places of [part] in [text]. *)
 let occurrences part text =
   let n = String.length part in
   let rec go i found =
@@ -732,7 +732,7 @@ let occurrences part text =
   in
   go 0 []
 
-let is_of_checking m = m.file = checking || m.name = "each input is certain"  (* what is owed, verdicts alone ask *)
+let is_of_checking m = m.file = checking || m.name = "each input is certain"  (* only verdicts depend on owed events *)
 let is_of_abstract m = m.file = abstract
 let is_of_refinement m = m.file = refinement || m.name = types
 let is_of_time m = m.file = time || m.name = "who is silent is heard of"  (* links change with time *)

@@ -1,7 +1,7 @@
 (** Specifications that are wrong in one place: the comparison with the explorer must notice each. *)
 
 type t = {
-  name : string;  (** what it does wrong, in a few words *)
+  name : string;  (** its fault, in a few words *)
   file : string;  (** of [spec/] *)
   pattern : string;  (** stands in the file exactly once *)
   replacement : string;
@@ -18,10 +18,10 @@ val is_of_abstract : t -> bool
 (** Whether it is in [Abstract.tla]: its theorems must notice. *)
 
 val is_of_refinement : t -> bool
-(** Whether it leaves graphs as they are, but not what {!Refined.programs} says. *)
+(** Whether it leaves graphs as they are, but changes the result of {!Refined.programs}. *)
 
 val is_of_time : t -> bool
-(** Whether it is in [Timed.tla]: what {!Dated.programs} says must notice. *)
+(** Whether it is in [Timed.tla]: the comparison of {!Dated.programs} must notice it. *)
 
 val apply : t -> (string * string) list -> ((string * string) list, string) result
 (** [apply m files] is [files], names and texts, with [m]'s mistake in them; or why it does not apply. *)

@@ -10,7 +10,7 @@ let all_apply () =
 
 (* {1 Who notices} *)
 
-(* What says nothing about the comparison. *)
+(* The parts that do not affect the comparison. *)
 let malformed = "Parsing or semantic analysis failed."
 
 type notice = Noticed_by of string | Unnoticed | Malformed

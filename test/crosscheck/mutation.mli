@@ -8,5 +8,5 @@ val run :
   dated:Dated.prepared list -> bool
 (** [run i ~only ~limit ~batch ~small ~random ~dated] is whether each mistake with [only] in its name is noticed, of
     which a line is printed: first by the small programs, [batch] at a time, those with the fewest states first, then
-    by random ones. Mistakes in what is checked rather than compared are looked for by TLC's own verdicts, those in
-    [Timed.tla] by the dates of [dated]. *)
+    by random ones. Mistakes in checked properties rather than in compared graphs are looked for by TLC's own
+    verdicts, those in [Timed.tla] by the dates of [dated]. *)

@@ -3,7 +3,7 @@ let jobs = match Sys.getenv_opt "JOBS" with Some n -> max 1 (int_of_string n) | 
 (* Every [jobs]-th element, from the [k]-th on. *)
 let share k xs = List.filteri (fun i _ -> i mod jobs = k) xs
 
-(* A process that computes [List.map f xs]: its identifier, and where the result comes from. *)
+(* A process that computes [List.map f xs]: its identifier, and the source of the result. *)
 let start f xs =
   let input, output = Unix.pipe ~cloexec:true () in
   flush_all ();

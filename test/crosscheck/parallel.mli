@@ -5,4 +5,4 @@ val jobs : int
 
 val map : ('a -> 'b) -> 'a list -> 'b list
 (** [map f xs] is [List.map f xs], computed in {!jobs} processes: the first one takes the first element, and so on by
-    turns. What [f] prints is printed. Results hold no functions. It fails if [f] does. *)
+    turns. The output of [f] is printed. Results hold no functions. It fails if [f] does. *)

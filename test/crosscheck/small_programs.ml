@@ -205,8 +205,8 @@ let tasks =
        ^ "execute watch (assert({ poll x: 1 }, 'x is there') | action { post x: 1 } | task('p')[a]) \
           onError { ignore() }") ]
 
-(* In a world where the batteries of a and c may show anything, b's 1 or 0.2, and c is in one of two places; what
-   else they show is open likewise. *)
+(* In a world where the batteries of a and c are open, b's is 1 or 0.2, and c is in one of two places; their other
+   sensors are open too. *)
 let sensors =
   let one ?(world = Generate.open_world) (name, source) = program ~world ("sensors: " ^ name) source in
   let three = two ^ "c = pick { id 'c' }\n" and low = "battery(a) < 0.3" and charged = "battery(a) >= 0.3" in

@@ -4,8 +4,8 @@ open Dolphin_tlc
 
 val outcome :
   ?line:(string -> unit) -> Installation.t -> main:string -> configuration:string -> (string * string) list -> Outcome.t
-(** [outcome ~line i ~main ~configuration files] is what TLC finds of the module [main] under [configuration], among
-    [files], names and texts; [line] is given what the model prints, line by line. *)
+(** [outcome ~line i ~main ~configuration files] is TLC's result for the module [main] under [configuration], among
+    [files], names and texts; [line] gets the output of the model, line by line. *)
 
 val judge : Outcome.t -> (unit, string) result
-(** [judge o] is whether all holds; or what TLC says does not, with the last state. *)
+(** [judge o] is whether all holds; or TLC's violated property, with the last state. *)

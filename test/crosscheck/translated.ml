@@ -2,7 +2,7 @@ module Model = Dolphin_tla.Model
 
 let specification = Dolphin_tla.Spec.modules
 
-(* Where [part] begins in [text]. *)
+(* The place of [part] in [text]. *)
 let find part text =
   let n = String.length part in
   let rec go i =

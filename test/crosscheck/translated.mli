@@ -1,4 +1,4 @@
-(** What [dolphin tla] makes of a program, as the constants of the specification. *)
+(** The output of [dolphin tla] for a program, as the constants of the specification. *)
 
 val specification : (string * string) list
 (** The modules of [spec/]: names of files, and texts. *)
@@ -10,4 +10,4 @@ val constants : Case.t -> (Family.constant list, string) result
 (** All constants of the specification for this program in its world, or why it cannot be translated. *)
 
 val timed_constants : Dolphin_tla.Times.t -> Case.t -> (Family.constant list, string) result
-(** Likewise, with those of [Timed.tla]. *)
+(** The same, with those of [Timed.tla]. *)

@@ -1,4 +1,4 @@
-(* Random programs, each with a world and an environment, and whether it goes on for ever. *)
+(* Random programs, each with a world and an environment, and whether it goes on without end. *)
 
 open Dolphin_environment
 open Dolphin_explore

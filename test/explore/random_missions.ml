@@ -1,6 +1,6 @@
 (* random_missions FOLDER FIRST NUMBER: writes random programs with fleets into FOLDER, for searches that are other
-   programs: N.dol, N.fleet and N.options, whose lines are options of [dolphin explore], for N from FIRST on. Which
-   programs these are SEED of the environment says. *)
+   programs: N.dol, N.fleet and N.options, whose lines are options of [dolphin explore], for N from FIRST on. SEED of
+   the environment selects the programs. *)
 
 module Generate = Test_support.Generate
 module Calls = Test_support.Calls

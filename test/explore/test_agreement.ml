@@ -75,7 +75,7 @@ let test_agreement () =
   Printf.printf "%d skipped, of more than %d states; %d unsettled\n" !skipped limit !unsettled;
   Hashtbl.iter (fun p n -> Printf.printf "%s: broken by %d\n" (Property.name p) n) broken
 
-(* Without programs that break it, agreement on a property says little. *)
+(* Without programs that violate it, agreement on a property means little. *)
 let test_variety () =
   let enough property =
     if property <> Property.All_reached && not (Hashtbl.mem broken property) then
@@ -83,7 +83,7 @@ let test_variety () =
   in
   List.iter enough Property.all
 
-(* Files of states have no name; the system tells which are open. *)
+(* Files of states have no name; the system lists the open ones. *)
 let test_files () =
   let descriptors = "/proc/self/fd" in
   let target name = try Unix.readlink (Filename.concat descriptors name) with Unix.Unix_error _ -> "" in

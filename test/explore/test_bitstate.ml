@@ -128,7 +128,7 @@ let test_invariant () =
     Alcotest.(check bool) "a run" true (is_run program Environment.default run)
   | _ -> Alcotest.fail "other verdicts"
 
-(* Nothing is said to hold, and no count is more than there are, where the bits are too few. *)
+(* With too few bits, no property is reported to hold, and no count is too large. *)
 let test_too_few () =
   let text = "execute (idle(1) >> idle(2) >> idle(3)) | (idle(1) >> idle(2) >> idle(3)) | (idle(1) >> idle(2))" in
   let options = { Search.default with reduction = Whole } in

@@ -41,26 +41,27 @@ let test_two_failing () =
   let environment = Environment.failing Environment.default in
   check "two tasks that may fail" two ~environment ~states:17 ~transitions:24 ()
 
-(* At most one failure, which ends all here: no difference but that nothing else can be told apart. *)
+(* At most one failure, which ends all here: the only difference is the bound. *)
 let test_two_failing_once () =
   check "one failure at most" two
     ~environment:(Environment.failing ~failures:1 Environment.default)
     ~states:17 ~transitions:24 ()
 
-(* Equal actions side by side are counted, not told apart: 0, 1 or 2 of two actions left; the tuples follow. Initial,
-   2 left, 1 left, none left (the script goes on), end. Of 2 left either goes: 2 transitions to the same state. *)
+(* Equal actions side by side are counted, not distinguished: 0, 1 or 2 of two actions left; the tuples follow.
+   Initial, 2 left, 1 left, none left (the script goes on), end. Of 2 left either goes: 2 transitions to the same
+   state. *)
 let test_equal_actions () =
   let source = "def f() { action { post x:1 } }\nexecute f() | f()" in
   check "equal actions" source ~states:5 ~transitions:5 ()
 
 (* One of three vehicles: initial, waiting, then 3 copies of (bound, ready, running, after, end); B is empty again at
-   the end, but the variable tells which vehicle it was. *)
+   the end, but the variable has the vehicle. *)
 let test_pick () =
   let source = "a = pick { type 'UUV' }\nexecute task('p')[a]" in
   check "choice of pick" source ~vehicles:3 ~states:(2 + (3 * 5)) ~transitions:(1 + 3 + (3 * 4)) ()
 
-(* An interruption of each state but the end. Where it leads is told apart by the store only: [a] has no value while its
-   vehicle is picked, and one while its task is executed. *)
+(* An interruption of each state but the end. The store alone distinguishes its successors: [a] has no value while
+   its vehicle is picked, and one while its task is executed. *)
 let test_interrupted () =
   let environment = { Environment.default with faults = { Faults.none with interrupt = true } } in
   check "one task, interrupted" one ~environment ~states:(7 + 2) ~transitions:(6 + 6) ()
@@ -94,7 +95,7 @@ let test_fleet n () =
   let o = search ~vehicles:n (fleet n) in
   Alcotest.(check int) "states" (fleet_states n) o.states
 
-(* What stands around all of it, and never has anything to do, makes no more states. *)
+(* A context around all of it, which never has a step, makes no more states. *)
 let test_watched_fleet n () =
   let watched task = Printf.sprintf "(watch (%s) onError { ignore() })" task in
   let o = search ~vehicles:n (fleet ~around:watched n) in

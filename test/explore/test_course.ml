@@ -1,5 +1,5 @@
-(* Counter-examples of random programs, with what they assume of the world, are written, read, and followed to where
-   they lead; what does not fit is refused. *)
+(* Counterexamples of random programs, with their assumptions about the world, are written, read, and followed to
+   their ends; files that do not fit are refused. *)
 
 open Dolphin_environment
 open Dolphin_checker

@@ -1,5 +1,5 @@
-(* Any run of a random program is carried out on the simulated fleet as it is given, step by step: time never goes back,
-   nothing runs at the end, and the run ends as its last step says. *)
+(* Any run of a random program is carried out on the simulated fleet as it is given, step by step: time never goes
+   back, nothing runs at the end, and the run ends with the ending of its last step. *)
 
 open Dolphin_semantics
 open Dolphin_runtime
@@ -16,7 +16,7 @@ let scenario text =
 
 let fleet = scenario "vehicle 'a', { type 'UUV' }\nvehicle 'b', { type 'UUV' }\nvehicle 'c', { type 'UAV' }\n"
 
-(* Each transition of a run with what causes it. *)
+(* Each transition of a run with its cause. *)
 let steps program world transitions =
   let initial = Configuration.initial program in
   let caused c (step : Witness.step) : Transition.event option =

@@ -1,8 +1,8 @@
 (* Termination of tasks with rounds, judged by the definition of fairness: on the graph of [Reference], by labels and
-   rules alone. Each step that is possible is followed until it is taken, not possible, or of a round that is over. If
-   no run of a strongly connected component can come to that, no fair run stays in it. Programs are such that a label,
-   the rule, and the part side by side tell which step it is. PROGRAMS in the environment is how many are tried,
-   1,000 by default. *)
+   rules alone. Each step that is possible is followed until it is taken, not possible, or of a round that is over.
+   If no run of a strongly connected component can come to that, no fair run stays in it. Programs are such that a
+   label, the rule, and the parallel part identify the step. PROGRAMS in the environment is how many are tried, 1,000
+   by default. *)
 
 open Dolphin_semantics
 open Dolphin_environment
@@ -38,7 +38,7 @@ let leaf part place =
 
 let guard = QCheck2.Gen.oneofl [ "poll k: 1"; "consume k: 1"; "h == 1"; "false" ]
 
-(* Two leaves of one kind side by side are told apart by their labels only if they have names. *)
+(* The labels of two parallel leaves of one kind differ only if they have names. *)
 let body part =
   let open QCheck2.Gen in
   let named = Printf.sprintf "action { h = 1 - h; message 'n%d' }" part in
@@ -148,7 +148,7 @@ type verdict = Ends | Goes_on | By_design
 
 let executes (g : Reference.t) i = side_by_side g.states.(i).configuration <> []
 
-(* What can be reached by one edge or more. *)
+(* The states reachable by one edge or more. *)
 let reached edges from =
   let found = Hashtbl.create 16 in
   let rec go i =
@@ -171,7 +171,7 @@ let components edges =
   in
   List.sort_uniq compare (List.filter (fun c -> c <> []) (List.init (Array.length edges) of_state))
 
-(* Whether some run within the component, from [i], comes to where it need not take this step any more. *)
+(* Whether some run within the component, from [i], comes to a state in which it need not take this step any more. *)
 let is_settled all edges members i (owed : edge) =
   let seen = Hashtbl.create 16 in
   let is_over e = e.step = owed.step || (owed.inside && e.closes && e.part = owed.part) in
@@ -316,7 +316,7 @@ let compare source environment program formulas =
       List.for_all agrees [ Reduction.Whole; Partial_order; All ]
       && formulas_agree source environment program g all formulas
 
-(* What goes round without any wait is refused where its text shows that. *)
+(* A repetition without any wait is refused if its text shows that. *)
 let is_refused ds =
   let of_round (d : Dolphin_syntax.Diagnostic.t) =
     String.starts_with ~prefix:"a round of this repeat never waits" d.message
@@ -335,7 +335,7 @@ let test_fairness () =
   Test_support.Property.on_each_seed ~usual:20_261_123 ~programs test;
   Hashtbl.iter (Printf.printf "%s: %d\n") found
 
-(* Steps that are cut off in each round are owed in none; what stands around all rounds is. *)
+(* Steps that are cut off in each round are owed in none; steps outside of all rounds are. *)
 let special =
   [ "execute until { poll k: 1 } run\n\
      repeat ((action { if (!poll(k: 1)) { post k: 1 }; message 'm' } >> idle(3)) during 5)";
@@ -377,7 +377,7 @@ let test_recruits () =
       ([ "a"; "b" ], "join=1", "holds"); ([ "a"; "b" ], "join=2", "violated"); ([ "c" ], "join", "holds");
       ([], "loss=1", "holds") ]
 
-(* Without programs of each kind, agreement says little. *)
+(* Without programs of each kind, agreement means little. *)
 let test_variety () =
   let enough verdict =
     if Option.value ~default:0 (Hashtbl.find_opt found verdict) * 20 < programs then

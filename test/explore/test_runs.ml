@@ -1,8 +1,8 @@
 (* Every run on the simulated fleet lies within the explored graph of the same program in the same world: of all
-   examples, and of random programs with random fleets; and so does every run whose sensors show anything at each step.
-   The graph is followed along the run, from what the explorer says may happen: a transition of the run must be among
-   those, with the same label and the same result. PROGRAMS in the environment is how many programs are tried of each
-   kind, 300 by default. *)
+   examples, and of random programs with random fleets; and so does every run whose sensors show anything at each
+   step. The graph is followed along the run, by the explorer's possible transitions: a transition of the run must be
+   among those, with the same label and the same result. PROGRAMS in the environment is how many programs are tried
+   of each kind, 300 by default. *)
 
 open Dolphin_semantics
 open Dolphin_runtime
@@ -34,7 +34,7 @@ module Platform = struct
     make (Fence_guard.make fences) ~untold:[] (Simulator.Virtual.create ~seed scenario)
 end
 
-(* So many transitions of a run that does not end are enough. *)
+(* The number of transitions that are enough for a run without end. *)
 let most_steps = 400
 
 exception Enough
@@ -120,8 +120,7 @@ let follow options program world taken =
 
 let is_unsteady (v : Scenario.vehicle) = v.joins > 0. || v.leaves <> None || v.drops <> []
 
-(* Links come and go where the fleet says so, and then only; nor do batteries run empty elsewhere, which makes tasks
-   fail. *)
+(* Links come and go by the fleet only; nor do batteries run empty elsewhere, which makes tasks fail. *)
 let environment program (scenario : Scenario.t) =
   let is_drained (v : Scenario.vehicle) = v.drain > 1. in
   let where is_so : Faults.limit = if List.exists is_so scenario.vehicles then Any_number else Never in
@@ -181,7 +180,7 @@ let fleet =
   in
   let* steady = bool in
   let steadily (v : Scenario.vehicle) = if steady then { v with joins = 0.; leaves = None; drops = [] } else v in
-  (* With so much drain sensors show a change. *)
+  (* With this drain sensors show a change. *)
   let* drain = oneofl [ 0.1; 12. ] in
   let draining (v : Scenario.vehicle) = { v with drain } in
   let* vehicles = flatten_l [ vehicle "a" "UUV" 0.; vehicle "b" "UUV" 100.; vehicle "c" "UAV" 200. ] in
@@ -212,7 +211,7 @@ let random_runs (ast, scenario, seed) =
 
 (* {1 Sensors that show anything} *)
 
-(* What sensors may show in [Generate.open_world] at one time, by three numbers. *)
+(* Sensor values in [Generate.open_world] at one time, by three numbers. *)
 let world_at (x, y, z) =
   let place north = (Test_support.Pure_run.vehicle ~north "a").position in
   let show (s : World.vehicle_state) =
@@ -228,7 +227,7 @@ let options =
     answers = (fun _ -> [ [ "1"; "2" ] ]);
     faults = { Faults.none with fail = Any_number; loss = Any_number } }
 
-(* At each step sensors show something new, and of what may happen then one thing does. *)
+(* At each step sensors have new values, and one of the possible transitions is taken. *)
 let walk program choices =
   let step ((c, e), taken) (shown, choice) =
     match List.of_seq (Environment.choices options program (world_at shown) e c) with

@@ -1,7 +1,7 @@
-(* What [dolphin successors] tells of states, followed from state to state, is what the explorer finds: as many states
-   and transitions, the same depth, the same verdicts, with all orders of steps and with those that partial order
-   leaves. Two instances, which stand for two processes, share the states by their digests: states are the same bytes to
-   both, although each has met other things before; each is given the parts that the other told. PROGRAMS in the
+(* The output of [dolphin successors], followed from state to state, is the explorer's result: as many states and
+   transitions, the same depth, the same verdicts, with all orders of steps and with those that partial order leaves.
+   Two instances, which stand for two processes, share the states by their digests: states are the same bytes to
+   both, although each has met other states before; each gets the parts that the other sent. PROGRAMS in the
    environment is how many random programs are tried, 300 by default. *)
 
 open Dolphin_environment
@@ -41,7 +41,7 @@ exception Refused of Error.t
 
 let settled = function Ok x -> x | Error e -> raise (Refused e)
 
-(* What one instance tells of states, in as many blocks as there are instances. The others are given its parts. *)
+(* The output of one instance on states, in as many blocks as there are instances. The others are given its parts. *)
 let expanded instances i states =
   let partitions = Array.length instances in
   let batch = settled (Successors.expand instances.(i) ~partitions ~targets:true states) in
@@ -50,7 +50,7 @@ let expanded instances i states =
 
 let reached (b : Successors.batch) = List.concat_map State_columns.states (Array.to_list b.blocks)
 
-(* What is broken, and by a state that the batch has or leads to. *)
+(* The violations, with a state of the batch or a successor. *)
 let note found depth (b : Successors.batch) sources =
   let states = reached b in
   let one ((breach : Successors.breach), digest) =
@@ -69,7 +69,7 @@ let note found depth (b : Successors.batch) sources =
   in
   List.iter one b.broken
 
-(* What states are found with beside their texts. *)
+(* The columns of states beside their texts. *)
 let check_states partitions sources (b : Successors.batch) =
   let parents = Hashtbl.create 16 in
   let leads source place = if not (Hashtbl.mem parents place) then Hashtbl.add parents place (String.sub source 0 8) in
@@ -199,7 +199,7 @@ let check_verdict ~exact found (property, (verdict : Search.verdict)) =
 
 let numbers = Alcotest.(triple int int int)
 
-(* Whether there were few enough states to tell. *)
+(* Whether the states are few enough to decide. *)
 let agree (options : Search.options) (program : Program_file.t) world =
   let instance () = Successors.make ~greeting:"" options program world in
   match search [| instance (); instance () |] with
@@ -299,7 +299,7 @@ let rendezvous () =
   let environment = Scenario_world.environment ~answers:[] ~faults:Faults.none program.program fleet.scenario in
   (program, { Search.default with environment }, Scenario_world.world fleet.scenario)
 
-(* The first states in which a task executes, and the parts told until then. *)
+(* The first states in which a task executes, and the parts sent until then. *)
 let rec executing successors parts sources =
   let batch = settled (Successors.expand successors sources) in
   let states = reached batch and parts = parts @ batch.parts in
@@ -329,7 +329,7 @@ let test_parts () =
     parts;
   let all = answer parts in
   Alcotest.(check bool) all true (Scanf.sscanf all "%d transitions, %d parts%!" (fun n _ -> n > 0));
-  (* Told once, whatever comes after. *)
+  (* Sent once, at the first use. *)
   let again = instance () in
   settled (Successors.give again parts);
   let told () = List.length (settled (Successors.expand again [ source ])).parts in

@@ -1,5 +1,5 @@
 (* On random programs and random formulas, the verdict is that of the formula on the plain state graph; a run that is
-   shown is a run, and violates the formula by its definition. And some formulas say what the built-in properties say.
+   shown is a run, and violates the formula by its definition. And some formulas state the built-in properties.
    PROGRAMS in the environment is how many programs are tried, each with three formulas, 400 by default. *)
 
 open Dolphin_semantics
@@ -19,8 +19,8 @@ let is_violated (o : Search.outcome) property =
   | Search.Violated _ -> true
   | Holds | By_design _ | Unreached _ | Inconclusive _ -> false
 
-(* The states that a run may be in, after its steps and after its cycle: each transition leads on from where the one
-   before led to. *)
+(* The states that a run may be in, after its steps and after its cycle: each transition leads on from the end of the
+   one before. *)
 let after program world options steps from =
   let step states (t : Transition.t) =
     let leads ((t' : Transition.t), e) =
@@ -33,7 +33,7 @@ let after program world options steps from =
 
 let same (c, e) (c', e') = Configuration.equal c c' && Environment.compare e e' = 0
 
-(* A run that has no cycle must have come to where nothing need happen. *)
+(* A run without a cycle must have come to a state in which nothing need happen. *)
 let is_run program world options (run : Search.run) =
   let there = after program world options run.steps [ (Configuration.initial program, Environment.initial) ] in
   if run.cycle = [] then 
@@ -51,7 +51,7 @@ let propositions =
     "running(p)"; "running(p, a)"; "running(q)"; "running(q, b)"; "bound(a)"; "bound(c)"; "poll(x: _)"; "poll(x: 1)";
     "poll(y: 2)"; "{running('p') && running('q')}"; "{running('p', 'a') || poll(z: _)}" ]
 
-(* What repeats is asked for again and again, and runs seldom are long. *)
+(* Repeated states are asked for again and again, and runs seldom are long. *)
 let formula =
   let open QCheck2.Gen in
   let f = Linear.formula (oneofl propositions) in
@@ -155,8 +155,8 @@ let soonest at (plain : _ Product_search.graph) f =
 let is_soonest at plain f (run : Search.run) =
   run.decided = soonest at plain f && run.shortest = (run.decided <> None)
 
-(* Of the runs that are fair: what holds of all runs holds of those, and what is shown is a violation.
-   [Test_fairness] compares them with the definition. *)
+(* For fair runs: a result for all runs holds for those, and a shown run is a violation. [Test_fairness] compares
+   them with the definition. *)
 let agrees_on_fair_runs program world environment at plain (f, verdict) =
   match (verdict : Search.verdict) with
   | Holds -> true

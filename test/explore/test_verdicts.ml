@@ -1,5 +1,5 @@
-(* Each property, kept and broken by a small program, with the length of the shortest run that shows it; and what bounds
-   do to verdicts. *)
+(* Each property, kept and violated by a small program, with the length of the shortest run that shows it; and the
+   effect of bounds on verdicts. *)
 
 open Dolphin_environment
 open Dolphin_checker
@@ -192,7 +192,7 @@ let bounds_within =
        Interruption);
   ]
 
-(* A hundred parts side by side: what is done for one state takes long, and so does looking for what is alike. *)
+(* A hundred parallel parts: the work for one state takes long, and so does the search for alike parts. *)
 let parts n task = "execute " ^ String.concat " | " (List.init n task)
 let stops_among name reduction task () =
   let limits = { Limits.none with interrupted = interrupted_after 20 } in
@@ -206,7 +206,7 @@ let among =
   [ ("alike", stops_among "alike parts" Reduction.Symmetry posts);
     ("by order", stops_among "parts" Reduction.Partial_order differ) ]
 
-(* The error of the last of so many parts is the second step of a shortest run. *)
+(* The error of the last of the parts is the second step of a shortest run. *)
 let shows_shortest n expected () =
   let task i = if i = n - 1 then "(action { } >> action { 1 / 0 })" else Printf.sprintf "action { post x%d: 1 }" i in
   let _, o = run ~options:{ options with reduction = Partial_order; search_again = 1_000 } (parts n task) in
@@ -222,7 +222,7 @@ let test_violation_before_bound () =
   check ~options No_error source "violated in 3" ();
   check ~options No_deadlock source "inconclusive" ()
 
-(* Exactly as many states as there are is no bound. *)
+(* A bound of exactly the number of states is not met. *)
 let test_exact_bound () =
   let _, o = run large in
   let _, o' = run ~options:(limited { Limits.none with max_states = Some o.states }) large in

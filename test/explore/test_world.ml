@@ -1,5 +1,5 @@
-(* What the world leaves open, by hand: what sensors show, which vehicles come and in which order, and what becomes of
-   lost ones. Each case says what happens in some run, and what in none. *)
+(* The choices of the world, by hand: values of sensors, the vehicles that come and their order, and the outcomes of
+   lost ones. Each case has labels of some run, and labels of none. *)
 
 open Dolphin_semantics
 open Dolphin_environment
@@ -9,7 +9,7 @@ module Pure_run = Test_support.Pure_run
 
 let pick = "v = pick { id 'a' }\n"
 
-(* All labels of the graph, and the messages of its ends; or why there is no graph. *)
+(* All labels of the graph, and the messages of its ends; or the reason why there is no graph. *)
 let labels ?(environment = Environment.default) ?(world = Generate.open_world) source =
   match Reference.explore environment (Pure_run.compile_exn source) world with
   | None -> Alcotest.fail "too many states"
@@ -89,7 +89,7 @@ let unsettled name source =
   in
   Alcotest.test_case name `Quick check
 
-(* Of these nobody could list the outcomes. *)
+(* The outcomes of these cannot be listed. *)
 let beyond =
   [ unsettled "as a truth value" (pick ^ "if (battery(v)) { halt 'h' }");
     unsettled "posted" (pick ^ "post level: battery(v)");

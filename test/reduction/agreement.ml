@@ -9,7 +9,7 @@ let ( let* ) = Result.bind
 
 (* {1 Runs} *)
 
-(* Where a run may be after these transitions: each is offered, with the same label and the same result. *)
+(* The possible states of a run after these transitions: each is offered, with the same label and the same result. *)
 let follow options program world states steps =
   let step states (t : Transition.t) =
     let is_it ((t' : Transition.t), _) =
@@ -24,8 +24,8 @@ let follow options program world states steps =
 
 let same (c, e) (c', e') = Configuration.equal c c' && Environment.compare e e' = 0
 
-(* Who is lost is not remembered where it makes no difference: a run goes round for ever, although it may lose another
-   vehicle the first time. *)
+(* Lost vehicles are not remembered where it makes no difference: a run repeats without end, although it may lose
+   another vehicle the first time. *)
 let shows options program world property (run : Search.run) =
   let options = Later_picks.forgetting program options in
   let start = [ (Configuration.initial program, Environment.initial) ] in
@@ -47,10 +47,10 @@ let shows options program world property (run : Search.run) =
 
 (* {1 Outcomes}
 
-   More than any property asks: what the executing of tasks comes to, in all runs. How many failures there were is left
-   out: a reduced run may do with fewer. And a deadlock beside branches of an [allOf] may be shown after those only. In
-   programs that recruit, which make tasks in tasks, deadlocks are compared as texts: the numbers of timers and recruits
-   depend on what else had any at that time. *)
+   More than any property asks: the results of executed tasks, in all runs. How many failures there were is left out:
+   a reduced run may do with fewer. And a deadlock beside branches of an [allOf] may be shown after those only. In
+   programs that recruit, which make tasks in tasks, deadlocks are compared as texts: the numbers of timers and
+   recruits depend on the other ones in use at that time. *)
 
 type outcome =
   | Of_script of Configuration.t
@@ -125,7 +125,7 @@ let same_outcomes program environment world graph =
 
 (* {1 Verdicts} *)
 
-(* What the search of all states says of termination is the measure where rounds may go on for ever. *)
+(* The search of all states gives the verdict on termination where rounds may go on without end. *)
 let terminates_alike (whole : Search.verdict) (verdict : Search.verdict) =
   match whole, verdict with
   | Holds, Holds | Violated _, Violated _ -> true
@@ -196,7 +196,7 @@ let check ?limit ?(reductions = [ Reduction.Partial_order; Symmetry; All ]) envi
 
 (* {1 Up to the names of vehicles} *)
 
-(* Texts of ends may name vehicles, and of what is left in N only matters whether there is anything. *)
+(* Texts of ends may name vehicles, and only the emptiness of N matters at the end. *)
 let without_text (c : Configuration.t) =
   let ended ending =
     let none = Tuples.empty No_key in

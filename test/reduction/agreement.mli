@@ -30,6 +30,6 @@ val check_peers :
   Core.program ->
   World.t ->
   ((t * bool) option, string) result
-(** [check_peers o p w] is likewise with [All] and [Symmetry], and is an error unless the script comes to the same
-    configurations as without, up to what [Vehicle_orbits.find] says is alike, and each of the invariants holds as
+(** [check_peers o p w] is the same with [All] and [Symmetry], and is an error unless the script comes to the same
+    configurations as without, up to the classes of [Vehicle_orbits.find], and each of the invariants holds as
     without. The truth value is whether some of that was exchanged. *)

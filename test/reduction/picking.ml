@@ -42,7 +42,7 @@ let vehicles =
   frequencyl [ (6, v); (2, f "(%s + %s)" v w); (2, f "%s[0]" v); (1, f "(%s - %s)" v w); (1, f "(%s & %s)" v w);
                (1, f "(%s | { v -> v != %s })" v w) ]
 
-(* Conditions that do not tell apart what is alike, and some that may. *)
+(* Conditions that do not distinguish alike vehicles, and some that may. *)
 let condition =
   let* v = vehicles and* w = vehicles and* k = oneofl [ "x"; "y" ] in
   frequency
@@ -82,7 +82,7 @@ let made =
       (2, f "(watch ({ task('%s') })[%s] onError { e -> if (e.vehicle) { dismiss e.vehicle; retry() } })" p v);
       (1, f "(watch (task('%s')[%s]) onError { dismiss %s ; ignore() })" p v v) ]
 
-(* Tasks that recruit: what they make knows whom they have, leaves it known, or asks who it is. *)
+(* Tasks that recruit: the tasks that they make know the vehicle, leave it known, or ask for its name. *)
 let recruiting =
   let asked =
     frequencyl
@@ -173,7 +173,7 @@ let functions =
            execute task('s')[u]\nrelease u + t }");
       (1, "def fly(t) { for (v in t) { release v }\nreturn t }") ]
 
-(* What a supplier says, which may name vehicles. *)
+(* Replies of a supplier, which may name vehicles. *)
 let supplied =
   let* v = vehicles and* v' = variable and* a = action in
   let+ calls =
@@ -203,7 +203,7 @@ let invariant =
     [ "g < 2"; f "%s.size() < 2" v; "!bound('b')"; "!running('s')"; "!running('t', 'c')"; f "%s != %s" v w;
       f "%s[0].getId() != 'c'" v; f "!poll(x: %s)" v; f "battery(%s[0]) > 0.5" v; f "!(bound('d') && %s == %s)" v w ]
 
-(* Few vehicles are picked, so that others are left to be recruited; what was recruited is looked at, and picked. *)
+(* Few vehicles are picked, so that others are left to be recruited; recruited ones are looked at, and picked. *)
 let after_recruits =
   let* one = recruiting and* two = recruiting and* k = pick and* v = vehicles and* w = vehicles and* a = action in
   let* first = frequencyl [ (2, "p = pick { count 1 }\n"); (1, "p = pick { count 1 }\nrelease p\n") ] in

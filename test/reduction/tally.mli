@@ -1,4 +1,4 @@
-(** What comparisons of reduced and plain searches come to, over many programs. *)
+(** The results of comparisons of reduced and plain searches, over many programs. *)
 
 open Dolphin_explore
 

@@ -1,6 +1,6 @@
-(* On random programs, every verdict of a reduced search is that of the plain one, with failures and without, and every
-   run that it shows is one of the semantics. PROGRAMS in the environment is how many programs are tried, 2,000 by
-   default; SEED is where they start. *)
+(* On random programs, every verdict of a reduced search is that of the plain one, with failures and without, and
+   every run that it shows is one of the semantics. PROGRAMS in the environment is the number of programs, 2,000 by
+   default; SEED is their start. *)
 
 open Dolphin_environment
 module Generate = Test_support.Generate
@@ -104,7 +104,7 @@ let test_agreement () =
     tally.reduced;
   Tally.print_broken tally
 
-(* Where nothing is broken, or nothing reduced, agreement says little. *)
+(* If nothing is violated, or nothing reduced, agreement means little. *)
 let test_variety () =
   Tally.check_broken tally;
   if not (5 * tally.reduced < 4 * tally.whole) then Alcotest.fail "little is reduced"

@@ -1,7 +1,7 @@
-(* On random programs that pick vehicles of which some are alike, every verdict of a search that exchanges those is that
-   of the plain one, every run that it shows is one of the semantics, and it comes to the same configurations of the
-   script, up to the names of vehicles. PROGRAMS in the environment is how many programs are tried, 2,000 by default;
-   SEED is where they start. *)
+(* On random programs that pick vehicles of which some are alike, every verdict of a search that exchanges those is
+   that of the plain one, every run that it shows is one of the semantics, and it comes to the same configurations of
+   the script, up to the names of vehicles. PROGRAMS in the environment is the number of programs, 2,000 by default;
+   SEED is their start. *)
 
 open Dolphin_environment
 open Dolphin_explore
@@ -75,7 +75,7 @@ let test_agreement () =
     !invalid tally.skipped limit tally.reduced tally.whole tally.smaller !exchanged;
   Tally.print_broken tally
 
-(* Where nothing is broken, or nothing reduced, agreement says little. *)
+(* If nothing is violated, or nothing reduced, agreement means little. *)
 let test_variety () =
   Tally.check_broken tally;
   let tried = (programs * List.length (Test_support.Property.seeds ~usual)) - tally.skipped - !invalid in

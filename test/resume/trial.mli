@@ -9,12 +9,12 @@ type t = {
 val pp : Format.formatter -> t -> unit
 
 val run : t -> ports:int -> number:int -> (unit, string) result
-(** [run t ~ports ~number] has the mission run to its end, by as many consoles as that takes. It is right if each plan
-    was started once, as the vehicles' own log tells, the mission was completed, and the joined journal is one of a
-    run. The error says what is wrong, and in which folder that is kept which explains it (in [DOLPHIN_KEPT], or where
-    temporary files are): the journal as each console left it, all datagrams of the consoles, what the vehicles did.
-    Trials of other numbers, at most 40 in a row, can run at the same time. [ports] is what
-    {!Test_support.Ports.lease} gives. *)
+(** [run t ~ports ~number] has the mission run to its end, by as many consoles as that takes. It is right if each
+    plan was started once, as the vehicles' own log tells, the mission was completed, and the joined journal is one
+    of a run. The error has the fault, and the folder with its explanation (in [DOLPHIN_KEPT], or among temporary
+    files): the journal as each console left it, all datagrams of the consoles, the activities of the vehicles.
+    Trials of other numbers, at most 40 in a row, can run at the same time. [ports] is the result of
+    {!Test_support.Ports.lease}. *)
 
 val lines : ports:int -> int
-(** How many lines of a journal count when nobody dies. *)
+(** The number of lines of a journal that count when no console dies. *)

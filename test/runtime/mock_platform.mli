@@ -1,10 +1,10 @@
-(** A platform in memory, scripted: events are due at given times, vehicles run tasks as told, commands are logged. *)
+(** A platform in memory, scripted: events are due at given times, vehicles run their tasks, commands are logged. *)
 
 open Dolphin_semantics
 open Dolphin_runtime
 
-(** What becomes of a task that a vehicle starts. *)
-type fate = Succeeds of float  (** after so many seconds *) | Fails of float * string | Goes_on
+(** The outcome of a task that a vehicle starts. *)
+type fate = Succeeds of float  (** after this number of seconds *) | Fails of float * string | Goes_on
 
 type t
 
@@ -13,7 +13,7 @@ val make : ?fate:(Core.vehicle -> string -> fate) -> (float * Platform.event) li
 
 val vehicle : ?kind:string -> ?battery:float -> ?connected:bool -> string -> World.vehicle_state
 val silent : float -> string -> float * Platform.event
-(** [silent time id] is as {!seen}, of a vehicle that has not told its battery. *)
+(** [silent time id] is as {!seen}, of a vehicle that has not reported its battery. *)
 
 val seen : ?battery:float -> float -> string -> float * Platform.event
 
@@ -21,7 +21,7 @@ val fail_on_start : t -> unit
 (** Every [start] raises [Failure "no link"] from now on. *)
 
 val log : t -> string list
-(** What was asked of the platform so far, as ["TIME COMMAND"]; binding and releasing, starting and stopping,
+(** The requests to the platform so far, as ["TIME COMMAND"]; binding and releasing, starting and stopping,
     telemetry, closing, connection timeouts. *)
 
 (** Its time passes inside of [next]. *)

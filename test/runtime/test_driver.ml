@@ -101,7 +101,7 @@ let telemetry_while_it_matters () =
   run mock (program ~reads_sensors:true ~globals:1 [ set_global 0 (pick 1); call Execute [ t ] ]) |> outcome_is "end";
   log_is mock [ "0 telemetry true"; "0 bind v1"; "30 start v1 home"; "40 release v1"; "40 close" ]
 
-(* What a guard waits for and a vehicle has not told is said once; then the vehicle tells it. *)
+(* A value that a guard waits for and a vehicle has not reported is reported once; then the vehicle reports it. *)
 let says_what_is_unknown () =
   let seen battery time = Mock_platform.seen ~battery time "v1" in
   let mock = Mock_platform.make [ Mock_platform.silent 0. "v1"; Mock_platform.silent 5. "v1"; seen 0.9 20.; seen 0.2 30. ] in
@@ -153,7 +153,7 @@ let wakes_after_a_while () =
     [ "0 telemetry true"; "10 bind v1 v2"; "10 telemetry false"; "40 start v1 home"; "55 start v1 a";
       "65 release v1 v2"; "65 close" ]
 
-(* What nobody can foresee is looked at each second. *)
+(* Values that cannot be foreseen are looked at each second. *)
 let looks_each_second () =
   let mock = Mock_platform.make two_vehicles in
   let rest = apply (Binary Remainder) [ now; number 7. ] in
@@ -278,9 +278,9 @@ let without_host () =
 
 (* {1 Inputs} *)
 
-(* Somebody posts an input when the end of the first task, or its timer, is in the driver's hands already, and the input
-   cuts the task off. That event is of a task that no longer runs: it is not the end of what runs next on the same
-   vehicle, by the same timer. *)
+(* An input comes when the end of the first task, or its timer, is in the driver's hands already, and the input cuts
+   the task off. That event is of a task that no longer runs: it is not the end of the next task on the same vehicle,
+   by the same timer. *)
 let overtaken text ~event ~expected () =
   let inputs = Inputs.create () in
   let module Together = struct

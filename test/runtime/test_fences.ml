@@ -74,7 +74,7 @@ let looks_at_all () =
   Platform_of_mock.start p "v2" (go_to 60.);
   asks mock [ "0 telemetry true"; "1 start v2 go" ]
 
-(* Who waits for what the platform tells has it, though something was refused meanwhile. *)
+(* A receiver that waits for the platform's events has them, though something was refused meanwhile. *)
 let loses_nothing () =
   let mock = Mock.make [] in
   let p = fenced within mock in
@@ -131,7 +131,7 @@ let keeps_apart () =
   tells p [ "saw v2"; "failed v1 stopped"; "failed v2 stopped"; "saw v1" ];
   asks mock [ "0 telemetry true"; "2 start v1 go"; "2 start v2 go"; "3 stop v1"; "3 stop v2" ]
 
-(* Depth and height as far as they are told: a depth, an altitude, or neither. *)
+(* Depth and height as far as they are reported: a depth, an altitude, or neither. *)
 let keeps_to_limits () =
   let limits = Fences.make [ fence (Depth 20.); fence (Height 100.) ] in
   let here = (Mock.vehicle "v1").position in

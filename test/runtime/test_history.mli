@@ -1,3 +1,3 @@
-(** {!Dolphin_runtime.History}: what stands when a console has died. *)
+(** {!Dolphin_runtime.History}: the state when a console has died. *)
 
 val tests : unit Alcotest.test_case list

@@ -92,7 +92,7 @@ let call ?subject ?(arguments = []) host member =
 let gives expected reply = reply >|= Alcotest.(check (result value string)) "reply" (Ok expected)
 let fails expected reply = reply >|= Alcotest.(check (result value string)) "reply" (Error expected)
 
-(* A host that replies to request [i] what the [i]th line says, with the request itself as [$request]. *)
+(* A host that replies to request [i] by its [i]th line, with the request itself as [$request]. *)
 let scripted lines = String.concat "\n" (List.map (fun line -> "read -r request; " ^ line) lines)
 
 let speaks () =
@@ -179,7 +179,7 @@ let can_be_cancelled () =
 
 let exists pid = match Unix.kill pid 0 with () -> true | exception Unix.Unix_error (Unix.ESRCH, _, _) -> false
 
-(* Whether it no longer runs: an orphan may wait for being reaped by whoever adopted it. *)
+(* Whether it no longer runs: an orphan may wait for being reaped by its new parent. *)
 let is_over pid =
   let is_zombie () =
     let input = open_in (Printf.sprintf "/proc/%d/stat" pid) in
@@ -193,7 +193,7 @@ let rec eventually ?(attempts = 200) what holds =
   else if attempts = 0 then Alcotest.fail what
   else Lwt_unix.sleep 0.01 >>= fun () -> eventually ~attempts:(attempts - 1) what holds
 
-(* The host tells its process and that of a child; both are gone after the end. *)
+(* The host prints its process and that of a child; both are gone after the end. *)
 let leaves_nothing behaviour () =
   let pids = ref [] in
   let command =

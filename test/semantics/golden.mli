@@ -1,2 +1,2 @@
-(** Prints what is said of each program of the file that is named on the command line: its faults, warnings too, or how
-    it ran. Programs stand below lines [==== title]. No value of its own. *)
+(** Prints the results of each program of the file that is named on the command line: its faults, warnings too, or
+    its run. Programs stand below lines [==== title]. No value of its own. *)

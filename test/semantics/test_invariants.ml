@@ -5,7 +5,7 @@ module Gen = QCheck2.Gen
 let fail format = Printf.ksprintf QCheck2.Test.fail_report format
 let label (t : Transition.t) = Format.asprintf "%a" Label.pp t.label
 
-(* What a step did, for the message when it did wrong. *)
+(* The effect of a step, for the message about its fault. *)
 let shown (s : Walk.step) = Printf.sprintf "%s (%s)" (label s.transition) (Pure_run.rules s.transition)
 
 let has rules (t : Transition.t) = List.exists (fun r -> List.mem r rules) t.rules
@@ -50,7 +50,7 @@ let bound_by = [ Rule.Pick_bind; Release; End; Halt; Fault; Interrupt; Pick_err;
 
 let released = function Effect.Release vs -> vs | _ -> []
 
-(* By a handler, vehicles leave B that run nothing, and it says so. *)
+(* By a handler, vehicles leave B that run nothing, and an effect reports it. *)
 let dismissed (s : Walk.step) =
   let gone = List.concat_map released s.transition.effects and { Configuration.shared; _ } = s.transition.next in
   has [ Rule.Watch_ignore; Watch_propagate; Watch_retry; Watch_instead ] s.transition
@@ -63,7 +63,7 @@ let b_changes_only_so _ (s : Walk.step) =
       && s.transition.next.shared.bound = s.before.shared.bound @ Configuration.recruits s.before)
   || fail "%s changed B" (shown s)
 
-(* Whom tasks recruit and leave, effects bind and release. *)
+(* The vehicles that tasks recruit and leave, which effects bind and release. *)
 let recruits_balance _ (s : Walk.step) =
   let bound = function Effect.Bind vs -> vs | _ -> [] and sorted = List.sort String.compare in
   let all of_effect = List.concat_map of_effect s.transition.effects in
@@ -118,7 +118,7 @@ let tuples_are_conserved _ (s : Walk.step) =
     (String.concat ", " (pairs s.before.shared.tuples))
     (String.concat ", " (pairs s.transition.next.shared.tuples))
 
-(* The end is the end: nothing is bound, nothing runs, nothing can follow; and the last effect says so. *)
+(* The end is the end: nothing is bound, nothing runs, no step follows; and the last effect reports it. *)
 let ends_well program (s : Walk.step) =
   let { Transition.next; effects; _ } = s.transition in
   let says_so =
@@ -139,7 +139,8 @@ let ends_well program (s : Walk.step) =
 
 let vehicles_of map = List.map fst (Vehicle_map.bindings map)
 
-(* Starts and stops, applied to what ran before, give what runs after; nobody starts twice, and who stops ran. *)
+(* Starts and stops, applied to the earlier tasks, give the later ones; no vehicle starts twice, and a vehicle that
+   stops ran. *)
 let starts_and_stops_balance _ (s : Walk.step) =
   let ended = match s.transition.label with Done (v, _) | Fail (v, _, _) -> [ v ] | _ -> [] in
   let running = List.filter (fun v -> not (List.mem v ended)) (vehicles_of s.before.shared.allocation) in
@@ -165,7 +166,7 @@ let timers_of (c : Configuration.t) =
 let expires (l : Label.t) =
   match l with Time_out | Answer _ | No_answer | Resume | Bind _ | No_vehicles _ -> true | _ -> false
 
-(* A timer that was set runs until it is cancelled, once, or expires; where it expires, a round may set it again. *)
+(* A timer that was set runs until it is cancelled, once, or expires; after it expires, a round may set it again. *)
 let timers_balance _ (s : Walk.step) =
   let expired = ref (expires s.transition.label) in
   let start timer pending =
@@ -190,7 +191,7 @@ let timers_balance _ (s : Walk.step) =
     (String.concat ", " (List.map string_of_int pending))
     (String.concat ", " (List.map string_of_int after))
 
-(* What is awaited is accepted, and what is not is refused. *)
+(* Awaited events are accepted, and others are not. *)
 let awaits_what_it_accepts program (s : Walk.step) =
   let c = s.before in
   let awaited = Transition.awaited c in
@@ -271,7 +272,7 @@ let refused_then_taken () =
   Alcotest.(check (list string)) "said" [ "third 0" ] (Pure_run.said run);
   Alcotest.(check (list string)) "N" [] (pairs (Option.get (Pure_run.last run)).shared.tuples)
 
-(* What is left of a long task has another hash after each part: tables of residuals would be slow otherwise. *)
+(* The rest of a long task has another hash after each part: tables of residuals would be slow otherwise. *)
 let hashes_of_long_tasks () =
   let condition = "execute condition { false }" in
   let code =

@@ -1,1 +1,1 @@
-(** Tests of what every transition keeps, along random walks through random programs. No value of its own. *)
+(** Tests of invariants of every transition, along random walks through random programs. No value of its own. *)

@@ -14,7 +14,7 @@ let waiting ?(world = Pure_run.fleet) source =
   in
   (program, go (Configuration.initial program))
 
-(* [after program c events] is where [c] is after the program's own steps and these events. *)
+(* [after program c events] is [c] after the program's own steps and these events. *)
 let after ?(world = Pure_run.fleet) program c events =
   let rec settle c =
     match (Transition.internal program world c) () with Seq.Nil -> c | Cons (t, _) -> settle t.Transition.next
@@ -185,13 +185,13 @@ let tuples =
     case "left over" (fun () ->
         Alcotest.(check int) "keys" 2 (List.length (tuples_of "post a: 1, b: 2\nconsume a: 3"))) ]
 
-(* {1 What vehicles have not told} *)
+(* {1 Values that vehicles have not reported} *)
 
 let silent = { (Pure_run.vehicle "silent") with battery = None }
 let with_silent = World.add silent Pure_run.fleet
 let begun = "v = pick { id 'silent' }\nw = pick { id 'noptilus-1' }\n"
 
-(* What the program says that prints [e], or how it fails. *)
+(* The output of the program that prints [e], or its failure. *)
 let value_of e =
   let run = run ~world:with_silent (begun ^ Printf.sprintf "message(%s)" e) in
   match Pure_run.said run with [ text ] -> text | _ -> Pure_run.ending run

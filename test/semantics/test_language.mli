@@ -1,2 +1,2 @@
-(** Tests of single points of the semantics: answers, picks, the end of endless code, what tuple spaces forget. No value
-    of its own. *)
+(** Tests of single points of the semantics: answers, picks, the end of endless code, the orders that tuple spaces
+    forget. No value of its own. *)

@@ -9,7 +9,7 @@ open Gen
 let closure body = expression (Closure (code body))
 let message text = statement (call "message" [ Positional (expression (String text)) ])
 
-(* What may stand around a task that is compared, and what runs beside it; no vehicles. *)
+(* Contexts around a compared task, and tasks beside it; no vehicles. *)
 let contexts : (Ast.expression -> Ast.expression) list =
   let action body = call "action" [ Positional (closure body) ] in
   let consumed k = call "consume" [ Named ({ it = k; at = Dolphin_syntax.Location.none }, expression Wildcard) ] in
@@ -219,9 +219,9 @@ let allocation_laws =
       (fun a b vs _ -> (a <|> b) <|> on a vs)
       (fun a b vs _ -> a <|> (b <|> on a vs)) ]
 
-(* {1 What is no law} *)
+(* {1 Equations that are not laws} *)
 
-(* [differ name left right] checks that the two tasks are told apart. *)
+(* [differ name left right] checks that the two tasks differ. *)
 let differ name left right =
   let explored text = Graph.explore ~limit:5_000 (Pure_run.compile_exn text) world in
   let program t =

@@ -9,7 +9,7 @@ module Diagnostic = Dolphin_syntax.Diagnostic
 
 let constants = "n = 90000\nhere = location(41.19, -8.70)\ndepth = -1.m\n"
 
-(* Where a plan may stand, as the program around it. *)
+(* The places of a plan, as the program around it. *)
 let places =
   [ ("p = ", ""); ("p = task('a') >> ", ""); ("p = [", "]"); ("p = true ? ", " : null"); ("def f() { ", " }\np = f()");
     ("p = [1].collect { ", " }") ]

@@ -8,7 +8,7 @@ type example = {
   source : string;
   label : string;
   derivation : string;
-  next : string;  (* what is left to execute, or what the script does *)
+  next : string;  (* the rest of the execution, or the step of the script *)
   effects : string list;
 }
 

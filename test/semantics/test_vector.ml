@@ -5,7 +5,7 @@ let case name f = Alcotest.test_case name `Quick f
 
 (* {1 As lists are} *)
 
-(* What is done to one of the vectors there are, known by its place modulo their number; the result is one more. *)
+(* The operations on one of the vectors, known by its place modulo their number; the result is one more. *)
 type operation = Append of int * int | Concat of int * int | Set of int * int | Map of int
 
 let print = function
@@ -88,7 +88,7 @@ let bytes_of_round (before, body) n =
   Alcotest.(check string) body "completed" (Pure_run.ending run);
   bytes /. float n
 
-(* What is copied in each round takes eight times as many bytes a round for eight times as many rounds. *)
+(* A value that is copied in each round takes eight times as many bytes a round for eight times as many rounds. *)
 let is_linear code () =
   let few = bytes_of_round code 1_000 and many = bytes_of_round code 8_000 in
   if many > 2. *. few then Alcotest.failf "%.0f bytes a round for 1,000 rounds, %.0f for 8,000" few many

@@ -1,2 +1,1 @@
-(** Tests of vectors: as lists are, whatever is appended to what, and what appending costs in programs. No value of its
-    own. *)
+(** Tests of vectors: as lists are, after any appends, and the cost of appending in programs. No value of its own. *)

@@ -1,6 +1,6 @@
 open Dolphin_semantics
 
-(* Both graphs as one: by state, what is seen of it, how it ended among others, and its edges by label. *)
+(* Both graphs as one: by state, the visible part of it, its ending among others, and its edges by label. *)
 type node = { seen : string; edges : (string * int) list }
 
 let ended (c : Configuration.t) =
@@ -69,7 +69,8 @@ let is_seen : Label.t -> bool = function
   | Bind _ | No_vehicles _ | Ask _ | Answer _ | No_answer | Pause _ | Resume | Call _ | Reply _ | No_reply _ | Execute
   | Cannot_execute _ | End | Halt _ | Fault _ | Input _ | Interrupt -> false
 
-(* Strong bisimilarity of what any number of hidden steps, what is seen, and any number of hidden steps make one. *)
+(* Strong bisimilarity of the relation that any number of hidden steps, a visible step, and any number of hidden
+   steps make. *)
 let saturated offset (g : Graph.t) =
   let unseen ((t : Transition.t), s) = if is_seen t.label then None else Some s in
   let hidden = Array.map (List.filter_map unseen) g.edges in

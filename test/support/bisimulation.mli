@@ -4,13 +4,14 @@ val equivalent :
   ?named:(Dolphin_semantics.Label.t -> string) ->
   ?observed:(Dolphin_semantics.Configuration.t -> string) ->
   Graph.t -> Graph.t -> bool
-(** [equivalent a b] is whether the initial states of [a] and [b] are strongly bisimilar: whatever one can do, the other
-    can, with the same label, to states of which the same holds; and ended runs ended alike, message included. Bisimilar
-    states moreover agree on what is [observed], by default nothing. Labels
-    are the same if [named] says so, by default if they read the same. *)
+(** [equivalent a b] is whether the initial states of [a] and [b] are strongly bisimilar: whatever one can do, the
+    other can, with the same label, to states of which the same holds; and ended runs ended alike, message included.
+    Bisimilar states moreover agree on the [observed] part, by default nothing. Labels are the same if [named] makes
+    them equal, by default if they read the same. *)
 
 val shared : Dolphin_semantics.Configuration.t -> string
-(** [shared c] is the store, A, B and N of [c], in a canonical text: what parts of a task can see of each other. *)
+(** [shared c] is the store, A, B and N of [c], in a canonical text: the part of each other that parts of a task can
+    see. *)
 
 val weakly_equivalent : Graph.t -> Graph.t -> bool
 (** [weakly_equivalent a b] is whether the initial states of [a] and [b] are weakly bisimilar where only starts,

@@ -113,7 +113,7 @@ let dated =
     [ binary op now n; binary op n now;
       binary And (binary Greater_equal now n) (binary Less now (binary Add n (integer 2))) ]
 
-(* A comparison with what a sensor shows, or has shown. *)
+(* A comparison with a sensor's present or earlier value. *)
 let comparison =
   let* is_dated = frequencyl [ (4, false); (1, true) ] in
   if is_dated then dated else
@@ -171,7 +171,7 @@ let action_code ~sensing =
          (1, return (code [ statement division_by_zero ]));
          (1, return (code [ statement (call "fail" [ Positional (string "f") ]) ])) ])
 
-(* Handlers that run the task anew, or another one in its place: always, or if a pair is there. *)
+(* Handlers that run the task again, or another one in its place: always, or if a pair is there. *)
 let recovering =
   let retry = statement (call "retry" []) in
   let dismissed vs verdict = [ statement (call "dismiss" [ Positional vs ]); statement (call verdict []) ] in
@@ -242,7 +242,7 @@ let some_made ~sensing vehicles =
   let* t = frequency [ (4, return (maker then_)); (1, return (maker (maker then_))) ] in
   frequency [ (2, return t); (1, return (expression (Index (t, variable "va")))) ]
 
-(* Of any vehicle, of those of a kind, of one. What is made of it may have more than its own task, or nobody for it. *)
+(* Of any vehicle, of those of a kind, of one. The task made of it may have more than its own vehicle, or none. *)
 let recruiting ~sensing =
   let* asked = oneofl [ []; [ ("type", "UUV") ]; [ ("type", "UAV") ]; [ ("id", "c") ]; [ ("id", "b") ] ] in
   let* plan = oneofl [ "p"; "q" ] in
@@ -518,8 +518,8 @@ let sensing_program = programs ~sensing:true
 
 (* {1 Copies}
 
-   A piece of program is copied as text: pairs with 1 become the copy's own, those with 2 stay; likewise its plans and
-   its vehicle. *)
+   A piece of program is copied as text: pairs with 1 become the copy's own, those with 2 stay; its plans and its
+   vehicle are treated like those with 1. *)
 
 let replace ~by pattern text =
   let n = String.length pattern in
@@ -609,7 +609,7 @@ let replicated_any =
 
 let printed p = Format.asprintf "%a" Print.program p
 
-(* Few of them make tasks, ask who is idle or runs, or dismiss: there is no symmetry of tasks then. *)
+(* Few of them make tasks, ask for idle or running vehicles, or dismiss: symmetry of tasks is off then. *)
 let rec replicated_gen () =
   let* p = replicated_any in
   let words = List.filter (( <> ) "") (String.split_on_char ' ' (String.map (function '\n' -> ' ' | c -> c) (printed p))) in

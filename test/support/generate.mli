@@ -7,11 +7,11 @@ val world : Dolphin_semantics.World.t
 (** The world of these programs: the UUVs [a] and [b], and the UAV [c]. *)
 
 val open_world : Dolphin_semantics.World.t
-(** The same, where sensors may show this or that: of [a] anything; of [b] one of two charges, and any position; of [c]
-    any charge, and one of two positions; and the like for links, speeds and a measurement. *)
+(** The same with open sensors: [a] has any value; [b] one of two charges, and any position; [c] any charge, and one
+    of two positions; and the like for links, speeds and a measurement. *)
 
 val answer : string
-(** What any [ask] of these programs may be answered. *)
+(** The possible answers to any [ask] of these programs. *)
 
 (** {1:programs Programs} *)
 
@@ -30,7 +30,7 @@ val replicated : Ast.program QCheck2.Gen.t
     of which there is a copy for each. Some are not quite copies. *)
 
 val sensing_program : Ast.program QCheck2.Gen.t
-(** Likewise with code that compares what sensors show, at once or later. *)
+(** The same with code that compares sensors, at once or later. *)
 
 val source : string QCheck2.Gen.t
 (** {!program} as text. *)
@@ -49,14 +49,14 @@ val task : vehicles:string list -> depth:int -> Ast.expression QCheck2.Gen.t
     makes may run on any vehicle. *)
 
 val sensing_task : vehicles:string list -> depth:int -> Ast.expression QCheck2.Gen.t
-(** Likewise, with code as in {!sensing_program}; the global [h] must have a value. *)
+(** The same with code as in {!sensing_program}; the global [h] must have a value. *)
 
 val nested : vehicles:string list -> depth:int -> Ast.expression QCheck2.Gen.t
 (** [nested ~vehicles ~depth] is as {!task}, of parts side by side, most of them inside of [until], [during], [watch],
     [allOf] ..., and so again [depth] times. *)
 
 val sensing_nested : vehicles:string list -> depth:int -> Ast.expression QCheck2.Gen.t
-(** Likewise, with code as in {!sensing_program}. *)
+(** The same with code as in {!sensing_program}. *)
 
 val kept : Ast.statement
 (** [h = battery(va)]. *)
@@ -74,7 +74,7 @@ val vehicles : string list
 (** The variables that {!executing} binds: [va], [vb], [vc]. *)
 
 val executing : ?before:Ast.statement list -> Ast.expression -> Ast.program
-(** [executing t] picks the three vehicles, does what is to be done [before], executes [t], and says so. *)
+(** [executing t] picks the three vehicles, runs the code [before], executes [t], and prints a message. *)
 
 (** {1:builders Building syntax} *)
 

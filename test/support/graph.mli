@@ -1,5 +1,4 @@
-(** The state graph of a small program, state by state: what the explorer should agree with, and what laws are checked
-    on. *)
+(** The state graph of a small program, state by state: the reference of the explorer, and the object of laws. *)
 
 open Dolphin_semantics
 

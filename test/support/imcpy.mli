@@ -4,5 +4,5 @@
     [scripts/test] does both. *)
 
 val cases : (string * (python:string -> unit)) list -> unit Alcotest.test_case list
-(** [cases cs] is the tests [cs]. Without imcpy there are none, and a line on standard output for each says that it is
-    skipped. *)
+(** [cases cs] is the tests [cs]. Without imcpy they are empty, and a line on standard output for each reports that
+    it is skipped. *)

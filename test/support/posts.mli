@@ -1,4 +1,4 @@
-(** What people post to random programs. *)
+(** Posts of people to random programs. *)
 
 open Dolphin_semantics
 open Dolphin_environment

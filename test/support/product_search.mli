@@ -16,7 +16,8 @@ type 'letter graph = {
 (** States, each with the letter at the arrival. *)
 type 'letter lasso = {
   stem : (int * 'letter) list;  (** from the start; not empty *)
-  cycle : (int * 'letter) list;  (** repeated for ever after the stem; its last state is that of the stem. Not empty *)
+  cycle : (int * 'letter) list;  (** repeated without end after the stem; its last state is that of the stem. Not
+                                     empty *)
 }
 
 val satisfying :

@@ -28,7 +28,7 @@ let fleet =
     [ vehicle "noptilus-1"; vehicle "noptilus-2" ~north:100.; vehicle "noptilus-3" ~north:200.;
       vehicle "x8-02" ~kind:"UAV" ~north:300. ]
 
-(* What follows the events that [c] awaits, one after the other. *)
+(* The successors by the events that [c] awaits, one after the other. *)
 let awaited ?(answers = []) program world c =
   let event : Transition.awaited -> (Transition.event, _) result = function
     | End_of v -> Ok (Vehicle_done v)

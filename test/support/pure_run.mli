@@ -38,8 +38,8 @@ val successors :
   World.t ->
   Configuration.t ->
   Transition.t list * Transition.t list
-(** [successors p w c] is what may happen in [c]: its own steps, and what follows the events it awaits (vehicles
-    succeed). An [ask] gets the first of [answers]. *)
+(** [successors p w c] is the possible steps in [c]: its own, and those on the events it awaits (vehicles succeed).
+    An [ask] gets the first of [answers]. *)
 
 val run : ?limit:int -> ?answers:string list -> ?world:World.t -> Core.program -> Transition.t list
 (** [run p] is the run in which the program's own steps come first, leftmost first, then the first event that is
@@ -48,13 +48,13 @@ val run : ?limit:int -> ?answers:string list -> ?world:World.t -> Core.program -
 val labels : Transition.t list -> string list
 
 val last : Transition.t list -> Configuration.t option
-(** [last run] is where [run] ends. *)
+(** [last run] is the end of [run]. *)
 
 val rules : Transition.t -> string
 (** [rules t] is the derivation of [t]: ["DONE, SEQ-2"]. *)
 
 val said : Transition.t list -> string list
-(** [said run] is what the program told its user, in order, be it from the script or from inside of a task. *)
+(** [said run] is the program's messages, in order, from the script or from inside of a task. *)
 
 val ending : Transition.t list -> string
 (** [ending run] is how [run] ended: ["completed"], ["halted: M"], ["failed: M"], ["interrupted"]; ["goes on"] if it

@@ -2,7 +2,7 @@
 
 open Dolphin_semantics
 
-(** One transition, with where it came from. *)
+(** One transition, with its source. *)
 type step = { before : Configuration.t; transition : Transition.t }
 
 val run : choices:int list -> Core.program -> World.t -> step list

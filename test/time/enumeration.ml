@@ -6,14 +6,14 @@ type moment = Ended of Timed_system.ending | Task of Timing.task * Timed_system.
 type battery = { at_first : int; work : int; rest : int; charges : (string * int) list }
 type t = { dates : (moment * (int * int)) list; never_over : bool; most : (Core.vehicle * int) list }
 
-(* What is awaited: a vehicle, a timer, an input, or what people and the supplier say; and how long nothing is heard of
+(* The awaited events: of a vehicle, a timer, an input, or the answers of people and the supplier; and the silence of
    a vehicle that has a task. *)
 type awaited = Vehicle of string | Timer of int | Input of string | Word | Quiet of string
 
 (* Of a vehicle whose link is silent, if its task is not under way: the order waits, or it has ended, well or not. *)
 type errand = Waits | Ended_well | Ended_badly
 
-(* Since so many seconds something is awaited that comes from the first to the second number of seconds. *)
+(* The seconds since the wait for an event began that comes from the first to the second number of seconds. *)
 type clock = { since : int; least : int; most : int }
 
 type state = {
@@ -22,7 +22,7 @@ type state = {
   clocks : (awaited * clock) list;  (* in order *)
   patience : (string option * int) list;
   now : int;
-  date : int;  (* as code reads it: what passes at one moment comes in any order *)
+  date : int;  (* as code reads it: dates of one moment pass in any order *)
   missing : (Core.vehicle * (int * int)) list;  (* now, and at the most until now; in order *)
   changes : int;  (* of links, so far *)
   errands : (Core.vehicle * errand) list;  (* in order *)
@@ -80,7 +80,7 @@ let inputs (o : Timed.options) c e =
   | _ ->
     List.sort_uniq compare (List.map (fun (k, _, _) -> k) (Environment.inputs o.environment o.program e))
 
-(* Where vehicles may be late, they come at any time; where links may be lost, so may they. *)
+(* If vehicles may be late, they come at any time; if links may be lost, so may they. *)
 let links (o : Timed.options) =
   match o.environment.faults with
   | { join = Never; loss = Never; _ } -> o.durations.links
@@ -151,7 +151,7 @@ let after o s (choice : Environment.choice) =
 
 let comes_late (t : Transition.t) = List.exists (function World.Late _ -> true | _ -> false) t.assumed
 
-(* What a sensor shows may go on not to let it happen. *)
+(* A sensor may never enable it. *)
 let is_open (t : Transition.t) =
   t.assumed <> [] && (not (comes_late t))
   && match t.rules with (Condition | Recruit | Allof_when | Oneof_when | Until_cut | Assure_cut) :: _ -> true
@@ -178,7 +178,7 @@ let due o s (choice : Environment.choice) =
     Some (c, 0, if comes_late choice.transition then c.most else 0)
   | None, _ -> None
 
-(* Who was heard of later than others comes after them. *)
+(* Vehicles heard of later than others come after them. *)
 let with_those_there o s world =
   let links = links o in
   let silent = Links.silent links s.changes in
@@ -298,7 +298,7 @@ let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _
     in
     let told_choices = List.filter told choices @ List.concat_map given_up s.clocks in
     let timed = List.map (fun choice -> (choice, due o s choice)) told_choices in
-    (* What ends while nobody hears of it. *)
+    (* Tasks that end unheard. *)
     let ends_unheard (choice : Environment.choice) =
       match choice.on with
       | Some (Vehicle_done v | Vehicle_failed (v, _)) when is_silent o s v && not (List.mem_assoc v s.errands) ->
@@ -334,7 +334,7 @@ let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _
     let waits = own = [] || waits_for_others in
     let changes_later = match s.c.control with Ended _ -> false | _ -> s.changes < Links.count (links o) in
     let is_next_there = waits && changes_later && snd (Links.change (links o) s.changes) <= 1000 * s.now in
-    (* Time has passed because something might be lost, and something else was lost: that is no run. *)
+    (* Time has passed because something might be lost, and something else was lost: that is not a run. *)
     let is_overdue (_, clock) = match last clock with -1 -> false | most -> clock.since > most in
     let take ((choice : Environment.choice), _) =
       note_step s choice.transition;

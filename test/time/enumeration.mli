@@ -1,6 +1,6 @@
 (** All runs of a small program, second by second: the untimed transition function with a count of seconds for
-    everything that is awaited. What {!Dolphin_time} finds must be this. All bounds are whole seconds, so the earliest
-    and the latest dates are reached by runs in which everything happens at whole seconds. *)
+    everything that is awaited. The results of {!Dolphin_time} must be these. All bounds are whole seconds, so the
+    earliest and the latest dates are reached by runs in which everything happens at whole seconds. *)
 
 open Dolphin_semantics
 open Dolphin_time
@@ -9,22 +9,22 @@ type moment = Ended of Timed_system.ending | Task of Timing.task * Timed_system.
 
 type t = {
   dates : (moment * (int * int)) list;  (** the earliest and the latest second *)
-  never_over : bool;  (** some run gets stuck, or goes round for ever in no time *)
+  never_over : bool;  (** some run gets stuck, or repeats without end in no time *)
   most : (Core.vehicle * int) list;
   (** the most that is missing at any time in the battery of a vehicle that works in some run *)
 }
 
-(** What is missing in a full battery, in parts. *)
+(** The missing charge of a battery, in parts. *)
 type battery = {
   at_first : int;
-  work : int;  (** a second of it takes so many *)
-  rest : int;  (** a second of it gives so many, until none is missing; or takes them, if less than 0 *)
-  charges : (string * int) list;  (** plans of which a second gives so many, instead of taking [work] *)
+  work : int;  (** the parts that a second of it takes *)
+  rest : int;  (** the parts that a second of it gives, until none is missing; or takes, if less than 0 *)
+  charges : (string * int) list;  (** plans of which a second gives these parts, instead of taking [work] *)
 }
 
 val all :
   ?states:int -> ?seconds:int -> ?batteries:(Core.vehicle * battery) list ->
   ?seen:(Core.vehicle -> int -> World.t -> World.t) -> ?look:(Configuration.t -> unit) -> Timed.options -> t option
-(** [look] is called with each configuration that a run comes to. [None] if there are more states, or longer runs, than
-    that. [most] is of [batteries]: states differ in what is missing there, and the program looks at the world that
+(** [look] is called with each configuration that a run comes to. [None] if there are more states, or longer runs,
+    than that. [most] is of [batteries]: states differ in the missing charge, and the program looks at the world that
     [seen] makes of this, by default the same always. *)

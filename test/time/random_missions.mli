@@ -4,7 +4,7 @@
 open Dolphin_environment
 open Dolphin_time
 
-type durations = Same | By_plan | By_vehicle  (** alike for whom *)
+type durations = Same | By_plan | By_vehicle  (** the vehicles for which it is alike *)
 
 type program = Mission of string | Any of Dolphin_syntax.Ast.program
 

@@ -12,7 +12,7 @@ module Posts = Test_support.Posts
 let programs = match Sys.getenv_opt "PROGRAMS" with Some n -> int_of_string n | None -> 600
 let answering = Calls.answering
 
-(* What need not come may come at any time, and no enumeration ends. *)
+(* An uncertain event may come at any time, and no enumeration ends. *)
 let certain = List.map (fun (i : Environment.input) -> { i with certain = true }) Posts.inputs
 
 let environments =
@@ -32,8 +32,8 @@ let environments =
    give what [charges] lists. *)
 let parts = 40_000
 
-(* So many seconds, by the name of the plan and the vehicle: some exactly, some none, some that overlap. Some vehicles
-   join after some seconds. *)
+(* Durations in seconds, by the name of the plan and the vehicle: some exact, some zero, some overlapping. Some
+   vehicles join after some seconds. *)
 let durations ?(charges = []) seed : Durations.t =
   let task v _ (p : Core.platform_task) =
     let n = Hashtbl.hash (seed, v, p.name) in
@@ -88,7 +88,7 @@ let found (o : Timing.outcome) =
   List.sort compare
     (List.map (fun (e, w) -> (Enumeration.Ended e, window w)) o.endings @ List.concat_map of_task o.tasks)
 
-(* The run ends at the date that is said of its end, and its dates never go back. *)
+(* The run ends at the date of its reported end, and its dates never go back. *)
 let is_dated (o : Timing.outcome) (run : Timing.run) later =
   let rec in_order = function a :: (b :: _ as rest) -> a <= b && in_order rest | [ _ ] | [] -> true in
   let last = List.nth run.dates (List.length run.dates - 1) in
@@ -98,7 +98,7 @@ let is_dated (o : Timing.outcome) (run : Timing.run) later =
   in_order run.dates && last = 1000 * expected
   && (run.chain = [] || (not later) || List.fold_left (fun n (l : Schedule.link) -> n + l.lasts) 0 run.chain >= last)
 
-(* Where code does more with the date than compare it with constants, nothing is said. *)
+(* If code does more with the date than compare it with constants, there is no result. *)
 let enumerated ?batteries ?seen (options : Timed.options) =
   if Result.is_ok options.dates then Enumeration.all ?batteries ?seen options else None
 
@@ -114,7 +114,7 @@ let is_found (options : Timed.options) =
       let one ppf (m, (a, b)) = Format.fprintf ppf "%a: %d to %d" pp_moment m a b in
       Format.asprintf "%s: %a" what (Format.pp_print_list ~pp_sep:(fun ppf () -> Format.fprintf ppf "; ") one) moments
     in
-    (* Where nothing happens any more, somebody may interrupt at any time, and the vehicles leave then. *)
+    (* If nothing happens any more, a person may interrupt at any time, and the vehicles leave then. *)
     let found = found o in
     let leaving (_, (_, latest)) = program.on_interrupt <> None && latest = max_int in
     let at_any_time = Enumeration.Ended Interrupted :: List.map fst (List.filter leaving found) in
@@ -226,7 +226,7 @@ let test_links () =
 
 (* {1 Dates that code reads} *)
 
-(* What sensors show stands, and the date passes. *)
+(* The values of sensors stay, and the date passes. *)
 let test_dates () =
   let test = QCheck2.Test.make ~count:programs ~print ~name:"dates that code reads" sensing_case (agrees_in false) in
   let before = !skipped in
@@ -241,7 +241,7 @@ let latest_of (expected : Enumeration.t) =
   let is_end (moment, _) = match moment with Enumeration.Ended _ -> true | Task _ -> false in
   List.fold_left (fun latest (_, (_, last)) -> max latest last) 0 (List.filter is_end expected.dates)
 
-(* With [task] so many seconds longer. *)
+(* With [task] this number of seconds longer. *)
 let longer (o : Timed.options) (task : Timing.task) n =
   let of_task v place (p : Core.platform_task) : Bounds.t =
     match o.durations.task v place p with
@@ -253,7 +253,7 @@ let longer (o : Timed.options) (task : Timing.task) n =
 
 let tight = ref 0 and loose = ref 0
 
-(* A task may take as much longer as is said, and no second more. *)
+(* A task may take as much longer as its slack, and no second more. *)
 let slack_agrees (ast, seed, (_, environment)) =
   let program = Posts.declared environment (Generate.compile ast) in
   let options : Timed.options =
@@ -302,7 +302,7 @@ let names (pairs : Side_by_side.pair list) =
   let pair (p : Side_by_side.pair) = List.sort compare [ key p.one; key p.other ] in
   List.sort_uniq compare (List.map pair pairs)
 
-(* Nobody knows where these plans lead, so all that run at one time are told. *)
+(* The ends of these plans are unknown, so all that run at one time are reported. *)
 let pairs_agree (ast, seed, (_, environment)) =
   let program = { (Posts.declared environment (Generate.compile ast)) with fences = Fences.make [ distance ] } in
   let options : Timed.options =
@@ -346,7 +346,7 @@ let fleet ?(charges = []) ~at_first ~charge () =
 
 type tally = { mutable exact : int; mutable bounds : int; mutable worked : int }
 
-(* No run has less left than is said; the run that is shown has no less than the least of all. *)
+(* No run has less left than the bound; the run that is shown has no less than the least of all. *)
 let batteries_agree tally (vehicles, batteries) options =
   match Enumeration.all ~batteries options with
   | None | Some { never_over = true; _ } -> true
@@ -453,7 +453,7 @@ let compare_one environment seed text =
     Alcotest.(check bool) "the same dates" true (found o = expected.dates);
     Alcotest.(check bool) "whether some run never ends" expected.never_over (o.endless <> None)
 
-(* Where one link is lost, time has not passed because another one might have been. *)
+(* If one link is lost, time has not passed because another one might have been. *)
 let test_one_loss () =
   compare_one "with a loss" 132
     "va = pick { id 'a' }\nvb = pick { id 'b' }\nvc = pick { id 'c' }\n\
@@ -465,7 +465,7 @@ let test_round_in_no_time () =
     "va = pick { id 'a' }\npost x: 1\n\
      execute (waitFor { true } then repeat task('p')[va] until { poll x: 1 }) | assert({ consume x: 1 }, 'a')\n"
 
-(* What a sensor shows may end a task at the moment at which something else happens at once. *)
+(* A sensor may end a task at the moment at which something else happens at once. *)
 let test_look_at_once () =
   compare_one "as planned" 0
     "va = pick { id 'a' }\nvb = pick { id 'b' }\n\
@@ -508,7 +508,7 @@ let test_who_runs () =
      execute task('p')[va] | (oneOf {\n when { !running(va) } then (task('q')[vb] >> task('q')[vb])\n\
      when { running(va) } then idle(1)\n})\n"
 
-(* Without programs that end in each way, agreement says little. *)
+(* Without programs that end in each way, agreement means little. *)
 let test_variety () =
   Alcotest.(check int) "ways to end" 4 (Hashtbl.length reduced);
   Alcotest.(check bool) "few are skipped" true (!skipped * 2 < programs);

@@ -149,7 +149,7 @@ let test_within () =
       (fleet (two ^ "plan 'survey', { duration 8.min, 19.min }")) in
   Alcotest.check windows "kept" [ None ] (missed o)
 
-(* A race: whoever is first ends the other one. *)
+(* A race: the first one ends the other one. *)
 let test_until () =
   let race = "task('slow')[va] | task('quick')[vb] >> action { post done: 1 }" in
   let o = outcome (both ^ "execute until { poll done: 1 } run " ^ race ^ "\n")
@@ -158,8 +158,8 @@ let test_until () =
   Alcotest.check window "slow ends" (5., 7.) (of_task o "slow" Ends);
   Alcotest.check window "slow is stopped" (3., 7.) (of_task o "slow" Stopped)
 
-(* A plan on a silent link fails 60 s after the link went, which is at its latest end at the latest; so says the program
-   at 10 s. *)
+(* A plan on a silent link fails 60 s after the link went, which is at its latest end at the latest; the program
+   makes that 10 s. *)
 let test_faults () =
   let program = both ^ "execute task('p')[va]\n" and scenario = fleet (two ^ "plan 'p', { duration 5, 9 }") in
   Alcotest.check window "a failure" (0., 9.) (ends ~ending:Failed (outcome ~faults:"fail" program scenario));
@@ -192,7 +192,7 @@ let test_endless () =
   check "rounds until somebody likes" "a cycle"
     ("execute repeat (task('p')[va] >> " ^ perhaps ^ ") until { poll x: 1 }\n")
 
-(* Nobody knows how long 'q' takes: what follows has no latest time, what stands beside it has. *)
+(* The duration of 'q' is unknown: later events have no latest time, parallel ones have. *)
 let test_unknown () =
   let program = both ^ "execute task('q')[va] >> task('p')[va] | task('p')[vb]\n" in
   let o = outcome program (fleet (two ^ "plan 'p', { duration 5, 9 }")) in
@@ -207,8 +207,8 @@ let test_deadline () =
   Alcotest.(check bool) "held" true (verdict 9_000 = Holds);
   Alcotest.(check bool) "broken by a millisecond" true (verdict 8_999 = Violated)
 
-(* The long way takes 9, the other one 2 + 3 + 1: each of its tasks may take 3 more. What is cut off when the other is
-   done may take any time; what runs twice, for 3 at most, may take half of the other 3 more. *)
+(* The long way takes 9, the other one 2 + 3 + 1: each of its tasks may take 3 more. A task that is cut off when the
+   other is done may take any time; a task that runs twice, for 3 at most, may take half of the other 3 more. *)
 let test_slack () =
   let slacks program =
     let program = Test_support.Pure_run.compile_exn (both ^ program) in
@@ -298,10 +298,10 @@ let test_batteries () =
   let o = found "execute repeat task('p')[va]\n" in
   Alcotest.(check int) "nothing is said of runs without end" 0 (List.length o.batteries)
 
-(* The link of a goes after 1 min for 30. While an order waits for it a rests, and so it does once it is over. Under way
-   it takes 1 % a minute, at rest a quarter of that: 1 min of rest and 30 min of waiting before 10 of p are 7.75 + 10 %,
-   and p from the start takes 10, with 21 at rest after it, until its end is heard. What the program sees meanwhile is
-   the battery of before: p goes on though it is to be cut off at 45 %. *)
+(* The link of a goes after 1 min for 30. While an order waits for it a rests, and so it does once it is over. Under
+   way it takes 1 % a minute, at rest a quarter of that: 1 min of rest and 30 min of waiting before 10 of p are 7.75
+   + 10 %, and p from the start takes 10, with 21 at rest after it, until its end is heard. The program sees the
+   earlier battery meanwhile: p goes on though it is to be cut off at 45 %. *)
 let test_batteries_without_link () =
   let scenario =
     fleet
@@ -332,7 +332,7 @@ let test_picks () =
   Alcotest.check window "late" (0., 30.) (ends late);
   Alcotest.check window "missing" (30., 30.) (ends ~ending:Failed late)
 
-(* 'b' joins after 90 s, 'c' after 100. What looks for 'b' ends then, or has ended before by its time-out; a [pick] of
+(* 'b' joins after 90 s, 'c' after 100. A search for 'b' ends then, or has ended before by its time-out; a [pick] of
    all takes those that are there when its time is over. *)
 let test_joins () =
   let vehicles = "vehicle 'a', { type 'UUV' }\nvehicle 'b', { type 'UUV'; joins 90 }\n" in
@@ -356,13 +356,13 @@ let test_joins () =
   let stroke = "vs = pick { count 2; timeout 90 }\n" in
   check "on the stroke" (90., 90.) stroke;
   check ~ending:Failed "on the stroke, too late" (90., 90.) stroke;
-  (* If nobody is looked for after tasks, who joins meanwhile makes no states. *)
+  (* Without searches after tasks, vehicles that join meanwhile make no states. *)
   let o = outcome (both ^ "execute task('p')[va] | task('p')[vb]\n") in
   let states fleet_text = (o (fleet fleet_text)).states in
   let two = two ^ "plan 'p', { duration 5, 9 }\n" in
   Alcotest.(check int) "as many states" (states two) (states (two ^ "vehicle 'd', { type 'UUV'; joins 3 }\n"))
 
-(* A vehicle whose plan was stopped half-way is nobody knows where, so nobody knows how long its way back takes. *)
+(* A vehicle whose plan was stopped half-way is at an unknown place, so the duration of its way back is unknown. *)
 let test_places () =
   let go = "imcPlan { planName 'go'\n goTo location: (location 41.19, -8.70)\n}" in
   let o = outcome (both ^ "p = " ^ go ^ "\nexecute p[va] >> p[va]\n") (fleet (two ^ "plan 'x'")) in

@@ -29,7 +29,7 @@ let most_steps = 2_000
 
 type line = Taken of Transition.event option * Transition.t | Heard of Core.vehicle * bool
 
-(* The transitions of a run, each with its date and its cause, and what is heard of links. *)
+(* The transitions of a run, each with its date and its cause, and the news of links. *)
 let run ~seed scenario program =
   let taken = ref [] and left = ref most_steps in
   let transition ~time ~cause t =
@@ -56,7 +56,7 @@ let follow options run =
 let is_within (w : Timing.window) date =
   date >= w.earliest - 1 && (match w.latest with At latest -> date <= latest + 1 | Unbounded -> true)
 
-(* The dates of a run against what is said of all runs. *)
+(* The dates of a run against the results for all runs. *)
 let check_dates name (o : Timing.outcome) run =
   let ending : Configuration.ending -> Timed_system.ending option = function
     | Completed -> Some Completed
@@ -165,13 +165,13 @@ let test_links () =
   Printf.printf "%d of %d runs compared\n" (!compared - before) (3 * programs);
   Alcotest.(check bool) "most" true (!compared - before > 2 * programs)
 
-(* The task is over after 10 s, and nobody hears of it until 45 s; what happens meanwhile says nothing of it. *)
+(* The task is over after 10 s, unheard until 45 s; the events of that time do not concern it. *)
 let test_silence () =
   check "a link that is back" ~seeds:1
     ~fleet:"vehicle 'a', { type 'UUV'; drops 5.seconds, 40.seconds }\nplan 'p', { duration 10 }\n"
     "v = pick { id 'a' }\nsetConnectionTimeout v, 60\nexecute task('p')[v] | (idle(30) >> action { message 'x' })\n"
 
-(* A plan that takes longer than the fleet says, or shorter, is found. *)
+(* A plan that takes longer than in the fleet, or shorter, is found. *)
 let test_findings () =
   let fleet duration =
     Result.get_ok

@@ -1,7 +1,7 @@
-(* On random programs, what is left out makes no difference: all dates, whether some run never ends, what is missed, and
-   the dates of the runs that are shown are those of the search that follows everything. Many of the programs execute
-   copies of a task side by side, with plans that take the same time. PROGRAMS in the environment is how many programs
-   are tried, 600 by default. *)
+(* On random programs, the reductions make no difference: all dates, whether some run never ends, the missed
+   [within], and the dates of the runs that are shown are those of the search that follows everything. Many of the
+   programs execute copies of a task side by side, with plans that take the same time. PROGRAMS in the environment is
+   how many programs are tried, 600 by default. *)
 
 open Dolphin_time
 open Random_missions
@@ -11,7 +11,7 @@ let skipped = ref 0
 let with_inert = ref 0 and with_likeness = ref 0
 let few = { Dolphin_checker.Limits.none with max_states = Some 3_000 }
 
-(* All that is said, but for which runs. *)
+(* The whole output, but for the chosen runs. *)
 let answers (o : Timing.outcome) =
   let task ((t : Timing.task), windows) = (t, List.sort compare windows) in
   let last (r : Timing.run option) =
@@ -83,7 +83,7 @@ let agrees case =
   end;
   true
 
-(* Which pairs are left in N, or in what order, matters to what follows. *)
+(* Later steps depend on the pairs left in N, or on their order. *)
 let left uav after =
   "UUVs = pick { count 3; type 'UUV' }\nUAV = pick { type 'UAV' }\n\
    execute UUVs: (task('s1') >> action { post ready: 1 }) | (task('s2') >> action { post ready: 2 }), UAV: " ^ uav ^ "\n"
@@ -162,7 +162,7 @@ let test_look (name, code) =
   in
   Alcotest.test_case name `Quick check
 
-(* What only may be a time may be vehicles, of whom it is asked who is held. *)
+(* A value that may only be a time may be vehicles, of which the held ones are asked for. *)
 let test_asks () =
   let asks expected text =
     let program = Test_support.Pure_run.compile_exn ("vs = pick { count 2 }\n" ^ text) in

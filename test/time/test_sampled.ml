@@ -22,7 +22,7 @@ let sample ?until ?(runs = runs) ?(each = fun ~seed:_ _ -> ()) ~jobs (program, f
 
 let without_time s = { s with Sampling.seconds = 0.; settings = { s.Sampling.settings with jobs = 0 } }
 
-(* Runs whose lines are written into a file, but for the [left_out]-th, and what comes of reading it. *)
+(* Runs whose lines are written into a file, but for the [left_out]-th, and the result of reading it. *)
 let by_lines ?left_out (program, fleet) =
   let header = Sample_lines.header ~version:"test" ~answers:[] program fleet in
   let path = Filename.temp_file "dolphin" ".runs" in
@@ -56,7 +56,7 @@ let time ((program : Program_file.t), (fleet : Fleet_file.t)) =
   in
   Timing.run { Dolphin_checker.Limits.none with max_states = Some 2_000 } options
 
-(* What {!Durations} does not know of: who leaves, and batteries. *)
+(* Things that {!Durations} does not know: vehicles that leave, and batteries. *)
 let is_steady (s : Scenario.t) =
   List.for_all (fun (v : Scenario.vehicle) -> v.leaves = None && v.drops = []) s.vehicles
 
@@ -102,7 +102,7 @@ let test_processes () =
   let until ~jobs = without_time (sample ~until:0.1 ~runs:1_000 ~jobs mission) in
   Alcotest.(check bool) "until it is known" true (until ~jobs:1 = until ~jobs:3 && (until ~jobs:3).stop = Known)
 
-(* With seconds that are the same in each run: what is counted can be foretold. *)
+(* With seconds that are the same in each run: the counts can be foretold. *)
 let test_counts () =
   let folder = Filename.get_temp_dir_name () in
   let path = Filename.concat folder (Printf.sprintf "sampled-%d.dol" (Unix.getpid ())) in

@@ -76,7 +76,7 @@ let test_interrupted () =
   let interrupted () = Unix.gettimeofday () > until in
   check_stopped "it was interrupted" (slacks { (limits wait) with interrupted })
 
-(* Only this process is told of reports, which are due at once. *)
+(* Only this process gets reports, which are due at once. *)
 let test_reports () =
   let reported = ref [] in
   let limits = limits (fun () -> Unix.sleepf 0.1) in

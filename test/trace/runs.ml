@@ -57,7 +57,7 @@ let host path =
 
 let started = "2026-03-01T12:00:00Z"
 
-(* Writes what follows to [journal], with [recorder] told. *)
+(* Writes the following lines to [journal], by [recorder]. *)
 let drive r recorder platform ?beginning ?fenced ~answered host =
   let observer : Observer.t = { transition = Recorder.transition recorder; news = Recorder.news recorder;
                                 unknown = Observer.nobody.unknown } in

@@ -25,8 +25,8 @@ val of_text : ?period:float -> string -> t
 val of_scenario : ?period:float -> ?seed:int -> Dolphin_scenario.Scenario.t -> string -> t
 
 val resume : t -> string -> (string, string) result
-(** [resume r text] is the joined journal of a run of [r]'s program that goes on where [text], the journal of a console
-    that died, breaks off; or why there is nothing to go on with. *)
+(** [resume r text] is the joined journal of a run of [r]'s program that goes on where [text], the journal of a
+    console that died, breaks off; or the reason why it cannot. *)
 
 val check : t -> Dolphin_trace.Verdict.t
 (** The verdict on its journal. *)

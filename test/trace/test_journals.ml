@@ -25,7 +25,7 @@ let canonical () =
   in
   List.iter (fun name -> List.iter (check name) (Runs.lines (Runs.run name).journal)) Runs.examples
 
-(* What vehicles are known to be at a transition is what the program saw, however rare samples are. *)
+(* The known vehicles at a transition are those that the program saw, however rare samples are. *)
 let sensors () =
   let source =
     {|v = pick { type 'UUV' }
@@ -92,7 +92,7 @@ let many_choices () =
      | No_run _ -> ()
      | verdict -> Alcotest.failf "other vehicles: %s" (show verdict))
 
-(* Of transitions that look alike, [choice] says which one was taken. An event makes one only. *)
+(* Of transitions that look alike, [choice] selects the taken one. An event makes one only. *)
 let choices () =
   let r = Runs.of_text "v = pick { type 'UUV' }\nexecute task('t')[v]" in
   let chosen label =
@@ -107,7 +107,7 @@ let choices () =
 
 (* {1 Cut journals} *)
 
-(* Cut anywhere it is the beginning of a run, or said to be no journal as long as there is no header. *)
+(* Cut anywhere it is the beginning of a run, or not a journal as long as it lacks a header. *)
 let cut_everywhere () =
   let r = Runs.run ~period:60. "tuple_space" in
   let header = String.index r.journal '\n' in

@@ -1,6 +1,6 @@
 open Dolphin_trace
 
-(* Mutants that are no journals of runs any more, by what was done to them. *)
+(* Mutants that are not journals of runs any more, by their mutation. *)
 let wanted = 2000
 let show verdict = Format.asprintf "@[<v>%a@]" Verdict.pp verdict
 
@@ -24,8 +24,7 @@ let kind line =
 
 let pick random xs = xs.(Random.State.int random (Array.length xs))
 
-(* Lines that say nothing but when and where something was seen may go, come and change; and the last one may be
-   missing. *)
+(* Lines with nothing but times and places of sightings may go, come and change; and the last one may be missing. *)
 let drop random lines =
   let i = Random.State.int random (Array.length lines) in
   let kept = List.filteri (fun j _ -> j <> i) (Array.to_list lines) in
@@ -56,7 +55,7 @@ let replace random lines =
   { text = Runs.text (Array.to_list replaced); harmless = alike = [] || kind lines.(i) = `Vehicle;
     what = Printf.sprintf "line %d replaced" (i + 1) }
 
-(* One character of a line becomes another one. Times, and all that is said of the circumstances, may be different. *)
+(* One character of a line becomes another one. Times, and all circumstances, may be different. *)
 let alter random lines =
   let i = Random.State.int random (Array.length lines) in
   let line = lines.(i) in
@@ -71,7 +70,7 @@ let alter random lines =
     | Ok (Header _ | Partial _ | Label _ | Vehicle _ | Note _ | Resumed _) -> Some ""
     | Error _ -> None
   in
-  (* Why a vehicle failed is its own affair, but is told by what follows; the same holds for answers. *)
+  (* The reason of a vehicle's failure is its own affair, but later lines repeat it; the same holds for answers. *)
   let replaced = Array.copy lines in
   replaced.(i) <- altered;
   { text = Runs.text (Array.to_list replaced); harmless = without_time line = without_time altered;
@@ -79,7 +78,7 @@ let alter random lines =
 
 (* {1 Showing them} *)
 
-(* Whatever can be read of a journal, however strange, can be told and drawn. *)
+(* Everything that can be read of a journal, however strange, can be shown and drawn. *)
 let show_all text =
   let reader = Journal.of_string text and builder = Summary.create () in
   let rec entries found =
@@ -99,7 +98,7 @@ let show_all text =
 let trial () =
   let random = Random.State.make [| 20260301 |] in
   let names = List.filter (fun name -> not (Sys.file_exists ("../../examples/" ^ name ^ ".py"))) Runs.examples in
-  (* Short ones: many mutants of many programs say more than some of long journals. *)
+  (* Short ones: many mutants of many programs test more than some of long journals. *)
   let is_short (r : Runs.t) = String.length r.journal < 40_000 in
   let runs = Array.of_list (List.filter is_short (List.map (fun name -> Runs.run ~period:1e9 name) names)) in
   let rejected = ref 0 and passed = ref [] and doubtful = ref 0 and still_runs = ref 0 in

@@ -4,7 +4,7 @@ let case name test = Alcotest.test_case name `Quick test
 let show verdict = Format.asprintf "@[<v>%a@]" Verdict.pp verdict
 let entry line = match Entry.of_string line with Ok entry -> entry | Error why -> failwith why
 
-(* Labels of these kinds, and what cannot be hidden; of vehicles, what is new of them. *)
+(* Labels of these kinds, and lines that cannot be hidden; of vehicles, new states. *)
 let partial ~observed journal =
   let is_observed label = observed = [] || List.mem (Partial.kind label) observed in
   let cause = ref None in
@@ -36,7 +36,7 @@ let all_possible observed () =
   in
   List.iter check (Lazy.force runs)
 
-(* What no run of the program can look like. *)
+(* Traces that no run of the program can have. *)
 let impossible name r text lines =
   let expected = String.concat "\n" lines in
   match Runs.check_text r text with
@@ -77,7 +77,7 @@ let beginnings () =
   check [ label "start(v, a)" ];
   check [ label "start(v, a)"; label "done(v, a)"; label "start(v, b)"; label "done(v, b)" ]
 
-(* What fails has a reason, which is in its label. *)
+(* A failure has a reason, which is in its label. *)
 let failures () =
   let r = Runs.of_text "v = pick { type 'UUV' }\nexecute watch (task('a')[v]) onError { ignore() }" in
   let text observed lines =
@@ -88,7 +88,7 @@ let failures () =
   possible (text {|["start","fail"]|} [ label "start(v, a)"; label "fail(v, a, no (more) fuel)" ]);
   possible (text {|["start","end"]|} [ label "start(v, a)"; label "end" ])
 
-(* With more that may be hidden than can be gone through, nothing is said. *)
+(* With more possible hidden steps than can be searched, there is no result. *)
 let unknown () =
   let branches = String.concat " | " (List.init 9 (fun i -> Printf.sprintf "(idle(1) >> action { post x%d: 1 })" i)) in
   let r = Runs.of_text (Printf.sprintf "execute %s\nmessage 'over'" branches) in

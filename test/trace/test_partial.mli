@@ -1,1 +1,1 @@
-(** Traces that tell only part of what happened. *)
+(** Traces of only part of a run. *)

@@ -63,12 +63,12 @@ let few_samples () =
 
 let is_self_contained name text =
   let without own text = Str.global_replace (Str.regexp_string own) "" text in
-  (* What the picture itself has. *)
+  (* The content of the picture itself. *)
   let text = without "url(#chart)" (without "http://www.w3.org/2000/svg" text) in
   let foreign = List.filter (fun part -> contains part text) [ "http"; "url("; "@import"; "<script" ] in
   if foreign <> [] then Alcotest.failf "%s has %s" name (String.concat ", " foreign)
 
-(* The two of the page itself, which say no other file. *)
+(* The two of the page itself, which name no other file. *)
 let without_own_scripts page =
   List.fold_left
     (fun page tag -> Str.global_replace (Str.regexp_string tag) "" page)
@@ -83,7 +83,7 @@ let of_all_examples () =
   in
   List.iter draw Runs.examples
 
-(* Names and messages are no markup. *)
+(* Names and messages are escaped. *)
 let escaped () =
   let s = story (Runs.of_text "message '<script>alert(1)</script> & \"so\"'").journal in
   Alcotest.(check bool) "escaped" false (contains "<script" (without_own_scripts (Picture.html s)));
@@ -94,7 +94,7 @@ let header ~platform : Header.t =
     speed = None;
     started = "2026-03-01T12:00:00Z"; run = None; fences = []; place = None }
 
-(* Areas are lines of the map, with what they mean below it; the pointer shows how they are declared. *)
+(* Areas are lines of the map, with their meaning below it; the pointer shows their declarations. *)
 let fences () =
   let area metres = Result.get_ok (Dolphin_geo.Area.circle { latitude = 41.; longitude = -8.; height = 0. } metres) in
   let fence rule text : Dolphin_semantics.Fences.fence =
@@ -141,7 +141,7 @@ let circumstances () =
   Alcotest.(check bool) "a network" true (contains "vehicles of a network (IMC)  ·  2026" (head "imc"));
   Alcotest.(check bool) "has no seed" false (contains "seed" (head "imc"))
 
-(* A vehicle of a network that has not told of its battery yet. *)
+(* A vehicle of a network that has not reported its battery yet. *)
 let unknown_batteries () =
   let battery_axis at_first =
     let builder = Summary.create () in
@@ -248,7 +248,7 @@ let planned_and_invented () =
   List.iter (fun text -> check text true simulated) [ planned; invented; flown; told; ">planned<"; ">flown<" ];
   List.iter (fun text -> check text true real) [ planned; flown; ">planned<" ];
   List.iter (fun text -> check text false real) [ invented; told ];
-  (* Journals that do not tell have no legend. *)
+  (* Journals without this data have no legend. *)
   let silent = story (Runs.run "watch").journal in
   let untold (t : Summary.task) = { t with way = None } in
   let without (v : Summary.vehicle) = { v with tasks = List.map untold v.tasks } in
@@ -318,7 +318,7 @@ let known page =
   let from = Str.search_forward (Str.regexp_string tag) page 0 + String.length tag in
   Yojson.Safe.from_string (String.sub page from (Str.search_forward (Str.regexp_string "</script>") page from - from))
 
-(* Whatever a vehicle is called, the script of the page reads where it was and what it ran. *)
+(* For any vehicle name, the script of the page reads its places and tasks. *)
 let followed () =
   let page = Picture.html (of_vehicles [ ("v10", 0.); ("</script><b>", 0.); ("v2", 0.) ]) in
   let open Yojson.Safe.Util in

@@ -1,1 +1,1 @@
-(** Pictures are made of whatever journals tell. *)
+(** Pictures are made of any journals. *)

@@ -3,8 +3,7 @@ open Dolphin_trace
 let case name test = Alcotest.test_case name `Quick test
 let show verdict = Format.asprintf "@[<v>%a@]" Verdict.pp verdict
 
-(* A journal without what tells that there were two consoles: which samples were written, and when there was a new
-   one. *)
+(* A journal without the traces of two consoles: the written samples, and the date of the second. *)
 let story journal =
   let is_told line =
     match Entry.of_string line with

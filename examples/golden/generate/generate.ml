@@ -1,5 +1,5 @@
-(* Each example runs on the fleet beside it; a script beside it, NAME.py, is its supplier. What it says is as before,
-   and what it does is a run by the semantics. *)
+(* Each example runs on the fleet beside it; a script beside it, NAME.py, is its supplier. Its output is as before,
+   and its steps are a run by the semantics. *)
 let rule ~has_supplier name =
   let supplier = if has_supplier then Printf.sprintf "\n      --supplier %%{dep:../%s.py}" name else "" in
   Printf.printf

@@ -3,8 +3,9 @@ type t =
   | Taken of { request : int }
   | Runs of { request : int }
   | Over of { request : int }
+  | May_run of { plan : string; request : int }
 
-let is_write_ahead = function Asked _ -> true | Taken _ | Runs _ | Over _ -> false
+let is_write_ahead = function Asked _ -> true | Taken _ | Runs _ | Over _ | May_run _ -> false
 
 let to_json n : Yojson.Safe.t =
   match n with
@@ -18,6 +19,7 @@ let to_json n : Yojson.Safe.t =
   | Taken { request } -> `Assoc [ ("taken", `Int request) ]
   | Runs { request } -> `Assoc [ ("runs", `Int request) ]
   | Over { request } -> `Assoc [ ("over", `Int request) ]
+  | May_run { plan; request } -> `Assoc [ ("may-run", `String plan); ("request", `Int request) ]
 
 let of_json : Yojson.Safe.t -> t option = function
   | `Assoc [ ("asked", `String plan); ("request", `Int request) ] -> Some (Asked { plan; request; before = None })
@@ -26,7 +28,18 @@ let of_json : Yojson.Safe.t -> t option = function
   | `Assoc [ ("taken", `Int request) ] -> Some (Taken { request })
   | `Assoc [ ("runs", `Int request) ] -> Some (Runs { request })
   | `Assoc [ ("over", `Int request) ] -> Some (Over { request })
+  | `Assoc [ ("may-run", `String plan); ("request", `Int request) ] -> Some (May_run { plan; request })
   | _ -> None
+
+let lingering notes =
+  let add found (v, note) =
+    match note with
+    | May_run { plan; request } -> (v, (plan, request)) :: List.remove_assoc v found
+    | Asked _ -> List.remove_assoc v found
+    | Over { request } -> List.filter (fun (w, (_, other)) -> w <> v || other <> request) found
+    | Taken _ | Runs _ -> found
+  in
+  List.rev (List.fold_left add [] notes)
 
 type knowledge = {
   request : int;
@@ -47,5 +60,6 @@ let add ~plan known = function
   | Taken { request } -> Option.map (fun k -> if k.request = request then { k with taken = true } else k) known
   | Runs { request } -> Option.map (fun k -> if k.request = request then { k with runs = true } else k) known
   | Over { request } -> Option.map (fun k -> if k.request = request then { k with over = true } else k) known
+  | May_run _ -> known
 
 let knowledge ~plan notes = List.fold_left (add ~plan) None (List.rev notes)

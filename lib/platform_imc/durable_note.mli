@@ -1,13 +1,17 @@
 (** What is known of a plan's execution that the vehicle itself does not tell, and that a console which takes over from
     one that died has to know: the notes of {!Execution} that journals keep. *)
 
+open Dolphin_semantics
+
 type t =
   | Asked of { plan : string; request : int; before : (string * bool) option }
   (** A request to start [plan] is about to be sent. [before]: the plan that the vehicle named last, and whether it was
       busy with it; [None] if it had named none. *)
   | Taken of { request : int }  (** The vehicle answered that it takes the plan. *)
   | Runs of { request : int }  (** The vehicle was seen to execute it. *)
-  | Over of { request : int }  (** It was stopped, and the vehicle confirmed that. *)
+  | Over of { request : int }  (** It was stopped, and the vehicle confirmed that; or the vehicle rests after all. *)
+  | May_run of { plan : string; request : int }
+  (** The plan is over for the program, but the vehicle may still run it: it is stopped until it rests. *)
 
 val is_write_ahead : t -> bool
 (** Whether the note must be durable before what follows is sent: of [Asked]. *)
@@ -26,6 +30,10 @@ type knowledge = {
   runs : bool;
   over : bool;
 }
+
+val lingering : (Core.vehicle * t) list -> (Core.vehicle * (string * int)) list
+(** [lingering notes] is the vehicles that may still run a plan that is over for the program, with the plan and the
+    number of its request, as [notes], in order, say: [May_run] without an [Over] or another request since. *)
 
 val knowledge : plan:string -> t list -> knowledge option
 (** [knowledge ~plan notes] is what [notes], latest first, say of the latest request for [plan]; [None]: none was ever

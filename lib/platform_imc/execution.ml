@@ -379,6 +379,27 @@ let adopt ~now ~clock (order : order) ~stopped notes x =
     let x = { x with phase; intervention = None; next_request = (k.request + 1) land 0xFFFF } in
     (match latest with Some r -> judge ~now ~clock r x | None -> (x, []))
 
+(* {1 What lingers} *)
+
+let idle x = match x.phase with Idle -> true | Starting _ | Running _ | Ending _ | Stopping _ -> false
+
+(* The request of a plan that is over may still take effect: the plan would run, and nobody would want it. *)
+let may_still_begin ~now x (f : former) =
+  let is_past = match x.latest with Some r -> Attempt.is_past ~now r f.attempt | None -> false in
+  Attempt.is_open f.attempt && now < f.attempt.last_sent +. late_copies && not is_past
+
+(* VehicleState said so after the plan's end. *)
+let may_go_on ~now x (f : former) = now < f.unrested_until && maneuvers ~since:f.ended x && not (is_busy x)
+
+(* The plan that the vehicle may still run though it is over for the program. *)
+let lingering ~now x =
+  let unheard_since time = match x.latest with Some r -> r.sent <= time | None -> true in
+  match x.phase, x.former with
+  | Stopping { attempt; _ }, _ -> Some attempt
+  | Idle, Some f when (f.given_up && unheard_since f.ended) || may_still_begin ~now x f || may_go_on ~now x f ->
+    Some f.attempt
+  | (Idle | Starting _ | Running _ | Ending _), _ -> None
+
 (* {1 Steps} *)
 
 (* What the vehicle says is a sign of how often it took the request, whatever else it means. *)
@@ -411,12 +432,39 @@ let handle ~now ~clock input x =
   | Leaves at -> (leaves ~at ~clock x, [])
   | Tick -> tick ~now ~clock x
 
+(* The program was told that the plan is over, or is about to be: only the notes on the vehicle say that it may go on. *)
+let is_over_for_program ~before ~input outputs =
+  let has_failed = List.exists (function Failed _ -> true | Keep _ | Send _ | Done | Remark _ -> false) outputs in
+  match input, before.phase with
+  | Adopt _, _ | _, (Starting _ | Running _ | Ending _ | Stopping _) -> has_failed
+  | _, Idle -> true
+
+(* What is to be kept of the vehicle beyond the request: that it may still run what the program has done with. *)
+let note_lingering ~now ~before ~input outputs x =
+  let is_adopted = match input with Adopt _ -> true | _ -> false in
+  match x.may_run, lingering ~now x with
+  | Some request, Some a when a.request = request -> (x, [])
+  | _, Some a when is_over_for_program ~before ~input outputs ->
+    ({ x with may_run = Some a.request }, [ Keep (May_run { plan = a.order.plan; request = a.request }) ])
+  | None, Some a when is_adopted -> ({ x with may_run = Some a.request }, [])
+  | Some request, None when idle x -> ({ x with may_run = None }, [ Keep (Over { request }) ])
+  | Some _, (Some _ | None) -> ({ x with may_run = None }, [])
+  | None, (Some _ | None) -> (x, [])
+
+(* A stop that was given up is not confirmed. *)
+let is_true_of x : Durable_note.t -> bool = function
+  | Over { request } -> (
+      match x.former with Some f -> not (f.given_up && f.attempt.request = request) | None -> true)
+  | Asked _ | Taken _ | Runs _ | May_run _ -> true
+
 let step ~now ~clock input x =
   let x, remarks = detect_duplicates input x in
   let y, outputs = handle ~now ~clock input x in
   (* A request is kept before it is sent. *)
-  let notes = Attempt.notes ~before:(attempt x) ~after:(attempt y) in
-  (y, remarks @ List.map (fun note -> Keep note) notes @ outputs)
+  let notes = List.filter (is_true_of y) (Attempt.notes ~before:(attempt x) ~after:(attempt y)) in
+  let y, lingering = note_lingering ~now ~before:x ~input outputs y in
+  let is_new note = not (List.mem (Keep note) lingering) in
+  (y, remarks @ List.map (fun note -> Keep note) (List.filter is_new notes) @ lingering @ outputs)
 
 (* {1 What stands} *)
 
@@ -433,20 +481,10 @@ let due x =
       let next = if s.next = None then infinity else s.first_sent +. stop_patience in
       List.fold_left Float.min again [ warned; next; Float.max abort (s.first_sent +. x.abort_after) ]
 
-let idle x = match x.phase with Idle -> true | Starting _ | Running _ | Ending _ | Stopping _ -> false
-
 let owes x =
   match x.phase with
   | Starting _ | Running _ | Ending _ | Stopping { next = Some _; _ } -> true
   | Idle | Stopping { next = None; _ } -> false
-
-(* The request of a plan that is over may still take effect: the plan would run, and nobody would want it. *)
-let may_still_begin ~now x (f : former) =
-  let is_past = match x.latest with Some r -> Attempt.is_past ~now r f.attempt | None -> false in
-  Attempt.is_open f.attempt && now < f.attempt.last_sent +. late_copies && not is_past
-
-(* VehicleState said so after the plan's end. *)
-let may_go_on ~now x (f : former) = now < f.unrested_until && maneuvers ~since:f.ended x && not (is_busy x)
 
 let is_settled ~now x =
   match x.phase, x.former with
@@ -455,12 +493,10 @@ let is_settled ~now x =
   | (Starting _ | Running _ | Ending _ | Stopping _), _ -> false
 
 let unsettled ~now x =
-  let unheard_since time = match x.latest with Some r -> r.sent <= time | None -> true in
-  match x.phase, x.former with
-  | Stopping { attempt; next = None; _ }, _ -> Some attempt.order.plan
-  | Idle, Some { attempt; ended; given_up = true; _ } when unheard_since ended -> Some attempt.order.plan
-  | Idle, Some f when may_still_begin ~now x f || may_go_on ~now x f -> Some f.attempt.order.plan
-  | (Idle | Starting _ | Running _ | Ending _ | Stopping _), _ -> None
+  match x.phase with
+  | Stopping { next = Some _; _ } -> None
+  | Idle | Starting _ | Running _ | Ending _ | Stopping _ ->
+    Option.map (fun (a : Attempt.t) -> a.order.plan) (lingering ~now x)
 
 let report x = x.latest
 

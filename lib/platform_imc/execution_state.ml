@@ -43,13 +43,14 @@ type t = {
   former : former option;
   duplicates : Duplicates.t;
   abort_after : float;
+  may_run : int option;
   phase : phase;
 }
 
 let create ?(abort_after = infinity) ~request () =
   { next_request = request land 0xFFFF; latest = None; mode = None; error = None; log_errors = Log_errors.none;
     intervention = None; last_stop = None; stop_echo = neg_infinity; former = None; duplicates = Duplicates.nothing;
-    abort_after; phase = Idle }
+    abort_after; may_run = None; phase = Idle }
 
 let attempt x : (Attempt.t * Attempt.stage) option =
   match x.phase with

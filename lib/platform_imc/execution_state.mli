@@ -49,6 +49,8 @@ type t = {
   former : former option;
   duplicates : Duplicates.t;  (** of the last request *)
   abort_after : float;  (** so long after a first STOP a vehicle that still maneuvers is told to abort *)
+  may_run : int option;
+  (** the request that is noted to linger: its plan is over for the program, and the vehicle may still run it *)
   phase : phase;
 }
 

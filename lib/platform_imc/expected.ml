@@ -28,7 +28,19 @@ let halt v request x =
   | None | Some { over = true; _ } -> Names.add v Nothing x
   | Some _ -> Names.add v (Halt request) x
 
-let resume ~deadline (outstanding : History.outstanding) =
+(* As if it had been told to stop. *)
+let linger x (v, (plan, request)) =
+  let order = { Execution.plan; specification = None } in
+  let request = { order; notes = [ Taken { request }; Asked { plan; request; before = None } ] } in
+  let is_over (r : request) =
+    match Durable_note.knowledge ~plan:r.order.plan r.notes with None -> true | Some k -> k.over in
+  match Names.find_opt v x with
+  | None | Some Nothing -> Names.add v (Halt request) x
+  | Some (Run ({ request = { notes = []; _ }; before; _ } as run)) when Option.fold before ~none:true ~some:is_over ->
+    Names.add v (Run { run with before = Some request }) x
+  | Some (Run _ | Halt _) -> x
+
+let resume ~deadline ~lingering (outstanding : History.outstanding) =
   (* What cannot be ordered never was. *)
   let request (c : History.commanded) =
     match order_of c.task with
@@ -37,7 +49,7 @@ let resume ~deadline (outstanding : History.outstanding) =
   in
   (* The end of the request before may have been noted during this one. *)
   let before (c : History.commanded) =
-    let is_over = function Durable_note.Over _ -> true | Asked _ | Taken _ | Runs _ -> false in
+    let is_over = function Durable_note.Over _ -> true | Asked _ | Taken _ | Runs _ | May_run _ -> false in
     let later = Option.fold ~none:[] ~some:(fun r -> List.filter is_over r.notes) (request c) in
     let with_ends r = { r with notes = later @ r.notes } in
     Option.map with_ends (Option.bind c.before request)
@@ -49,7 +61,7 @@ let resume ~deadline (outstanding : History.outstanding) =
     | Some request -> Names.add v (Run { request; before = before c; deadline = deadline v }) x
   in
   let bound = List.fold_left (fun x v -> Names.add v Nothing x) none outstanding.bound in
-  List.fold_left expect bound outstanding.tasks
+  List.fold_left linger (List.fold_left expect bound outstanding.tasks) lingering
 
 let start ~deadline v order x =
   let before =
@@ -91,13 +103,24 @@ let give_up ~now x =
   let is_late = function Run { deadline; _ } -> deadline <= now | Nothing | Halt _ -> false in
   let late = Names.filter (fun _ intent -> is_late intent) x in
   let halt_late v intent x = match intent with Run { request; _ } -> halt v request x | Nothing | Halt _ -> x in
-  (List.map fst (Names.bindings late), Names.fold halt_late late x)
+  let note (v, intent) =
+    match intent with
+    | Run { request; _ } ->
+      let may_run (k : Durable_note.knowledge) =
+        Durable_note.May_run { plan = request.order.plan; request = k.request } in
+      (v, Option.map may_run (Durable_note.knowledge ~plan:request.order.plan request.notes))
+    | Nothing | Halt _ -> (v, None)
+  in
+  (List.map note (Names.bindings late), Names.fold halt_late late x)
 
 let due x =
   let earlier _ intent time =
     match intent with Run { deadline; _ } -> Float.min deadline time | Nothing | Halt _ -> time
   in
   Names.fold earlier x infinity
+
+let halting v x =
+  match Names.find_opt v x with Some (Halt { order; _ }) -> Some order.plan | Some (Nothing | Run _) | None -> None
 
 let halts x =
   let add v intent found =

@@ -8,9 +8,14 @@ type t
 
 val none : t
 
-val resume : deadline:(Core.vehicle -> float) -> History.outstanding -> t
-(** [resume ~deadline outstanding] expects the vehicles that were bound, or commanded: what was asked of them is gone on
-    with, or halted if it was stopped. A task of a vehicle [v] that is not heard by [deadline v] (s) has failed. *)
+val resume :
+  deadline:(Core.vehicle -> float) ->
+  lingering:(Core.vehicle * (string * int)) list ->
+  History.outstanding ->
+  t
+(** [resume ~deadline ~lingering outstanding] expects the vehicles that were bound, or commanded: what was asked of them is gone on
+    with, or halted if it was stopped. A task of a vehicle [v] that is not heard by [deadline v] (s) has failed. Those
+    of [lingering] ({!Durable_note.lingering}) are halted, too. *)
 
 val mem : Core.vehicle -> t -> bool
 (** Whether the vehicle is expected. *)
@@ -34,11 +39,15 @@ val heard : Core.vehicle -> t -> Execution.input list * t
 val postpone : float -> t -> t
 (** [postpone seconds x] is [x] with later deadlines. *)
 
-val give_up : now:float -> t -> Core.vehicle list * t
-(** [give_up ~now x] is the vehicles that were not heard in time: their tasks have failed, and are to be halted. *)
+val give_up : now:float -> t -> (Core.vehicle * Durable_note.t option) list * t
+(** [give_up ~now x] is the vehicles that were not heard in time: their tasks have failed, and are to be halted; with
+    what is to be kept of that. *)
 
 val due : t -> float
 (** When {!give_up} has something to do; [infinity] if never. *)
+
+val halting : Core.vehicle -> t -> string option
+(** The plan that is to be halted on the vehicle. *)
 
 val halts : t -> (Core.vehicle * string) list
 (** The vehicles that are yet to be halted, with the plans. *)

@@ -71,12 +71,12 @@ let hold vehicles s = { s with bound = List.fold_left (fun bound v -> Name_set.a
 let find name s = Systems.find name s.systems
 let update n s = { s with systems = Systems.update n s.systems }
 
-let resume ~now (outstanding : History.outstanding) s =
+let resume ~now ?(lingering = []) (outstanding : History.outstanding) s =
   let s = { s with timeout = Option.value outstanding.timeout ~default:s.timeout } in
   let s = hold outstanding.bound (add_timeouts outstanding.timeouts s) in
   let s = { s with seen = now; wary_until = now +. wariness; resuming = true } in
   let deadline v = now +. timeout_of v s in
-  { s with expected = Expected.resume ~deadline outstanding; timers = Timers.of_list outstanding.timers }
+  { s with expected = Expected.resume ~deadline ~lingering outstanding; timers = Timers.of_list outstanding.timers }
 
 let held_by (n : Node.t) = match n.claim with Some (_, claim) -> claim.vehicles | None -> []
 
@@ -122,7 +122,12 @@ let state_of ~now (n : Node.t) s =
   in
   let payload = List.assoc_opt n.name s.settings.payload in
   let bound = Name_set.mem n.name s.bound in
-  let held = if bound then None else Names.find_opt n.name s.held in
+  let held =
+    match Expected.halting n.name s.expected with
+    | _ when bound -> None
+    | Some plan -> Some ("may still run plan " ^ plan)
+    | None -> Names.find_opt n.name s.held
+  in
   Node.state ~now ~timeout:(timeout_of n.name s) ~kind ~payload ~held ~bound n
 
 (* {1 Sending} *)
@@ -155,7 +160,8 @@ let is_console (n : Node.t) = n.kind = Ccu && n.address <> None
 (* A vehicle that may still run a plan of ours is not free for others. *)
 let holds ~now s =
   let add held (n : Node.t) = if Execution.unsettled ~now n.execution = None then held else Name_set.add n.name held in
-  Name_set.diff (List.fold_left add s.bound (Systems.to_list s.systems)) s.yielded
+  let halted = Name_set.of_list (List.map fst (Expected.halts s.expected)) in
+  Name_set.diff (List.fold_left add (Name_set.union s.bound halted) (Systems.to_list s.systems)) s.yielded
 
 let claims ~now s =
   let vehicles = Name_set.elements (holds ~now s) in

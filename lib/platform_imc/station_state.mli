@@ -60,7 +60,7 @@ type output =
   | Remark of Core.vehicle * string
 
 val create : settings -> t
-val resume : now:float -> History.outstanding -> t -> t
+val resume : now:float -> ?lingering:(Core.vehicle * (string * int)) list -> History.outstanding -> t -> t
 
 val timeout_of : Core.vehicle -> t -> float
 (** Seconds without a word after which a vehicle has lost its link. *)

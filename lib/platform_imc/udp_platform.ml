@@ -199,7 +199,7 @@ let settings options ~port ~hosts ~time : Station.settings =
 
 let guard p thread = Lwt.async (fun () -> Lwt.catch thread (fun error -> Shell.fail p.shell error; Lwt.return_unit))
 
-let make ?(time = 0.) ?outstanding options =
+let make ?(time = 0.) ?past options =
   let loopback = Unix.inet_addr_loopback in
   let host = if options.loopback then loopback else Unix.inet_addr_any in
   List.iter Sockets.check_own options.interfaces;
@@ -215,7 +215,8 @@ let make ?(time = 0.) ?outstanding options =
   let port = Sockets.port_of data in
   let settings = settings options ~port ~hosts ~time in
   let station = Station.create settings in
-  let station = Option.fold outstanding ~none:station ~some:(fun past -> Station.resume ~now:time past station) in
+  let resume (lingering, outstanding) = Station.resume ~now:time ~lingering outstanding station in
+  let station = Option.fold past ~none:station ~some:resume in
   let announcements = Lwt_unix.of_unix_file_descr ~blocking:false announcements in
   Sockets.join announcements options.group ~interfaces;
   let p =
@@ -255,9 +256,19 @@ let rec alone p =
   | None when Station.resuming p.station -> Lwt_unix.sleep 0.05 >>= fun () -> alone p
   | None -> Lwt.return (Ok p)
 
+(* The notes that were kept, in order. *)
+let notes_of history =
+  let note { History.what; time = _ } =
+    match what with
+    | Noted (v, json) -> Option.map (fun note -> (v, note)) (Durable_note.of_json json)
+    | Saw _ | Happened _ | Asked _ -> None
+  in
+  List.filter_map note history
+
 let open_again options ~time history =
   let outstanding = History.outstanding ~announce_period:longest_silence history in
-  match opened (fun () -> make ~time ~outstanding options) with
+  let past = (Durable_note.lingering (notes_of history), outstanding) in
+  match opened (fun () -> make ~time ~past options) with
   | Ok p -> Lwt.catch (fun () -> alone p) (fun error -> release_sockets p >>= fun () -> Lwt.fail error)
   | Error _ as error -> Lwt.return error
 

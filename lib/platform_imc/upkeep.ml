@@ -90,8 +90,9 @@ let check ~now (n : Node.t) s =
 
 let give_up ~now s =
   let late, expected = Expected.give_up ~now s.expected in
-  let fail s v = push (Task_failed (v, no_word v s)) s in
-  List.fold_left fail { s with expected } late
+  let fail s (v, _) = push (Task_failed (v, no_word v s)) s in
+  let keep (v, note) = Option.map (fun note -> Keep (v, note)) note in
+  (List.fold_left fail { s with expected } late, List.filter_map keep late)
 
 (* It is known by now who holds what. *)
 let look_again ~now s =
@@ -105,7 +106,8 @@ let tick ~now s =
   let s, announced = announce ~now s in
   let s, beaten = beat ~now s in
   let s, checked = for_each (check ~now) s in
-  (expire ~now (give_up ~now s), resumed @ announced @ beaten @ checked)
+  let s, given_up = give_up ~now s in
+  (expire ~now s, given_up @ resumed @ announced @ beaten @ checked)
 
 let due s =
   let of_node time (n : Node.t) = Float.min time (Float.min (Execution.due n.execution) (end_of_link n s)) in

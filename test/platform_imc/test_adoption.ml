@@ -35,6 +35,7 @@ let show : Execution.output -> string = function
   | Keep (Taken _) -> "keep taken"
   | Keep (Runs _) -> "keep runs"
   | Keep (Over _) -> "keep over"
+  | Keep (May_run { plan; _ }) -> "keep may run " ^ plan
   | Send (Plan_control { op = Start; plan_id; _ }) -> "start " ^ plan_id
   | Send (Plan_control { op = Stop; plan_id; _ }) -> "stop " ^ plan_id
   | Send _ -> "something else"

@@ -1,43 +1,11 @@
+module Utf8 = Dolphin_utf8.Utf8
+
 let mark = "\xef\xbb\xbf"
 
 let without_mark text =
   if String.starts_with ~prefix:mark text then String.sub text 3 (String.length text - 3) else text
 
-(* How many bytes the character at [i] has, 0 if none begins there: table 3-7 of the Unicode standard. *)
-let length_at text i =
-  let byte n = if i + n < String.length text then Char.code text.[i + n] else 0 in
-  let follows n = byte n land 0xC0 = 0x80 in
-  let second low high = low <= byte 1 && byte 1 <= high in
-  match byte 0 with
-  | b when b < 0x80 -> 1
-  | b when 0xC2 <= b && b <= 0xDF && follows 1 -> 2
-  | 0xE0 when second 0xA0 0xBF && follows 2 -> 3
-  | 0xED when second 0x80 0x9F && follows 2 -> 3
-  | b when 0xE1 <= b && b <= 0xEF && b <> 0xED && follows 1 && follows 2 -> 3
-  | 0xF0 when second 0x90 0xBF && follows 2 && follows 3 -> 4
-  | 0xF4 when second 0x80 0x8F && follows 2 && follows 3 -> 4
-  | b when 0xF1 <= b && b <= 0xF3 && follows 1 && follows 2 && follows 3 -> 4
-  | _ -> 0
-
-let rec first_bad text i =
-  if i >= String.length text then None
-  else match length_at text i with 0 -> Some i | n -> first_bad text (i + n)
-
-let repaired text =
-  match first_bad text 0 with
-  | None -> (text, 0)
-  | Some first ->
-    let b = Buffer.create (String.length text + 16) in
-    Buffer.add_substring b text 0 first;
-    let rec go i count =
-      if i >= String.length text then count
-      else
-        match length_at text i with
-        | 0 -> Buffer.add_string b "\xef\xbf\xbd"; go (i + 1) (count + 1)
-        | n -> Buffer.add_substring b text i n; go (i + n) count
-    in
-    let count = go first 0 in
-    (Buffer.contents b, count)
+let repaired text = (Utf8.repaired text, Utf8.strays text)
 
 (* The controls of ASCII, and U+0080 to U+009F. *)
 let harmless text =

@@ -1,0 +1,1 @@
+(** Tests of {!Dolphin_utf8}. No value of its own. *)

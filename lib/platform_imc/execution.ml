@@ -432,7 +432,8 @@ let handle ~now ~clock input x =
   | Leaves at -> (leaves ~at ~clock x, [])
   | Tick -> tick ~now ~clock x
 
-(* The program was told that the plan is over, or is about to be: only the notes on the vehicle say that it may go on. *)
+(* The program was told that the plan is over, or is about to be: only the notes on the vehicle show that it may go on.
+*)
 let is_over_for_program ~before ~input outputs =
   let has_failed = List.exists (function Failed _ -> true | Keep _ | Send _ | Done | Remark _ -> false) outputs in
   match input, before.phase with

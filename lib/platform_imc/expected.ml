@@ -18,6 +18,8 @@ let mem = Names.mem
 
 let order_of (task : Core.platform_task) : (Execution.order, string) result =
   match task.plan with
+  | None | Some (Maneuvers _) when not (Door.is_plain task.name) ->
+    Error "the plan's name has control characters: vehicles would report another name"
   | None -> Ok { plan = task.name; specification = None }
   | Some (Maneuvers plan) -> Ok { plan = task.name; specification = Some (Plan_message.of_plan plan) }
   | Some (Mission _) -> Error "IMC vehicles take no missions of items: describe the plan by imcPlan { ... }"

@@ -13,9 +13,9 @@ val resume :
   lingering:(Core.vehicle * (string * int)) list ->
   History.outstanding ->
   t
-(** [resume ~deadline ~lingering outstanding] expects the vehicles that were bound, or commanded: what was asked of them is gone on
-    with, or halted if it was stopped. A task of a vehicle [v] that is not heard by [deadline v] (s) has failed. Those
-    of [lingering] ({!Durable_note.lingering}) are halted, too. *)
+(** [resume ~deadline ~lingering outstanding] expects the vehicles that were bound, or commanded: what was asked of them
+    is gone on with, or halted if it was stopped. A task of a vehicle [v] that is not heard by [deadline v] (s)
+    has failed. Those of [lingering] ({!Durable_note.lingering}) are halted, too. *)
 
 val mem : Core.vehicle -> t -> bool
 (** Whether the vehicle is expected. *)

@@ -1,7 +1,7 @@
 open Dolphin_imc
 open Station_state
 
-let most_nodes = 2000
+let most_nodes = Crowd.most_nodes
 let longest_name = 200
 
 let drop reason s =
@@ -36,23 +36,71 @@ let is_elsewhere ~(before : Node.t) (n : Node.t) =
   | None, Some _ -> true
   | Some was, Some address -> address.port <> was.port || not (Node.belongs address.host before)
 
+(* Systems that come and go with new names do not make people read without end. *)
+let most_warnings = 100
+
+let warn (n : Node.t) (warning : Node.warning option) s =
+  match warning with
+  | None -> (s, [])
+  | Some { about; text } ->
+    let key = n.name ^ "\n" ^ about in
+    if Name_set.mem key s.warned || Name_set.cardinal s.warned >= most_warnings then (s, [])
+    else ({ s with warned = Name_set.add key s.warned }, [ Remark (n.name, text) ])
+
+let dropped reason s outputs =
+  let s, _ = drop reason s in
+  (s, outputs)
+
+(* A system that is heard of for the first time. *)
+let newcomer ~now ~from (p : Packet.t) (a : Message.Announce.t) s =
+  let is_full = Systems.cardinal s.systems >= most_nodes in
+  let told name text = if s.crowded then [] else [ Remark (name, text) ] in
+  match Crowd.make_room ~now s with
+  | None ->
+    let text = Printf.sprintf "is not listened to: %d systems are known already" most_nodes in
+    dropped "too many systems" { s with crowded = true } (told a.sys_name text)
+  | Some s ->
+    let n = Node.make ~now ~from ?abort_after:s.settings.abort_after ~request:(request_of ~id:p.src s) p a in
+    let crowded = s.crowded || is_full in
+    let s = { s with systems = Systems.announced n s.systems; accepted = s.accepted + 1; crowded } in
+    (* Where so many announce themselves, the program hears of those that speak. *)
+    let s = if is_full then s else tell ~now n s in
+    let text = Printf.sprintf "is one of over %d systems: others, which have not spoken, are forgotten" most_nodes in
+    let told = if is_full then told n.name text else [] in
+    if n.address = None then (s, told)
+    else
+      let s, greetings = introduce ~now n s in
+      (s, told @ greetings)
+
+let announced_again ~now ~from (p : Packet.t) (a : Message.Announce.t) (before : Node.t) s =
+  let may_rename = not (Crowd.wants before.name s) && Execution.is_settled ~now before.execution in
+  match Node.announce ~now ~from ~may_rename p a before with
+  | Other (n, warning) ->
+    let s, sent = warn n warning (tell ~now n (update n s)) in
+    dropped "foreign address" s sent
+  | Own (n, warning) ->
+    let s = if n.name = before.name then s else gone before s in
+    let s = tell ~now n { s with systems = Systems.announced n s.systems; accepted = s.accepted + 1 } in
+    let s, sent = warn n warning s in
+    let s, greetings = if is_elsewhere ~before n then introduce ~now n s else (s, []) in
+    (s, sent @ greetings)
+
 let announced ~now ~from (p : Packet.t) (a : Message.Announce.t) s =
-  let accept n s =
-    tell ~now n { s with systems = Systems.announced n s.systems; accepted = s.accepted + 1 }
-  in
   if String.length a.sys_name > longest_name then drop "announcement too long" s
-  else if Systems.is_taken ~now ~id:p.src a.sys_name s.systems then drop "name of another" s
   else
-    match Systems.find_id p.src s.systems with
-    | None when Systems.cardinal s.systems >= most_nodes -> drop "too many systems" s
-    | None ->
-      let n = Node.make ~now ~from ?abort_after:s.settings.abort_after ~request:(request_of ~id:p.src s) p a in
-      if n.address = None then (accept n s, []) else introduce ~now n (accept n s)
-    | Some before -> (
-        match Node.announce ~now ~from p a before with
-        | None -> drop "foreign address" s
-        | Some n ->
-          if is_elsewhere ~before n then introduce ~now n (accept n s) else (accept n s, []))
+    match Systems.taken ~now ~id:p.src a.sys_name s.systems with
+    | Some owner ->
+      let other = Printf.sprintf "0x%04x at %s" p.src (Unix.string_of_inet_addr from) in
+      let text =
+        Printf.sprintf "two systems have this name: 0x%04x, which is %s, and %s, which is ignored" owner.id
+          (Node.place owner) other
+      in
+      let s, sent = warn owner (Some { about = other; text }) s in
+      dropped "name of another" s sent
+    | None -> (
+        match Systems.find_id p.src s.systems with
+        | None -> newcomer ~now ~from p a s
+        | Some before -> announced_again ~now ~from p a before s)
 
 let name_of id s =
   match Systems.find_id id s.systems with Some n -> n.name | None -> Printf.sprintf "system 0x%04x" id
@@ -184,7 +232,7 @@ let datagram ~now ~from ?len bytes s =
   let decoded f =
     match Packet.decode ?len bytes with
     | Error why -> drop (Error.label why) s
-    | Ok p -> f p
+    | Ok p -> f { p with content = Door.content p.content }
   in
   match header with
   | Error why -> drop (Error.label why) s

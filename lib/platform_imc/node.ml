@@ -15,6 +15,7 @@ type t = {
   last_announced : float;
   last_heard : float;
   position : (float * Position.t) option;
+  located : float option;
   depth : float option;
   altitude : float option;
   announced_position : Position.t option;
@@ -27,10 +28,13 @@ type t = {
   queries : int;
   freed : float option;
   claim : (float * Claim.t) option;
+  moved : (Service.address * float) option;
+  shared : float option;
 }
 
 let absence = 30.
 let rest = 1.
+let currency = 2.
 let belongs host n = List.mem host n.hosts
 let is_vehicle n = Service.is_vehicle n.kind
 let last_sign n = Float.max n.last_announced n.last_heard
@@ -74,20 +78,56 @@ let make ~now ~from ?abort_after ~request (p : Packet.t) (a : Message.Announce.t
   described ~now ~from p a
     { id = p.src; name = named p.src a.sys_name; kind = a.sys_type; hosts = []; address = None;
       clock = Vehicle_clock.unknown; execution = Execution.create ?abort_after ~request (); first_announced = now;
-      last_announced = now; last_heard = neg_infinity; position = None; depth = None; altitude = None;
+      last_announced = now; last_heard = neg_infinity; position = None; located = None; depth = None; altitude = None;
       announced_position = None; mode = None;
       error = ""; battery = None; speed = None; readings = []; entities = None;
-      queries = 0; freed = None; claim = None }
+      queries = 0; freed = None; claim = None; moved = None; shared = None }
 
-let announce ~now ~from (p : Packet.t) (a : Message.Announce.t) n =
-  let same = belongs from n && named p.src a.sys_name = n.name in
-  if same || now -. last_sign n > absence then
+let whereabouts = function
+  | Some address -> Format.asprintf "%a" Service.pp_address address
+  | None -> "an unknown address"
+
+let place n = Printf.sprintf "%s at %s" n.name (whereabouts n.address)
+
+type warning = { about : string; text : string }
+type announcement = Own of t * warning option | Other of t * warning option
+
+(* [other] has the IMC address of [n], and speaks from [host]. *)
+let rival ~now ~host other n =
+  let text = Printf.sprintf "two systems have the IMC address 0x%04x: %s, and %s" n.id (place n) other in
+  let warning text = Some { about = other; text } in
+  if belongs host n then
+    ({ n with shared = Some now }, warning (text ^ "; which of them speaks cannot be told, so it cannot be picked"))
+  else (n, warning (text ^ ", which is ignored"))
+
+(* A system that was restarted moves to another port; two with one IMC address seem to move there and back. *)
+let stay_or_move ~now ~from ~before n =
+  match before.address, n.address, before.moved with
+  | Some was, Some is, Some (earlier, at) when was <> is && is = earlier && now -. at <= absence ->
+    let n = { n with address = Some was; moved = Some (earlier, now) } in
+    let other = Printf.sprintf "%s at %s" n.name (whereabouts (Some is)) in
+    rival ~now ~host:from other n
+  | Some was, Some is, _ when was.port <> is.port && now -. before.last_announced <= absence ->
+    ({ n with moved = Some (was, before.last_announced) }, None)
+  | _, _, _ -> (n, None)
+
+let announce ~now ~from ~may_rename (p : Packet.t) (a : Message.Announce.t) n =
+  let name = named p.src a.sys_name and addresses = addresses ~from a.services in
+  let is_there = belongs from n && n.address <> None && List.exists (fun x -> Some x = n.address) addresses in
+  let same = (belongs from n && name = n.name) || (is_there && may_rename) in
+  if same || now -. last_sign n > absence then begin
     let hosts = n.hosts in
-    let n = described ~now ~from p a { n with name = named p.src a.sys_name } in
+    let described = described ~now ~from p a { n with name } in
     (* Systems with several links announce on each of them, perhaps with that link's address only. *)
-    let all = List.sort_uniq compare (hosts @ n.hosts) in
-    Some (if same && List.length all <= most_hosts then { n with hosts = all } else n)
-  else None
+    let all = List.sort_uniq compare (hosts @ described.hosts) in
+    let described = if same && List.length all <= most_hosts then { described with hosts = all } else described in
+    let n, warning = stay_or_move ~now ~from ~before:n described in
+    Own (n, warning)
+  end
+  else
+    let other = Printf.sprintf "%s at %s" name (whereabouts (choose ~from ~current:None addresses)) in
+    let n, warning = rival ~now ~host:from other n in
+    Other (n, warning)
 
 (* {1 What it says} *)
 
@@ -106,7 +146,7 @@ let newer sent = function
   | Some (before, _) -> sent > before
   | None -> true
 
-let estimated ~sent state n =
+let estimated ~now ~sent state n =
   match position_of state with
   | Some position when newer sent n.position ->
     let speed = Float.hypot state.vx state.vy in
@@ -117,7 +157,7 @@ let estimated ~sent state n =
       | Uuv | Usv -> (told state.depth, None)
       | Uav | Ugv | Other _ | Ccu | Humansensor | Staticsensor | Mobilesensor | Wsn -> (None, told state.alt)
     in
-    { n with position = Some (sent, position); depth; altitude; speed }
+    { n with position = Some (sent, position); located = Some now; depth; altitude; speed }
   | Some _ | None -> n
 
 let fuel ~sent (level : Message.Fuel_level.t) n =
@@ -160,6 +200,8 @@ let freed ~now ~jitter before n =
 
 let let_go ~now ~jitter n = if jitter > 0. then { n with freed = Some (now +. jitter -. rest) } else n
 let overslept ~now gap n = { n with last_heard = Float.min now (n.last_heard +. gap) }
+let unlocated n = { n with located = None }
+let unshared n = { n with shared = None }
 let rested n = { n with freed = None }
 let unclaimed n = { n with claim = None }
 
@@ -172,7 +214,7 @@ let hear_message ~now ~own (p : Packet.t) n =
   let clock, sent = Vehicle_clock.observe ~now ~sent:p.timestamp n.clock in
   let n = { n with clock; last_heard = now } in
   match p.content with
-  | Message (Estimated_state state) -> (estimated ~sent state n, [])
+  | Message (Estimated_state state) -> (estimated ~now ~sent state n, [])
   | Message (Fuel_level level) -> (fuel ~sent level n, [])
   | Message (Entity_list list) -> (entities list n, [])
   | Message (Vehicle_state state) -> command ~now (Vehicle { sent; state }) (vehicle ~sent state n)
@@ -206,11 +248,17 @@ let silent ~now ~timeout n = now -. n.last_heard >= timeout
 let unknown_position = { Position.latitude = 0.; longitude = 0.; height = 0. }
 
 (* Between two plans of another program a vehicle is ready for a millisecond. *)
-let unready ~now ~held n =
+let unready ~now ~held ~bound n =
   match Execution.unsettled ~now n.execution, held, obstacle n with
   | Some plan, _, _ when not (Execution.idle n.execution) -> Some ("may still run plan " ^ plan)
+  | _, _, _ when n.shared <> None -> Some (Printf.sprintf "shares its IMC address 0x%04x with another system" n.id)
   | _, Some why, _ | _, None, Some why -> Some why
-  | _, None, None -> if is_resting ~now n then Some "was busy a moment ago" else None
+  | _, None, None when is_resting ~now n -> Some "was busy a moment ago"
+  | _, None, None when bound || Option.fold n.located ~none:false ~some:(fun at -> now < at +. currency) -> None
+  | _, None, None ->
+    Some
+      (if n.position = None then "has not reported its position yet"
+       else Printf.sprintf "has not reported its position for %.0f s" currency)
 
 let state ~now ~timeout ~kind ~payload ~held ~bound n : World.vehicle_state =
   let position =
@@ -230,7 +278,7 @@ let state ~now ~timeout ~kind ~payload ~held ~bound n : World.vehicle_state =
     speed = Option.map snd n.speed;
     readings = List.map (fun (name, (_, value)) -> (name, value)) n.readings;
     connected;
-    unready = (if connected && is_free then unready ~now ~held n else None);
+    unready = (if connected && is_free then unready ~now ~held ~bound n else None);
     cruise = None; drain = None }
 
 let mode ~names n =

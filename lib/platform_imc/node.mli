@@ -16,6 +16,7 @@ type t = private {
   last_announced : float;
   last_heard : float;  (** Anything but an announcement; [neg_infinity] if never. Our clock, s, as those before. *)
   position : (float * Dolphin_geo.Position.t) option;  (** With the vehicle's time, as those that follow. *)
+  located : float option;  (** Our clock: when it last reported a position, in the last {!currency} seconds. *)
   depth : float option;  (** metres below the surface, as told with the position *)
   altitude : float option;  (** metres above the ground, likewise *)
   announced_position : Dolphin_geo.Position.t option;
@@ -28,6 +29,8 @@ type t = private {
   queries : int;  (** How often the entity list was asked for. *)
   freed : float option;  (** Our clock: when it was ready again after it had not been, and no plan of ours ran. *)
   claim : (float * Claim.t) option;  (** Of a console: what it holds, and when it said so (our clock). *)
+  moved : (Service.address * float) option;  (** Where it was before, and when it announced that last (our clock). *)
+  shared : float option;  (** Our clock: when another system with its IMC address was last heard on its host. *)
 }
 
 (** {1:discovery Discovery} *)
@@ -37,9 +40,27 @@ val make :
 (** [make ~now ~from ~request p a] is the system that announced itself for the first time, by the packet [p] with [a].
     Its requests will be numbered from [request]; [abort_after]: see {!Execution.create}. *)
 
-val announce : now:float -> from:Unix.inet_addr -> Packet.t -> Message.Announce.t -> t -> t option
-(** [announce ~now ~from p a n] is [n] that announced itself again; [None] if that cannot be [n]: [from] is none of
-    [n.hosts], or the name is another, and [n] was heard of in the last {!absence} seconds. *)
+(** What people are to be told, once of each [about]. *)
+type warning = { about : string; text : string }
+
+(** What an announcement with the IMC address of a system means. *)
+type announcement =
+  | Own of t * warning option  (** It announced itself again. *)
+  | Other of t * warning option
+  (** Another system did: it came from none of the system's hosts, or names the system otherwise, and the system was
+      heard of in the last {!absence} seconds. *)
+
+val announce :
+  now:float -> from:Unix.inet_addr -> may_rename:bool -> Packet.t -> Message.Announce.t -> t -> announcement
+(** [announce ~now ~from ~may_rename p a n] is what [a] means for [n]. Another name is believed at once from where [n]
+    is, if it [may_rename]. Of two systems with one IMC address people are warned; if they are on one host, whose
+    datagrams cannot be told apart, [n] cannot be picked while both announce themselves. *)
+
+val place : t -> string
+(** Its name and where it is, as in [lauv-1 at 127.0.0.1:6002]. *)
+
+val unshared : t -> t
+(** [unshared n] is [n] that has its IMC address alone again. *)
 
 val belongs : Unix.inet_addr -> t -> bool
 (** [belongs host n] is whether datagrams of [n] may come from [host]. *)
@@ -47,6 +68,9 @@ val belongs : Unix.inet_addr -> t -> bool
 val rest : float
 (** 1 s: so long, and [jitter] (0 s) longer, a vehicle that was busy must be ready before it can be picked. Between
     two plans of another program it is ready for about a millisecond (measured). *)
+
+val currency : float
+(** 2 s: a vehicle that has not reported its position for so long cannot be picked. *)
 
 val absence : float
 (** 30 s: three announcements are missing. After that a system may come back elsewhere. *)
@@ -65,6 +89,9 @@ val hear : now:float -> ?jitter:float -> own:int -> Packet.t -> t -> t * Executi
 
 val command : now:float -> Execution.input -> t -> t * Execution.output list
 (** [command ~now i n] gives [i] to [n]'s execution. *)
+
+val unlocated : t -> t
+(** [unlocated n] is [n] that has not reported its position for {!currency}. *)
 
 val rested : t -> t
 (** [rested n] is [n] that has been ready for {!rest}. *)
@@ -95,8 +122,8 @@ val state :
 (** [state ~now ~timeout ~kind ~payload ~held ~bound n] is [n] for programs, as a vehicle of type [kind]. It is
     connected if it is a vehicle and not silent, and ready if it has a plan of ours or {!Readiness} says so, {!rest}
     is over, and no other console holds it ([held]: which one). Unless it is [bound], it must be heard to have
-    stopped a plan of ours. It carries [payload], or else the entities of its list. Until it says otherwise its
-    battery is unknown, and it is where it announced to be. *)
+    stopped a plan of ours, and its position must be current ({!currency}). It carries [payload], or else the entities
+    of its list. Until it says otherwise its battery is unknown, and it is where it announced to be. *)
 
 val mode : names:(int * string) list -> t -> string
 (** ["SERVICE"], ["MANEUVER"] ..., by [names] first; ["-"] if not known. *)

@@ -24,7 +24,12 @@ let add (event : Platform.event) b =
     { b with events = List.rev (event :: without (List.rev b.events)) }
   | Task_done _ | Task_failed _ | Timer _ | Input _ | Quiet -> { b with events = b.events @ [ event ] }
 
+let forget v b = { b with last = Names.remove v b.last }
 let told v b = Option.map (fun t -> t.state) (Names.find_opt v b.last)
+
+type periodic = Everything | Moves | Nothing
+
+let move = 5.
 
 let vehicle ~now ~urgent ~periodic (state : World.vehicle_state) b =
   let is_news =
@@ -34,7 +39,12 @@ let vehicle ~now ~urgent ~periodic (state : World.vehicle_state) b =
       before <> state
       && (before.connected <> state.connected || before.unready <> state.unready
           || before.kind <> state.kind || before.payload <> state.payload || urgent
-          || (periodic && now -. at >= telemetry_interval))
+          || (now -. at >= telemetry_interval
+              &&
+              match periodic with
+              | Everything -> true
+              | Moves -> Dolphin_geo.Wgs84.distance before.position state.position > move
+              | Nothing -> false))
   in
   if is_news then add (Vehicle state) { b with last = Names.add state.id { state; at = now } b.last } else b
 

@@ -13,9 +13,21 @@ val add : Platform.event -> t -> t
 (** [add e b] is [b] with [e] at the end. News of a vehicle replaces news of it that still waits at the end: news do not
     pile up while nobody takes them. *)
 
-val vehicle : now:float -> urgent:bool -> periodic:bool -> World.vehicle_state -> t -> t
+(** What is told about once a second. *)
+type periodic =
+  | Everything  (** positions, batteries, readings *)
+  | Moves  (** positions more than {!move} apart *)
+  | Nothing
+
+val vehicle : now:float -> urgent:bool -> periodic:periodic -> World.vehicle_state -> t -> t
 (** [vehicle ~now ~urgent ~periodic state b] tells [state] if it differs from what was told of the vehicle last: at once
-    if link, type or payload differ, or if [urgent]; positions and batteries, if [periodic], about once a second. *)
+    if link, readiness, type or payload differ, or if [urgent]; other changes as [periodic] allows. *)
+
+val move : float
+(** 5 m. *)
+
+val forget : Core.vehicle -> t -> t
+(** [forget v b] is [b] as if nothing had been told of [v]. *)
 
 val told : Core.vehicle -> t -> World.vehicle_state option
 (** What was told of the vehicle last. *)

@@ -17,4 +17,5 @@ let add (h : Header.t) bytes x =
     let entry = { count; order = h.order; payload = String.sub bytes Header.size h.size } in
     Numbers.add h.src (Numbers.add h.id entry known) x
 
+let forget = Numbers.remove
 let of_system id x = Numbers.bindings (kinds id x)

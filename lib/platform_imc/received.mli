@@ -18,6 +18,9 @@ val add : Header.t -> string -> t -> t
 (** [add h bytes x] is [x] after the packet [bytes] with the header [h]. Of one system {!most_kinds} different messages
     are kept. *)
 
+val forget : int -> t -> t
+(** [forget id x] is [x] without what the system [id] sent. *)
+
 val of_system : int -> t -> (int * entry) list
 (** [of_system id x] is what the system [id] sent, by the number of the message. *)
 

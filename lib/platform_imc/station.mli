@@ -31,9 +31,9 @@ val create : settings -> t
 
 val resume :
   now:float -> ?lingering:(Core.vehicle * (string * int)) list -> Dolphin_runtime.History.outstanding -> t -> t
-(** [resume ~now ~lingering outstanding s] is [s], as {!create} made it, taking over at [now] from a console that died. The
-    vehicles that it held, and those that it had commanded, are expected: what they were asked is settled when they have
-    said what they run ({!Execution}), and they may be commanded before they are heard. A vehicle that is not heard
+(** [resume ~now ~lingering outstanding s] is [s], as {!create} made it, taking over at [now] from a console that died.
+    The vehicles that it held, and those that it had commanded, are expected: what they were asked is settled when they
+    have said what they run ({!Execution}), and they may be commanded before they are heard. A vehicle that is not heard
     within its connection timeout fails its task. Timers go on. Vehicles of [lingering] (none), which
     {!Durable_note.lingering} gives, are stopped when they are heard. *)
 

@@ -30,6 +30,8 @@ type t = {
   twin : string option;
   contests : float Names.t;
   yielded : Name_set.t;
+  warned : Name_set.t;
+  crowded : bool;
   deferred : Core.platform_task Names.t;
   claimed : Name_set.t;  (* what other consoles were told last, each second *)
   held : string Names.t;  (* by other consoles, and by which, in words *)
@@ -56,7 +58,7 @@ type output =
 let create settings =
   { settings; systems = Systems.none; bound = Name_set.empty; seen = neg_infinity;
     wary_until = neg_infinity; resuming = false; twin = None; contests = Names.empty; yielded = Name_set.empty;
-    deferred = Names.empty; claimed = Name_set.empty; held = Names.empty;
+    warned = Name_set.empty; crowded = false; deferred = Names.empty; claimed = Name_set.empty; held = Names.empty;
     telemetry = false;
     timeouts = Names.empty; timeout = 60.;
     timers = Timers.none; expected = Expected.none; outbox = Outbox.empty; presence = Presence.start;
@@ -177,8 +179,21 @@ let push event s = { s with outbox = Outbox.add event s.outbox }
 let tell ?(urgent = false) ~now (n : Node.t) s =
   if not (Node.is_vehicle n) then s
   else
-    let periodic = s.telemetry && Name_set.mem n.name s.bound in
-    { s with outbox = Outbox.vehicle ~now ~urgent ~periodic (state_of ~now n s) s.outbox }
+    let state = state_of ~now n s in
+    let periodic : Outbox.periodic =
+      if Name_set.mem n.name s.bound then if s.telemetry then Everything else Nothing
+      (* A pick goes by where it is, and so does what its tasks are given to. *)
+      else if World.is_ready state then Moves
+      else Nothing
+    in
+    { s with outbox = Outbox.vehicle ~now ~urgent ~periodic state s.outbox }
+
+let gone (n : Node.t) s =
+  match Outbox.told n.name s.outbox with
+  | None -> s
+  | Some state ->
+    let s = if state.connected then push (Vehicle { state with connected = false; unready = None }) s else s in
+    { s with outbox = Outbox.forget n.name s.outbox }
 
 let tell_all ~now names s =
   List.fold_left (fun s name -> match find name s with Some n -> tell ~now n s | None -> s) s names

@@ -35,6 +35,8 @@ type t = {
   twin : string option;  (** another console that has the run which was to be resumed *)
   contests : float Names.t;  (** vehicles that were bound a moment ago: until when others may object *)
   yielded : Name_set.t;  (** bound, but others held them when it mattered *)
+  warned : Name_set.t;  (** what people were warned of *)
+  crowded : bool;  (** there were more systems than are remembered, and people were told *)
   deferred : Core.platform_task Names.t;  (** tasks to start once it is known who holds the vehicles *)
   claimed : Name_set.t;  (** what other consoles were told last, each second *)
   held : string Names.t;  (** by other consoles, and by which, in words *)
@@ -123,6 +125,9 @@ val push : Platform.event -> t -> t
 
 val tell : ?urgent:bool -> now:float -> Node.t -> t -> t
 (** [tell ~now n s] tells what is known of [n], if it is a vehicle. *)
+
+val gone : Node.t -> t -> t
+(** [gone n s]: nothing is heard any more under the name of [n]. *)
 
 val tell_all : now:float -> Core.vehicle list -> t -> t
 

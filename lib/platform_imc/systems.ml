@@ -16,10 +16,14 @@ let announced (n : Node.t) x =
   in
   update n { x with ids = Names.add n.name n.id ids }
 
-let is_taken ~now ~id name x =
+let remove (n : Node.t) x =
+  let ids = if Names.find_opt n.name x.ids = Some n.id then Names.remove n.name x.ids else x.ids in
+  { nodes = Ids.remove n.id x.nodes; ids }
+
+let taken ~now ~id name x =
   match find name x with
-  | Some other -> other.id <> id && now -. Node.last_sign other <= Node.absence
-  | None -> false
+  | Some other when other.id <> id && now -. Node.last_sign other <= Node.absence -> Some other
+  | Some _ | None -> None
 
 let cardinal x = Ids.cardinal x.nodes
 let exists p x = Ids.exists (fun _ n -> p n) x.nodes

@@ -18,9 +18,12 @@ val announced : Node.t -> t -> t
 val update : Node.t -> t -> t
 (** [update n x] is [x] with [n] in place of what was known of that system; its name is as before. *)
 
-val is_taken : now:float -> id:int -> Core.vehicle -> t -> bool
-(** [is_taken ~now ~id name x]: another system than [id] has the name, and was heard of in the last {!Node.absence}
-    seconds. *)
+val taken : now:float -> id:int -> Core.vehicle -> t -> Node.t option
+(** [taken ~now ~id name x] is the system other than [id] that has the name, and was heard of in the last
+    {!Node.absence} seconds. *)
+
+val remove : Node.t -> t -> t
+(** [remove n x] is [x] without [n]. *)
 
 val cardinal : t -> int
 (** How many there are. *)

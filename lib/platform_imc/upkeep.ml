@@ -60,15 +60,24 @@ let no_word name s = Printf.sprintf "no word from the vehicle for %s" (seconds (
 let end_of_link (n : Node.t) s =
   if was_connected n s || Execution.owes n.execution then n.last_heard +. timeout_of n.name s else infinity
 
-(* When what is known of [n] becomes old: that it was busy, and what it holds. *)
+(* When what is known of [n] becomes old, and what it is then: that it was busy, where it is, that another has its
+   address; and what it holds. *)
 let turns (n : Node.t) =
   let rested = Option.fold n.freed ~none:infinity ~some:(fun at -> at +. Node.rest) in
+  let unlocated = Option.fold n.located ~none:infinity ~some:(fun at -> at +. Node.currency) in
+  let unshared = Option.fold n.shared ~none:infinity ~some:(fun at -> at +. Node.absence) in
   let unclaimed = Option.fold n.claim ~none:infinity ~some:(fun (at, _) -> at +. Claim.patience) in
-  (rested, unclaimed)
+  ([ (rested, Node.rested); (unlocated, Node.unlocated); (unshared, Node.unshared) ], unclaimed)
 
 let turn ~now (n : Node.t) s =
-  let rested, unclaimed = turns n in
-  let s = if now >= rested then tell ~now (Node.rested n) (update (Node.rested n) s) else s in
+  let changes, unclaimed = turns n in
+  let turned s (at, change) =
+    if now < at then s
+    else
+      let n = change (again n s) in
+      tell ~now n (update n s)
+  in
+  let s = List.fold_left turned s changes in
   if now < unclaimed then s
   else
     let held = held_by n in
@@ -112,8 +121,8 @@ let tick ~now s =
 let due s =
   let of_node time (n : Node.t) = Float.min time (Float.min (Execution.due n.execution) (end_of_link n s)) in
   let of_node time n =
-    let rested, unclaimed = turns n in
-    Float.min (of_node time n) (Float.min rested unclaimed)
+    let changes, unclaimed = turns n in
+    List.fold_left (fun time (at, _) -> Float.min at time) (Float.min (of_node time n) unclaimed) changes
   in
   let first v _ time = Float.min time (deferred_until v s) in
   let wary = if s.wary_until = neg_infinity then infinity else s.wary_until in

@@ -25,11 +25,15 @@ let announce name sys_type port =
 
 let says state plan_id = Message.Plan_control_state { State.default with state; plan_id }
 
+let here = Message.Estimated_state { Message.Estimated_state.default with lat = 0.7; lon = 0.1 }
+let located ~now s = hear s (now, vehicle, here)
+
 (* Both consoles know each other and the vehicle, which is ready. *)
 let introduced settings =
   List.fold_left hear (Station.create settings)
     [ (0., vehicle, announce "lauv-1" Uuv 6002); (0., ours, announce "ccu-7" Ccu 6001);
-      (0., theirs, announce "ccu-8" Ccu 6003); (1., vehicle, says Ready "q") ]
+      (0., theirs, announce "ccu-8" Ccu 6003); (1., vehicle, here);
+      (1., vehicle, says Ready "q") ]
 
 let holder () = introduced (settings ours "ccu-7" "rendezvous.dol" 6001)
 let other () = introduced (settings theirs "ccu-8" "b.dol" 6003)
@@ -46,9 +50,9 @@ let pass ~now outputs s =
       (s, remarks @ List.filter_map remark outputs)
     | Send _ | Announce _ | Announce_to _ | Keep _ | Remark _ -> (s, remarks)
   in
-  List.fold_left deliver (s, []) outputs
+  List.fold_left deliver (located ~now s, []) outputs
 
-let tick now s = fst (Station.tick ~now s)
+let tick now s = fst (Station.tick ~now (located ~now s))
 
 let obstacle ~now s =
   match List.find_opt (fun (x : Station.system) -> x.node.name = "lauv-1") (Station.systems ~now s) with

@@ -105,9 +105,17 @@ let requests_and_ends =
       (* Vehicles send on what is asked of them, to whoever asked too. *)
       Alcotest.(check (list (pair string int))) "dropped" [ ("our own", 10) ] (Station.dropped run.station))
 
+(* Which the recording has not kept. *)
+let with_position now run (x : Station.system) =
+  let here = Message.Estimated_state { Message.Estimated_state.default with lat = 0.7; lon = 0.1 } in
+  let stamp = Vehicle_clock.latest x.node.clock +. 0.01 in
+  let bytes = Result.get_ok (Packet.encode (Packet.make ~src:x.node.id ~timestamp:stamp here)) in
+  after now run (Station.datagram ~now ~from:loopback bytes run.station)
+
 let readiness =
   Alcotest.test_case "all are ready before the first request" `Quick (fun () ->
       let run = replay ~until:13.871 in
+      let run = List.fold_left (with_position 14.871) run (Station.systems ~now:14.871 run.station) in
       let seen (x : Station.system) =
         Printf.sprintf "%s %s %b %s" x.state.id x.state.kind x.state.connected
           (Option.value x.state.unready ~default:"ready")

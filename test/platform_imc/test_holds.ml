@@ -96,10 +96,12 @@ let announce name sys_type port =
 
 let says state = Message.Plan_control_state { State.default with state; plan_id = "q" }
 
+let here = Message.Estimated_state { Message.Estimated_state.default with lat = 0.7; lon = 0.1 }
+
 (* What the vehicle says at a time, being busy until [free]. *)
 let telemetry w ~free =
   let tick = int_of_float (Float.round (w.now /. instant)) in
-  if tick mod 33 <> 0 then [] else [ says (if w.now < free then Executing else Ready) ]
+  if tick mod 33 <> 0 then [] else [ here; says (if w.now < free then Executing else Ready) ]
 
 let introduce w =
   let meet c =

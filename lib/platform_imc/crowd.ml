@@ -27,9 +27,12 @@ let of_crowded_host nodes =
   let most = List.fold_left (fun most n -> max most (count n)) 0 nodes in
   List.filter (fun n -> count n = most) nodes
 
+(* So many are forgotten together, which costs no more than one alone. *)
+let several = 100
+
 let least_recent nodes =
-  let earlier (a : Node.t) (b : Node.t) = if Node.last_sign b < Node.last_sign a then b else a in
-  match nodes with [] -> None | first :: others -> Some (List.fold_left earlier first others)
+  let by_sign a b = Float.compare (Node.last_sign a) (Node.last_sign b) in
+  List.filteri (fun i _ -> i < several) (List.sort by_sign nodes)
 
 let forget (n : Node.t) s =
   gone n { s with systems = Systems.remove n s.systems; received = Received.forget n.id s.received }
@@ -41,4 +44,6 @@ let make_room ~now s =
       List.filter_map (fun n -> Option.map (fun worth -> (worth, n)) (worth ~now s n)) (Systems.to_list s.systems) in
     let least = List.fold_left (fun least (worth, _) -> min least worth) max_int ranked in
     let candidates = List.filter_map (fun (worth, n) -> if worth = least then Some n else None) ranked in
-    Option.map (fun n -> forget n s) (least_recent (of_crowded_host candidates))
+    match least_recent (of_crowded_host candidates) with
+    | [] -> None
+    | least -> Some (List.fold_left (fun s n -> forget n s) s least)

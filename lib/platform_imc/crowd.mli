@@ -6,10 +6,10 @@ val most_nodes : int
 (** 2000: as many systems are remembered. *)
 
 val make_room : now:float -> t -> t option
-(** [make_room ~now s] is [s] with room for one more system. If there are {!most_nodes}, one is forgotten that
-    nothing is wanted of: one that never spoke to us rather than one that does not tell of plans, rather than one that
-    has been silent for {!silence}; of these one of the host that has most of them, heard of least recently. [None] if
-    there is none. *)
+(** [make_room ~now s] is [s] with room for one more system. If there are {!most_nodes}, some are forgotten that
+    nothing is wanted of, and that announced nothing for longest: of those that never spoke to us; else of those that
+    have not reported what they run; else of those that have been silent for {!silence}; and of these only those of the
+    host that has most of them. [None] if there are none. *)
 
 val wants : string -> t -> bool
 (** [wants name s]: the program holds it, or has commanded it, or the user has named it. *)

@@ -64,7 +64,7 @@ let newcomer ~now ~from (p : Packet.t) (a : Message.Announce.t) s =
     let crowded = s.crowded || is_full in
     let s = { s with systems = Systems.announced n s.systems; accepted = s.accepted + 1; crowded } in
     (* Where so many announce themselves, the program hears of those that speak. *)
-    let s = if is_full then s else tell ~now n s in
+    let s = if crowded then s else tell ~now n s in
     let text = Printf.sprintf "is one of over %d systems: others, which have not spoken, are forgotten" most_nodes in
     let told = if is_full then told n.name text else [] in
     if n.address = None then (s, told)

@@ -68,7 +68,7 @@ let still state = [ state; state; state; state ]
 let cases =
   [ case "never asked for: it is started" [] (ready "q") [] [ "keep asked p"; "start p" ];
     case "never asked for, and running all the same" [] (executing "p") [ executing "p"; ready ~outcome:Failure "p" ]
-      [ "keep asked p"; unnoted; "stop p"; "keep over" ];
+      [ "keep asked p"; "keep may run p"; unnoted; "stop p"; "keep over" ];
     case "never asked for, and the vehicle runs another's plan" [] (executing "r") [] [ "keep asked p"; "start p" ];
     case "never asked for, and not wanted any more" ~stopped:true [] (ready "q") [] [];
     case "it runs" [ asked ~before:another (); taken; runs ] (executing "p") (still (executing "p")) [ "keep runs" ];

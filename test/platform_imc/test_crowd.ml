@@ -71,7 +71,7 @@ let real_among ~first_ones ~rate ~from =
 let crowds = QCheck2.Gen.(triple (int_bound 20) (int_bound 1500) bool)
 
 let hidden =
-  Test_support.Property.case ~count:20 "2,000 announced ids do not hide vehicles"
+  Test_support.Property.case ~count:10 "2,000 announced ids do not hide vehicles"
     ~print:QCheck2.Print.(triple int int bool) crowds
     (fun (first_ones, rate, is_far) ->
        let (s, told), known = real_among ~first_ones ~rate ~from:(if is_far then Some elsewhere else None) in

@@ -104,6 +104,18 @@ let role a (r : Request.t) =
 
 let check a r = Result.bind (meant a r) (fun () -> role a r)
 
+let rank a (r : Request.t) : Dolphin_http.Server.rank =
+  let shown tokens =
+    match told a r, Request.parameter r "token", r.path with
+    | None, Some text, [] -> role_of tokens text
+    | found, _, _ -> Option.bind found (role_of tokens)
+  in
+  match meant a r, a.tokens with
+  | Error _, _ -> Unknown
+  | Ok (), None -> Trusted
+  | Ok (), Some tokens -> (
+      match shown tokens with Some Steers -> Trusted | Some Watches -> Guest | None -> Unknown)
+
 let enter a (r : Request.t) =
   match a.tokens, r.path, Request.parameter r "token" with
   | Some tokens, [], Some text when role_of tokens text <> None ->

@@ -20,6 +20,10 @@ val check : t -> Dolphin_http.Request.t -> (role, int * string) result
     elsewhere unasked. Where there are tokens, requests of the interface need one, as a [Bearer] or in the cookie that
     {!enter} sets. *)
 
+val rank : t -> Dolphin_http.Request.t -> Dolphin_http.Server.rank
+(** [rank a r] is [Trusted] for a request of a client that may steer, [Guest] for one that may watch, [Unknown] for one
+    without a token or that {!check} refuses. *)
+
 val enter : t -> Dolphin_http.Request.t -> (string * string) list option
 (** [enter a r] is the headers of the reply to [r] if it is of a link with a token, [/?token=...]: a cookie that scripts
     cannot read, and where the page is. *)

@@ -57,6 +57,7 @@ type route =
 
 let most_watchers = 60
 let most_steerers = 40
+let most_of_one = 6
 
 let role_event (role : Access.role) client =
   let name = match role with Steers -> "steers" | Watches -> "watches" in
@@ -67,6 +68,7 @@ let events h (role : Access.role) r =
   let* client = client h role r in
   let most = match role with Steers -> most_steerers | Watches -> most_watchers in
   if Hall.watchers h role >= most then refuse 503 "too-many" "too many look on"
+  else if Hall.streams_of h client >= most_of_one then refuse 503 "too-many" "this client looks on often enough"
   else
     let last = match Request.header r "last-event-id" with Some id -> Some id | None -> Request.parameter r "last" in
     let follow write = write (role_event role client) >>= fun () -> Hall.follow h role ~client ~last write in

@@ -22,7 +22,8 @@ let start settings ~port =
     Hall.served_at hall (Server.port server);
     { hall; server }
   in
-  Result.map started (Server.start ?address:settings.listen ~port (Api.reply hall))
+  let rank r = Access.rank (Hall.access hall) r in
+  Result.map started (Server.start ?address:settings.listen ~rank ~port (Api.reply hall))
 
 let port c = Server.port c.server
 let name settings =

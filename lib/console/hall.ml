@@ -69,6 +69,7 @@ let analysis h subject = Option.map (fun a -> a.analysis) (List.assoc_opt subjec
 let analyses h = List.map (fun (_, a) -> a.analysis) h.analyses
 let helm h = h.helm
 let name h = Visitors.name h.visitors
+let streams_of h client = List.length (List.filter (fun (other, _) -> other = client) h.watching)
 let watchers h role = List.length (List.filter (fun (_, of_client) -> of_client = role) h.watching)
 
 let close h =

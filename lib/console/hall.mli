@@ -97,3 +97,6 @@ val follow : t -> Access.role -> client:string -> last:string option -> (string 
 
 val watchers : t -> Access.role -> int
 (** The number of streams of events of clients with this role. *)
+
+val streams_of : t -> string -> int
+(** The number of streams of events of a client. *)

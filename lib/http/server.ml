@@ -1,16 +1,37 @@
 open Lwt.Infix
 
-type limits = { head : int; body : int; connections : int; rate : int; patience : float; idle : float }
+type rank = Unknown | Guest | Trusted
+
+type limits = {
+  head : int;
+  body : int;
+  connections : rank -> int;
+  rate : int;
+  patience : float;
+  idle : float;
+}
 
 let limits =
-  { head = 16 * 1024; body = 4 * 1024 * 1024; connections = 400; rate = 1000; patience = 10.; idle = 60. }
+  let connections = function Unknown -> 100 | Guest -> 150 | Trusted -> 150 in
+  { head = 16 * 1024; body = 4 * 1024 * 1024; connections; rate = 1000; patience = 10.; idle = 60. }
+
+type client = {
+  address : string;
+  socket : Lwt_unix.file_descr;
+  piece : Bytes.t;
+  since : float;
+  mutable rank : rank;  (* the best of its requests *)
+  mutable is_served : bool;  (* a reply is under way *)
+  mutable unread : string;  (* bytes that came and belong to no request yet *)
+}
 
 type t = {
   limits : limits;
   listening : Lwt_unix.file_descr;
+  rank_of : Request.t -> rank;
   reply : Request.t -> Response.t Lwt.t;
-  mutable open_ : Lwt_unix.file_descr list;
-  asked : (string, int) Hashtbl.t;  (* by address, in this second *)
+  mutable open_ : client list;  (* the latest first *)
+  asked : (rank * string, int) Hashtbl.t;  (* by rank and address, in this second *)
   mutable second : float;
   mutable accepting : unit Lwt.t;
   mutable over : bool;
@@ -22,13 +43,6 @@ let port t =
 let connections t = List.length t.open_
 
 (* {1 Reading} *)
-
-type client = {
-  address : string;
-  socket : Lwt_unix.file_descr;
-  piece : Bytes.t;
-  mutable unread : string;  (* bytes that came and belong to no request yet *)
-}
 
 exception Gone
 
@@ -124,27 +138,93 @@ let of_fault : Request.fault -> Response.t = function
 let safely t r =
   Lwt.catch (fun () -> t.reply r) (fun _ -> Lwt.return (told 500 "this is trouble of the server, not of the request"))
 
-(* Whether this client has asked too often in this second. *)
-let too_often t client =
+(* Whether too many requests of this rank came from this address in this second. *)
+let too_often t client rank =
   let second = Float.of_int (Float.to_int (Unix.gettimeofday ())) in
   if second <> t.second then begin
     Hashtbl.reset t.asked;
     t.second <- second
   end;
-  let n = 1 + Option.value (Hashtbl.find_opt t.asked client.address) ~default:0 in
-  Hashtbl.replace t.asked client.address n;
+  let n = 1 + Option.value (Hashtbl.find_opt t.asked (rank, client.address)) ~default:0 in
+  Hashtbl.replace t.asked (rank, client.address) n;
   n > t.limits.rate
+
+(* {2 Places} *)
+
+let of_rank t rank = List.filter (fun c -> c.rank = rank) t.open_
+
+(* The oldest connection of the address that has most of this rank. Those with a reply under way stay, but those of
+   unknown clients may read it slowly to keep others out. *)
+let to_end t rank =
+  let may_end c = rank = Unknown || not c.is_served in
+  let all = of_rank t rank and counts = Hashtbl.create 16 in
+  let count address = Option.value (Hashtbl.find_opt counts address) ~default:0 in
+  List.iter (fun c -> Hashtbl.replace counts c.address (1 + count c.address)) all;
+  let better best c =
+    match best with
+    | Some other when count other.address > count c.address -> best
+    | Some _ | None -> Some c
+  in
+  List.fold_left better None (List.filter may_end all)
+
+(* Its reader notices. *)
+let shut client = try Lwt_unix.shutdown client.socket SHUTDOWN_ALL with Unix.Unix_error _ -> ()
+
+(* Whether there is a place for one more connection of this rank: if need be, another one ends. *)
+let make_room t rank =
+  List.length (of_rank t rank) < t.limits.connections rank
+  ||
+  match to_end t rank with
+  | Some client ->
+    t.open_ <- List.filter (fun other -> other != client) t.open_;
+    shut client;
+    true
+  | None -> false
+
+(* Seconds that a new connection has for its first request, also while there is a flood of them. *)
+let grace = 0.1
+
+(* Further connections wait in the system's queue meanwhile. *)
+let rec wait_for_room t =
+  let age client = Unix.gettimeofday () -. client.since in
+  if List.length (of_rank t Unknown) < t.limits.connections Unknown then Lwt.return_unit
+  else
+    match to_end t Unknown with
+    | Some client when age client < grace ->
+      Lwt_unix.sleep (Float.max 0.001 (grace -. age client)) >>= fun () -> wait_for_room t
+    | Some _ | None -> Lwt.return_unit
+
+let value = function Unknown -> 0 | Guest -> 1 | Trusted -> 2
+
+(* Whether the client has a place of this rank, or gets one. *)
+let promoted t client rank =
+  value rank <= value client.rank
+  || make_room t rank
+     && begin
+       client.rank <- rank;
+       true
+     end
+
+let too_many = told 503 "too many connections"
+
+let answer t client r =
+  let rank = t.rank_of r in
+  if too_often t client rank then
+    let busy = told 429 "too many requests in a second" in
+    let later = { busy with headers = ("Retry-After", "1") :: busy.headers } in
+    respond t client ~keep:false ~only_head:false later
+  else if not (promoted t client rank) then respond t client ~keep:false ~only_head:false too_many
+  else
+    safely t r >>= fun response ->
+    respond t client ~keep:(Request.keeps_alive r) ~only_head:(r.verb = "HEAD") response
 
 let rec serve t client ~first =
   request t client ~first >>= function
-  | Ok _ when too_often t client ->
-    let busy = told 429 "too many requests in a second" in
-    let later = { busy with headers = ("Retry-After", "1") :: busy.headers } in
-    respond t client ~keep:false ~only_head:false later >|= ignore
   | Error fault -> respond t client ~keep:false ~only_head:false (of_fault fault) >|= ignore
   | Ok r ->
-    safely t r >>= fun response ->
-    respond t client ~keep:(Request.keeps_alive r) ~only_head:(r.verb = "HEAD") response >>= fun keep ->
+    client.is_served <- true;
+    answer t client r >>= fun keep ->
+    client.is_served <- false;
     if keep && not t.over then serve t client ~first:false else Lwt.return_unit
 
 let quietly f = Lwt.catch f (fun _ -> Lwt.return_unit)
@@ -154,15 +234,16 @@ let name : Unix.sockaddr -> string = function
   | ADDR_UNIX path -> path
 
 let admit t (socket, address) =
-  let client = { address = name address; socket; piece = Bytes.create 8192; unread = "" } in
-  let too_many = connections t >= t.limits.connections in
-  t.open_ <- socket :: t.open_;
+  let client =
+    { address = name address; socket; since = Unix.gettimeofday (); piece = Bytes.create 8192; rank = Unknown; is_served = false; unread = "" } in
+  let has_room = make_room t Unknown in
+  t.open_ <- client :: t.open_;
   let whole () =
-    if too_many then respond t client ~keep:false ~only_head:false (told 503 "too many connections") >|= ignore
-    else serve t client ~first:true
+    if has_room then serve t client ~first:true
+    else respond t client ~keep:false ~only_head:false too_many >|= ignore
   in
   let leave () =
-    t.open_ <- List.filter (fun other -> other != socket) t.open_;
+    t.open_ <- List.filter (fun other -> other != client) t.open_;
     quietly (fun () -> Lwt_unix.close socket)
   in
   Lwt.async (fun () -> Lwt.finalize (fun () -> quietly whole) leave)
@@ -171,6 +252,7 @@ let admit t (socket, address) =
 let rec accept t =
   Lwt.catch
     (fun () ->
+       wait_for_room t >>= fun () ->
        Lwt_unix.accept ~cloexec:true t.listening >|= fun (socket, address) ->
        (try Lwt_unix.setsockopt socket TCP_NODELAY true with Unix.Unix_error _ -> ());
        admit t (socket, address))
@@ -179,20 +261,20 @@ let rec accept t =
       | error -> Lwt.fail error)
   >>= fun () -> accept t
 
-let start ?(limits = limits) ?(address = Unix.inet_addr_loopback) ~port reply =
+let start ?(limits = limits) ?(address = Unix.inet_addr_loopback) ?(rank = fun _ -> Trusted) ~port reply =
   Sys.set_signal Sys.sigpipe Signal_ignore;
   let place = Unix.ADDR_INET (address, port) in
   let socket = Unix.socket ~cloexec:true (Unix.domain_of_sockaddr place) SOCK_STREAM 0 in
   match
     Unix.setsockopt socket SO_REUSEADDR true;
     Unix.bind socket place;
-    Unix.listen socket 100
+    Unix.listen socket 1_000
   with
   | () ->
     let listening = Lwt_unix.of_unix_file_descr socket in
     let t =
-      { limits; listening; reply; open_ = []; asked = Hashtbl.create 16; second = 0.; accepting = Lwt.return_unit;
-        over = false }
+      { limits; listening; rank_of = rank; reply; open_ = []; asked = Hashtbl.create 16; second = 0.;
+        accepting = Lwt.return_unit; over = false }
     in
     t.accepting <- quietly (fun () -> accept t);
     Ok t
@@ -203,7 +285,4 @@ let start ?(limits = limits) ?(address = Unix.inet_addr_loopback) ~port reply =
 let close t =
   t.over <- true;
   Lwt.cancel t.accepting;
-  let close socket =
-    quietly (fun () -> Lwt.return (Lwt_unix.shutdown socket SHUTDOWN_ALL))
-  in
-  quietly (fun () -> Lwt_unix.close t.listening) >>= fun () -> Lwt_list.iter_p close t.open_
+  quietly (fun () -> Lwt_unix.close t.listening) >|= fun () -> List.iter shut t.open_

@@ -489,10 +489,13 @@ let faults _ port =
 
 (* {1 Bounds} *)
 
-let echo limits f () =
+let waiting = ref 0
+
+let echo ?rank limits f () =
   let reply (r : Request.t) =
-    Lwt.return (Dolphin_http.Response.text ~kind:"text/plain" 200 (string_of_int (String.length r.body))) in
-  let server = Result.get_ok (Server.start ~limits ~port:0 reply) in
+    (if List.mem "waits" r.path then (incr waiting; Lwt_unix.sleep 60.) else Lwt.return_unit) >|= fun () ->
+    Dolphin_http.Response.text ~kind:"text/plain" 200 (string_of_int (String.length r.body)) in
+  let server = Result.get_ok (Server.start ~limits ?rank ~port:0 reply) in
   Lwt_main.run (Lwt.finalize (fun () -> Lwt_unix.with_timeout 120. (fun () -> f server (Server.port server)))
                   (fun () -> Server.close server))
 
@@ -520,16 +523,31 @@ let patience =
 let rec have server n =
   if Server.connections server = n then Lwt.return_unit else Lwt_unix.sleep 0.01 >>= fun () -> have server n
 
+let get path = Printf.sprintf "GET /%s HTTP/1.1\r\nConnection: close\r\n\r\n" path
+
+(* Idle connections of unknown clients end for new ones; clients of other ranks keep their places. *)
 let connections =
-  echo { Server.limits with connections = 3 } (fun server port ->
+  let connections = function Server.Unknown -> 3 | Guest -> 1 | Trusted -> 1 in
+  let rank (r : Request.t) : Server.rank =
+    match r.path with "trusted" :: _ -> Trusted | "guest" :: _ -> Guest | _ -> Unknown in
+  echo ~rank { Server.limits with connections } (fun server port ->
       let idle _ = Client.connect port in
       Lwt_list.map_s idle [ 1; 2; 3 ] >>= fun sockets ->
       have server 3 >>= fun () ->
-      Client.raw ~port "GET / HTTP/1.1\r\n\r\n" >>= fun reply ->
+      Client.raw ~port (get "") >>= fun reply ->
+      begins "200" reply;
+      Lwt_list.map_s idle (List.init 20 Fun.id) >>= fun others ->
+      have server 3 >>= fun () ->
+      let slow = Client.raw ~port (get "guest/waits") in
+      let rec is_served () = if !waiting = 1 then Lwt.return_unit else Lwt_unix.sleep 0.01 >>= is_served in
+      is_served () >>= fun () ->
+      Client.raw ~port (get "guest") >>= fun reply ->
       begins "503" reply;
-      Lwt_list.iter_p Lwt_unix.close sockets >>= fun () ->
-      have server 0 >>= fun () ->
-      Client.raw ~port "GET / HTTP/1.1\r\nConnection: close\r\n\r\n" >|= begins "200")
+      Client.raw ~port (get "trusted") >>= fun reply ->
+      begins "200" reply;
+      holds "the guest waits" true (Lwt.is_sleeping slow);
+      Lwt.cancel slow;
+      Lwt_list.iter_p Lwt_unix.close (sockets @ others))
 
 let rate =
   echo { Server.limits with rate = 3 } (fun _ port ->
@@ -799,6 +817,47 @@ let long_journal folder console =
   status "all of it" 60_001 (List.length (events "journal" seen));
   Client.leave reader
 
+(* {1 Strangers and those who watch} *)
+
+(* Idle connections, streams of events, requests without a token and with that for watching: the steerer does not notice
+   any of them. *)
+let hostile_watchers _ console =
+  let port = Console.port console in
+  let token role = List.nth (String.split_on_char '=' (List.assoc role (Console.links console))) 1 in
+  let by role = ("Authorization", "Bearer " ^ token role) in
+  let steers = by "steers" and watches = by "watches" in
+  Lwt_list.map_p (fun _ -> Client.connect port) (List.init 430 Fun.id) >>= fun idle ->
+  let stream n = Client.events ~headers:[ watches ] ~port (Printf.sprintf "/api/events?client=watcher-%d" (n / 3)) in
+  Lwt_list.map_s stream (List.init 99 Fun.id) >>= fun streams ->
+  let flood header =
+    let request = Printf.sprintf "GET /api/status HTTP/1.1\r\nHost: 127.0.0.1:%d\r\n%s\r\n" port header in
+    Client.raw ~no_more:true ~port (String.concat "" (List.init 3_000 (fun _ -> request))) in
+  let floods = [ flood ""; flood "Origin: http://evil.example\r\n"; flood (fst watches ^ ": " ^ snd watches ^ "\r\n") ] in
+  let more = Lwt_list.map_p (fun _ -> Client.connect port) (List.init 200 Fun.id) in
+  let ask ?body path = Client.ask ?body ~headers:[ steers ] ~port path in
+  let rec often n =
+    if n = 0 then Lwt.return_unit
+    else ask "/api/status" >>= fun r -> status "status" 200 r.status; often (n - 1) in
+  often 20 >>= fun () ->
+  Client.events ~headers:[ steers ] ~port "/api/events?client=boss" >>= fun boss ->
+  Client.until boss (fun m -> m.event = "status") >>= fun _ ->
+  ask ~body:{|{"program": "mission.dol", "answers": ["1"], "speed": 10}|} "/api/run" >>= fun r ->
+  status "begun" 200 r.status;
+  ask ~body:"{}" "/api/run/stop" >>= fun r ->
+  status "stopped" 200 r.status;
+  Client.until boss is_over >>= fun _ ->
+  Lwt.join (List.map (fun reply -> reply >|= ignore) floods) >>= fun () ->
+  more >>= fun more ->
+  Lwt_list.iter_p (fun s -> Lwt_unix.close s) (idle @ more) >>= fun () -> Lwt_list.iter_s Client.leave (boss :: streams)
+
+(* One client looks on six times at most. *)
+let streams_of_one_client _ port =
+  Lwt_list.map_s (fun _ -> Client.watch ~port "one") (List.init 6 Fun.id) >>= fun streams ->
+  Client.ask ~port "/api/events?client=one" >>= fun r ->
+  refused "a seventh stream" (503, "too-many") r;
+  Client.watch ~port "other" >>= fun other ->
+  Client.until other (fun m -> m.event = "status") >>= fun _ -> Lwt_list.iter_s Client.leave (other :: streams)
+
 let with_limits change f = served (fun folder -> { (settings folder) with workers = change Worker_pool.limits }) f
 
 (* The console starts this program for its workers. *)
@@ -819,7 +878,10 @@ let () =
        [ slow "who may ask" (console who_may_ask);
          slow "with tokens"
            (served (fun folder -> { (settings folder) with listen = Some Unix.inet_addr_loopback }) with_tokens); slow "no escape from the folder" (console no_escape);
-         slow "malformed requests" (console malformed); slow "tiles" tiles ]);
+         slow "malformed requests" (console malformed); slow "tiles" tiles;
+         slow "hostile watchers"
+           (served (fun folder -> { (settings folder) with listen = Some Unix.inet_addr_loopback }) hostile_watchers);
+         slow "streams of one client" (console streams_of_one_client) ]);
       ("workers",
        [ slow "killed" (with_limits Fun.id worker_killed);
          slow "too slow" (with_limits (fun l -> { l with seconds = 1. }) worker_too_slow);

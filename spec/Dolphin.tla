@@ -713,7 +713,7 @@ Handled(S, s, r) ==
                IF r.anew = << >> THEN WATCH_PROPAGATE(after(run), ForeignRetry(r)) ELSE WATCH_RETRY(after(run), r)
           [] run.verdict = "ignore" -> WATCH_IGNORE(after(run))
           [] OTHER -> WATCH_PROPAGATE(after(run), s.out[2])
-      seen == [ s.S EXCEPT !.around = S.beside \o S.around ]
+      seen == [ s.S EXCEPT !.beside = S.beside, !.around = S.beside \o S.around ]
   IN Each(RunCode(seen, "handler", r.handler, ErrorOf(s.out[2])), by)
 
 InWatch(S, s, r) ==

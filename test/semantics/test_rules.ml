@@ -284,6 +284,14 @@ let tasks : example list =
       (task "(watch (%p | %q) onError { message it; ignore() }) >> idle(1)")
       "fail(noptilus-1, p, broken)" "FAIL, PAR-ERR, WATCH-IGNORE, SEQ-2" "idle(1)"
       [ "stop noptilus-2"; "say p failed on noptilus-1: broken"; "set timer 1 to 1 s" ];
+    example Watch_ignore "vehicles of what the error cut off are idle to the handler"
+      (task "watch (%p | %q) onError { message idle(v + w).size(); ignore() }")
+      "fail(noptilus-1, p, broken)" "FAIL, PAR-ERR, WATCH-IGNORE, EXECUTE-DONE" "script"
+      [ "stop noptilus-2"; "say 2" ];
+    example Watch_ignore "those of what is beside the watch are not"
+      (task "(watch (%p | idle(5)) onError { message idle(v + w).size(); ignore() }) | %q")
+      "fail(noptilus-1, p, broken)" "FAIL, PAR-ERR, WATCH-IGNORE, PAR-2" "q[noptilus-2]"
+      [ "cancel timer 1"; "say 1" ];
     example Watch_propagate "the error climbs to the next watch"
       (task "watch (watch %p onError { message 'in' }) onError { message 'out'; ignore() }")
       "fail(noptilus-1, p, broken)" "FAIL, WATCH-PROPAGATE, WATCH-IGNORE, EXECUTE-DONE" "script"

@@ -153,7 +153,9 @@ let look t step ~around s =
     else []
   in
   let needed = if (program t).recruits then Residual.named_around around :: needed else needed in
-  let key = (s, Residual.held around, Residual.timers_around around, needed @ running t around) in
+  let beside_watches = List.map Residual.held (Residual.beyond_watches around) in
+  let held = Residual.held around and timers = Residual.timers_around around in
+  let key = (s, held, timers, beside_watches @ needed @ running t around) in
   match Hashtbl.find_opt table key with
   | Some outcome -> outcome
   | None ->

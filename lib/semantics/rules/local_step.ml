@@ -83,20 +83,22 @@ let instead (handler : Residual.handler) t propagated recovered =
 let foreign_retry (handler : Residual.handler) =
   Fault.make handler.code.lambda.lambda_site "retry() was called for another handler than that in whose text it stands"
 
-(* A [watch] around a step: the vehicles needed outside of it, and those running inside of it. *)
-type watch = { needed : vehicle list Lazy.t; inside : vehicle list Lazy.t }
+(* A [watch] around a step: the vehicles held and needed outside of it, and those running inside of it. *)
+type watch = { beside : vehicle list Lazy.t; needed : vehicle list Lazy.t; inside : vehicle list Lazy.t }
 
 (* The vehicles held from the place of a step, and each [watch] around it, the innermost first. *)
 type around = { held : vehicle list Lazy.t; watches : watch list Lazy.t }
 
 let around_step around =
   let watch beyond inside =
-    { needed = lazy (Residual.needed_around beyond); inside = lazy (List.concat_map Residual.running inside) }
+    { beside = lazy (Residual.held beyond);
+      needed = lazy (Residual.needed_around beyond);
+      inside = lazy (List.concat_map Residual.running inside) }
   in
   let watches = lazy (List.map2 watch (Residual.beyond_watches around) (Residual.inside_watches around)) in
   { held = lazy (Residual.held around); watches }
 
-let nothing = { needed = lazy []; inside = lazy [] }
+let nothing = { beside = lazy []; needed = lazy []; inside = lazy [] }
 
 (* The next [watch] has another [watch] inside. *)
 let next_watch around =
@@ -117,7 +119,7 @@ let rec settle around program world s derivation asked (change : Task_rules.chan
   | Finished -> Decided (come_to Over)
   | Failed fault -> Decided (come_to (Ends (Failed fault)))
   | Handling { handler; fault; ignored; propagated; recovered } ->
-    let { needed; inside }, outer = next_watch around in
+    let { beside; needed; inside }, outer = next_watch around in
     (* The explorer takes steps of parts, whose changes do not know what they stop beside them. *)
     let s = if Vehicle_map.is_empty s.allocation then s else without_tasks (Lazy.force inside) s in
     let handled { Run_code.world; outcome; mode } =
@@ -143,7 +145,7 @@ let rec settle around program world s derivation asked (change : Task_rules.chan
       | Gives (_, s, deeds), (Handler Propagated | Script | Task_code) ->
         settle outer program world s derivation (asked @ Run_code.effects deeds) (propagated fault)
     in
-    Decision.bind (Run_code.handler ~held:around.held ~needed program world s handler.code fault) handled
+    Decision.bind (Run_code.handler ~held:beside ~needed program world s handler.code fault) handled
 
 (* {1 Steps} *)
 

@@ -108,12 +108,12 @@ A call for which the fleet has no reply.
   11 states, 10 transitions, depth 10; reduced by partial order
   
   no unhandled error: a shortest run in which an error that nobody handles ends the program
-       program                                   where
+       program                                   where          variables
    1   call(getSupplier)                         mission.dol:1
    2   reply(host object supplier)               mission.dol:1
-   3   pick(1 vehicle of type 'UUV')             mission.dol:2
+   3   pick(1 vehicle of type 'UUV')             mission.dol:2  supplier = host object supplier
    4   picks noptilus-1                          mission.dol:2
-   5   call(supplier.active)                     mission.dol:3
+   5   call(supplier.active)                     mission.dol:3  v = noptilus-1
    6   reply(true)                               mission.dol:3
    7   call(supplier.queue)                      mission.dol:4
    8   reply(host object queue)                  mission.dol:4
@@ -194,12 +194,12 @@ A supplier that need never come to its end.
   $ sed -i "s/true, either(true, false), false/either(true, false)/" mission.fleet
   $ explore mission.dol --trace cycle.run | sed -n '/a run in which the program/,/^$/p'
   termination: a run in which the program can go on for ever
-       program                        where
+       program                        where          variables
    1   call(getSupplier)              mission.dol:1
    2   reply(host object supplier)    mission.dol:1
-   3   pick(1 vehicle of type 'UUV')  mission.dol:2
+   3   pick(1 vehicle of type 'UUV')  mission.dol:2  supplier = host object supplier
    4   picks noptilus-1               mission.dol:2
-   5   call(supplier.active)          mission.dol:3
+   5   call(supplier.active)          mission.dol:3  v = noptilus-1
    6   reply(true)                    mission.dol:3
    7   call(supplier.queue)           mission.dol:4
    8   reply(host object queue)       mission.dol:4

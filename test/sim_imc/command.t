@@ -61,8 +61,8 @@ Usage.
   dolphin: the fleet has no vehicle 'nobody'
   [2]
   $ sim two.fleet --log no/such/log
-  dolphin: no/such/log: No such file or directory
-  [2]
+  dolphin: the log cannot be written: no/such/log: No such file or directory
+  [3]
   $ dolphin sim --help=plain | grep '^[A-Z]'
   NAME
   SYNOPSIS

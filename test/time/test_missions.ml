@@ -21,7 +21,7 @@ let fleet text =
 
 let outcome ?(faults = "") program scenario =
   let faults = if faults = "" then Faults.none else Result.get_ok (Faults.of_string faults) in
-  let program = Test_support.Pure_run.compile_exn program in
+  let program = Test_support.Pure_run.compile_exn ?place:scenario.Scenario.plans_at program in
   Timing.run Dolphin_checker.Limits.none
     { environment = Scenario_world.environment ~answers:[] ~faults program scenario; program;
       world = Scenario_world.world scenario; durations = Durations.of_scenario scenario;

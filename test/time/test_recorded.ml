@@ -98,7 +98,7 @@ let check name ~seeds ~fleet source =
     | Ok scenario -> scenario
     | Error _ -> Alcotest.fail "the fleet is wrong"
   in
-  let program = Test_support.Pure_run.compile_exn source in
+  let program = Test_support.Pure_run.compile_exn ?place:scenario.plans_at source in
   let options : Timed.options =
     { environment = Scenario_world.environment ~answers:[] ~faults:Dolphin_environment.Faults.none program scenario;
       program;

@@ -114,6 +114,9 @@ let drawing_over ~sampling layers drawing =
     let* layers = Dolphin_results.Results.map Layer_file.read layers in
     Ok (Some (Drawing.over layers drawing))
 
+(* From so many vehicles on a run makes lists that a small nursery does not hold until they are garbage. *)
+let large_fleet = 200
+
 let run () show path set sim fleet network adapters definition speed seed answers supplier supplier_timeout journal keep
     drawing layers recorded resumed changed no_socket sampling =
   (* [--sim=FLEET] is a longer name for [--fleet FLEET]. *)
@@ -143,6 +146,8 @@ let run () show path set sim fleet network adapters definition speed seed answer
      let* () = if resumed = None then check_only settings fleet show.Terminal_run.only else Ok () in
      let on_terminal = on_terminal { show with journal = (if journal = None then resumed else journal) } in
      Report.diagnostics ~source:program.source program.warnings;
+     if is_simulated && sampling = None && List.compare_length_with fleet.scenario.vehicles large_fleet > 0 then
+       Nursery.make_room ();
      match recorded, resumed, sampling with
      | _, _, Some sampling -> sample settings program fleet sampling
      | Some recorded, _, None -> follow program fleet ~drawing recorded

@@ -18,11 +18,26 @@ let world (scenario : Scenario.t) =
   in
   World.at Any (List.fold_left open_sensors (still scenario) scenario.vehicles)
 
+(* From the start on its battery lets it do no work that takes time. *)
+let is_empty (v : Scenario.vehicle) = v.battery <= 0. && v.drain > 0.
+
+let may_be_charged (scenario : Scenario.t) (v : Scenario.vehicle) =
+  v.charge > 0. || List.exists (fun (p : Scenario.plan) -> p.charges <> None) scenario.plans
+
+(* The ending of what a vehicle with an empty battery is given: plans without duration succeed. *)
+let ending_when_empty scenario vehicle (plan : Scenario.plan option) : Environment.ending =
+  match plan with
+  | Some { duration = Some { most; _ }; ending = Succeeds; _ } when most <= 0. -> Succeeds
+  | Some { duration = Some { least; _ }; _ } when least > 0. && not (may_be_charged scenario vehicle) -> Fails
+  | Some { ending = Fails; _ } -> Fails
+  | Some _ | None -> May_fail
+
 let ending (scenario : Scenario.t) v name : Environment.ending =
   let vehicle = List.find_opt (fun (vehicle : Scenario.vehicle) -> vehicle.id = v) scenario.vehicles in
   match Scenario.plan scenario name, vehicle with
-  | None, _ -> Succeeds
   | Some plan, Some vehicle when not (Scenario.knows plan vehicle) -> Fails
+  | plan, Some vehicle when is_empty vehicle -> ending_when_empty scenario vehicle plan
+  | None, _ -> Succeeds
   | Some plan, _ -> (
       match plan.ending with Succeeds -> Succeeds | May_fail _ -> May_fail | Fails -> Fails)
 

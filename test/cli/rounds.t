@@ -127,3 +127,37 @@ without any event is what the runtime would do.
   termination: violated: after 2 steps, 2 steps that can repeat for ever
   formula F ended: violated: after 2 steps, 2 steps that can repeat for ever
   termination: a run in which the program can go on for ever
+
+The explorer and the timed analysis have the same rounds. Without a duration in the fleet, a plan on an empty battery may
+be one without any time, which succeeds.
+
+  $ for p in empty only popup; do dolphin explore $p.dol | grep termination; dolphin time $p.dol | head -1; done
+  termination: by design not: retry at empty.dol:2:9; ended by short being done on a
+  completed: 0:00 at the earliest, no latest time
+  termination: by design not: retry at only.dol:2:9; ended by nothing that may happen here
+  no run ends
+  termination: by design not: repeat at popup.dol:2:9; ended by nothing that may happen here
+  no run ends
+
+So it is for each battery, filter, duration and loop: where a run is stuck in rounds, termination does not hold and no
+run ends; where it completes, both have that.
+
+  $ task="task('short')"
+  $ loops() { printf '%s\n' "execute $task" "execute watch $task onError { retry() }" \
+  >   "execute watch $task onError { ignore() }" "while (!poll(x: 1)) { execute watch $task onError { ignore() } }"; }
+  $ verdict() {
+  >   dolphin exec --quiet drawn.dol > log 2>&1; ran=$?
+  >   dolphin explore drawn.dol | grep -q 'termination: holds' && ends=explored || ends=rounds
+  >   dolphin time drawn.dol | grep -q '^no run ends' && timed=rounds || timed=ends
+  >   grep -q 'stuck in rounds' log && ran=rounds
+  >   echo "$ran $ends $timed"
+  > }
+  $ for battery in 0 100; do for only in UUV UAV; do for duration in 0.seconds 1.min; do loops | while read -r loop; do
+  >   printf "vehicle 'a', { type 'UUV'; battery $battery.percent }\n" > drawn.fleet
+  >   printf "plan 'short', { only '$only'; duration $duration }\n" >> drawn.fleet
+  >   printf "v = pick { type 'UUV' }\n%s\n" "$loop" > drawn.dol
+  >   case $loop/$duration/$only/$battery in while*/1.min/UUV/100) ;; *) verdict ;; esac
+  > done; done; done; done | sort | uniq -c | sed 's/^ *//'
+  14 0 explored ends
+  5 1 explored ends
+  12 rounds rounds rounds

@@ -262,17 +262,17 @@ let rec activate r =
 
 (* {1 What is active} *)
 
-let exists_active p r =
-  let rec exists r =
-    match r with
-    | Sequence (a, _) | Watch (a, _) | Hold (_, a) | Recruited (_, a) | Fresh (_, a) | Repeat { round = Some a; _ } ->
-      exists a
-    | Parallel rs -> List.exists exists rs
-    | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ | One_of _ | All_of (None, _)
-    | During { started = false; _ } | Made _ | Unallocated _ | Recruit _ | Repeat { round = None; _ } -> p r
-    | All_of (Some a, _) | Until (_, _, a) | During { body = a; _ } -> p r || exists a
-  in
-  exists r
+(* Without closures: branches of a [|] are looked through at each transition. *)
+let rec exists_active p r =
+  match r with
+  | Sequence (a, _) | Watch (a, _) | Hold (_, a) | Recruited (_, a) | Fresh (_, a) | Repeat { round = Some a; _ } ->
+    exists_active p a
+  | Parallel rs -> exists_in_some p rs
+  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ | One_of _ | All_of (None, _)
+  | During { started = false; _ } | Made _ | Unallocated _ | Recruit _ | Repeat { round = None; _ } -> p r
+  | All_of (Some a, _) | Until (_, _, a) | During { body = a; _ } -> p r || exists_active p a
+
+and exists_in_some p = function [] -> false | r :: rs -> exists_active p r || exists_in_some p rs
 
 let rec fold_active f acc r =
   let acc = f acc r in

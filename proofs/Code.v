@@ -70,11 +70,14 @@ Class Code {L : Names} := {
   run_handler : code -> message -> world -> (vehicle -> bool) -> (vehicle -> bool) -> shared -> handled;
   handler_law : forall h m w held needed S x s gone N ds,
     run_handler h m w held needed S = Rules x s gone N ds -> forall v, In v gone -> needed v = false;
+  handler_task_law : forall h m w held needed S t s gone N ds,
+    run_handler h m w held needed S = Rules (Instead t) s gone N ds -> solid t = true;
 
   truth : value -> option bool;                        (* None: unknown *)
   is_unknown : message -> bool;                        (* a fault of code that needs what is unknown *)
   time_of : code -> value -> seconds + message;        (* of the code of a during or within *)
   task_of : value -> option task;                      (* a task, or code in the place of one *)
+  task_law : forall x t, task_of x = Some t -> solid t = true;
   takes : code -> list value -> bool;                  (* whether the code has enough values *)
   has_parameters : code -> bool;
   may_recover : code -> bool;
@@ -102,6 +105,7 @@ Class Code {L : Names} := {
 
   (** The script. *)
   run_script : machine -> world -> shared -> stop * machine * store;
+  script_task_law : forall M w S t M' s, run_script M w S = (Asks (Execute t), M', s) -> solid t = true;
   give : value -> machine -> machine;                  (* M(x) *)
   null : value;
   vehicles_value : list vehicle -> value;

@@ -36,4 +36,13 @@ Section Syntax.
     | TAllocated a _ | TUntil _ _ a | TDuring _ _ a | TWatch a _ | TRepeat _ _ a => leaves a
     | TAll_of bs | TOne_of bs => list_sum (map (fun b => leaves (snd b)) bs)
     end.
+
+  (** There is no [allOf] or [oneOf] without a branch. *)
+  Fixpoint solid (t : task) : bool :=
+    match t with
+    | TAll_of bs | TOne_of bs => negb (match bs with [] => true | _ => false end) && forallb (fun b => solid (snd b)) bs
+    | TSequence a b | TParallel a b => solid a && solid b
+    | TAllocated a _ | TUntil _ _ a | TDuring _ _ a | TWatch a _ | TRepeat _ _ a => solid a
+    | TPlan _ | TAction _ | TCondition _ | TIdle _ | TConfirm _ _ | TMade _ | TRecruit _ _ => true
+    end.
 End Syntax.

@@ -235,7 +235,8 @@ let name : Unix.sockaddr -> string = function
 
 let admit t (socket, address) =
   let client =
-    { address = name address; socket; since = Unix.gettimeofday (); piece = Bytes.create 8192; rank = Unknown; is_served = false; unread = "" } in
+    { address = name address; socket; since = Unix.gettimeofday (); piece = Bytes.create 8192; rank = Unknown;
+      is_served = false; unread = "" } in
   let has_room = make_room t Unknown in
   t.open_ <- client :: t.open_;
   let whole () =

@@ -20,8 +20,8 @@ type limits = {
 }
 
 val limits : limits
-(** 16 KiB, 4 MiB, 100 connections of unknown clients, 150 of guests and 150 of trusted ones, 1,000 requests, 10 seconds,
-    60 seconds. *)
+(** 16 KiB, 4 MiB, 100 connections of unknown clients, 150 of guests and 150 of trusted ones, 1,000 requests,
+    10 seconds, 60 seconds. *)
 
 type t
 
@@ -29,8 +29,9 @@ val start :
   ?limits:limits -> ?address:Unix.inet_addr -> ?rank:(Request.t -> rank) -> port:int ->
   (Request.t -> Response.t Lwt.t) -> (t, string) result
 (** [start ~limits ~address ~rank ~port reply] serves [address], by default the loopback address 127.0.0.1, from now on;
-    port 0 is any free one. [rank r] is that of the client that sent [r], by default [Trusted]. [reply] may fail: the client gets a reply about an error in the server. The error is the
-    reason why the port is not available. From then on SIGPIPE is ignored. *)
+    port 0 is any free one. [rank r] is that of the client that sent [r], by default [Trusted]. [reply] may fail: the
+    client gets a reply about an error in the server. The error is the reason why the port is not available. From then
+    on SIGPIPE is ignored. *)
 
 val port : t -> int
 

@@ -12,7 +12,7 @@ let discovery_ports = List.init 5 (fun i -> first_port + i)
 let scenario n : Scenario.t =
   let vehicle i : Scenario.vehicle =
     { id = Printf.sprintf "v%02d" i; kind = "UUV"; payload = []; position = Dolphin_geo.Place.apdl; speed = 1.5;
-      battery = 1.; tells_battery = true; drain = 0.; charge = 0.; joins = 0.; leaves = None; drops = [];
+      battery = 1.; tells_battery = true; drain = 0.; charge = 0.; chargers = []; joins = 0.; leaves = None; drops = [];
       batteries = []; shows = []; places = [] }
   in
   let plan name least most : Scenario.plan =

@@ -74,7 +74,7 @@ let stranger id =
   let position = Dolphin_geo.Place.apdl in
   make_craft ~connected:false ~changes:[]
     { id; kind = ""; payload = []; position; speed = 1.; battery = 1.; tells_battery = true;
-      drain = 0.; charge = 0.; joins = 0.;
+      drain = 0.; charge = 0.; chargers = []; joins = 0.;
       leaves = None; drops = []; batteries = []; shows = []; places = [] }
 
 let find id f = match String_map.find_opt id f.crafts with Some craft -> craft | None -> stranger id

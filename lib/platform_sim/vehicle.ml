@@ -33,5 +33,8 @@ let set_out v ~at ~charges track =
   let doing = Option.fold charges ~none:Battery.Works ~some:(fun share -> Battery.Charges share) in
   { v with track; since = at; charge = Battery.turn v.charge ~at doing }
 
-let rest v ~at = { v with track = Track.stay (position v ~at); since = at; charge = Battery.turn v.charge ~at Rests }
+let rest v ~at =
+  let place = position v ~at in
+  let charge = Battery.turn v.charge ~at (Battery.resting_at v.scenario place) in
+  { v with track = Track.stay place; since = at; charge }
 let is_steady v ~at = at -. v.since >= Track.still_from v.track && Battery.is_steady v.charge ~at

@@ -1,4 +1,4 @@
-type doing = Rests | Works | Charges of float
+type doing = Rests | Away | Works | Charges of float
 
 type t = { vehicle : Entry.vehicle; since : float; left : float; rate : float (* its gain in a second *) }
 
@@ -14,10 +14,16 @@ let resting (v : Entry.vehicle) = if v.charge > 0. then v.charge /. hour else un
 
 let rate v = function
   | Rests -> resting v
+  | Away -> unplugged v
   | Works -> under_way v
   | Charges share -> share /. hour
 
-let start (v : Entry.vehicle) = { vehicle = v; since = 0.; left = v.battery; rate = resting v }
+let resting_at (v : Entry.vehicle) place =
+  let reaches (charger, radius) = Dolphin_geo.Wgs84.distance charger place <= radius in
+  if v.chargers = [] || List.exists reaches v.chargers then Rests else Away
+
+let start (v : Entry.vehicle) =
+  { vehicle = v; since = 0.; left = v.battery; rate = rate v (resting_at v v.position) }
 
 let empty_from b =
   if b.left <= 0. && b.rate <= 0. then b.since
@@ -35,5 +41,5 @@ let turn b ~at doing = { b with since = at; left = level b ~at; rate = rate b.ve
 let is_steady b ~at = b.rate = 0. || at >= empty_from b || at >= full_from b
 
 let least (v : Entry.vehicle) ~working ~until =
-  let at_rest = if v.charge > 0. then 0. else unplugged v *. (until -. working) in
+  let at_rest = if v.charge > 0. && v.chargers = [] then 0. else unplugged v *. (until -. working) in
   v.battery +. (under_way v *. working) +. at_rest

@@ -5,19 +5,24 @@ type t
 
 (** The activity of a vehicle, as far as its battery is concerned. *)
 type doing =
-  | Rests
+  | Rests  (** where it charges, if it does *)
+  | Away  (** it rests away from its chargers *)
   | Works  (** it runs a plan that drains *)
   | Charges of float  (** it runs a plan with [charges]: an hour of it gives this share *)
 
 val start : Entry.vehicle -> t
-(** At rest, at time 0, with the scenario's charge. *)
+(** At rest at its place, at time 0, with the scenario's charge. *)
+
+val resting_at : Entry.vehicle -> Dolphin_geo.Position.t -> doing
+(** [resting_at v p] is [Rests], or [Away] if [v] has chargers and [p] is beyond each of them. *)
 
 val turn : t -> at:float -> doing -> t
 (** [turn b ~at doing] is [b] of a vehicle that does this from [at] on. *)
 
 val level : t -> at:float -> float
 (** From 0 (empty) to 1 (full), at a time not before the last change: work lowers it by [drain] each hour; rest
-    raises it by [charge], or if that is 0 lowers it by a quarter of [drain]; a plan that charges raises it. *)
+    raises it by [charge], or if that is 0, or away from its chargers, lowers it by a quarter of [drain]; a plan that
+    charges raises it. *)
 
 val empty_from : t -> float
 (** When it is empty if all goes on as it does; [infinity] if never. *)

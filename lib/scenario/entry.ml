@@ -13,6 +13,8 @@ type vehicle = {
   tells_battery : bool;  (** whether it ever reports its charge *)
   drain : float;  (** the share of the battery that an hour's work takes; rest takes a quarter of that *)
   charge : float;  (** the share that an hour's rest gives, instead; 0: it does not charge *)
+  chargers : (Dolphin_geo.Position.t * float) list;
+  (** if not empty, it charges only within such a distance, in metres, of one of these places *)
   joins : float;  (** seconds since the start *)
   leaves : float option;  (** seconds since the start, after [joins]; [None]: it stays *)
   drops : drop list;  (** in the order of the file *)

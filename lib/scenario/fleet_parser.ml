@@ -59,6 +59,19 @@ let drop vehicle (_, from) ((second : Setting.value), lasts) =
   if lasts > 0. then Ok { vehicle with drops = vehicle.drops @ [ { from; lasts } ] }
   else error second.at "a drop lasts longer than 0 seconds"
 
+let charger v values =
+  match List.rev values with
+  | [] -> None
+  | radius :: place ->
+    let add position =
+      let* position = position in
+      let* metres = Setting.number radius in
+      if metres > 0. && metres <= Dolphin_geo.Wgs84.farthest then
+        Ok { v with chargers = v.chargers @ [ (position, metres) ] }
+      else error radius.at "the radius of a charger is greater than 0 m and at most half around the earth"
+    in
+    Option.map add (Setting.position (List.rev place))
+
 let vehicle_table : vehicle Setting.t list =
   [ setting "type" "a text, as in type 'UUV'" (one Setting.text (fun v kind -> { v with kind }));
     setting "payload" ~again:true "names of devices, as in payload 'DVL', 'Sidescan'"
@@ -70,6 +83,7 @@ let vehicle_table : vehicle Setting.t list =
       (one Setting.per_hour (fun v drain -> { v with drain }));
     setting "charge" "the share of the battery that an hour's rest gives, as in charge 50.percent"
       (one Setting.per_hour (fun v charge -> { v with charge }));
+    setting "charger" ~again:true "a place and a radius in metres, as in charger 41.185, -8.706, 30.m" charger;
     setting "shows" ~again:true "a quantity and what it may be, as in shows 'Temperature', 12, 18" shows;
     setting "joins" "a time, as in joins 30.seconds" (one Setting.time (fun v joins -> { v with joins }));
     setting "leaves" "a time, as in leaves 10.min" (one Setting.time (fun v time -> { v with leaves = Some time }));
@@ -137,7 +151,7 @@ let vehicle state (id : string located) body =
   let draft =
     { id = id.it; kind = ""; payload = []; position = Defaults.position state.unplaced; speed = 0.;
       battery = Defaults.battery; tells_battery = true;
-      drain = Defaults.drain; charge = 0.; joins = 0.; leaves = None; drops = [];
+      drain = Defaults.drain; charge = 0.; chargers = []; joins = 0.; leaves = None; drops = [];
       batteries = []; shows = []; places = [] } in
   let v, seen, faults = Setting.block ~what:"a vehicle" vehicle_table draft body in
   let v = match v.places with [ _ ] -> { v with places = [] } | [] | _ :: _ :: _ -> v in
@@ -147,6 +161,11 @@ let vehicle state (id : string located) body =
     if given "type" then []
     else
       [ Diagnostic.error id.at (Printf.sprintf "vehicle '%s' has no type" id.it) ~hint:"add its type: type 'UUV'" ] in
+  let uncharged =
+    if v.chargers = [] || v.charge > 0. then []
+    else
+      [ Diagnostic.error id.at (Printf.sprintf "vehicle '%s' has a charger, and no charge" id.it)
+          ~hint:"add the share that an hour there gives: charge 50.percent" ] in
   let early =
     match v.leaves with
     | Some time when time <= v.joins ->
@@ -154,7 +173,7 @@ let vehicle state (id : string located) body =
           (Printf.sprintf "vehicle '%s' leaves at %g seconds, before it joins at %g" id.it time v.joins) ]
     | Some _ | None -> []
   in
-  let state = add_faults state (faults @ untyped @ early) in
+  let state = add_faults state (faults @ untyped @ uncharged @ early) in
   let unplaced = if given "at" then state.unplaced else state.unplaced + 1 in
   { state with vehicles = { entry = v; name_at = id.at } :: state.vehicles; unplaced }
 

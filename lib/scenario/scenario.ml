@@ -127,6 +127,7 @@ let pp_vehicle ppf v =
   else line "battery unknown";
   line "drain %a" pp_share v.drain;
   if v.charge > 0. then line "charge %a" pp_share v.charge;
+  List.iter (fun (place, radius) -> line "charger(%a, %a)" pp_coordinates place pp_number radius) v.chargers;
   let show (quantity, xs) = line "shows %a%a" pp_text quantity Fmt.(list ~sep:nop (any ", " ++ pp_number)) xs in
   List.iter show v.shows;
   if v.joins > 0. then line "joins %a" pp_time v.joins;
@@ -188,7 +189,7 @@ let default =
   let at latitude longitude : Dolphin_geo.Position.t = { latitude; longitude; height = 0. } in
   let vehicle id kind payload position drain =
     { id; kind; payload; position; speed = Defaults.speed ~kind; battery = Defaults.battery;
-      tells_battery = true; drain; charge = 0.;
+      tells_battery = true; drain; charge = 0.; chargers = [];
       joins = 0.; leaves = None; drops = []; batteries = []; shows = []; places = [] } in
   let underwater id position = vehicle id "UUV" [ "DVL"; "Sidescan"; "Camera" ] position Defaults.drain in
   { vehicles =

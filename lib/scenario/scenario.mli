@@ -103,6 +103,8 @@ reply 'queue.await', task('survey1'), either(task('survey2'), fails('the queue i
     - [battery unknown]: it never reports its battery, which is full at the start.
     - [drain SHARE]: an hour's work takes this share, an hour's rest a quarter of it. Default: [10.percent].
     - [charge SHARE]: an hour's rest gives this share instead. Default: it does not charge.
+    - [charger LATITUDE, LONGITUDE, METRES], [charger PLACE, METRES]: it charges only at rest within that distance; may
+      stand again. Default: it charges wherever it rests.
     - [shows QUANTITY, NUMBER, ...]: its measurements, as [reading] shows them; once for each quantity. Of several
       values no others are ever shown: in the simulator the one that is nearest to the field's. Else it shows the
       field's value. Without a field it shows the first. Default: it measures nothing.

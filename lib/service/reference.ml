@@ -322,6 +322,7 @@ let of_vehicle =
       "shows", "shows 'Temperature', 12, 18", "What it measures, and what that may be.";
       "drain", "drain 10.percent", "What an hour's work takes from the battery.";
       "charge", "charge 50.percent", "What an hour's rest gives the battery.";
+      "charger", "charger 41.185, -8.706, 30.m", "A place: rest charges only within this distance.";
       "joins", "joins 30.seconds", "When it comes.";
       "leaves", "leaves 10.min", "When it goes.";
       "drops", "drops 2.min, 30.seconds", "When its link falls silent, and for how long." ]

@@ -10,6 +10,7 @@ type t = {
   place : Core.vehicle -> Position.t option;
   links : Links.t;
   charges : string -> float option;
+  has_chargers : Core.vehicle -> bool;
 }
 
 let tolerance = 0.1
@@ -66,5 +67,7 @@ let of_scenario (s : Scenario.t) =
   in
   let place id = Option.map (fun (v : Scenario.vehicle) -> v.position) (vehicle id) in
   let links = Links.of_silences (List.map (fun (v : Scenario.vehicle) -> (v.id, Scenario.silences v)) s.vehicles) in
+  let has_chargers id = Option.fold (vehicle id) ~none:false ~some:(fun (v : Scenario.vehicle) -> v.chargers <> []) in
   let charges name = Option.bind (Scenario.plan s name) (fun (p : Scenario.plan) -> p.charges) in
-  { task; announced = Bounds.exactly announced; silence = Bounds.exactly silence; posted; place; links; charges }
+  { task; announced = Bounds.exactly announced; silence = Bounds.exactly silence; posted; place; links; charges;
+    has_chargers }

@@ -12,6 +12,7 @@ type t = {
   links : Links.t;  (** when vehicles join, leave, and lose their links *)
   charges : string -> float option;
   (** the charge that an hour of the plan of this name gives the battery of its vehicle; [None]: it drains it *)
+  has_chargers : Core.vehicle -> bool;  (** whether its rest charges in some places and drains in others *)
 }
 (** Answers and replies come at once. *)
 

@@ -126,9 +126,12 @@ let may_change_during_tasks o =
 
 let is_silent o s v = Links.is_silent (links o) s.changes v
 
+let at_rest o v : Dolphin_scenario.Battery.doing list =
+  if o.durations.has_chargers v then [ Away; Rests ] else [ Rests ]
+
 let doing o s v : Dolphin_scenario.Battery.doing =
   match List.find_opt (fun p -> p.item = Task v && p.progress = Under_way) s.pending with
-  | None -> Rests
+  | None -> List.hd (at_rest o v)
   | Some { task; _ } ->
     let charges = Option.bind task (fun (p : Core.platform_task) -> o.durations.charges p.name) in
     Option.fold charges ~none:Dolphin_scenario.Battery.Works ~some:(fun share -> Dolphin_scenario.Battery.Charges share)
@@ -136,8 +139,9 @@ let doing o s v : Dolphin_scenario.Battery.doing =
 
 let may_do o s v : Dolphin_scenario.Battery.doing list =
   match doing o s v with
-  | Charges _ as charges when Faults.is_possible o.environment.faults.loss || is_silent o s v -> [ charges; Rests ]
-  | (Rests | Works | Charges _) as doing -> [ doing ]
+  | Charges _ as charges when Faults.is_possible o.environment.faults.loss || is_silent o s v -> charges :: at_rest o v
+  | Rests | Away -> at_rest o v
+  | (Works | Charges _) as doing -> [ doing ]
 
 (* Who is there matters as long as the program may look for vehicles, and whose link is silent as long as it has the
    vehicle. *)

@@ -60,12 +60,12 @@ val initial : options -> state
 
 val doing : options -> state -> Core.vehicle -> Dolphin_scenario.Battery.doing
 (** [doing o s v] is whether [v] carries a task out, and whether that charges its battery. It rests while its order
-    waits for the link, and once its task is over. *)
+    waits for the link, and once its task is over; away from its chargers if it has some. *)
 
 val may_do : options -> state -> Core.vehicle -> Dolphin_scenario.Battery.doing list
-(** [may_do o s v] is all that [v] may be doing in [s], [doing o s v] first. A task that charges may be over already
-    while the link is silent; then the vehicle rests. (A task that drains may be over too, but a lower bound that counts
-    it to its latest end holds all the same.) *)
+(** [may_do o s v] is all that [v] may be doing in [s], [doing o s v] first. At rest, a vehicle with chargers may be at
+    one or not. A task that charges may be over already while the link is silent; then the vehicle rests. (A task that
+    drains may be over too, but a lower bound that counts it to its latest end holds all the same.) *)
 
 val compare : state -> state -> int
 val equal : state -> state -> bool

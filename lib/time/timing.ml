@@ -185,9 +185,10 @@ let lowest options (v : Scenario.vehicle) known { bound; of_ways } =
   in
   lowest known (List.concat_map of_way of_ways)
 
-(* For programs that look at sensors no run is shown: their readings do not follow from the time. *)
+(* For programs that look at sensors no run is shown: their readings do not follow from the time. Neither does it
+   follow whether a vehicle rests at a charger. *)
 let battery options ~observed ~last ~is_known ~charges (v : Scenario.vehicle) first =
-  let is_shown = is_known && not options.Timed.program.reads_sensors in
+  let is_shown = is_known && (not options.Timed.program.reads_sensors) && v.chargers = [] in
   let improved known found = if is_shown then lowest options v known found else None in
   let of_last (run : run) = if run.dates = [] then None else Some (left v run, run) in
   let known = if is_shown then Option.bind last of_last else None in

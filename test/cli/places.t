@@ -13,7 +13,7 @@ Where described plans are.
 A plan that has no place does not go anywhere: nothing moves.
 
   $ dolphin check stay.dol
-  stay.dol:4:5: error: 'skeeping' has no place: this plan does not say where it is
+  stay.dol:4:5: error: 'skeeping' has no place: neither plan, program nor fleet has one
     4 |     skeeping duration: 1.min
       |     ^^^^^^^^^^^^^^^^^^^^^^^^
       hint: write locate LATITUDE, LONGITUDE before it, or once for all plans at the top of the program or in its fleet
@@ -22,7 +22,7 @@ A plan that has no place does not go anywhere: nothing moves.
   $ dolphin check stay.dol --fleet far.fleet > /dev/null 2>&1
   [2]
   $ dolphin exec stay.dol --fleet far.fleet 2>&1 | head -1
-  stay.dol:4:5: error: 'skeeping' has no place: this plan does not say where it is
+  stay.dol:4:5: error: 'skeeping' has no place: neither plan, program nor fleet has one
   $ dolphin explore stay.dol --fleet far.fleet > /dev/null 2>&1
   [2]
   $ dolphin time stay.dol --fleet far.fleet > /dev/null 2>&1
@@ -30,9 +30,9 @@ A plan that has no place does not go anywhere: nothing moves.
   $ dolphin walk stay.dol --fleet far.fleet < /dev/null > /dev/null 2>&1
   [2]
   $ timeout 60 dolphin exec stay.dol --imc --no-socket 2>&1 | grep -v journal | head -1
-  stay.dol:4:5: error: 'skeeping' has no place: this plan does not say where it is
+  stay.dol:4:5: error: 'skeeping' has no place: neither plan, program nor fleet has one
   $ timeout 60 dolphin exec stay.dol --imc --fleet far.fleet 2>&1 | head -1
-  stay.dol:4:5: error: 'skeeping' has no place: this plan does not say where it is
+  stay.dol:4:5: error: 'skeeping' has no place: neither plan, program nor fleet has one
 
 A fleet has a place for plans, a program for its own, a plan for itself; the nearest of them counts.
 
@@ -96,8 +96,8 @@ What code decides is a fault where the plan is built.
      0:00  a           starts plan-2
      0:00  a           ends plan-2
      0:00  program     releases a
-     0:00  program     fails: 'goTo' has no place: this plan does not say where it is; write locate LATITUDE, LONGITUDE before it, or once for all plans at the top of the program or in its fleet
-  code.dol:2:53: error: 'goTo' has no place: this plan does not say where it is; write locate LATITUDE, LONGITUDE before it, or once for all plans at the top of the program or in its fleet
+     0:00  program     fails: 'goTo' has no place: neither plan, program nor fleet has one; write locate LATITUDE, LONGITUDE before it, or once for all plans at the top of the program or in its fleet
+  code.dol:2:53: error: 'goTo' has no place: neither plan, program nor fleet has one; write locate LATITUDE, LONGITUDE before it, or once for all plans at the top of the program or in its fleet
     2 | def go(n) { imcPlan { if (n > 1) { locate 43, -8 }; goTo() } }
       |                                                     ^^^^^^
   [1]

@@ -1367,8 +1367,11 @@ let place =
   @ in_file "lib/time/timed.ml" ~noticed_by:"time/test_exact"
     [
       ( "a plan charges until its end is heard",
-        {|-> [ charges; Rests ]|},
+        {|-> charges :: at_rest o v|},
         {|-> [ charges ]|} );
+      ( "rest charges wherever it is",
+        {|then [ Away; Rests ] else|},
+        {|then [ Rests ] else|} );
     ]
   @ in_file "lib/time/levels.ml" ~noticed_by:"time/test_exact"
     [
@@ -1403,8 +1406,8 @@ let place =
         {|let at_rest = 0.25|},
         {|let at_rest = 0.|} );
       ( "charging is counted on",
-        {|if v.charge > 0. then 0. else unplugged v|},
-        {|if v.charge > 0. then resting v else unplugged v|} );
+        {|if v.charge > 0. && v.chargers = [] then 0. else unplugged v|},
+        {|if v.charge > 0. && v.chargers = [] then resting v else unplugged v|} );
       ( "plans that charge drain",
         {|  | Charges share -> share /. hour|},
         {|  | Charges _ -> under_way v|} );

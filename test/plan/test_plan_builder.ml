@@ -301,7 +301,7 @@ let unplaced () =
   let all = [ "goTo"; "loiter"; "yoyo"; "skeeping"; "compassCalibration"; "launch"; "rows"; "followPath" ] in
   let refuses setting =
     let own = if setting = "followPath" then [ points ] else [] in
-    let expected = "'" ^ setting ^ "' has no place: this plan does not say where it is; " ^ Plan_builder.hint_for_place in
+    let expected = "'" ^ setting ^ "' has no place: neither plan, program nor fleet has one; " ^ Plan_builder.hint_for_place in
     (match build ~place:None [ up; man setting own ] with
      | Ok _ -> Alcotest.failf "%s needs no place" setting
      | Error fault -> Alcotest.(check (pair int string)) setting (1, expected) (fault.site, fault.message));

@@ -214,6 +214,19 @@ let batteries () =
   let f = after 0. (single "battery 50.percent; charge 50.percent") in
   close "charged" 0.75 (battery_of (after 1800. f));
   close "full" 1. (battery_of (after 7200. f));
+  let at_charger north =
+    after 0. (single (Printf.sprintf "at 41.1850, -8.7060; battery 50.percent; drain 40.percent; charge 50.percent; \
+                                      charger %.4f, -8.7060, 30.m" (41.1850 +. north))) in
+  close "at a charger" 0.75 (battery_of (after 1800. (at_charger 0.0002)));
+  close "away from it" 0.45 (battery_of (after 1800. (at_charger 0.0004)));
+  let there = Dolphin_geo.Wgs84.displace Place.apdl ~north:1_350. ~east:0. in
+  let route p = task ~plan:(go_to ~speed:1.5 ~dwell:900. [ p ]) "route" in
+  let f = after 0. (single "at Location.APDL; battery 80.percent; drain 40.percent; charge 50.percent; \
+                            charger Location.APDL, 30.m") in
+  let out = after 3600. (Fleet.start "a" (route there) f) in
+  Alcotest.(check (float 1e-3)) "at work for half an hour, then at rest away from it" 0.55 (battery_of out);
+  let back = after 7200. (Fleet.start "a" (route Place.apdl) out) in
+  Alcotest.(check (float 1e-3)) "at work again, then at rest at it" 0.60 (battery_of back);
   let plans = "plan 'p', { duration 30.min; charges 120.percent }\nplan 'q', { duration 30.min; charges 0.percent }" in
   let f = after 0. (single ~plans "battery 20.percent; drain 40.percent") in
   close "charged by a plan" 0.5 (battery_of (after 900. (Fleet.start "a" (task "p") f)));

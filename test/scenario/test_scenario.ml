@@ -217,6 +217,8 @@ let scenario =
   let vehicle id =
     let* kind = name and* payload = list_size (int_bound 4) name and* position = place in
     let* speed = amount and* battery = share and* drain = share and* charge = share in
+    let charger = pair place (float_range 0.5 1e6) in
+    let* chargers = if charge > 0. then list_size (int_bound 2) charger else return [] in
     let* joins = oneof [ return 0.; amount ] and* stay = opt amount and* drops = list_size (int_bound 4) drop in
     let* tells_battery = frequencyl [ (4, true); (1, false) ] in
     let* batteries = several battery share and* places = several position place in
@@ -226,7 +228,8 @@ let scenario =
     let leaves = Option.map (fun stay -> joins +. stay) stay in
     return
       { Scenario.id; kind; payload; position; speed; battery = (if tells_battery then battery else 1.); tells_battery;
-        drain; charge; joins; leaves; drops; batteries = (if tells_battery then batteries else []); shows; places }
+        drain; charge; chargers; joins; leaves; drops; batteries = (if tells_battery then batteries else []); shows;
+        places }
   in
   let plan name_of_it =
     let* least = amount and* more = oneof [ return 0.; amount ] and* timed = bool in

@@ -87,7 +87,7 @@ let options (program, durations, (_, environment)) : Timed.options =
     durations =
       { task = (fun v _ p -> bounds durations v p); announced = Bounds.exactly 1.; silence = Bounds.exactly 2.;
         posted = (fun _ -> Some_time); place = (fun _ -> None); links = Links.none;
-        charges = charges durations };
+        charges = charges durations; has_chargers = (fun _ -> false) };
     dates = Dolphin_semantics.Dated_code.named program }
 
 let case =

@@ -34,7 +34,7 @@ let parts = 40_000
 
 (* Durations in seconds, by the name of the plan and the vehicle: some exact, some zero, some overlapping. Some
    vehicles join after some seconds. *)
-let durations ?(charges = []) seed : Durations.t =
+let durations ?(charges = []) ?(has_chargers = false) seed : Durations.t =
   let task v _ (p : Core.platform_task) =
     let n = Hashtbl.hash (seed, v, p.name) in
     let least = n mod 3 in
@@ -52,7 +52,8 @@ let durations ?(charges = []) seed : Durations.t =
        | _ -> [])
   in
   { task; announced = Bounds.exactly 1.; silence = Bounds.exactly 2.; posted; place = (fun _ -> None); links;
-    charges = (fun name -> Option.map (fun n -> float (3600 * n) /. float parts) (List.assoc_opt name charges)) }
+    charges = (fun name -> Option.map (fun n -> float (3600 * n) /. float parts) (List.assoc_opt name charges));
+    has_chargers = (fun _ -> has_chargers) }
 
 let nested =
   let open QCheck2.Gen in
@@ -332,12 +333,13 @@ let test_pairs () =
 
 (* {1 Batteries} *)
 
-let fleet ?(charges = []) ~at_first ~charge () =
-  let battery : Enumeration.battery = { at_first; work = 4; rest = (if charge = 0 then -1 else charge); charges } in
+let fleet ?(charges = []) ?(charger = "") ?rest ~at_first ~charge () =
+  let rest = Option.value rest ~default:(if charge = 0 then -1 else charge) in
+  let battery : Enumeration.battery = { at_first; work = 4; rest; charges } in
   let percent n = 100. *. float n /. float parts in
   let vehicle v =
-    Printf.sprintf "vehicle '%s', { type 'UUV'; drain 36.percent; battery %.12g.percent; charge %.12g.percent }\n" v
-      (100. -. percent at_first) (percent (3600 * charge))
+    Printf.sprintf "vehicle '%s', { type 'UUV'; drain 36.percent; battery %.12g.percent; charge %.12g.percent%s }\n" v
+      (100. -. percent at_first) (percent (3600 * charge)) charger
   in
   let ids = [ "a"; "b"; "c" ] in
   match Dolphin_scenario.Scenario.read ~file:"batteries" (String.concat "" (List.map vehicle ids)) with
@@ -397,6 +399,20 @@ let test_linked_charging_plans =
     let o = linked_options case in
     { o with durations = { o.durations with charges = (durations ~charges 0).charges } } in
   test_batteries_of ~charges linked_case ~print:print_linked_case options
+
+(* Where vehicles rest is not known to the analysis: its bound holds if all rest at a charger, and if none does. *)
+let test_chargers ~programs () =
+  let tally = { exact = 0; bounds = 0; worked = 0 } in
+  let charger = "; charger Location.APDL, 30.m" in
+  let property (ast, seed, (_, environment)) =
+    let o = battery_options (ast, seed, ("", environment)) in
+    let o = { o with durations = durations ~has_chargers:true seed } in
+    List.for_all
+      (fun rest -> batteries_agree tally (fleet ~charger ~rest ~at_first:20 ~charge:40 ()) o) [ -1; 40 ]
+  in
+  let test = QCheck2.Test.make ~count:programs ~print ~name:"bounds hold wherever vehicles rest" case property in
+  Test_support.Property.on_each_seed ~usual:20_261_123 ~programs test;
+  Alcotest.(check (pair bool int)) "vehicles work, and no run is shown" (true, 0) (tally.worked > 0, tally.exact)
 
 let test_linked_batteries = test_batteries_of linked_case ~print:print_linked_case linked_options
 
@@ -534,6 +550,8 @@ let () =
                               (test_charging_plans ~at_first:20 ~charge:3 ~programs:(programs / 2));
                             Alcotest.test_case "plans that charge, and links that come and go" `Quick
                               (test_linked_charging_plans ~at_first:20 ~charge:0 ~programs);
+                            Alcotest.test_case "batteries that are charged at chargers" `Quick
+                              (test_chargers ~programs:(programs / 4));
                             Alcotest.test_case "batteries, and links that come and go" `Quick
                               (test_linked_batteries ~at_first:0 ~charge:0 ~programs);
                             Alcotest.test_case "batteries that are charged, and links that come and go" `Quick

@@ -234,7 +234,7 @@ let arguments s =
   | [ Map entries ] -> { s with positional = []; named = s.named @ entries }
   | _ -> s
 
-let no_place name = Printf.sprintf "'%s' has no place: this plan does not say where it is" name
+let no_place name = Printf.sprintf "'%s' has no place: neither plan, program nor fleet has one" name
 let lacks_place s = fault s "%s; %s" (no_place s.setting) hint_for_place
 
 (* Of a maneuver that is done where the vehicle is, nobody looks at the location. *)

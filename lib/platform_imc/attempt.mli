@@ -12,11 +12,11 @@ type order = {
 type t = {
   order : order;
   request : int;  (** its [request_id] *)
-  copies : int;  (** so many were sent *)
+  copies : int;  (** the number of copies sent *)
   last_sent : float;  (** when the last copy was, by our clock (s); [infinity]: it still waits to leave *)
-  asked : float;  (** what the vehicle's clock showed then, at most (s) *)
-  before : Plan_report.t option;  (** what the vehicle had said last when the request was first sent *)
-  after : float;  (** when, by its clock, it had said anything last then *)
+  asked : float;  (** the vehicle's clock then, at most (s) *)
+  before : Plan_report.t option;  (** the vehicle's last report when the request was first sent *)
+  after : float;  (** the time of its last report before, by its clock *)
   accepted : float option;  (** when, by its clock, it first answered that it takes the plan *)
   answered : bool;  (** it answered in any way *)
   adopted : bool;  (** the request was that of a console that has died *)
@@ -30,14 +30,14 @@ val make : now:float -> clock:Vehicle_clock.t -> request:int -> before:Plan_repo
 (** The first copy, sent at [now]. *)
 
 val adopted : now:float -> clock:Vehicle_clock.t -> order -> Durable_note.knowledge -> t
-(** The request of a console that has died, of which the notes say that much. Whatever the vehicle says from now on, it
-    says after all that the other console did. *)
+(** The request of a console that has died, as far as the notes record it. Every later report of the vehicle is later
+    than all that the other console did. *)
 
 val send_again : now:float -> clock:Vehicle_clock.t -> t -> t
 (** One copy more, sent at [now]. *)
 
 val leaves : at:float -> clock:Vehicle_clock.t -> t -> t
-(** The last copy leaves at [at] (s) and not when it was made; [infinity]: nobody knows yet when. *)
+(** The last copy leaves at [at] (s) and not when it was made; [infinity]: not known yet. *)
 
 val start : t -> Message.t
 (** The request to start. *)
@@ -58,12 +58,11 @@ val may_arrive : now:float -> t -> bool
 (** [may_arrive ~now a]: a copy of the request may still be on its way. *)
 
 val is_open : t -> bool
-(** Whether a copy of the request may take effect as far as the vehicle's answers tell: it has not answered, or not each
-    copy. *)
+(** Whether a copy of the request may take effect by the vehicle's answers: it has not answered, or not each copy. *)
 
 val is_past : now:float -> Plan_report.t -> t -> bool
-(** [is_past ~now r a]: no copy is on its way any more, and the vehicle sent [r] after the last one had arrived, if it
-    ever did: what [r] shows is all that comes of the request. *)
+(** [is_past ~now r a]: no copy is on its way any more, and the vehicle sent [r] after the last one had arrived, if
+    it ever did: [r] shows the final effect of the request. *)
 
 (** {1:notes What is to be kept} *)
 
@@ -71,4 +70,4 @@ val is_past : now:float -> Plan_report.t -> t -> bool
 type stage = Starting | Running | Stopping
 
 val notes : before:(t * stage) option -> after:(t * stage) option -> Durable_note.t list
-(** [notes ~before ~after] is what is to be kept of a step, in order. *)
+(** [notes ~before ~after] is the notes to keep of a step, in order. *)

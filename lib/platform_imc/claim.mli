@@ -1,5 +1,6 @@
-(** What a console holds, as it tells other consoles: the vehicles that its program has picked. IMC has no message for
-    this. EntityParameters named {!name} is ignored by vehicles and by consoles that did not ask for parameters. *)
+(** The holdings of a console, as it announces them to other consoles: the vehicles that its program has picked. IMC
+    has no message for this. EntityParameters named {!name} is ignored by vehicles and by consoles that did not ask
+    for parameters. *)
 
 open Dolphin_semantics
 open Dolphin_imc
@@ -15,12 +16,12 @@ val name : string
 (** ["dolphin.holds"]. *)
 
 val patience : float
-(** 5 s: a console that has not repeated its claim for so long is gone. Claims are repeated every second. *)
+(** 5 s: a console that has not repeated its claim for this time is gone. Claims are repeated every second. *)
 
 val to_message : t -> Message.t
 
 val of_message : Message.Entity_parameters.t -> t option
-(** [None] if it is no claim. *)
+(** [None] if it is not a claim. *)
 
 val obstacle : console:string -> t -> string
 (** Why others cannot be given a plan: ["is held by the program rendezvous.dol of ccu-7"]. *)

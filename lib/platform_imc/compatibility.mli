@@ -1,7 +1,7 @@
 (** The messages that a console and vehicles exchange here, held against another definition of IMC.
 
     The layouts have been stable since IMC 5.4.2 (2014); a vehicle of an older version, or of a variant, does not
-    understand what it is told. *)
+    understand our messages. *)
 
 open Dolphin_imc
 

@@ -8,7 +8,7 @@ let wants name s =
   || List.mem_assoc name s.settings.payload
   || List.mem_assoc name s.settings.types
 
-(* What speaks for keeping [n]; [None]: it is kept in any case. *)
+(* The reason for keeping [n]; [None]: it is kept in any case. *)
 let worth ~now s (n : Node.t) =
   let spoke = n.last_heard > neg_infinity in
   if wants n.name s || n.claim <> None || not (Execution.is_settled ~now n.execution) then None
@@ -27,7 +27,7 @@ let of_crowded_host nodes =
   let most = List.fold_left (fun most n -> max most (count n)) 0 nodes in
   List.filter (fun n -> count n = most) nodes
 
-(* So many are forgotten together, which costs no more than one alone. *)
+(* The number forgotten together, which costs no more than one alone. *)
 let several = 100
 
 let least_recent nodes =

@@ -6,12 +6,12 @@ type t = {
   after : float;
   busy : bool;
   begun : bool;  (* the vehicle has begun the plan at least once *)
-  signs : (string * float list) list;  (* what is said once for each start, and when it was said *)
-  beginning : float;  (* when it was last said that the plan begins *)
-  initializing : float;  (* when it was last said that some plan does *)
+  signs : (string * float list) list;  (* the signs that come once for each start, with their times *)
+  beginning : float;  (* the last time of a report that the plan begins *)
+  initializing : float;  (* the last time of a report that some plan does *)
   first_executing : float;
   last_executing : float;
-  told : int;  (* of so many starts it is known already; the first is as it should be *)
+  told : int;  (* the number of starts known already; the first is as it should be *)
 }
 
 let request ~plan ~number ~after ~busy =
@@ -22,7 +22,7 @@ let nothing = request ~plan:"" ~number:(-1) ~after:infinity ~busy:false
 
 (* {1 Signs} *)
 
-(* A vehicle that says more different things at each start, or starts more often, need not be believed in all of it. *)
+(* Reports of a vehicle with more different signs at each start, or more starts, are not believed in full. *)
 let most_signs = 16
 
 let once ~sent sign x =
@@ -47,7 +47,7 @@ let ends_with suffix text =
   let n = String.length suffix and length = String.length text in
   length >= n && String.sub text (length - n) n = suffix
 
-(* {1 What the vehicle says} *)
+(* {1 The vehicle's reports} *)
 
 let loaded = "plan loaded"
 let executing = ": executing maneuver"
@@ -79,7 +79,7 @@ let log ~sent (entry : Message.Log_book_entry.t) x =
 
 (* {1 Detection} *)
 
-(* What another plan's request makes a vehicle say looks the same at first: until it executes this one again. *)
+(* Another plan's request leads to the same reports at first: until the vehicle executes this one again. *)
 let resumed x = x.first_executing < x.initializing && x.initializing < x.last_executing
 
 let starts x =

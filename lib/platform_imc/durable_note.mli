@@ -1,5 +1,5 @@
-(** What is known of a plan's execution that the vehicle itself does not tell, and that a console which takes over from
-    one that died has to know: the notes of {!Execution} that journals keep. *)
+(** Knowledge about a plan's execution that the vehicle itself does not report, and that a console which takes over
+    from one that died needs: the notes of {!Execution} that journals keep. *)
 
 open Dolphin_semantics
 
@@ -20,9 +20,9 @@ val to_json : t -> Yojson.Safe.t
 (** An object, as journals keep it. *)
 
 val of_json : Yojson.Safe.t -> t option
-(** [of_json (to_json n)] is [Some n]; [None] for what is no such note. *)
+(** [of_json (to_json n)] is [Some n]; [None] for any other value. *)
 
-(** What the notes on one request say together. *)
+(** The combined content of the notes on one request. *)
 type knowledge = {
   request : int;
   before : (string * bool) option;
@@ -33,8 +33,8 @@ type knowledge = {
 
 val lingering : (Core.vehicle * t) list -> (Core.vehicle * (string * int)) list
 (** [lingering notes] is the vehicles that may still run a plan that is over for the program, with the plan and the
-    number of its request, as [notes], in order, say: [May_run] without an [Over] or another request since. *)
+    number of its request, by [notes], in order: [May_run] without an [Over] or another request since. *)
 
 val knowledge : plan:string -> t list -> knowledge option
-(** [knowledge ~plan notes] is what [notes], latest first, say of the latest request for [plan]; [None]: none was ever
-    sent. *)
+(** [knowledge ~plan notes] is the content of [notes], latest first, about the latest request for [plan]; [None]:
+    none was ever sent. *)

@@ -43,7 +43,7 @@ let late_stop_interval = 5.
 (* Longer than it takes from the end of a plan to the VehicleState that follows. *)
 let rest_patience = 1.
 
-(* For so long a plan that we gave up is stopped when the vehicle is heard again. *)
+(* The time in which a plan that we gave up is stopped when the vehicle is heard again. *)
 let given_up_watch = 600.
 
 let create = create
@@ -75,7 +75,7 @@ let look ~now ~clock (a : Attempt.t) (r : Plan_report.t) x =
       let remark = Printf.sprintf "plan %s is requested again; it cannot be excluded that it has run" a.order.plan in
       (x, if doubtful then Remark remark :: outputs else outputs)
 
-(* What follows from [verdict] on the report [r]; the plan took effect at [since] at the earliest. *)
+(* The consequences of [verdict] on the report [r]; the plan took effect at [since] at the earliest. *)
 let conclude ~now ~clock ~since (a : Attempt.t) (r : Plan_report.t) (verdict : Verdict.t) x =
   match verdict with
   | Nothing_new -> (x, [])
@@ -160,7 +160,7 @@ let judge ~now ~clock (r : Plan_report.t) x =
 let is_blocked x = match x.latest with Some r -> r.state.state = Blocked | None -> false
 let is_busy x = match x.latest with Some r -> Plan_report.is_busy r | None -> false
 
-(* The plan failed, and no better reason came. A vehicle that goes on, or may, is told to stop. *)
+(* The plan failed, and no better reason came. A vehicle that goes on, or may, is ordered to stop. *)
 let end_badly ~now ~clock (a : Attempt.t) ~since ~why x =
   let ended = match x.latest with Some r -> r.sent | None -> since in
   let failed = Failed (words x ~since ~why) in
@@ -206,7 +206,7 @@ let start_reply ~now ~clock ~sent (reply : Message.t Control.t) x =
       fail ~now ~ended:sent a (in_words reply.info) x
     else ({ x with phase = Starting a }, [])
   | Running { attempt; since }, (Success | In_progress) when reply.request_id = attempt.request ->
-    (* What was seen before may have been another's plan of that name. *)
+    (* Earlier reports may have been about another's plan of that name. *)
     let since = if attempt.answered then since else Float.max since sent in
     ({ x with phase = Running { attempt = { attempt with answered = true }; since } }, [])
   | Running { attempt = a; since }, Failure when reply.request_id = a.request && sent > since ->
@@ -282,7 +282,7 @@ let start ~now ~clock order x =
   | Idle | Starting _ | Running _ | Ending _ -> begin_attempt ~now ~clock order x
   | Stopping s -> ({ x with phase = Stopping { s with next = Some order } }, [])
 
-(* What another console stops before our request was taken is not our plan. *)
+(* A plan that another console stops before our request was taken is not ours. *)
 let stopped_by by x =
   match x.phase with
   | Running _ | Ending _ | Starting { accepted = Some _; _ } -> { x with intervention = Some ("stopped by " ^ by) }
@@ -383,12 +383,12 @@ let adopt ~now ~clock (order : order) ~stopped notes x =
 
 let idle x = match x.phase with Idle -> true | Starting _ | Running _ | Ending _ | Stopping _ -> false
 
-(* The request of a plan that is over may still take effect: the plan would run, and nobody would want it. *)
+(* The request of a plan that is over may still take effect: the plan would run, unwanted. *)
 let may_still_begin ~now x (f : former) =
   let is_past = match x.latest with Some r -> Attempt.is_past ~now r f.attempt | None -> false in
   Attempt.is_open f.attempt && now < f.attempt.last_sent +. late_copies && not is_past
 
-(* VehicleState said so after the plan's end. *)
+(* VehicleState reported it after the plan's end. *)
 let may_go_on ~now x (f : former) = now < f.unrested_until && maneuvers ~since:f.ended x && not (is_busy x)
 
 (* The plan that the vehicle may still run though it is over for the program. *)
@@ -402,7 +402,7 @@ let lingering ~now x =
 
 (* {1 Steps} *)
 
-(* What the vehicle says is a sign of how often it took the request, whatever else it means. *)
+(* Each report of the vehicle is a sign of how often it took the request, besides its other meaning. *)
 let detect_duplicates input x =
   let duplicates =
     match input with
@@ -432,7 +432,8 @@ let handle ~now ~clock input x =
   | Leaves at -> (leaves ~at ~clock x, [])
   | Tick -> tick ~now ~clock x
 
-(* The program was told that the plan is over, or is about to be: only the notes on the vehicle show that it may go on.
+(* The program has the report that the plan is over, or will have it: only the notes on the vehicle show that it may go
+   on.
 *)
 let is_over_for_program ~before ~input outputs =
   let has_failed = List.exists (function Failed _ -> true | Keep _ | Send _ | Done | Remark _ -> false) outputs in
@@ -440,7 +441,7 @@ let is_over_for_program ~before ~input outputs =
   | Adopt _, _ | _, (Starting _ | Running _ | Ending _ | Stopping _) -> has_failed
   | _, Idle -> true
 
-(* What is to be kept of the vehicle beyond the request: that it may still run what the program has done with. *)
+(* The note to keep about the vehicle beyond the request: that it may still run a plan that the program has ended. *)
 let note_lingering ~now ~before ~input outputs x =
   let is_adopted = match input with Adopt _ -> true | _ -> false in
   match x.may_run, lingering ~now x with

@@ -1,48 +1,49 @@
 (** One plan on one vehicle, from the request to the verdict: a pure state machine.
 
-    Source: IMC, PlanControl and PlanControlState, and what was measured with DUNE 2026.01: see [docs/imc.md]. In short,
+    Source: IMC, PlanControl and PlanControlState, and measurements with DUNE 2026.01: see [docs/imc.md]. In short,
     PlanControlState is repeated about three times a second and on change, goes INITIALIZING (still with the plan
     before), EXECUTING, READY, and keeps the last outcome until the next; a request is answered by up to three replies,
     any of which may be lost, doubled or late.
 
     {1:rules How it decides}
 
-    Everything is ordered by the vehicle's own time stamps ({!Vehicle_clock}); what is older than what is known is
+    Everything is ordered by the vehicle's own time stamps ({!Vehicle_clock}); reports older than the known state are
     ignored.
 
     - The plan {e runs} once EXECUTING is seen with its name, sent after our request. If the vehicle ran a plan of the
       same name before, a sign of our request is needed too: a reply to it, or INITIALIZING.
     - It is {e done} when READY with its name and outcome SUCCESS was sent after EXECUTING was, or after a positive
-      reply to our request, or, both being lost, where the vehicle had another plan's name before.
+      reply to our request, or, both being lost, if the vehicle had another plan's name before.
     - It {e failed} when a FAILURE replies to our request, in the words of that reply; when READY has another outcome
       than SUCCESS; when the vehicle went from INITIALIZING to READY without taking the plan; when it is BLOCKED, and
-      then it is told to stop unless VehicleState shows rest; when
-      it executes another plan, or has executed one. Where the words are missing they are waited for, {!grace} long; an
-      error that the vehicle reports stands in for them. None of this counts while the request is unanswered and may
-      still take effect: another console may have been quicker, and our request takes the vehicle from that one.
+      then it is ordered to stop unless VehicleState shows rest; when it executes another plan, or has executed one.
+      Missing words are waited for, {!grace} long; an error that the vehicle reports stands in for them. None of this
+      counts while the request is unanswered and may still take effect: another console may have been quicker, and our
+      request takes the vehicle from that one.
     - A request waits until its note is durable ([Leaves]). Until it has left, nothing follows from silence.
     - A request is {e sent again} only after a look: no reply came within {!patience}, and a state that the vehicle sent
-      so long after the request shows that it was without effect. After {!most_copies} the plan has failed.
+      that long after the request shows that it was without effect. After {!most_copies} the plan has failed.
     - A stop is sent again every {!stop_interval} until it is {e confirmed}: a reply, READY or BLOCKED shows that the
       plan engine does not run the plan, and a VehicleState sent later that no maneuver runs. Measured: after a stall
       the engine has lost the plan, is BLOCKED, answers ["no plan is running"], while VehicleState stays MANEUVER and
       the vehicle goes on. Another plan in EXECUTING confirms it too, and of a vehicle that never sends VehicleState
       READY does. If it is not known whether the vehicle took the plan, all this counts one {!patience} after the
       request, which may have been overtaken. Only then is the next start sent.
-    - While the vehicle reports MANEUVER a stop is never given up: {!warning} after the first one people are told, after
-      [abort_after] ({!create}) it is told to abort, and after {!stop_patience} the next order fails. If nothing is
-      heard for {!stop_patience}, the stop is given up.
-    - A vehicle that reports MANEUVER, and no plan, a second after our plan was over is told to stop.
+    - While the vehicle reports MANEUVER a stop is never given up: {!warning} after the first one people get a message,
+      after [abort_after] ({!create}) it is ordered to abort, and after {!stop_patience} the next order fails. If
+      nothing is heard for {!stop_patience}, the stop is given up.
+    - A vehicle that reports MANEUVER, and no plan, a second after our plan was over is ordered to stop.
     - Late copies of our own datagrams are recognised by their replies: a stop that hits the next plan makes it start
       again; a start that comes after its plan was over is stopped; one that comes while the plan runs makes the vehicle
-      begin it anew, which nobody can prevent ({!Duplicates} finds out). All this is told as a [Remark].
+      begin it again, which cannot be prevented ({!Duplicates} detects it). All this is reported as a [Remark].
 
     {1:adoption What another console began}
 
-    A console that takes over decides in the same way. What it knows besides is what the other one kept: which plan the
-    vehicle had named before the request, and whether the vehicle had answered it. A request that was never sent is sent
-    now; one that may or may not have left is looked for like one that was not answered. If the vehicle named that very
-    plan before, and it is READY, nobody can know whether the plan has run: the order fails, and says so. *)
+    A console that takes over decides in the same way. Its other knowledge is the notes of the other one: the plan
+    that the vehicle had named before the request, and whether the vehicle had answered it. A request that was never
+    sent is sent now; one that may or may not have left is looked for like one that was not answered. If the vehicle
+    named that very plan before, and it is READY, it cannot be known whether the plan has run: the order fails with
+    this reason. *)
 
 open Dolphin_imc
 
@@ -63,17 +64,17 @@ type input =
   | State of { sent : float; state : Message.Plan_control_state.t }
   | Vehicle of { sent : float; state : Message.Vehicle_state.t }
   | Log of { sent : float; entry : Message.Log_book_entry.t }
-  | Abort of string  (** The console of this name told the vehicle to abort. *)
-  | Stopped_by of string  (** The console of this name told the vehicle to stop its plan. *)
+  | Abort of string  (** The console of this name ordered the vehicle to abort. *)
+  | Stopped_by of string  (** The console of this name ordered the vehicle to stop its plan. *)
   | Lost of string  (** The link is given up; why. *)
   | Adopt of { order : order; stopped : bool; notes : Durable_note.t list  (** latest first *) }
-  (** A console before this one was told to start [order], and if [stopped] to stop it again, and then died; [notes] is
-      what it kept since then. To be given to an execution that has nothing to do, once there is a {!report}. *)
+  (** A console before this one was ordered to start [order], and if [stopped] to stop it again, and then died;
+      [notes] is its notes since then. To be given to an execution that has nothing to do, once there is a {!report}. *)
   | Leaves of float
-  (** The last request to start leaves at that time, and not at once; [infinity]: nobody knows yet when. *)
+  (** The last request to start leaves at that time, and not at once; [infinity]: not known yet. *)
   | Tick  (** Time has passed. *)
 
-(** What is to be sent, kept and told, in order. *)
+(** The messages to send, the notes to keep and the events to report, in order. *)
 type output =
   | Keep of Durable_note.t  (** In case that the console dies: before what follows is sent. *)
   | Send of Message.t  (** To the vehicle. *)
@@ -83,12 +84,11 @@ type output =
 
 val create : ?abort_after:float -> request:int -> unit -> t
 (** Nothing to do; requests are numbered from [request], modulo 65536. A vehicle that still maneuvers [abort_after]
-    seconds after it was told to stop is told to abort, once a second; by default never. *)
+    seconds after the order to stop is ordered to abort, once a second; by default never. *)
 
 val step : now:float -> clock:Vehicle_clock.t -> input -> t -> t * output list
-(** [step ~now ~clock i x] is what becomes of [x] when [i] happens at [now] (s, our clock). After each [Start], and
-    each [Adopt] that is not [stopped], there is exactly one [Done] or [Failed], unless [Stop] or another [Start] comes
-    before. *)
+(** [step ~now ~clock i x] is [x] after [i] at [now] (s, our clock). After each [Start], and each [Adopt] that is not
+    [stopped], there is exactly one [Done] or [Failed], unless [Stop] or another [Start] comes before. *)
 
 val due : t -> float
 (** When [Tick] has something to do, by our clock; [infinity] if never. *)
@@ -104,11 +104,11 @@ val is_settled : now:float -> t -> bool
     stopped. *)
 
 val unsettled : now:float -> t -> string option
-(** [unsettled ~now x] is the plan that the vehicle may still run though nobody wants it to: its stop is not confirmed,
-    or it was given up and the vehicle has said nothing since, or the request for it may still take effect. *)
+(** [unsettled ~now x] is the unwanted plan that the vehicle may still run: its stop is not confirmed, or it was
+    given up and the vehicle has been silent since, or the request for it may still take effect. *)
 
 val report : t -> Plan_report.t option
-(** What the vehicle said last of its plan. *)
+(** The vehicle's last report on its plan. *)
 
 (** {1:displays For displays} *)
 
@@ -122,10 +122,10 @@ type progress = {
 }
 
 val progress : t -> progress option
-(** Of what was ordered. *)
+(** Of the ordered plan. *)
 
 val executing : t -> string option
-(** The plan that the vehicle says it executes, ours or not. *)
+(** The plan that the vehicle reports to execute, ours or not. *)
 
 (** {1:constants Constants} Seconds, but for the first. *)
 

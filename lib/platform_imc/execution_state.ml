@@ -102,7 +102,7 @@ let was_taken x =
   | Stopping s -> s.took_effect
   | Idle -> false
 
-(* So long a vehicle that was not seen to rest is watched. *)
+(* The time for which a vehicle that was not seen to rest is watched. *)
 let rest_watch = 600.
 
 (* The attempt is over. The vehicle is watched for late copies of the request, or [watch] from now. *)

@@ -1,5 +1,5 @@
-(** Where a plan on a vehicle stands, and the moves from phase to phase: the state of {!Execution}, which decides when
-    they are made. *)
+(** The phase of a plan on a vehicle, and the moves from phase to phase: the state of {!Execution}, which decides
+    when they are made. *)
 
 open Dolphin_imc
 
@@ -21,8 +21,8 @@ type phase =
       (** since when, by its clock, the vehicle's plan engine is known not to run the plan; the vehicle itself may *)
       first_sent : float;
       last_sent : float;
-      aborted : float option;  (** when it was last told to abort, by our clock *)
-      warned : bool;  (** people were told that it goes on *)
+      aborted : float option;  (** when it was last ordered to abort, by our clock *)
+      warned : bool;  (** people have the message that it goes on *)
       next : Attempt.order option;
     }
 
@@ -43,12 +43,12 @@ type t = {
   mode : (float * Message.Vehicle_state.Op_mode.t) option;  (** of the latest VehicleState, and when it was sent *)
   error : (float * string) option;  (** the last error that the vehicle reported, and when *)
   log_errors : Log_errors.t;
-  intervention : string option;  (** what another console did to the plan, in words *)
+  intervention : string option;  (** the action of another console on the plan, in words *)
   last_stop : int option;
   stop_echo : float;  (** when the vehicle last answered a stop of ours *)
   former : former option;
   duplicates : Duplicates.t;  (** of the last request *)
-  abort_after : float;  (** so long after a first STOP a vehicle that still maneuvers is told to abort *)
+  abort_after : float;  (** the time after a first STOP when a vehicle that still maneuvers is ordered to abort *)
   may_run : int option;
   (** the request that is noted to linger: its plan is over for the program, and the vehicle may still run it *)
   phase : phase;
@@ -61,10 +61,10 @@ val attempt : t -> (Attempt.t * Attempt.stage) option
 (** The request that is not over yet, and how far it has come. *)
 
 val grace : float
-(** 1 s: so long the vehicle's words are awaited. *)
+(** 1 s: how long the vehicle's words are awaited. *)
 
 val late_copies : float
-(** 10 s: for so long after it was sent last, a datagram of ours may arrive after all. *)
+(** 10 s: the time after its last sending in which a datagram of ours may still arrive. *)
 
 (** {1 From phase to phase}
 
@@ -78,7 +78,7 @@ val send_again : now:float -> clock:Vehicle_clock.t -> Attempt.t -> t -> t * out
 
 val begin_stop :
   now:float -> clock:Vehicle_clock.t -> took_effect:bool -> ?next:Attempt.order -> Attempt.t -> t -> t * output list
-(** Tells the vehicle to stop it; [next] is to be requested then. *)
+(** Orders the vehicle to stop it; [next] is to be requested then. *)
 
 val close : ?watch:float -> ?ours:bool -> now:float -> ended:float -> Attempt.t -> t -> t
 (** [close ~watch ~ours ~now ~ended a x]: [a] is over since [ended]. The vehicle is watched for late copies of the
@@ -86,18 +86,18 @@ val close : ?watch:float -> ?ours:bool -> now:float -> ended:float -> Attempt.t 
     seen to be taken. *)
 
 val fail : ?watch:float -> ?ours:bool -> now:float -> ended:float -> Attempt.t -> string -> t -> t * output list
-(** {!close}, and tells why it failed. *)
+(** {!close}, and reports why it failed. *)
 
 val succeed : now:float -> ended:float -> Attempt.t -> t -> t * output list
 
 (** {2 What VehicleState shows} *)
 
 val maneuvers : since:float -> t -> bool
-(** [maneuvers ~since x]: the latest VehicleState was sent after [since] and says that the vehicle maneuvers, or is
-    about to. *)
+(** [maneuvers ~since x]: the latest VehicleState was sent after [since] and reports that the vehicle maneuvers, or
+    is about to. *)
 
 val rests : since:float -> t -> bool
-(** [rests ~since x]: the latest VehicleState was sent at [since] or later and says that no maneuver runs. *)
+(** [rests ~since x]: the latest VehicleState was sent at [since] or later and reports that no maneuver runs. *)
 
 (** {2 Where something else may have ended it} *)
 
@@ -108,7 +108,7 @@ val late_stop : string
 (** That, in words. *)
 
 val start_again : now:float -> clock:Vehicle_clock.t -> Attempt.t -> string -> t -> t * output list
-(** Requests it anew, and remarks why. *)
+(** Requests it again, and remarks why. *)
 
 val await_words : now:float -> clock:Vehicle_clock.t -> Attempt.t -> since:float -> string -> t -> t * output list
 (** It failed, for that reason, unless the vehicle gives a better one in a moment; or is started again. *)

@@ -2,10 +2,10 @@ open Dolphin_semantics
 open Dolphin_runtime
 module Names = Map.Make (String)
 
-(* What a vehicle was asked for, and what was kept of that; no notes, if it was not asked yet. *)
+(* The order to a vehicle, and the notes on it; no notes, if it was not sent yet. *)
 type request = { order : Execution.order; notes : Durable_note.t list }
 
-(* What is to be done with a vehicle when it is heard of. *)
+(* The action for a vehicle when it is heard of. *)
 type intent =
   | Nothing
   | Run of { request : request; before : request option;  (* is to be halted first *) deadline : float }
@@ -24,13 +24,13 @@ let order_of (task : Core.platform_task) : (Execution.order, string) result =
   | Some (Maneuvers plan) -> Ok { plan = task.name; specification = Some (Plan_message.of_plan plan) }
   | Some (Mission _) -> Error "IMC vehicles take no missions of items: describe the plan by imcPlan { ... }"
 
-(* What is known to be over, or was never asked for, need not be halted. *)
+(* An order that is known to be over, or was never sent, need not be halted. *)
 let halt v request x =
   match Durable_note.knowledge ~plan:request.order.plan request.notes with
   | None | Some { over = true; _ } -> Names.add v Nothing x
   | Some _ -> Names.add v (Halt request) x
 
-(* As if it had been told to stop. *)
+(* As after an order to stop. *)
 let linger x (v, (plan, request)) =
   let order = { Execution.plan; specification = None } in
   let request = { order; notes = [ Taken { request }; Asked { plan; request; before = None } ] } in
@@ -43,7 +43,7 @@ let linger x (v, (plan, request)) =
   | Some (Run _ | Halt _) -> x
 
 let resume ~deadline ~lingering (outstanding : History.outstanding) =
-  (* What cannot be ordered never was. *)
+  (* An impossible order was never sent. *)
   let request (c : History.commanded) =
     match order_of c.task with
     | Ok order -> Some { order; notes = List.filter_map Durable_note.of_json c.notes }

@@ -2,8 +2,8 @@
 
 val local : unit -> Unix.inet_addr list
 (** [local ()] is the IPv4 addresses of this machine, those of networks first, [127.0.0.1] last; the others of the
-    loopback interface are left out. Read from [/proc/net/fib_trie]; where there is none, only the address that
-    multicasts would leave from. *)
+    loopback interface are left out. Read from [/proc/net/fib_trie]; without it, only the address that multicasts
+    would leave from. *)
 
 val of_fib_trie : string list -> Unix.inet_addr list
-(** [of_fib_trie lines] is what {!local} reads off that file. *)
+(** [of_fib_trie lines] is the result of {!local} for that file. *)

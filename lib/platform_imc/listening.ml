@@ -10,7 +10,7 @@ let drop reason s =
 
 let skip s = ({ s with skipped = s.skipped + 1 }, [])
 
-(* The messages that somebody here reads. *)
+(* The messages that some part here reads. *)
 let is_wanted id =
   id = Message.Announce.id || id = Message.Heartbeat.id || id = Message.Estimated_state.id
   || id = Message.Vehicle_state.id || id = Message.Plan_control_state.id || id = Message.Plan_control.id
@@ -20,7 +20,7 @@ let is_wanted id =
 
 let request_of ~id s = (s.settings.first_request + (id * 257)) land 0xFFFF
 
-(* A new system: it is told of us at once. *)
+(* A new system: it gets our announcement at once. *)
 let introduce ~now (n : Node.t) s =
   let directly =
     if n.hosts = [ Unix.inet_addr_loopback ] then []
@@ -29,7 +29,7 @@ let introduce ~now (n : Node.t) s =
   let presence, is_due = Presence.met ~now s.presence in
   ({ s with presence }, if is_due then Announce (announcement ~now s) :: directly else directly)
 
-(* A system with several links, which is heard from each of them in turn, is where it was. *)
+(* A system with several links, which is heard from each of them in turn, keeps its address. *)
 let is_elsewhere ~(before : Node.t) (n : Node.t) =
   match before.address, n.address with
   | _, None -> false
@@ -63,7 +63,7 @@ let newcomer ~now ~from (p : Packet.t) (a : Message.Announce.t) s =
     let n = Node.make ~now ~from ?abort_after:s.settings.abort_after ~request:(request_of ~id:p.src s) p a in
     let crowded = s.crowded || is_full in
     let s = { s with systems = Systems.announced n s.systems; accepted = s.accepted + 1; crowded } in
-    (* Where so many announce themselves, the program hears of those that speak. *)
+    (* In a crowd, the program only gets the systems that speak. *)
     let s = if crowded then s else tell ~now n s in
     let text = Printf.sprintf "is one of over %d systems: others, which have not spoken, are forgotten" most_nodes in
     let told = if is_full then told n.name text else [] in
@@ -110,7 +110,7 @@ let aborted ~now (p : Packet.t) s =
   | Some n -> command ~now (Abort (name_of p.src s)) n s
   | None -> (s, [])
 
-(* What was intended for an expected vehicle is done once it has said what it runs. *)
+(* The action for an expected vehicle is taken once it has reported its plan. *)
 let take_over ~now (n : Node.t) s =
   if Execution.report n.execution = None || now < s.wary_until then (s, [])
   else
@@ -122,7 +122,7 @@ let take_over ~now (n : Node.t) s =
     (* Its plan is another's now. *)
     | Some why -> (push (Task_failed (n.name, why)) s, [])
 
-(* What it is said to carry, and does not list. *)
+(* The payload that it announces, and does not list. *)
 let missing_devices (before : Node.t) (n : Node.t) s =
   match before.entities, n.entities, List.assoc_opt n.name s.settings.payload with
   | None, Some listed, Some claimed ->
@@ -158,7 +158,7 @@ let request_of_another ~now (vehicle : Node.t) (p : Packet.t) s =
     command ~now (Stopped_by (name_of p.src s)) vehicle { s with accepted = s.accepted + 1 }
   | Message _ | Unknown _ -> skip s
 
-(* What two consoles hold at once was picked by both at the same time. *)
+(* A vehicle that two consoles hold at once was picked by both at the same time. *)
 (* The same run, of a copy of its journal, lives there; of two that resume it one goes on. *)
 let with_twin (n : Node.t) s =
   match n.claim with
@@ -215,7 +215,7 @@ let packet ~now ~from (p : Packet.t) s =
             (s, sent @ more)
           | Message _ | Unknown _ -> heard ~now p n s))
 
-(* Of systems that have announced, from where they are. *)
+(* Of systems that have announced, from their addresses. *)
 let record ~from (h : Header.t) bytes s =
   match Systems.find_id h.src s.systems with
   | Some n when s.settings.records && Node.belongs from n && Header.check h bytes = Ok () ->

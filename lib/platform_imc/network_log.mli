@@ -1,5 +1,5 @@
-(** The debug log of the network, the source ["dolphin.imc"] of {!Logs}: datagrams in and out, what changes of vehicles,
-    timers. Nothing is formatted unless somebody listens at the level [Debug]. Times are seconds of the platform. *)
+(** The debug log of the network, the source ["dolphin.imc"] of {!Logs}: datagrams in and out, changes of vehicles,
+    timers. Nothing is formatted unless the level is [Debug]. Times are seconds of the platform. *)
 
 open Dolphin_semantics
 
@@ -22,4 +22,4 @@ val timer_cancelled : now:float -> Residual.timer -> unit
 (** Logs that the timer is not to fire any more. *)
 
 val event : now:float -> Dolphin_runtime.Platform.event -> unit
-(** [event ~now e] logs what the program is told next: of a timer, that it fired. *)
+(** [event ~now e] logs the next event for the program: of a timer, that it fired. *)

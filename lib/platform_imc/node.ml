@@ -45,7 +45,7 @@ let placed ~lat ~lon ~height =
   Result.to_option
     (Position.make ~latitude:(degrees lat) ~longitude:(degrees lon) ~height)
 
-(* Where the system can be reached: 0.0.0.0 stands for where the announcement came from. *)
+(* The address of the system: 0.0.0.0 stands for the sender of the announcement. *)
 let addresses ~from services =
   let real (a : Service.address) = if a.host = Unix.inet_addr_any then { a with host = from } else a in
   List.map real (Service.addresses services)
@@ -59,7 +59,7 @@ let choose ~from ~current (addresses : Service.address list) =
   | None, None, first :: _ -> Some first
   | None, None, [] -> None
 
-(* Everything that an announcement says of [n]. *)
+(* The content of an announcement about [n]. *)
 let described ~now ~from (p : Packet.t) (a : Message.Announce.t) n =
   let addresses = addresses ~from a.services in
   let clock, _ = Vehicle_clock.observe ~now ~sent:p.timestamp n.clock in
@@ -129,7 +129,7 @@ let announce ~now ~from ~may_rename (p : Packet.t) (a : Message.Announce.t) n =
     let n, warning = rival ~now ~host:from other n in
     Other (n, warning)
 
-(* {1 What it says} *)
+(* {1 Its reports} *)
 
 (* No vehicle is farther from its reference point; the ground is not flat. *)
 let farthest = 1e7
@@ -165,7 +165,7 @@ let fuel ~sent (level : Message.Fuel_level.t) n =
     { n with battery = Some (sent, Float.max 0. (Float.min 1. (level.value /. 100.))) }
   else n
 
-(* Of one quantity several sensors may tell; the last one to speak is heard. *)
+(* Several sensors may report one quantity; the last report counts. *)
 let measured ~sent name value n =
   if Float.is_finite value && newer sent (List.assoc_opt name n.readings) then
     let others = List.remove_assoc name n.readings in
@@ -184,7 +184,7 @@ let command ~now input n =
   let execution, outputs = Execution.step ~now ~clock:n.clock input n.execution in
   ({ n with execution }, outputs)
 
-(* Nobody could tell later what became of a plan if it was not known what the vehicle ran before. *)
+(* Without the plan that ran before, the outcome of a plan could not be known later. *)
 let obstacle n = Readiness.obstacle ~mode:n.mode ~error:n.error (Execution.report n.execution)
 
 let is_resting ~now n = match n.freed with Some at -> now < at +. rest | None -> false
@@ -228,7 +228,7 @@ let hear_message ~now ~own (p : Packet.t) n =
       | None -> (n, []))
   | Unknown _ -> (n, [])
 
-(* Told once: it may come with each datagram. *)
+(* Reported once: it may come with each datagram. *)
 let remark_on_stamp (p : Packet.t) before n : Execution.output list =
   if Vehicle_clock.strays before.clock = 0 && Vehicle_clock.strays n.clock > 0 then
     [ Remark

@@ -2,7 +2,7 @@ open Dolphin_semantics
 open Dolphin_runtime
 module Names = Map.Make (String)
 
-(* What the program was told of a vehicle, and when. *)
+(* The last report on a vehicle to the program, with its time. *)
 type told = { state : World.vehicle_state; at : float }
 
 (* Few events ever wait: a list, first one first. *)

@@ -1,5 +1,5 @@
-(** What the program is told: events that wait to be handed out, first in first out, and what was told of vehicles
-    last. *)
+(** The reports to the program: events that wait to be handed out, first in first out, and the last reports on
+    vehicles. *)
 
 open Dolphin_semantics
 open Dolphin_runtime
@@ -7,30 +7,30 @@ open Dolphin_runtime
 type t
 
 val empty : t
-(** Nothing waits, nothing was told. *)
+(** Nothing waits, nothing was reported. *)
 
 val add : Platform.event -> t -> t
-(** [add e b] is [b] with [e] at the end. News of a vehicle replaces news of it that still waits at the end: news do not
-    pile up while nobody takes them. *)
+(** [add e b] is [b] with [e] at the end. News of a vehicle replaces news of it that still waits at the end: news do
+    not pile up without a reader. *)
 
-(** What is told about once a second. *)
+(** Reports at about once a second. *)
 type periodic =
   | Everything  (** positions, batteries, readings *)
   | Moves  (** positions more than {!move} apart *)
   | Nothing
 
 val vehicle : now:float -> urgent:bool -> periodic:periodic -> World.vehicle_state -> t -> t
-(** [vehicle ~now ~urgent ~periodic state b] tells [state] if it differs from what was told of the vehicle last: at once
-    if link, readiness, type or payload differ, or if [urgent]; other changes as [periodic] allows. *)
+(** [vehicle ~now ~urgent ~periodic state b] reports [state] if it differs from the last report on the vehicle: at
+    once if link, readiness, type or payload differ, or if [urgent]; other changes as [periodic] allows. *)
 
 val move : float
 (** 5 m. *)
 
 val forget : Core.vehicle -> t -> t
-(** [forget v b] is [b] as if nothing had been told of [v]. *)
+(** [forget v b] is [b] without any report on [v]. *)
 
 val told : Core.vehicle -> t -> World.vehicle_state option
-(** What was told of the vehicle last. *)
+(** The last report on the vehicle. *)
 
 val take : t -> (Platform.event * t) option
 (** The first event, and the others. *)

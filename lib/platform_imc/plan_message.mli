@@ -1,7 +1,7 @@
 (** Inline plans as vehicles take them: {!Dolphin_semantics.Plan.t} as a PlanSpecification.
 
     Source: IMC, PlanSpecification, PlanManeuver, PlanTransition and the maneuvers; measured with DUNE 2026.01, which
-    follows the first transition of a maneuver whatever its condition says, and ends the plan after the last one. *)
+    follows the first transition of a maneuver with any condition, and ends the plan after the last one. *)
 
 open Dolphin_semantics
 open Dolphin_imc
@@ -12,10 +12,10 @@ val of_plan : Plan.t -> Message.t Message.Plan_specification.t
 
     Degrees become radians. Lengths, speeds and times stay as they are, but for the amplitude of [Yo_yo]: a plan gives
     the difference between the deepest and the shallowest point, IMC the amplitude around [z], which is half of it.
-    What a plan does not say: a maneuver's timeout is {!timeout}, the radius in which [Pop_up] keeps its station is
+    Defaults of a plan: a maneuver's timeout is {!timeout}, the radius in which [Pop_up] keeps its station is
     {!pop_up_radius}, a loiter is circular, attitudes are 0.
 
-    [p.vehicles] is not part of the message: who runs a plan is settled by allocation. *)
+    [p.vehicles] is not part of the message: allocation decides the vehicle of a plan. *)
 
 val timeout : int
 (** 65535 s: no limit of ours. Some vehicles fail a maneuver that takes longer; DUNE was not seen to. *)

@@ -1,4 +1,4 @@
-(** What a vehicle said of its plan in one PlanControlState. *)
+(** The content of one PlanControlState about the vehicle's plan. *)
 
 open Dolphin_imc
 

@@ -1,4 +1,4 @@
-(** When a console makes itself known: its announcements, to whoever listens, and its heartbeats to vehicles. Times are
+(** When a console makes itself known: its announcements, to all listeners, and its heartbeats to vehicles. Times are
     seconds of our clock. *)
 
 type t
@@ -14,7 +14,7 @@ val announce : now:float -> awaited:bool -> t -> t * bool
 (** [announce ~now ~awaited p] is whether an announcement is due. [awaited]: a vehicle has announced itself and not yet
     spoken to us; it may have missed our announcement. *)
 
-(** Who gets heartbeats. *)
+(** The receivers of heartbeats. *)
 type heartbeats = All | Awaited  (** only vehicles that have not spoken to us yet *) | Nobody
 
 val beat : now:float -> awaited:bool -> t -> t * heartbeats

@@ -22,6 +22,6 @@ let obstacle ~mode ~error report =
   | Some (sent, mode), Some r -> (
       match r.state.state with
       | (Ready | Executing) when r.sent > sent -> of_report r
-      (* The mode says more of it. *)
+      (* The mode has more detail. *)
       | Blocked when r.sent > sent && mode = Service -> of_report r
       | Ready | Executing | Blocked | Initializing | Other _ -> of_mode mode ~error r)

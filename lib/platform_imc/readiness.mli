@@ -4,7 +4,7 @@ open Dolphin_imc
 
 val obstacle :
   mode:(float * Message.Vehicle_state.Op_mode.t) option -> error:string -> Plan_report.t option -> string option
-(** [obstacle ~mode ~error report] is why not, as a predicate: ["is in mode ERROR: leak"], ["runs plan survey"]; [None]:
-    it could. What was sent later counts, [mode] with its time by the vehicle's clock, or [report]: a vehicle is ready
-    in mode SERVICE, or once it says READY. [error] is the last error of its VehicleState, [""] if none. Before a
-    report nobody could tell later whether a plan was taken. *)
+(** [obstacle ~mode ~error report] is why not, as a predicate: ["is in mode ERROR: leak"], ["runs plan survey"];
+    [None]: it could. The later report counts, [mode] with its time by the vehicle's clock, or [report]: a vehicle is
+    ready in mode SERVICE, or once it reports READY. [error] is the last error of its VehicleState, [""] if none.
+    Before a report it could not be known later whether a plan was taken. *)

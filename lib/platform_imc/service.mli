@@ -1,4 +1,4 @@
-(** What systems announce of themselves.
+(** The services that systems announce.
 
     Source: IMC, Announce; the services are URLs between semicolons, as in
     ["imc+udp://10.0.10.20:6002/;http://10.0.10.20:8080/dune"]. *)
@@ -11,9 +11,9 @@ val pp_address : Format.formatter -> address -> unit
 (** ["10.0.10.20:6002"]. *)
 
 val addresses : string -> address list
-(** [addresses services] is where the announcing system takes IMC packets over UDP, in order: its services
-    [imc+udp://HOST:PORT/]. Those with a path (acoustic links by way of the system) are left out; so is what has no
-    numeric IPv4 host or no port. *)
+(** [addresses services] is the addresses at which the announcing system takes IMC packets over UDP, in order: its
+    services [imc+udp://HOST:PORT/]. Those with a path (acoustic links by way of the system) are left out; so are
+    those without a numeric IPv4 host or a port. *)
 
 val announced : address list -> string
 (** [announced addresses] is the services of a system that takes IMC packets there:

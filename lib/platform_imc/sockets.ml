@@ -11,7 +11,7 @@ let bound host port =
     Ok fd
   | exception Unix.Unix_error (error, _, _) -> Unix.close fd; Error (Unix.error_message error)
 
-(* What the system grants of this holds a tenth of a second of a loud fleet. *)
+(* The buffer that the system grants of this holds a tenth of a second of a loud fleet. *)
 let receive_buffer = 4 * 1024 * 1024
 
 let first_free host ports =

@@ -8,40 +8,40 @@ open Dolphin_runtime
 
 type t
 
-(** What is settled before it starts. *)
+(** The settings. *)
 type settings = {
   id : int;  (** The console's IMC address, from 0x4000 to 0x5FFF, other than those of other consoles. *)
   name : string;  (** As other systems see it. *)
-  program : string;  (** Which other consoles are told of: the name of its file. *)
-  addresses : Service.address list;  (** Where vehicles can send to, announced to them. *)
+  program : string;  (** The name of its file, as other consoles see it. *)
+  addresses : Service.address list;  (** The addresses to which vehicles can send, announced to them. *)
   epoch : float;  (** The date of time 0 of our clock: seconds since 1970-01-01 00:00 UTC. *)
-  first_request : int;  (** Where requests are numbered from. *)
+  first_request : int;  (** The first number of requests. *)
   payload : (Core.vehicle * string list) list;  (** Devices of vehicles, in place of their entity lists. *)
-  types : (Core.vehicle * string) list;  (** Types of vehicles, in place of what they announce. *)
+  types : (Core.vehicle * string) list;  (** Types of vehicles, in place of the announced ones. *)
   type_names : (int * string) list;  (** Of types for which IMC 5.4 has no names. *)
   records : bool;  (** Whether {!received} is kept. *)
   abort_after : float option;  (** See {!Execution.create}. *)
-  run : string;  (** Which run of the program: the identity in its journal; [""]: none is told. *)
+  run : string;  (** The run of the program: the identity in its journal; [""]: none is announced. *)
   jitter : float;
   (** From 0 to 1 s, by chance: how much later than others this console sees that a vehicle is free. *)
 }
 
 val create : settings -> t
-(** Nobody is known; an announcement is due. *)
+(** No system is known; an announcement is due. *)
 
 val resume :
   now:float -> ?lingering:(Core.vehicle * (string * int)) list -> Dolphin_runtime.History.outstanding -> t -> t
-(** [resume ~now ~lingering outstanding s] is [s], as {!create} made it, taking over at [now] from a console that died.
-    The vehicles that it held, and those that it had commanded, are expected: what they were asked is settled when they
-    have said what they run ({!Execution}), and they may be commanded before they are heard. A vehicle that is not heard
-    within its connection timeout fails its task. Timers go on. Vehicles of [lingering] (none), which
+(** [resume ~now ~lingering outstanding s] is [s], as {!create} made it, taking over at [now] from a console that
+    died. The vehicles that it held, and those that it had commanded, are expected: their orders are settled when
+    they have reported their plans ({!Execution}), and they may be commanded before they are heard. A vehicle that is
+    not heard within its connection timeout fails its task. Timers go on. Vehicles of [lingering] (none), which
     {!Durable_note.lingering} gives, are stopped when they are heard. *)
 
 (** {1:time Input}
 
     [now] is in seconds on a clock of ours that is never set back; it starts at 0. *)
 
-(** What is to be sent, kept and told, in order. *)
+(** The messages to send, the notes to keep and the events to report, in order. *)
 type output =
   | Send of { address : Service.address; bytes : string }  (** From the data port. *)
   | Announce of string
@@ -54,9 +54,9 @@ val datagram : now:float -> from:Unix.inet_addr -> ?len:int -> string -> t -> t 
 (** [datagram ~now ~from ~len bytes s] is [s] after the first [len] bytes (all) of [bytes] came as one datagram. Nothing
     is kept of [bytes]. Whatever they are, no exception is raised.
 
-    Datagrams that nobody reads are skipped by their header; of the others, those are counted and dropped ({!dropped})
-    that are broken, of ourselves, of nobody who has announced, or from a host that is not the sender's. They change
-    nothing else. *)
+    Datagrams without a reader are skipped by their header; of the others, those are counted and dropped ({!dropped})
+    that are broken, of ourselves, of systems that have not announced themselves, or from a host that is not the
+    sender's. They change nothing else. *)
 
 val tick : now:float -> t -> t * output list
 (** Time has passed: announcements, heartbeats, requests sent again, timers, silences. *)
@@ -69,12 +69,13 @@ val due : t -> float
 val start : now:float -> Core.vehicle -> Core.platform_task -> t -> t * output list
 val stop : now:float -> Core.vehicle -> t -> t * output list
 val bind : now:float -> Core.vehicle list -> t -> t * output list
-(** Other consoles are told ({!Claim}). If there are any, tasks of these vehicles start {!Station_state.contest}
-    later: who hears meanwhile that a console with a lower IMC address holds one, too, has lost it, and its tasks
-    fail. *)
+(** Other consoles get a claim ({!Claim}). If there are any, tasks of these vehicles start {!Station_state.contest}
+    later: a console that hears meanwhile that a console with a lower IMC address holds one, too, has lost it, and
+    its tasks fail. *)
 
 val claims : now:float -> t -> output list
-(** Tells other consoles what this one holds: what is bound, and what may still run a plan of its own. *)
+(** Announces to other consoles the vehicles that this one holds: the bound ones, and those that may still run a plan
+    of its own. *)
 
 val release : now:float -> Core.vehicle list -> t -> t * output list
 val set_timer : now:float -> Residual.timer -> float -> t -> t
@@ -83,8 +84,8 @@ val set_connection_timeout : Core.vehicle list option -> float -> t -> t
 val telemetry : now:float -> bool -> t -> t
 
 val leaves : now:float -> at:float -> Core.vehicle list -> t -> t
-(** [leaves ~now ~at vs s]: the requests to start that were made of [vs] last leave at [at], not when they were made;
-    [infinity]: nobody knows yet when. *)
+(** [leaves ~now ~at vs s]: the requests to start for [vs] last leave at [at], not when they were made; [infinity]:
+    not known yet. *)
 
 val stop_all : now:float -> t -> t * output list
 (** Stops what still runs for the program. *)
@@ -127,10 +128,10 @@ val systems : now:float -> t -> system list
 (** All systems that have announced, by name. *)
 
 val received : int -> t -> (int * Received.entry) list
-(** [received id s] is what the system [id] sent, read or not, if the settings say that this is kept. *)
+(** [received id s] is the messages of the system [id], read or not, if the settings keep them. *)
 
 val plan : Core.vehicle -> t -> Execution.progress option
-(** What the vehicle runs for the program. *)
+(** The plan that the vehicle runs for the program. *)
 
 val dropped : t -> (string * int) list
 (** Datagrams that were dropped, by reason ({!Dolphin_imc.Error.label} for broken ones), in alphabetical order. *)

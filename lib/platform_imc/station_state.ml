@@ -33,7 +33,7 @@ type t = {
   warned : Name_set.t;
   crowded : bool;
   deferred : Core.platform_task Names.t;
-  claimed : Name_set.t;  (* what other consoles were told last, each second *)
+  claimed : Name_set.t;  (* the last claim to other consoles, each second *)
   held : string Names.t;  (* by other consoles, and by which, in words *)
   telemetry : bool;
   timeouts : float Names.t;
@@ -137,7 +137,7 @@ let state_of ~now (n : Node.t) s =
 let encode ~now ~dst message s =
   Packet.encode (Packet.make ~src:s.settings.id ~dst ~timestamp:(s.settings.epoch +. now) message)
 
-(* What cannot be encoded was refused when it was ordered. *)
+(* A plan that cannot be encoded was refused when it was ordered. *)
 let to_node ~now (n : Node.t) message s =
   match n.address, encode ~now ~dst:n.id message s with
   | Some address, Ok bytes -> [ Send { address; bytes } ]
@@ -182,7 +182,7 @@ let tell ?(urgent = false) ~now (n : Node.t) s =
     let state = state_of ~now n s in
     let periodic : Outbox.periodic =
       if Name_set.mem n.name s.bound then if s.telemetry then Everything else Nothing
-      (* A pick goes by where it is, and so does what its tasks are given to. *)
+      (* A pick depends on its place, and so does the allocation of its tasks. *)
       else if World.is_ready state then Moves
       else Nothing
     in

@@ -1,5 +1,6 @@
-(** What a console knows of the systems around it and wants of them, and what all that happens to it has in common: to
-    send, to tell the program, to give something to the execution on a vehicle. {!Station} is what others see of it. *)
+(** The knowledge of a console about the systems around it and its goals for them, and the common part of all
+    reactions: to send, to report to the program, to give an input to the execution on a vehicle. {!Station} is its
+    public side. *)
 
 open Dolphin_semantics
 open Dolphin_runtime
@@ -35,10 +36,10 @@ type t = {
   twin : string option;  (** another console that has the run which was to be resumed *)
   contests : float Names.t;  (** vehicles that were bound a moment ago: until when others may object *)
   yielded : Name_set.t;  (** bound, but others held them when it mattered *)
-  warned : Name_set.t;  (** what people were warned of *)
-  crowded : bool;  (** there were more systems than are remembered, and people were told *)
+  warned : Name_set.t;  (** the warnings given *)
+  crowded : bool;  (** more systems than are remembered announced themselves, and people have the message *)
   deferred : Core.platform_task Names.t;  (** tasks to start once it is known who holds the vehicles *)
-  claimed : Name_set.t;  (** what other consoles were told last, each second *)
+  claimed : Name_set.t;  (** the last claim to other consoles, each second *)
   held : string Names.t;  (** by other consoles, and by which, in words *)
   telemetry : bool;
   timeouts : float Names.t;
@@ -73,10 +74,10 @@ val hold : Core.vehicle list -> t -> t
 (** {1:holds Who holds what} *)
 
 val wariness : float
-(** 2.5 s: so long claims are listened for after a sleep, and before anything is resumed. *)
+(** 2.5 s: how long claims are listened for after a sleep, and before anything is resumed. *)
 
 val contest : float
-(** 0.3 s: so long, and up to that much longer ([jitter]), claims on vehicles that were just bound are listened for. *)
+(** 0.3 s: how long, and up to that much longer ([jitter]), claims on vehicles that were just bound are listened for. *)
 
 val awake : now:float -> t -> t
 (** [awake ~now s] is [s] as something happens. A console to which nothing has happened for longer than
@@ -86,7 +87,7 @@ val deferred_until : Core.vehicle -> t -> float
 (** Until when no task of the vehicle is started. *)
 
 val taken_by_another : Core.vehicle -> t -> string option
-(** Who holds the vehicle, in words, though it is bound here: another console had it first. *)
+(** The holder of the vehicle, in words, though it is bound here: another console had it first. *)
 
 val find : Core.vehicle -> t -> Node.t option
 val update : Node.t -> t -> t
@@ -95,10 +96,10 @@ val again : Node.t -> t -> Node.t
 (** [again n s] is [n] as it is in [s]. *)
 
 val held_by : Node.t -> Core.vehicle list
-(** What the console [n] holds. *)
+(** The holdings of the console [n]. *)
 
 val with_claims : t -> t
-(** [with_claims s] is [s] after a change of what other consoles hold. *)
+(** [with_claims s] is [s] after a change of other consoles' holdings. *)
 
 val state_of : now:float -> Node.t -> t -> World.vehicle_state
 
@@ -114,17 +115,17 @@ val query : now:float -> Node.t -> t -> t * output list
 (** Asks for its list of entities. *)
 
 val holds : now:float -> t -> Name_set.t
-(** What is bound, and vehicles that may still run a plan of this console. *)
+(** The bound vehicles, and those that may still run a plan of this console. *)
 
 val claims : now:float -> t -> output list
-(** Tells all other consoles what this one holds. *)
+(** Announces the holdings of this console to all others. *)
 
 (** {1:telling Telling the program} *)
 
 val push : Platform.event -> t -> t
 
 val tell : ?urgent:bool -> now:float -> Node.t -> t -> t
-(** [tell ~now n s] tells what is known of [n], if it is a vehicle. *)
+(** [tell ~now n s] reports the known state of [n], if it is a vehicle. *)
 
 val gone : Node.t -> t -> t
 (** [gone n s]: nothing is heard any more under the name of [n]. *)
@@ -134,7 +135,7 @@ val tell_all : now:float -> Core.vehicle list -> t -> t
 (** {1:executions Executions} *)
 
 val carry_out : now:float -> Node.t -> Execution.output list -> t -> t * output list
-(** [carry_out ~now n outputs s] is what follows from the execution on [n], which is in [s]. *)
+(** [carry_out ~now n outputs s] is the consequences of the execution on [n], which is in [s]. *)
 
 val command : now:float -> Execution.input -> Node.t -> t -> t * output list
 (** [command ~now input n s] gives [input] to the execution on [n]. *)

@@ -16,7 +16,7 @@ val announced : Node.t -> t -> t
 (** [announced n x] is [x] after [n] announced itself: its name is its own from now on. *)
 
 val update : Node.t -> t -> t
-(** [update n x] is [x] with [n] in place of what was known of that system; its name is as before. *)
+(** [update n x] is [x] with [n] in place of the earlier state of that system; its name is as before. *)
 
 val taken : now:float -> id:int -> Core.vehicle -> t -> Node.t option
 (** [taken ~now ~id name x] is the system other than [id] that has the name, and was heard of in the last

@@ -106,7 +106,7 @@ let change p (station, outputs) =
   p.station <- station;
   List.iter (carry_out p) outputs
 
-(* After some changes: whoever waits for what they brought goes on. *)
+(* After some changes: code that waits for their results goes on. *)
 let settle p =
   Shell.settle p.shell
     ~has_event:(Station.waiting p.station)
@@ -121,7 +121,7 @@ let quietly p f = command p (fun s -> (f s, []))
 
 (* {1 Receiving} *)
 
-(* So many datagrams are taken before others have their turn. *)
+(* The number of datagrams that are taken before others have their turn. *)
 let most_at_once = 512
 
 let write_ahead p sync =
@@ -303,7 +303,7 @@ let next p =
 
 (* {1 Closing} *)
 
-(* A stop that is confirmed later than this is worth a word to whoever waits; Execution.patience is usual. *)
+(* A stop that is confirmed later than this is worth a message to a waiting person; Execution.patience is usual. *)
 let prompt = 2.
 
 let tell_unsettled p text =

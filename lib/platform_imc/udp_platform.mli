@@ -10,21 +10,21 @@ open Dolphin_runtime
 type options = {
   id : int option;  (** The IMC address; [None]: one by chance, from 0x4000 to 0x5FFF. *)
   name : string option;  (** [None]: ["ccu-dolphin-"] and the IMC address. *)
-  program : string;  (** Which other consoles are told of; [""]: they are told of none. *)
+  program : string;  (** The name that other consoles see; [""]: they see none. *)
   loopback : bool;  (** Only this machine: neither multicast nor broadcast, and only 127.0.0.1 is bound. *)
   interfaces : Unix.inet_addr list;  (** Addresses of this machine to use; [[]]: all of them. *)
-  data_port : int;  (** Where vehicles send to; 0: any free one. *)
-  announce_ports : int list;  (** Where systems announce themselves: the first free one is taken. *)
+  data_port : int;  (** The port to which vehicles send; 0: any free one. *)
+  announce_ports : int list;  (** The ports for announcements: the first free one is taken. *)
   group : Unix.inet_addr;  (** Of the announcements. *)
   payload : (Core.vehicle * string list) list;  (** Devices of vehicles, in place of their entity lists. *)
-  types : (Core.vehicle * string) list;  (** Types of vehicles, in place of what they announce. *)
+  types : (Core.vehicle * string) list;  (** Types of vehicles, in place of the announced ones. *)
   type_names : (int * string) list;  (** Of types for which IMC 5.4 has no names. *)
   records : bool;  (** Whether {!received} is kept. *)
-  abort : bool;  (** Whether a vehicle that still maneuvers 3 s after it was told to stop is told to abort. *)
+  abort : bool;  (** Whether a vehicle that still maneuvers 3 s after the order to stop is ordered to abort. *)
   run : string;  (** The identity of the run, which copies of its journal share; [""]: none. *)
-  close_patience : float;  (** So many seconds [close] waits for stops to be confirmed; for vehicles
-                               that are not heard again yet, {!announce_period} at least. *)
-  note : Core.vehicle -> string -> unit;  (** Is told what is unusual, for people. *)
+  close_patience : float;  (** The seconds that [close] waits for stops to be confirmed; for vehicles that are not
+                               heard again yet, {!announce_period} at least. *)
+  note : Core.vehicle -> string -> unit;  (** Gets unusual events, for people. *)
   keep : time:float -> Core.vehicle -> Yojson.Safe.t -> unit;
   (** Keeps what a console that takes over has to know ({!Durable_note}). When it returns, the note must survive this
       process. *)
@@ -36,13 +36,12 @@ type options = {
 
 val default : options
 (** As vehicles with the usual settings expect it: ports 30100 to 30104, the group 224.0.75.69, all interfaces, 5 s;
-    notes are thrown away, and so is what is to be kept, which no request waits for; {!received} is not kept; the clock
-    is {!Clock.system}. *)
+    notes are thrown away, and requests do not wait for them; {!received} is not kept; the clock is {!Clock.system}. *)
 
 include Platform.S
 
 val open_ : options -> (t, string) result
-(** [open_ options] listens and announces itself from now on. The error says which port cannot be had. *)
+(** [open_ options] listens and announces itself from now on. The error names the port that is not available. *)
 
 val open_again : options -> time:float -> History.t -> (t, string) result Lwt.t
 (** [open_again options ~time history] takes over, at [time], from a console that died after [history]; see
@@ -72,10 +71,10 @@ val systems : t -> Station.system list
 (** All systems that have announced, by name. *)
 
 val received : t -> int -> (int * Received.entry) list
-(** What the system with this IMC address sent, by the number of the message, if the options say that this is kept. *)
+(** The messages of the system with this IMC address, by the number of the message, if the options keep them. *)
 
 val progress : t -> Core.vehicle -> Execution.progress option
-(** What the vehicle runs for the program. *)
+(** The plan that the vehicle runs for the program. *)
 
 (** Datagrams since [open_]. *)
 type traffic = {
@@ -86,4 +85,4 @@ type traffic = {
 }
 
 val traffic : t -> traffic
-(** What came and went since it was opened. *)
+(** The traffic since it was opened. *)

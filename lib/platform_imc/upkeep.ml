@@ -1,8 +1,8 @@
 open Dolphin_runtime
 open Station_state
 
-(* So long after its first announcement a vehicle that never spoke to us gets eager heartbeats; so long after its last
-   sign of life one that fell silent gets heartbeats. *)
+(* The time after its first announcement when a vehicle that never spoke to us gets eager heartbeats; and the time
+   after its last sign of life when one that fell silent gets heartbeats. *)
 let contact_patience = 15.
 let silence_patience = 300.
 let most_queries = 50
@@ -15,7 +15,7 @@ let is_kept ~now (n : Node.t) =
   Node.is_vehicle n && n.address <> None
   && (now -. Node.last_sign n < silence_patience || not (Execution.idle n.execution))
 
-(* Entity lists that did not come are asked for again: programs pick vehicles by what they carry. *)
+(* Entity lists that did not come are asked for again: programs pick vehicles by their payload. *)
 let lacks_entities ~now (n : Node.t) =
   n.entities = None && n.last_heard > neg_infinity && n.queries > 0 && n.queries < most_queries
   && not (Node.silent ~now ~timeout:5. n)
@@ -36,7 +36,7 @@ let beat ~now s =
   else
     let s, queried = for_each (fun n s -> if lacks_entities ~now n then query ~now n s else (s, [])) s in
     let held = holds ~now s in
-    (* The last one says that nothing is held. *)
+    (* The last one reports that nothing is held. *)
     let is_free = s.settings.run = "" && Name_set.is_empty held && Name_set.is_empty s.claimed in
     let is_due = heartbeats = All && not is_free in
     let claims = if is_due then claims ~now s else [] in
@@ -60,8 +60,8 @@ let no_word name s = Printf.sprintf "no word from the vehicle for %s" (seconds (
 let end_of_link (n : Node.t) s =
   if was_connected n s || Execution.owes n.execution then n.last_heard +. timeout_of n.name s else infinity
 
-(* When what is known of [n] becomes old, and what it is then: that it was busy, where it is, that another has its
-   address; and what it holds. *)
+(* When the known state of [n] becomes old, and its new state then: that it was busy, its place, that another has its
+   address; and its holdings. *)
 let turns (n : Node.t) =
   let rested = Option.fold n.freed ~none:infinity ~some:(fun at -> at +. Node.rest) in
   let unlocated = Option.fold n.located ~none:infinity ~some:(fun at -> at +. Node.currency) in

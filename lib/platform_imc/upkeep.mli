@@ -1,4 +1,4 @@
-(** What follows from time alone: announcements, heartbeats, requests sent again, timers, silences. *)
+(** The consequences of time alone: announcements, heartbeats, requests sent again, timers, silences. *)
 
 open Station_state
 

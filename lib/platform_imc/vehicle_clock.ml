@@ -20,7 +20,7 @@ let farthest = 86400.
 let leap = 5.
 let persistence = 5
 
-(* Beyond it a stamp does not tell microseconds apart. *)
+(* Beyond it a stamp does not resolve microseconds. *)
 let greatest = 1e11
 
 let unknown =
@@ -30,7 +30,7 @@ let unknown =
 let latest c = c.latest
 let strays c = c.strays
 
-(* What the clock shows at [now] if it goes as fast as ours. *)
+(* The clock at [now] if it goes as fast as ours. *)
 let expected ~now c = c.latest +. Float.max 0. (now -. c.latest_at)
 
 let take ~now ~sent c =

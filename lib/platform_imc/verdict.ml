@@ -14,7 +14,7 @@ let forgotten = "the vehicle knows of no plan any more: it was restarted"
 
 (* READY with the plan's own name. *)
 let of_ready ~former_ended ~accepted ~is_final (a : Attempt.t) r =
-  (* Unless the plan that had its name there was ours, and ended after that was said. *)
+  (* Unless the plan that had its name there was ours, and ended after that report. *)
   let had_another =
     match a.before with
     | Some b -> b.sent > former_ended && not (Plan_report.names a.order.plan b)
@@ -27,7 +27,7 @@ let of_ready ~former_ended ~accepted ~is_final (a : Attempt.t) r =
 
 let of_start ~now ~former_ended ~late (a : Attempt.t) (r : Plan_report.t) =
   let own = Plan_report.names a.order.plan r and accepted = Attempt.accepted_before r a in
-  (* What else befalls the vehicle, our request may undo as long as it is on its way. *)
+  (* Any other event of the vehicle our request may undo as long as it is on its way. *)
   let is_final = accepted || Attempt.is_past ~now r a in
   if r.sent <= a.after then Nothing_new
   else

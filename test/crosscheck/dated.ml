@@ -25,7 +25,7 @@ let hashed seed plans : Durations.t =
        | _ -> [])
   in
   { task; announced = Bounds.exactly 1.; silence = Bounds.exactly 2.; posted; place = (fun _ -> None); links;
-    charges = (fun _ -> None) }
+    charges = (fun _ -> None); has_chargers = (fun _ -> false) }
 
 let random ~seed n =
   let plans = [ "p"; "q" ] in

@@ -79,7 +79,9 @@ let valid =
       in
       let rec go src s = if src > 20_000 then s else go (src + 1) (hear (announce src) s) in
       let s = go 1 (station ()) in
-      Alcotest.(check int) "remembered" Station.most_nodes (List.length (knowledge s));
+      let known = List.length (knowledge s) in
+      (* A hundred are forgotten together. *)
+      Alcotest.(check bool) "remembered" true (known <= Station.most_nodes && known >= Station.most_nodes - 100);
       Alcotest.(check bool) "time goes on" true (Station.due (fst (Station.tick ~now:1. s)) > 1.))
 
 let strange_numbers =

@@ -60,7 +60,7 @@ What is wrong with a program or a fleet has codes that do not change.
   > {"request": "initial", "program": "message x\npause 5.parsecs", "fleet": "vehicle 'v', { colour 'red'; type 'UUV' }"}
   > END
   $ dolphin step < requests
-  {"rejected":[{"in":"program","code":"unknown-name","line":1,"column":9,"message":"unknown name 'x'"},{"in":"program","code":"unknown-unit","line":2,"column":9,"message":"there is no unit 'parsecs'","hint":"units are m, km, seconds, min, hours, days, degrees, knots, feet, percent and the like"},{"in":"fleet","code":"fleet","line":1,"column":16,"message":"a vehicle has no setting 'colour'","hint":"its settings are type, payload, at, speed, battery, drain, charge, shows, joins, leaves, drops"}]}
+  {"rejected":[{"in":"program","code":"unknown-name","line":1,"column":9,"message":"unknown name 'x'"},{"in":"program","code":"unknown-unit","line":2,"column":9,"message":"there is no unit 'parsecs'","hint":"units are m, km, seconds, min, hours, days, degrees, knots, feet, percent and the like"},{"in":"fleet","code":"fleet","line":1,"column":16,"message":"a vehicle has no setting 'colour'","hint":"its settings are type, payload, at, speed, battery, drain, charge, charger, shows, joins, leaves, drops"}]}
 
 What cannot be answered has an error, and the next request its reply. Empty lines are passed over.
 

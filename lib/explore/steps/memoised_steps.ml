@@ -67,7 +67,8 @@ let taken ?(around = []) t step s =
   | None -> ([], outside)
   | Some after ->
     let equal local local' = Int.equal (level local) (level local') && Local_step.equal local local' in
-    let one (assumed, local) = { local; level = level local; certain = assumed = [ [] ]; assumed } in
+    let is_certain = function [ [] ] -> true | _ -> false in
+    let one (assumed, local) = { local; level = level local; certain = is_certain assumed; assumed } in
     let decision = take () in
     (* Cases with one outcome may have run different handlers. *)
     let note (_, local) = Option.iter (note_handlers t step) local in

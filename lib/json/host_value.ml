@@ -187,7 +187,7 @@ let nesting text =
 
 (* Values that Yojson accepts and JSON does not have. *)
 let rec beyond (json : Yojson.Safe.t) =
-  let text s = if Utf8.is_valid s then None else Some "a text in it is not UTF-8" in
+  let text s = if Dolphin_utf8.Utf8.is_valid s then None else Some "a text in it is not UTF-8" in
   match (json :> Canonical.extended) with
   | `Null | `Bool _ | `Int _ | `Intlit _ -> None
   | `Float x -> if Float.is_finite x then None else Some "a number in it is not finite, or too large"

@@ -22,7 +22,7 @@ let write_string buffer text =
     | c -> Buffer.add_char buffer c
   in
   Buffer.add_char buffer '"';
-  String.iter character (Utf8.repaired text);
+  String.iter character (Dolphin_utf8.Utf8.repaired text);
   Buffer.add_char buffer '"'
 
 let rec write buffer (json : Yojson.Safe.t) =
@@ -63,9 +63,9 @@ let rec valid (json : Yojson.Safe.t) : Yojson.Safe.t =
   match (json :> extended) with
   | (`Null | `Bool _ | `Int _ | `Intlit _) as x -> x
   | `Float x -> if Float.is_finite x then `Float x else `Null
-  | `String text -> `String (Utf8.repaired text)
+  | `String text -> `String (Dolphin_utf8.Utf8.repaired text)
   | `List items | `Tuple items -> `List (List.map valid items)
-  | `Assoc members -> `Assoc (List.map (fun (name, x) -> (Utf8.repaired name, valid x)) members)
-  | `Variant (name, x) -> `List (`String (Utf8.repaired name) :: List.map valid (Option.to_list x))
+  | `Assoc members -> `Assoc (List.map (fun (name, x) -> (Dolphin_utf8.Utf8.repaired name, valid x)) members)
+  | `Variant (name, x) -> `List (`String (Dolphin_utf8.Utf8.repaired name) :: List.map valid (Option.to_list x))
 
 let to_lines json = Yojson.Safe.pretty_to_string (valid json)

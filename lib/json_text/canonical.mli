@@ -11,7 +11,7 @@ val number : float -> Yojson.Safe.t
 val write : Buffer.t -> Yojson.Safe.t -> unit
 (** [write buffer json] adds the text of [json], which has no line breaks. A [`Float] differs from an [`Int] by its
     point or exponent, and has the fewest of 15, 16 or 17 digits that give it back; one that is not finite, which
-    JSON does not have, is [null]. Of strings that are not UTF-8, {!Utf8.repaired} is written. *)
+    JSON does not have, is [null]. Of strings that are not UTF-8, {!Dolphin_utf8.Utf8.repaired} is written. *)
 
 val shortened : int -> Yojson.Safe.t -> string
 (** [shortened n json] is the text of [json], for messages: cut after [n] bytes, with ["..."], if it is longer. *)

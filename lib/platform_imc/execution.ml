@@ -433,8 +433,7 @@ let handle ~now ~clock input x =
   | Tick -> tick ~now ~clock x
 
 (* The program has the report that the plan is over, or will have it: only the notes on the vehicle show that it may go
-   on.
-*)
+   on. *)
 let is_over_for_program ~before ~input outputs =
   let has_failed = List.exists (function Failed _ -> true | Keep _ | Send _ | Done | Remark _ -> false) outputs in
   match input, before.phase with

@@ -1,6 +1,7 @@
 (* What is written is JSON whatever it is made of; what JSON does not have is not read. *)
 
 open Dolphin_json
+module Utf8 = Dolphin_utf8.Utf8
 
 (* UTF-8 by the standard's table of well-formed byte sequences, as a regular expression reads it. *)
 let rec is_utf8 = function

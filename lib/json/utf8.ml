@@ -1,1 +1,0 @@
-include Dolphin_json_text.Utf8

@@ -1,1 +1,0 @@
-include Dolphin_utf8.Utf8

@@ -101,13 +101,14 @@ let rec files folder =
   let of_name name = if Sys.is_directory (path name) then files (path name) else [ path name ] in
   List.concat_map of_name (List.sort String.compare (Array.to_list (Sys.readdir folder)))
 
-(* Each with the modules that it was compiled with. *)
-let check path =
+(* Each with the modules that it was compiled with. A typed tree names their folders relative to the root of the build.
+   The root is an argument: the tree's own record of it is the folder of the clone that filled dune's shared cache. *)
+let check root path =
   let tree = Cmt_format.read_cmt path in
   Env.reset_cache ();
   Envaux.reset_cache ();
   let from_here folder =
-    if Filename.is_relative folder then Filename.concat tree.cmt_builddir folder else folder
+    if Filename.is_relative folder then Filename.concat root folder else folder
   in
   Load_path.init (List.map from_here tree.cmt_loadpath);
   match tree.cmt_annots with
@@ -115,9 +116,13 @@ let check path =
   | _ -> ()
 
 let () =
-  let folders = List.tl (Array.to_list Sys.argv) in
+  let root, folders =
+    match Array.to_list Sys.argv with
+    | _ :: root :: folders -> root, folders
+    | _ -> failwith "arguments: the root of the build, then folders"
+  in
   let trees = List.filter (fun path -> Filename.check_suffix path ".cmt") (List.concat_map files folders) in
-  List.iter check trees;
+  List.iter (check root) trees;
   List.iter print_endline (List.sort String.compare !uses);
   if trees = [] then failwith "no typed trees";
   if !uses <> [] then exit 1

@@ -32,7 +32,9 @@ let run path set fleet adapters =
   let within fleet program = checked (Some path) (Program_file.within fleet program) in
   let program = match fleet with Some fleet -> Option.bind program (within fleet) | None -> program in
   let of_plans = match program, fleet with
-    | Some p, Some f -> Dolphin_service.Plan_names.misspelt p.program f.scenario
+    | Some p, Some f ->
+      Dolphin_service.Plan_names.misspelt p.program f.scenario
+      @ Dolphin_service.Timeless_loops.found ~plans:(p.plans ~place:p.program.place) p.ast f.scenario
     | _, _ -> []
   in
   Option.iter
@@ -54,7 +56,8 @@ let man =
         the same before it starts.";
     `P "With $(b,--platform) adapters are asked what keeps their vehicles from running the program's plans: those that \
         vehicles are given in a run on the simulated fleet. Nothing moves.";
-    `P "The fleet that the program would run with is checked too, and plans that the program seems to misspell.";
+    `P "The fleet that the program would run with is checked too, plans that the program seems to misspell, and \
+        endless loops whose rounds take no time in it.";
     `S Manpage.s_files;
     `I ("$(i,PROG) with the ending $(b,.fleet)", "The fleet, unless $(b,--fleet) names another.");
     `S Manpage.s_examples;

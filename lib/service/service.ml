@@ -68,8 +68,9 @@ let elaborated d =
 let of_fleet (program : Dolphin_semantics.Core.program) (chart, ast) (s : Scenario.t) =
   let place = match program.place with Some _ as own -> own | None -> s.plans_at in
   let fences = if place = program.place then s.fences else Fences.list program.fences @ s.fences in
-  if fences = [] then []
-  else Fence_declarations.broken (Fences.make fences) (Elaborate.known_plans ~chart ~place ast)
+  let plans = lazy (Elaborate.known_plans ~chart ~place ast) in
+  let broken = if fences = [] then [] else Fence_declarations.broken (Fences.make fences) (Lazy.force plans) in
+  broken @ Timeless_loops.found ~plans:(Lazy.force plans) ast s
 
 let without_place (program : Dolphin_semantics.Core.program) (chart, ast) (s : Scenario.t option) =
   if program.place <> None || Option.bind s (fun s -> s.plans_at) <> None then []

@@ -37,6 +37,7 @@ type code =
   | Other_meaning  (** a warning: the original language means something else *)
   | Partial_map  (** a warning: features of a map are flawed, left out or repaired *)
   | No_end  (** a warning: a repeat without an end of its own beside a task that ends *)
+  | No_time  (** a warning: a loop whose rounds take no time *)
 
 val codes : (code * string) list
 (** Every code with its name, which does not change: ["unknown-name"]. *)

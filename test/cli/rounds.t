@@ -72,6 +72,63 @@ Nor do tasks that end or fail at the instant at which they begin let a round wai
   program     is stuck
   idle.dol:1:9: error: the program is stuck in rounds that begin here: they follow each other
 
+All of these are known before they run; no example of a mission is such a loop.
+
+  $ for p in empty only popup script idle; do dolphin check $p.dol 2>&1 | grep warning: ; done
+  empty.dol:2:9: warning: this fails at once, and retry() starts it again at the same instant
+  only.dol:2:9: warning: this fails at once, and retry() starts it again at the same instant
+  popup.dol:2:9: warning: a round of this takes no time: a run that gets here goes round at one instant
+  script.dol:2:1: warning: a round of this takes no time: a run that gets here goes round at one instant
+  idle.dol:1:9: warning: a round of this takes no time: a run that gets here goes round at one instant
+  $ for p in ../../examples/missions/*.dol; do dolphin check $p 2>&1; done | grep ': warning'
+  [1]
+
+A warning is true of the run, whatever the loop is made of; what takes time, ends, or may be ended has none.
+
+  $ cat > times.fleet << 'END'
+  > vehicle 'a', { type 'UUV' }
+  > vehicle 'b', { type 'UAV' }
+  > plan 'none', { duration 0.seconds }
+  > plan 'some', { duration 1.min }
+  > plan 'air', { only 'UAV' }
+  > plan 'broken', { duration 0.seconds; fails }
+  > plan 'often', { duration 0.seconds; mayFail 50.percent }
+  > END
+  $ in_loop() {
+  >   (echo "v = pick { type 'UUV' }"; echo 'n = 0'; echo "$1") > loop.dol
+  >   dolphin check loop.dol --fleet times.fleet 2>&1 | grep -q ': warning' && warned=warned || warned=quiet
+  >   dolphin exec loop.dol --fleet times.fleet 2>&1 | head -n 50000 > log
+  >   grep -q 'stuck in rounds' log && echo "$warned, stuck: $1" || echo "$warned: $1"
+  > }
+  $ in_loop "execute repeat task('none')"
+  warned, stuck: execute repeat task('none')
+  $ in_loop "execute repeat imcPlan { planName 'x'; locate 41.2, -8.7; goTo speed: 2 }"
+  warned, stuck: execute repeat imcPlan { planName 'x'; locate 41.2, -8.7; goTo speed: 2 }
+  $ in_loop "p = task('none'); execute repeat (p >> p) until { consume stop: 1 }"
+  warned, stuck: p = task('none'); execute repeat (p >> p) until { consume stop: 1 }
+  $ in_loop "def t() { task('none') >> action { n = n + 1 } }; execute repeat watch t() onError { ignore() }"
+  warned, stuck: def t() { task('none') >> action { n = n + 1 } }; execute repeat watch t() onError { ignore() }
+  $ in_loop "execute watch task('air') onError { e -> message e; retry() }"
+  warned, stuck: execute watch task('air') onError { e -> message e; retry() }
+  $ in_loop "execute repeat watch task('broken') onError { ignore() }"
+  warned, stuck: execute repeat watch task('broken') onError { ignore() }
+  $ in_loop "execute watch action { fail 'no' } onError { retry() }"
+  warned, stuck: execute watch action { fail 'no' } onError { retry() }
+  $ in_loop "execute repeat 3, task('none')"
+  quiet: execute repeat 3, task('none')
+  $ in_loop "execute (repeat task('some') >> task('none')) during 1.hour"
+  quiet: execute (repeat task('some') >> task('none')) during 1.hour
+  $ in_loop "execute repeat task('often')"
+  quiet: execute repeat task('often')
+  $ in_loop "execute watch task('often') onError { retry() }"
+  quiet: execute watch task('often') onError { retry() }
+  $ in_loop "execute watch task('air') onError { n = n + 1; if (n < 3) retry() else ignore() }"
+  quiet: execute watch task('air') onError { n = n + 1; if (n < 3) retry() else ignore() }
+  $ in_loop "execute until { consume up: 1 } run repeat task('none') >> action { post up: 1 }"
+  quiet: execute until { consume up: 1 } run repeat task('none') >> action { post up: 1 }
+  $ in_loop "def t() { imcPlan { planName 'x'; locate 41.2, -8.7; goTo() } }; execute (repeat t() >> t()[v]) during 9.hours"
+  warned, stuck: def t() { imcPlan { planName 'x'; locate 41.2, -8.7; goTo() } }; execute (repeat t() >> t()[v]) during 9.hours
+
 So it is in paced time.
 
   $ dolphin exec empty.dol --fleet empty.fleet --speed 1 > log 2> error

@@ -277,7 +277,7 @@ let told = ref 0
 let agrees ((ast, world), looped, (_, environment), reduction) =
   let core = Posts.declared environment (Generate.compile (if looped then Generate.for_ever ast else ast)) in
   let program : Program_file.t =
-    { path = "random.dol"; source = ""; parameters = []; set = []; program = core; without_place = lazy [];
+    { path = "random.dol"; source = ""; parameters = []; set = []; program = core; ast = []; without_place = lazy [];
       plans = (fun ~place:_ -> []); warnings = [] } in
   let invariants =
     if Reduction.by_order reduction then []

@@ -91,7 +91,7 @@ let compared = ref 0
 let is_unchanged ~seed scenario source =
   let program : Program_file.t =
     { path = "random.dol"; source; parameters = []; set = []; program = Test_support.Pure_run.compile_exn source;
-      warnings = []; without_place = lazy []; plans = (fun ~place:_ -> []) }
+      warnings = []; ast = []; without_place = lazy []; plans = (fun ~place:_ -> []) }
   in
   let plain = { name = ""; recording = Recording.nothing; telemetry = false; messages = false } in
   let expected = happened program scenario ~seed plain in

@@ -6,6 +6,7 @@ type t = {
   source : string;
   parameters : Parameters.t list;
   set : (string * string) list;
+  ast : Ast.program;
   program : Dolphin_semantics.Core.program;
   warnings : Diagnostic.t list;
   without_place : Diagnostic.t list Lazy.t;
@@ -38,7 +39,7 @@ let load ?(set = []) ?(may_read = Text_file.anything) path =
   let chart = Charts.value charts in
   let elaborated = Dolphin_semantics.Elaborate.program_with_charts ~chart ~source_name:path ast in
   let* program, warnings = wrong source elaborated in
-  Ok { path; source = source ^ Charts.identity charts; parameters; set; program; warnings;
+  Ok { path; source = source ^ Charts.identity charts; parameters; set; ast; program; warnings;
        without_place = lazy (Dolphin_semantics.Elaborate.plans_without_place ~chart ast);
        plans = (fun ~place -> Dolphin_semantics.Elaborate.known_plans ~chart ~place ast) }
 

@@ -8,6 +8,7 @@ type t = {
   (** the text, followed by that of the files that it includes, and by digests of its maps *)
   parameters : Parameters.t list;  (** with the values that the text gives them *)
   set : (string * string) list;  (** those that were set, each with the text of its value *)
+  ast : Ast.program;  (** with its included files and its parameters *)
   program : Dolphin_semantics.Core.program;
   warnings : Diagnostic.t list;
   without_place : Diagnostic.t list Lazy.t;

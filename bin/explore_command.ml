@@ -7,14 +7,14 @@ module Faults = Dolphin_environment.Faults
 let ( let* ) = Result.bind
 
 (* As it is kept, if nothing has changed; or explored, and kept for the next time. *)
-let find_or_explore settings program fleet ~json ~period ~cache =
+let find_or_explore settings program fleet ~from ~json ~period ~cache =
   let store = if cache then Verdict_store.make settings program fleet else None in
   match Option.bind store Verdict_store.find with
   | Some outcome ->
     Report.complain "nothing has changed: these are the verdicts that were kept";
     Ok outcome
   | None ->
-    let explore ~interrupted ~progress = Exploration.explore ~interrupted ~progress settings program fleet in
+    let explore ~interrupted ~progress = Exploration.explore ?from ~interrupted ~progress settings program fleet in
     let* outcome = Watched.search ~json ?period explore in
     let keep store = Result.iter_error Report.tell (Verdict_store.keep store outcome) in
     Option.iter keep store;
@@ -66,13 +66,13 @@ let check_search (s : Exploration.settings) =
     not_both "bitstate hashing keeps no states that could be compressed: give --bitstate or --compress"
   | _, _, _ -> Ok ()
 
-let of_program settings (program : Program_file.t) fleet ~strict ~json ~period ~files ~cache =
+let of_program settings (program : Program_file.t) fleet ~from ~strict ~json ~period ~files ~cache =
   Report.diagnostics ~source:program.source program.warnings;
-  let* outcome = find_or_explore settings program fleet ~json ~period ~cache in
+  let* outcome = find_or_explore settings program fleet ~from ~json ~period ~cache in
   let written = write_files files program fleet ~strict outcome in
   Result.iter_error Report.tell written;
-  if json then print_endline (Dolphin_json.Canonical.to_string (Exploration_report.to_json program outcome))
-  else Exploration_report.print ~strict program outcome;
+  if json then print_endline (Dolphin_json.Canonical.to_string (Exploration_report.to_json ?from program outcome))
+  else Exploration_report.print ?from ~strict program outcome;
   match written with
   | Ok () -> Ok (Exit_status.of_verdict (Exploration.verdict ~strict outcome))
   | Error _ -> Ok Exit_status.Platform_trouble
@@ -97,7 +97,35 @@ let of_values settings sweep fleet ~strict ~json ~period ~files ~cache =
     else Explore_sweep.print ~strict sweep rows;
     Ok (Exit_status.of_verdict (Sweep.verdict rows))
 
-let run path set fleet answers faults strict json period files cache reduction compress spill walks bitstate workers
+(* The rest of the run whose journal is [journal]. *)
+let rest_of_run settings path set named ~journal ~strict ~json ~period ~files ~cache =
+  let* () =
+    match files, cache with
+    | { trace = None; drawing = None; junit = _; sarif = _ }, false -> Ok ()
+    | { trace = _; drawing = _; junit = _; sarif = _ }, _ ->
+      Error (Error.Bad_input "--trace, --draw and --cache are for runs from the beginning: leave them out with --from")
+  in
+  let* journal = Run_folder.journal journal in
+  let* set = if set = [] then Ok (Option.value (Journal_file.settings journal) ~default:[]) else Ok set in
+  let* program = Program_file.load ~set path in
+  let* present = Present.read program journal in
+  let* fleet = Present.fleet present ~program:path ~named in
+  let* program = Program_file.within fleet program in
+  let remarks = Present.remarks present program fleet in
+  List.iter Report.complain (remarks @ Left_out.sentences settings.Exploration.faults fleet);
+  of_program settings program fleet ~from:(Some present) ~strict ~json ~period ~files ~cache
+
+let all_runs settings path set named ~strict ~json ~period ~files ~cache =
+  let* question = Sweep.question ~set path in
+  let* fleet = Fleet_file.load_for ~program:path named in
+  let* question = Sweep.within fleet question in
+  List.iter Report.complain (Left_out.sentences settings.Exploration.faults fleet);
+  match question with
+  | One program -> of_program settings program fleet ~from:None ~strict ~json ~period ~files ~cache
+  | Several sweep -> of_values settings sweep fleet ~strict ~json ~period ~files ~cache
+
+let run path set fleet from answers faults strict json period files cache reduction compress spill walks bitstate
+    workers
     invariants formulas fairness max_states max_depth max_memory timeout =
   let settings : Exploration.settings =
     { answers; faults; reduction; compress; spill; walks; bitstate; workers; max_states; max_depth; max_memory; timeout;
@@ -106,13 +134,9 @@ let run path set fleet answers faults strict json period files cache reduction c
   Report.result
     (let* () = check_search settings in
      let* () = check_files files in
-     let* question = Sweep.question ~set path in
-     let* fleet = Fleet_file.load_for ~program:path fleet in
-     let* question = Sweep.within fleet question in
-     List.iter Report.complain (Left_out.sentences settings.faults fleet);
-     match question with
-     | One program -> of_program settings program fleet ~strict ~json ~period ~files ~cache
-     | Several sweep -> of_values settings sweep fleet ~strict ~json ~period ~files ~cache)
+     match from with
+     | Some journal -> rest_of_run settings path set fleet ~journal ~strict ~json ~period ~files ~cache
+     | None -> all_runs settings path set fleet ~strict ~json ~period ~files ~cache)
 
 (* A number of bytes, as in 512M or 8G. *)
 let size =
@@ -154,6 +178,16 @@ let max_memory = bound size "max-memory" "SIZE"
      it, the search stops before it has \
      nine tenths of what the machine, and the limits on the process, leave to it."
 let timeout = bound Arg.float "timeout" "SECONDS" "Stop after $(docv) seconds."
+
+let from =
+  let doc =
+    "Explore what can still happen in the run $(docv), from where its journal ends: a run by its name, how its name \
+     begins, $(b,latest), or the path of a journal. The run may go on meanwhile. $(i,PROG) may differ from the program \
+     that the run began with, if what happened so far is the beginning of a run of $(i,PROG) too: so a change is \
+     checked before the run is resumed with it. By default the fleet is that of the run. Vehicles stand where they \
+     were seen last; tasks of a vehicle out of contact may fail. Not with $(b,--trace), $(b,--draw) and $(b,--cache)."
+  in
+  Arg.(value & opt (some string) None & info [ "from" ] ~docv:"RUN" ~doc)
 
 let answers =
   let doc =
@@ -355,6 +389,7 @@ let man =
          \  $(mname) $(tname) mission.dol --invariant \"!(running('a') && running('b'))\"\n\
          \  $(mname) $(tname) mission.dol --ltl 'G (start(survey1) -> F done(survey1))'\n\
          \  $(mname) $(tname) mission.dol --max-memory 8G --timeout 60\n\
+         \  $(mname) $(tname) mission.dol --from latest --faults loss=1\n\
          \  $(mname) $(tname) mission.dol --max-memory 2G --spill /var/tmp" ]
   @ Options.see_also
 
@@ -365,6 +400,6 @@ let command =
   in
   Cmd.v info
     Term.(
-      const run $ Options.program $ Options.set_range $ Options.fleet $ answers $ faults $ strict $ json $ period
+      const run $ Options.program $ Options.set_range $ Options.fleet $ from $ answers $ faults $ strict $ json $ period
       $ files $ cache $ reduction $ compress $ spill $ walks $ bitstate $ workers $ invariants $ formulas $ fairness
       $ max_states $ max_depth $ max_memory $ timeout)

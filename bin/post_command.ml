@@ -4,9 +4,6 @@ open Dolphin_app
 let ( let* ) = Result.bind
 let trouble result = Result.map_error (fun why -> Error.Bad_input why) result
 
-(* A run by its name, or a journal by its path. *)
-let journal name = if Filename.basename name <> name || Sys.file_exists name then Ok name else Run_folder.find name
-
 let rec each f = function
   | [] -> Ok ()
   | x :: rest ->
@@ -39,7 +36,7 @@ let stop connection = trouble (Result.map ignore (Run_socket.ask connection [ ("
 
 let run () name words ~what =
   Report.result
-    (let* journal = journal name in
+    (let* journal = Run_folder.journal name in
      let* connection = trouble (Run_socket.connect ~journal) in
      let* () =
        match what, words with

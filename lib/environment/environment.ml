@@ -213,6 +213,42 @@ let upcoming options program e =
   let pairs (_, input) = List.concat_map (List.map (fun x -> (input.key, x))) input.rounds in
   List.concat_map pairs (pending options program e)
 
+(* {1 Events of real runs} *)
+
+(* No loss is left of those that count for [vs]: what ends tasks of others is as before. *)
+let without_contact vs (options, e) =
+  if vs = [] then (options, e)
+  else
+    let loss, losses =
+      match options.faults.loss with
+      | Any_number -> (Faults.Any_number, e.losses)
+      | Never -> (At_most 1, 1)
+      | At_most n -> (At_most (n + 1), e.losses + 1)
+    in
+    ({ options with faults = { options.faults with loss } },
+     { e with losses; lost = List.fold_left (fun lost v -> add v lost) e.lost vs })
+
+(* Of several inputs with one key, the first whose turn has this value. *)
+let posted options program e k x =
+  let of_key (key, _, _) = String.equal key k in
+  let of_value (_, y, _) = Value.equals x y in
+  let possible = List.filter of_key (inputs options program e) in
+  match List.find_opt of_value possible, possible with
+  | Some (_, _, e), _ | None, (_, _, e) :: _ -> e
+  | None, [] -> e
+
+let after options program (c : Configuration.t) (event : Transition.event) e =
+  match event, c.control with
+  | (Vehicle_done v | Recruited (_, v)), _ -> heard_of v e
+  | (Answered _ | Nobody_answers _), Waiting (_, Ask prompt) ->
+    { e with asked = once_more prompt e.asked (options.answers prompt) }
+  | (Replied _ | Host_failed _), Waiting (_, Host_call { subject; member; _ }) ->
+    let call = Machine.name_of_call ~subject ~member in
+    { e with called = once_more call e.called (options.replies call) }
+  | Input (k, x), _ -> posted options program e k x
+  | (Answered _ | Nobody_answers _ | Replied _ | Host_failed _), (Script _ | Waiting _ | Executing _ | Ended _)
+  | (Vehicle_failed _ | Timer_expired _ | Confirmed _ | Interruption), _ -> e
+
 (* {1 Transitions} *)
 
 let events options program world e (c : Configuration.t) (awaited : Transition.awaited) =

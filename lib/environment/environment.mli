@@ -95,6 +95,15 @@ val memory : t -> memory
 val of_memory : memory -> t
 (** [of_memory (memory e)] is [e]. *)
 
+val without_contact : Core.vehicle list -> options * t -> options * t
+(** [without_contact vs (o, e)] is [(o, e)] where the connections of [vs] are lost and nothing was heard of these
+    vehicles since. They count as losses that [o.faults] had besides those that are still to come. *)
+
+val after : options -> Core.program -> Configuration.t -> Transition.event -> t -> t
+(** [after o p c event e] is the memory after a real run had [event] in the configuration [c], with [e] before.
+    Questions, calls and inputs are counted as in {!choices}; failures and losses are not, since the bounds of
+    [o.faults] are on those that are still to come. *)
+
 (** {1:happens What may happen} *)
 
 val failure : string

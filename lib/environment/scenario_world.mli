@@ -6,6 +6,10 @@ val world : Scenario.t -> Dolphin_semantics.World.t
 (** [world s] is the vehicles of [s], all in reach, at their places at the start. Their sensors are open: one of the
     values that [s] gives, or any if it gives only the first. *)
 
+val seen : Scenario.t -> Dolphin_semantics.World.t -> Dolphin_semantics.World.t
+(** [seen s w] is [world s] in the middle of a run that knows [w]: vehicles stand where they were seen last, with what
+    they reported then; those that [s] does not have are there too, and their sensors may show any value. *)
+
 val still : Scenario.t -> Dolphin_semantics.World.t
 (** [still s] is [world s] in which sensors always show what they show at the start. *)
 

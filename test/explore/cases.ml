@@ -56,7 +56,7 @@ let compile ((ast, _), looped, (_, environment)) =
   Posts.declared environment (Generate.compile (if looped then Generate.for_ever ast else ast))
 
 (* Each transition is offered where the run is, and leads where the next one starts; a cycle comes back. *)
-let is_run program world environment (run : Search.run) =
+let is_run ?start program world environment (run : Search.run) =
   let step states (t : Dolphin_semantics.Transition.t) =
     let offered (c, e) =
       List.filter_map
@@ -66,8 +66,8 @@ let is_run program world environment (run : Search.run) =
     in
     List.concat_map offered states
   in
-  let start = [ (Dolphin_semantics.Configuration.initial program, Environment.initial) ] in
-  let there = List.fold_left step start run.steps in
+  let beginning = (Dolphin_semantics.Configuration.initial program, Environment.initial) in
+  let there = List.fold_left step [ Option.value start ~default:beginning ] run.steps in
   let back = List.fold_left step there run.cycle in
   let same (c, e) (c', e') = Dolphin_semantics.Configuration.equal c c' && Environment.compare e e' = 0 in
   there <> [] && List.exists (fun s -> List.exists (same s) back) there

@@ -7,6 +7,7 @@ open Dolphin_explore
 module Property = Dolphin_explore.Property
 
 open Cases
+module Environment = Dolphin_environment.Environment
 
 let programs = match Sys.getenv_opt "PROGRAMS" with Some n -> int_of_string n | None -> 2_000
 
@@ -16,16 +17,17 @@ let broken = Hashtbl.create 7
 
 let note property = Hashtbl.replace broken property (1 + Option.value (Hashtbl.find_opt broken property) ~default:0)
 
-let verdict_agrees program world environment ~goes_round reference (property, verdict) =
+let verdict_agrees ?start program world environment ~goes_round reference (property, verdict) =
   match (verdict : Search.verdict), List.assoc_opt property reference with
   | (Holds | By_design _), None when goes_round && property = Property.Termination -> true
-  | Violated run, None when goes_round && property = Property.Termination -> is_run program world environment run
+  | Violated run, None when goes_round && property = Property.Termination -> is_run ?start program world environment run
   | Holds, None -> true
   | Unreached _, None -> property = Property.All_reached
   | Violated run, Some length ->
     note property;
     let shown = List.length run.steps + List.length run.cycle in
-    (shown = length || (property = Property.Termination && shown >= length)) && is_run program world environment run
+    (shown = length || (property = Property.Termination && shown >= length))
+    && is_run ?start program world environment run
   | (Holds | By_design _ | Violated _ | Unreached _ | Inconclusive _), (Some _ | None) -> false
 
 let unsettled = ref 0
@@ -36,15 +38,14 @@ let on_disk : Dolphin_checker.Limits.t =
   let memory_taken () = Some (max_memory / 5 * 4) in
   { Dolphin_checker.Limits.none with max_memory = Some max_memory; memory_taken }
 
-let agrees (((ast, world), _, (_, environment)) as case) =
-  let program = compile case in
-  match Reference.explore ~limit environment program world with
+let agrees_from ?start ((ast, world), _, (_, environment)) program =
+  match Reference.explore ~limit ?start environment program world with
   | None ->
     incr skipped;
     true
   | exception Dolphin_environment.Environment.Unclear _ ->
     incr unsettled;
-    let o = Search.run { Search.default with environment } program world in
+    let o = Search.run ?start { Search.default with environment } program world in
     (match o.stopped with Some (Unsettled _) -> true | Some _ | None -> false)
   | Some reference ->
     let hash = Hashtbl.hash (Generate.print ast) in
@@ -55,7 +56,7 @@ let agrees (((ast, world), _, (_, environment)) as case) =
       | 1 -> { Search.default with compress = true }
       | _ -> { Search.default with spill = Some (Filename.get_temp_dir_name ()); limits = on_disk }
     in
-    let o = Search.run { kept with environment; spare_bits } program world in
+    let o = Search.run ?start { kept with environment; spare_bits } program world in
     let same what expected found =
       if expected <> found then QCheck2.Test.fail_reportf "%d %s, %d expected" found what expected
     in
@@ -64,10 +65,71 @@ let agrees (((ast, world), _, (_, environment)) as case) =
     same "steps deep" (Reference.depth reference) o.depth;
     let shown = Reference.broken reference in
     let agree v =
-      verdict_agrees program world environment ~goes_round:(Reference.goes_round reference) shown v
+      verdict_agrees ?start program world environment ~goes_round:(Reference.goes_round reference) shown v
       || QCheck2.Test.fail_reportf "%a" (Search.pp_verdict program) v
     in
     List.for_all agree o.verdicts
+
+let agrees case = agrees_from case (compile case)
+
+(* {1 From the middle of a run} *)
+
+let is_violated = function
+  | Search.Violated _ -> true
+  | Holds | By_design _ | Unreached _ | Inconclusive _ -> false
+
+(* Where the run is after some of its steps, each drawn among those that are possible. *)
+let rec walk environment program world ((c, e) as start) = function
+  | [] -> start
+  | draw :: draws -> (
+      match List.of_seq (Environment.choices environment program world e c) with
+      | [] -> start
+      | choices ->
+        let (t : Dolphin_semantics.Transition.t), e = List.nth choices (draw mod List.length choices) in
+        walk environment program world (t.next, e) draws)
+
+(* Reductions change no verdict there either, and the runs that they show are runs from there. *)
+let reductions_agree start ((_, world), _, (_, environment)) program =
+  let limits = { Dolphin_checker.Limits.none with max_states = Some limit } in
+  let explore reduction =
+    Search.run ~start { Search.default with environment; reduction; limits; search_again = 0 } program world in
+  let whole = explore Reduction.Whole and reduced = explore Reduction.All in
+  let agree (property, verdict) (property', verdict') =
+    let is_right =
+      match (verdict' : Search.verdict) with
+      | Violated run -> is_run ~start program world environment run
+      | Holds | By_design _ | Unreached _ | Inconclusive _ -> true
+    in
+    property = property' && is_violated verdict = is_violated verdict' && is_right
+    || QCheck2.Test.fail_reportf "reduced: %a" (Search.pp_verdict program) (property', verdict')
+  in
+  whole.stopped <> None || List.for_all2 agree whole.verdicts reduced.verdicts
+
+let agrees_from_the_middle ((((_, world) as whole), looped, (name, environment)) as case, draws, lost) =
+  let open Dolphin_semantics in
+  let program = compile case in
+  match walk environment program world (Configuration.initial program, Environment.initial) draws with
+  | exception Environment.Unclear _ -> true
+  | { control = Ended _; _ }, _ -> true
+  | c, outside -> (
+      let environment, outside = Environment.without_contact lost (environment, outside) in
+      let start = (c, outside) and case = (whole, looped, (name, environment)) in
+      agrees_from ~start case program
+      &&
+      match reductions_agree start case program with
+      | agree -> agree
+      | exception Environment.Unclear _ -> true)
+
+let test_middle () =
+  let lost = QCheck2.Gen.oneofl [ []; []; [ "a" ]; [ "b"; "c" ] ] in
+  let case = QCheck2.Gen.(triple case (list_size (int_bound 30) (int_bound 1_000)) lost) in
+  let print (case, draws, lost) =
+    Printf.sprintf "after the choices %s, without contact to [%s], of %s"
+      (String.concat ", " (List.map string_of_int draws)) (String.concat ", " lost) (print case)
+  in
+  let name = "packed and plain search agree from the middle of a run" in
+  let test = QCheck2.Test.make ~count:(programs / 2) ~print ~name case agrees_from_the_middle in
+  Test_support.Property.on_each_seed ~usual:20_261_127 ~programs:(programs / 2) test
 
 let test_agreement () =
   let test = QCheck2.Test.make ~count:programs ~print ~name:"packed and plain search agree" case agrees in
@@ -97,6 +159,7 @@ let () =
       ( "random programs",
         [
           Alcotest.test_case "packed and plain search agree" `Quick test_agreement;
+          Alcotest.test_case "packed and plain search agree from the middle of a run" `Quick test_middle;
           Alcotest.test_case "every property is broken by some" `Quick test_variety;
           Alcotest.test_case "what was on disk is given back" `Quick test_files;
         ] );

@@ -35,12 +35,13 @@ let read_all option of_string texts =
 
 let invariants program texts = read_all "--invariant" (Dolphin_explore.Condition.of_string program) texts
 
-let explore ~interrupted ~progress s (program : Program_file.t) (fleet : Fleet_file.t) =
+let explore ?from ~interrupted ~progress s (program : Program_file.t) (fleet : Fleet_file.t) =
   let core = program.program in
   let* invariants = invariants core s.invariants in
   let* formulas = read_all "--ltl" (Dolphin_explore.Temporal.of_string core) s.formulas in
+  let environment = Scenario_world.environment ~answers:s.answers ~faults:s.faults core fleet.scenario in
   let options : Search.options =
-    { environment = Scenario_world.environment ~answers:s.answers ~faults:s.faults core fleet.scenario;
+    { environment;
       reduction = s.reduction; compress = s.compress; spill = s.spill; walks = s.walks; bitstate = s.bitstate;
       search_again = Search.default.search_again; workers = s.workers; fork_from = Search.default.fork_from;
       spare_bits = Search.default.spare_bits;
@@ -49,7 +50,11 @@ let explore ~interrupted ~progress s (program : Program_file.t) (fleet : Fleet_f
           ~interrupted ~progress ();
       invariants; formulas; fairness = s.fairness }
   in
-  Ok (Search.run options core (Scenario_world.world fleet.scenario))
+  match from with
+  | None -> Ok (Search.run options core (Scenario_world.world fleet.scenario))
+  | Some present ->
+    let environment, start = Present.start present environment core in
+    Ok (Search.run ~start { options with environment } core (Present.world present fleet.scenario))
 
 (* {1 Verdicts} *)
 

@@ -27,11 +27,13 @@ val invariants :
 (** [invariants program texts] is the conditions that [texts] spell, or the first that is wrong: {!Error.Bad_input}. *)
 
 val explore :
-  interrupted:(unit -> bool) -> progress:(Dolphin_checker.Limits.progress -> unit) -> settings -> Program_file.t ->
+  ?from:Present.t -> interrupted:(unit -> bool) -> progress:(Dolphin_checker.Limits.progress -> unit) -> settings ->
+  Program_file.t ->
   Fleet_file.t -> (Search.outcome, Error.t) result
-(** [explore ~interrupted ~progress s program fleet] is the result about the runs of [program] in the world of
-    [fleet]. It ends early, as at a bound, once [interrupted ()]; [progress] is called now and then. The error,
-    {!Error.Bad_input}, is a wrong invariant or formula. *)
+(** [explore ~from ~interrupted ~progress s program fleet] is the result about the runs of [program] in the world of
+    [fleet]: about those that go on from the present [from] of a run, by default about all. It ends early, as at a
+    bound, once [interrupted ()]; [progress] is called now and then. The error, {!Error.Bad_input}, is a wrong invariant
+    or formula. *)
 
 (** {1:verdicts Verdicts} *)
 

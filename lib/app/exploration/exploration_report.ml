@@ -80,8 +80,9 @@ let with_remarks ~strict (o : Search.outcome) =
 
 let print_violations ~strict program o = List.iter (print_violation program) (with_remarks ~strict o)
 
-let print ~strict (program : Program_file.t) (o : Search.outcome) =
+let print ?from ~strict (program : Program_file.t) (o : Search.outcome) =
   let verdicts = with_remarks ~strict o in
+  Option.iter (Format.printf "%a@." Present.pp) from;
   List.iter (print_verdict program.program) verdicts;
   print_counts o;
   Option.iter (print_sample ~seen:o.states) o.sample;
@@ -109,7 +110,7 @@ let json_of_run (run : Search.run) =
   @ Option.fold run.decided ~none:[] ~some:(fun n -> [ ("decided", `Int n) ])
   @ if assumptions = [] then [] else [ ("assumptions", `List assumptions) ]
 
-let to_json (p : Program_file.t) (o : Search.outcome) : Yojson.Safe.t =
+let to_json ?from (p : Program_file.t) (o : Search.outcome) : Yojson.Safe.t =
   let program = p.program in
   let verdict (property, verdict) =
     let name = `String (Property.name property) in
@@ -156,4 +157,4 @@ let to_json (p : Program_file.t) (o : Search.outcome) : Yojson.Safe.t =
        ("seconds", `Float o.seconds); ("bytes", `Int o.bytes); ("formula_states", `Int o.formula_states);
        ("reductions", `List (List.map (fun name -> `String name) (Search.reductions o)));
        ("verdicts", `List (List.map verdict o.verdicts)) ]
-     @ samples @ bits)
+     @ samples @ bits @ Option.fold from ~none:[] ~some:(fun present -> [ ("from", Present.to_json present) ]))

@@ -117,3 +117,5 @@ let find name =
   | _, Some run, _ | _, None, [ run ] -> Ok run.path
   | _, None, [] -> Error (Error.Bad_input (Printf.sprintf "there is no run '%s': see dolphin runs" name))
   | _, None, _ :: _ :: _ -> Error (Error.Bad_input (Printf.sprintf "several runs begin with '%s'" name))
+
+let journal name = if Filename.basename name <> name || Sys.file_exists name then Ok name else find name

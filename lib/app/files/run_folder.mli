@@ -33,3 +33,7 @@ val list : ?except:string -> unit -> (run list, Error.t) result
 val find : string -> (string, Error.t) result
 (** [find name] is the path of the run of this name, or of the only one whose name begins so; [find "latest"] is that
     of the latest. The error reports that there is no such run, or several, or is that of {!list}. *)
+
+val journal : string -> (string, Error.t) result
+(** [journal name] is the path of a journal: [name] itself if it has a folder or there is such a file, else {!find}
+    [name]. *)

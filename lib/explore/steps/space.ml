@@ -10,6 +10,7 @@ type property = Property.t
 
 type t = {
   options : Environment.options;
+  start : Configuration.t * Environment.t;
   reduction : Reduction.t;
   program : Core.program;
   world : World.t;
@@ -369,9 +370,8 @@ let numbers t key f =
     Array.iteri (fun i _ -> f (Layout.local layout key i)) layout.families
 
 let initial t visitor =
-  let initial = Configuration.initial t.program in
-  let action = Observer.nothing in
-  ignore (Expansion.write_and_visit t.expansion visitor [] initial Environment.initial ~action)
+  let c, outside = t.start in
+  ignore (Expansion.write_and_visit t.expansion visitor [] c outside ~action:Observer.nothing)
 
 let unsettled program (fault : Fault.t) : Limits.bound =
   match Fault.location program fault with
@@ -516,9 +516,10 @@ let add_findings t { covered; edges; rounds; renamed } =
 (* {1 Beginning} *)
 
 let create
-    ?(reduction = Reduction.Whole) ?(symmetry = Symmetry.none) ?(asked = []) ?observer ?spare_bits options program
-    world
+    ?(reduction = Reduction.Whole) ?(symmetry = Symmetry.none) ?(asked = []) ?observer ?spare_bits ?start options
+    program world
   =
+  let start = Option.value start ~default:(Configuration.initial program, Environment.initial) in
   let reduction = if Environment.may_leave options program then Reduction.Whole else reduction in
   let foreseen = if Reduction.by_order reduction then Some 0 else None in
   let numbering = Numbering.create () in
@@ -540,5 +541,5 @@ let create
   let expansion = Expansion.create options components encoding steps quotient observer in
   let recruiting =
     if program.recruits then Option.map (fun v -> Recruiting.create v encoding numbering) vehicles else None in
-  { options; reduction; program; world; components; encoding; layouts = Encoding.layouts encoding; steps; expansion;
-    quotient; observer; task_groups; vehicles; recruiting; unclear = None; tick }
+  { options; start; reduction; program; world; components; encoding; layouts = Encoding.layouts encoding; steps;
+    expansion; quotient; observer; task_groups; vehicles; recruiting; unclear = None; tick }

@@ -19,7 +19,8 @@ module Table = Hashtbl.Make (struct
 
 exception Too_many
 
-let explore ?(limit = 100_000) options program world =
+let explore ?(limit = 100_000) ?start options program world =
+  let configuration, outside = Option.value start ~default:(Configuration.initial program, Environment.initial) in
   let numbers = Table.create 1_000 and queue = Queue.create () in
   let states = ref [] and edges = ref [] and depths = ref [] in
   let number depth s =
@@ -46,7 +47,7 @@ let explore ?(limit = 100_000) options program world =
       go ()
   in
   match
-    ignore (number 0 { configuration = Configuration.initial program; outside = Environment.initial });
+    ignore (number 0 { configuration; outside });
     go ()
   with
   | graph -> Some graph

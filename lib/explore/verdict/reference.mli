@@ -14,8 +14,10 @@ type t = {
   depths : int array;  (** by state: the fewest transitions that lead there *)
 }
 
-val explore : ?limit:int -> Environment.options -> Core.program -> World.t -> t option
-(** [explore o p w] is the whole graph, or [None] if it has more than [limit] states, 100,000 by default. *)
+val explore :
+  ?limit:int -> ?start:Configuration.t * Environment.t -> Environment.options -> Core.program -> World.t -> t option
+(** [explore ~start o p w] is the whole graph of what follows [start], by default the beginning of the program, or
+    [None] if it has more than [limit] states, 100,000 by default. *)
 
 val transitions : t -> int
 val depth : t -> int

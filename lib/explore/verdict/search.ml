@@ -70,14 +70,21 @@ type outcome = {
 
 (* {1 Searching} *)
 
-(* What is searched, and since when. *)
-type subject = { program : Core.program; world : World.t; symmetry : Symmetry.t; started : float }
+(* What is searched, from which state on, and since when. *)
+type subject = {
+  program : Core.program;
+  world : World.t;
+  start : (Configuration.t * Environment.t) option;
+  symmetry : Symmetry.t;
+  started : float;
+}
 
 let with_graph ?labelling ?phase x (options : options) f =
   let { environment; reduction; compress; spill; workers; fork_from; spare_bits; limits; invariants; _ } = options in
-  let { program; world; symmetry; started } = x in
+  let { program; world; start; symmetry; started } = x in
   let observer = Option.map Labelling.observer labelling in
-  let space = Space.create ~reduction ~symmetry ~asked:invariants ?observer ?spare_bits environment program world in
+  let space =
+    Space.create ~reduction ~symmetry ~asked:invariants ?observer ?spare_bits ?start environment program world in
   let monitor = Option.map Labelling.monitor labelling in
   let graph = State_graph.create ~compress ?spill ~workers ~fork_from ?monitor ?phase ~started limits space in
   Fun.protect ~finally:(fun () -> State_graph.close graph) (fun () -> f graph)
@@ -169,7 +176,10 @@ let verdicts x (options : options) graph invariants =
     let verdict () = invariant graph ~shortest i in
     (Property.Invariant (Condition.to_string (Invariant.condition i)), told verdict)
   in
-  List.map (fun property -> (property, told (fun () -> verdict property))) Property.all @ List.map given invariants
+  (* Code that a run has behind it is reached by none of those from there on. *)
+  let is_asked property = property <> Property.All_reached || x.start = None in
+  let asked = List.filter is_asked Property.all in
+  List.map (fun property -> (property, told (fun () -> verdict property))) asked @ List.map given invariants
 
 (* The first state that shows that [property] is violated. *)
 let shown graph = function
@@ -399,7 +409,7 @@ let relevant program (options : options) =
 let reducible program (options : options) =
   if Environment.may_leave options.environment program then { options with reduction = Whole } else options
 
-let judged (options : options) program world =
+let judged ?start (options : options) program world =
   let symmetry =
     if Reduction.by_symmetry options.reduction then
       Symmetry.find options.environment program ~asked:options.invariants world
@@ -410,7 +420,7 @@ let judged (options : options) program world =
     if options.invariants = [] then (options, symmetry)
     else ({ options with reduction = Whole }, Symmetry.without_tasks symmetry)
   in
-  explore { program; world; symmetry; started = options.limits.clock () } options
+  explore { program; world; start; symmetry; started = options.limits.clock () } options
 
 let without_symmetry (options : options) program =
   let options = relevant program (reducible program options) in
@@ -440,29 +450,33 @@ let in_step options program world ~image found =
   if List.exists Option.is_none verdicts then None
   else Some { found with verdicts = List.filter_map Fun.id verdicts; alike_values = true }
 
-let judged_with_alike_values (options : options) program world =
+let judged_with_alike_values ?start (options : options) program world =
   let unified =
     if Reduction.by_symmetry options.reduction && options.invariants = [] then
       Alike_values.unify options.environment program
     else None
   in
   match unified with
-  | None -> judged options program world
+  | None -> judged ?start options program world
   | Some image -> (
       match in_step options program world ~image (judged options image world) with
       | Some found -> found
       | None -> judged options program world)
 
-let run (options : options) program world =
-  let options = relevant program (reducible program options) in
+(* In the middle of a run, vehicles and values that the whole program treats alike have parts of their own. *)
+let unlike (options : options) = { options with reduction = Reduction.without_symmetry options.reduction }
+
+let run ?start (options : options) program world =
+  let options = reducible program options in
+  let options = if start = None then relevant program options else unlike options in
   let started = options.limits.clock () in
-  let found = judged_with_alike_values options program world in
-  let x = { program; world; symmetry = Symmetry.none; started } in
+  let found = judged_with_alike_values ?start options program world in
+  let x = { program; world; start; symmetry = Symmetry.none; started } in
   apart x options (with_formulas x options found)
 
 let side_by_side (options : options) program world =
   let options = relevant program (reducible program options) in
-  let x = { program; world; symmetry = Symmetry.none; started = options.limits.clock () } in
+  let x = { program; world; start = None; symmetry = Symmetry.none; started = options.limits.clock () } in
   let pairs, all = beside x options in
   (pairs, all.stopped)
 

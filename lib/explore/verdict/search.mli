@@ -50,7 +50,7 @@ val space : options -> Core.program -> World.t -> Space.t
 
 (** {1:outcomes Outcomes} *)
 
-(** A run from the initial configuration. *)
+(** A run from the initial configuration, or from the [start] of {!run}. *)
 type run = {
   steps : Transition.t list;
   cycle : Transition.t list;  (** goes on from there for ever, if there is any *)
@@ -88,16 +88,18 @@ type outcome = {
   bitstate : Bitstate.summary option;
   beside : Side_by_side.pair list;  (** plans that may run side by side, near each other, or nobody knows how near *)
   verdicts : (Property.t * verdict) list;
-  (** for each of {!Property.all}, then for each invariant and formula, and for the least distance between vehicles if
-      the program has one *)
+  (** for each of {!Property.all}, but for [All_reached] if there is a [start], then for each invariant and formula, and
+      for the least distance between vehicles if the program has one *)
 }
 
 val side_by_side : options -> Core.program -> World.t -> Side_by_side.pair list * Limits.bound option
 (** [side_by_side o p w] is [beside] of {!run}, and the bound that was met, if not all states were visited. *)
 
-val run : options -> Core.program -> World.t -> outcome
-(** [run o p w] explores [p] in [w]. A property is said to hold only if all states were visited; a violation found
-    before a bound was met is one. *)
+val run : ?start:Configuration.t * Environment.t -> options -> Core.program -> World.t -> outcome
+(** [run ~start o p w] explores [p] in [w], from [start] on, by default from its beginning. With a [start], to which
+    some run of [p] must lead and which is not an end, nothing is reduced by symmetry, and formulas are of the runs from
+    there on. A property is said to hold only if all states were visited; a violation found before a bound was met is
+    one. *)
 
 val reductions : outcome -> string list
 (** Those that were used: {!Reduction.names}, and ["symmetry of vehicles"] for [vehicle_symmetry],

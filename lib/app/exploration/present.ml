@@ -1,0 +1,91 @@
+open Dolphin_semantics
+open Dolphin_environment
+open Dolphin_runtime
+open Dolphin_trace
+
+type t = {
+  path : string;
+  past : Resumption.t;
+  configuration : Configuration.t;
+  happened : (Configuration.t * Transition.event) list;  (* each with the configuration that it came in *)
+}
+
+(* An event whose transition was not written has happened too. *)
+let finish path (past : Resumption.t) program happened =
+  let c = Replay.configuration past.replay and world = Replay.world past.replay in
+  let accepted event = Result.to_option (Transition.accept program world c event) in
+  let configuration, happened =
+    match past.pending, Option.bind past.pending accepted with
+    | Some event, Some (t : Transition.t) -> (t.next, (c, event) :: happened)
+    | None, _ | Some _, None -> (c, happened)
+  in
+  match configuration.control with
+  | Ended _ -> Error (Error.Bad_input (path ^ ": this run is over"))
+  | Script _ | Waiting _ | Executing _ -> Ok { path; past; configuration; happened = List.rev happened }
+
+let read (program : Program_file.t) path =
+  let latest = ref (Configuration.initial program.program) and happened = ref [] in
+  let tell (_ : Entry.t) replay =
+    (match Replay.latest replay with
+     | Some (Some event, _) -> happened := (!latest, event) :: !happened
+     | Some (None, _) | None -> ());
+    latest := Replay.configuration replay
+  in
+  let { Header.hash; _ } = Program_file.header program in
+  Text_file.with_channel path (fun channel ->
+      match Resumption.read ~tell ~changed:true program.program ~hash (Journal.of_channel channel) with
+      | Ok past -> finish path past program.program !happened
+      | Error trouble -> Error (Error.Bad_input (Format.asprintf "@[<v 2>%s: %a@]" path Resumption.pp_trouble trouble)))
+
+let fleet p ~program ~named =
+  match named, p.past.header.fleet with
+  | Some _, _ -> Fleet_file.load named
+  | None, Some source -> Fleet_file.load (Some source.path)
+  | None, None when p.past.header.platform = "sim" -> Fleet_file.load None
+  | None, None -> Fleet_file.load_for ~program None
+
+(* {1 The state} *)
+
+let known p = World.vehicles (Replay.world p.past.replay)
+let out_of_contact p = List.filter (fun (s : World.vehicle_state) -> not s.connected) (known p)
+
+let start p options program =
+  let count e (c, event) = Environment.after options program c event e in
+  let counted = List.fold_left count Environment.initial p.happened in
+  let lost = List.map (fun (s : World.vehicle_state) -> s.id) (out_of_contact p) in
+  let options, outside = Environment.without_contact lost (options, counted) in
+  (options, (p.configuration, outside))
+
+let world p scenario = Scenario_world.seen scenario (Replay.world p.past.replay)
+
+(* {1 Texts} *)
+
+let remarks p (program : Program_file.t) (fleet : Fleet_file.t) =
+  let hash (source : Header.source) = source.hash in
+  let header = p.past.header in
+  let program_changed = hash (Program_file.header program) <> hash header.program in
+  let fleet_changed =
+    match Fleet_file.header fleet, header.fleet with
+    | Some now, Some before -> hash now <> hash before
+    | None, None -> false
+    | Some _, None | None, Some _ -> true
+  in
+  let if_so holds text = if holds then [ text ] else [] in
+  if_so program_changed
+    (program.path ^ ": this program is not the one that the run began with; what happened so far is the beginning of \
+                     a run of this one, too")
+  @ if_so fleet_changed "the fleet is not the one that the run began with, or it has changed since"
+  @ List.map
+    (fun (s : World.vehicle_state) -> s.id ^ " is out of contact: its tasks may fail, and a pick may miss it")
+    (out_of_contact p)
+
+let time p = Replay.time p.past.replay
+
+let pp ppf p =
+  Format.fprintf ppf "from %s of %s, after %s" (Phrase.time (time p)) p.path
+    (Phrase.count (Replay.transitions p.past.replay) "transition")
+
+let to_json p : Yojson.Safe.t =
+  `Assoc
+    [ ("journal", `String p.path); ("time", `Float (time p));
+      ("transitions", `Int (Replay.transitions p.past.replay)) ]

@@ -1,0 +1,32 @@
+(** The present of a run, as its journal records it, from which all that may still happen is explored. The run may be
+    over at any moment, go on, or have lost its console. *)
+
+open Dolphin_semantics
+open Dolphin_environment
+
+type t
+
+val read : Program_file.t -> string -> (t, Error.t) result
+(** [read program path] is what the journal [path] of a run has led to. The program may have changed since the run
+    began, if what happened so far is the beginning of a run of [program] too. The error, {!Error.Bad_input}, is the
+    first line that no run of [program] has, or that the run is over. *)
+
+val fleet : t -> program:string -> named:string option -> (Fleet_file.t, Error.t) result
+(** [fleet p ~program ~named] is the fleet of the file [named]; by default that of the run, or if it had none,
+    {!Fleet_file.load_for} [~program None]. *)
+
+val start : t -> Environment.options -> Core.program -> Environment.options * (Configuration.t * Environment.t)
+(** [start p options program] is the state to explore from, and the options to explore it by: questions, calls and
+    inputs so far are counted, and vehicles whose connection is lost are {!Environment.without_contact}. *)
+
+val world : t -> Dolphin_scenario.Scenario.t -> World.t
+(** [world p s] is {!Scenario_world.seen} of [s] and the vehicles that the run knows. *)
+
+val remarks : t -> Program_file.t -> Fleet_file.t -> string list
+(** Sentences on what differs from the run: a program or a fleet that has changed since, vehicles out of contact. *)
+
+val pp : Format.formatter -> t -> unit
+(** ["from 12:04 of mission.run, after 31 transitions"]. *)
+
+val to_json : t -> Yojson.Safe.t
+(** Its journal, its time in seconds, and the number of its transitions. *)

@@ -1,0 +1,124 @@
+What can still happen in a run is explored from where its journal ends.
+
+  $ cat > ride.dol << 'END'
+  > side = ask('Which side?')
+  > v = pick { type 'UUV' }
+  > execute task('out')[v]
+  > if (side == 'port') {
+  >     execute waitFor { poll clear: true } then task('home')[v]
+  > } else {
+  >     execute task('home')[v]
+  > }
+  > END
+  $ cat > ride.fleet << 'END'
+  > vehicle 'a', { type 'UUV'; drops 5.min, 30.seconds }
+  > plan 'out', { duration 10.min }
+  > plan 'home', { duration 5.min }
+  > answer 'Which side?', ["port", "starboard"]
+  > END
+
+At the beginning, one of the answers may lead to a wait that never ends. After the other one it is not possible any more.
+
+  $ dolphin explore ride.dol --answer '"port"' --answer '"starboard"' 2> /dev/null | grep 'deadlock: v'
+  no deadlock: violated after 8 steps: nothing can happen any more, and the program has not ended
+  $ dolphin exec ride.dol --answer '"starboard"' --journal whole.run > /dev/null
+  $ upto() { sed "/$1/q" whole.run > $2.run; }
+  $ upto '"label":"start(a, out)"' out
+  $ dolphin explore ride.dol --from ./out.run | sed 's/, [^,]*s, .*MiB//'
+  dolphin: by the fleet these leave, or lose their links: a; here they stay, unless --faults has loss
+  from 0:00 of ./out.run, after 6 transitions
+  no deadlock: holds
+  termination: holds
+  no unhandled error: holds
+  assertions: holds
+  vehicles for all tasks: holds
+  6 states; reduced by partial order
+  $ dolphin explore ride.dol --from ./out.run --json | grep -o '"from":{[^}]*}'
+  dolphin: by the fleet these leave, or lose their links: a; here they stay, unless --faults has loss
+  "from":{"journal":"./out.run","time":0.0,"transitions":6}
+
+A vehicle that is out of contact then may stay away.
+
+  $ upto '"connected":false' gone
+  $ dolphin explore ride.dol --from ./gone.run 2> error | grep -v -e states -e tuples; cat error
+  from 5:00 of ./gone.run, after 6 transitions
+  no deadlock: holds
+  termination: holds
+  no unhandled error: violated after 1 step: an error that nobody handles ends the program
+  assertions: holds
+  vehicles for all tasks: holds
+  
+  no unhandled error: a shortest run in which an error that nobody handles ends the program
+      program  a                              where  variables
+  1            fails in out: connection lost         side = 'starboard', v = a
+  dolphin: a is out of contact: its tasks may fail, and a pick may miss it
+  dolphin: by the fleet these leave, or lose their links: a; here they stay, unless --faults has loss
+
+The program may have changed, if what happened is the beginning of a run of it. So a change is checked before the run is
+resumed with it.
+
+  $ sed "s/task('home').v.$/& >> action { assert({ side == 'port' }, 'the port side') }/" ride.dol > changed.dol; tail -n 2 changed.dol
+      execute task('home')[v] >> action { assert({ side == 'port' }, 'the port side') }
+  }
+  $ dolphin explore changed.dol --from ./out.run 2>&1 | head -n 7
+  dolphin: changed.dol: this program is not the one that the run began with; what happened so far is the beginning of a run of this one, too
+  dolphin: by the fleet these leave, or lose their links: a; here they stay, unless --faults has loss
+  from 0:00 of ./out.run, after 6 transitions
+  no deadlock: holds
+  termination: holds
+  no unhandled error: holds
+  assertions: violated after 5 steps: changed.dol:7:41: assertion failed: the port side
+  $ sed "s/task('out')/task('away')/" ride.dol > another.dol
+  $ dolphin explore another.dol --from ./out.run
+  dolphin: ./out.run: line 9 is none of a run: transition 5, at 3:9: start(a, out)
+    no transition is like this one; the nearest differs: "label" should be "start(a, away)", not "start(a, out)"
+    enabled then: start(a, away)
+    awaited then: nothing
+    before it: 5 transitions of a run
+  [2]
+
+Inputs and questions that came before are counted: of three that the fleet may post, two are still to come.
+
+  $ cat > count.dol << 'END'
+  > input 'more'
+  > n = 0
+  > while (n < 3) {
+  >     execute waitFor { consume more: true } then idle(0)
+  >     n = n + 1
+  > }
+  > END
+  $ echo "input 'more', true, times 3, after 1.min" > count.fleet
+  $ dolphin explore count.dol --ltl 'F ended' | grep -e deadlock -e formula -e states | sed 's/, [^,]*s, .*MiB//'
+  no deadlock: holds
+  formula F ended: holds
+  26 states; reduced by partial order; 25 states for formulas
+  $ dolphin exec count.dol --journal whole.run > /dev/null
+  $ upto '"label":"input more' posted
+  $ dolphin explore count.dol --from ./posted.run --ltl 'F ended' | grep -e deadlock -e formula -e states | sed 's/, [^,]*s, .*MiB//'
+  no deadlock: holds
+  formula F ended: holds
+  17 states; reduced by partial order; 20 states for formulas
+
+A run is named as for the other commands. A run that is over has nothing left; the other errors are plain.
+
+  $ mkdir -p state/dolphin/runs; cp out.run state/dolphin/runs/ride-1.run
+  $ XDG_STATE_HOME=$PWD/state dolphin explore ride.dol --from ride 2> /dev/null | head -n 1 | sed "s#$PWD##"
+  from 0:00 of /state/dolphin/runs/ride-1.run, after 6 transitions
+  $ dolphin explore count.dol --from ./whole.run
+  dolphin: ./whole.run: this run is over: it ended completed
+  [2]
+  $ sed '$d' whole.run > unsigned.run; dolphin explore count.dol --from ./unsigned.run
+  dolphin: ./unsigned.run: this run is over
+  [2]
+  $ dolphin explore ride.dol --from ./none.run
+  dolphin: ./none.run: No such file or directory
+  [2]
+  $ dolphin explore ride.dol --from ./ride.dol
+  dolphin: ./ride.dol: line 1: this is no journal: its first line is not the header of one
+  [2]
+  $ dolphin explore ride.dol --from ./out.run --trace t.run
+  dolphin: --trace, --draw and --cache are for runs from the beginning: leave them out with --from
+  [2]
+  $ dolphin explore ride.dol --from ./out.run --cache
+  dolphin: --trace, --draw and --cache are for runs from the beginning: leave them out with --from
+  [2]

@@ -18,7 +18,7 @@ const takeHelm = (page) => page.evaluate(() => fetch("/api/helm", {
   headers: { "Content-Type": "application/json", "X-Dolphin-Client": sessionStorage.getItem("client") },
 }));
 
-export default async function ({ page: holder, open, test, same, choose, pictures }) {
+export default async function accessibility({ page: holder, open, test, same, choose, pictures }) {
   await takeHelm(holder);
   for (const colorScheme of ["light", "dark"]) {
     const page = await open({ colorScheme });

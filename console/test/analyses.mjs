@@ -1,6 +1,6 @@
 // What is known without running the program: times, faults, the state graph.
 
-export default async function ({ page, test, same, text, choose, picture, phone }) {
+export default async function analyses({ page, test, same, text, choose, picture, phone }) {
   await test("time tells when runs and tasks end, and goes through a run that ends last", async () => {
     await choose(page, "rendezvous.dol");
     await page.click("#time");

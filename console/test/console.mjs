@@ -1,5 +1,6 @@
 // A newcomer's way through the page, a second page, a reload, a server that is killed: node test/console.mjs DOLPHIN PAGE
-// EXAMPLES [PICTURES]. Needs Chromium, by default Debian's.
+// EXAMPLES [PICTURES]. Needs Chromium, by default Debian's. ONLY="helm stop" in the environment picks parts: the modules
+// below, and newcomer.
 import { spawn } from "node:child_process";
 import { cpSync, mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -7,12 +8,14 @@ import { join } from "node:path";
 import { chromium } from "playwright-core";
 import accessibility from "./accessibility.mjs";
 import analyses from "./analyses.mjs";
+import helm from "./helm.mjs";
 import imc from "./imc.mjs";
 import listen from "./listen.mjs";
 import maps from "./maps.mjs";
 import places from "./places.mjs";
 import people from "./people.mjs";
 import plans from "./plans.mjs";
+import stop from "./stop.mjs";
 
 const [dolphin, built, examples, pictures] = process.argv.slice(2);
 const home = mkdtempSync(join(tmpdir(), "console-"));
@@ -37,9 +40,12 @@ async function serve() {
 // Also where a test ends all of them.
 process.on("exit", () => server.kill("SIGKILL"));
 
-let passed = 0, failed = 0;
+const only = process.env.ONLY?.split(" ");
+const wanted = (part) => !only || only.includes(part);
+let part = "newcomer", passed = 0, failed = 0;
 const problems = [];
 async function test(name, f) {
+  if (!wanted(part)) return;
   try { await f(); passed++; console.log("ok  ", name); }
   catch (e) { failed++; console.log("FAIL", name, "\n    ", String(e.message).split("\n").slice(0, 6).join("\n     ")); }
 }
@@ -267,14 +273,12 @@ async function phone(name) {
 }
 
 const all = { folder, page, test, same, text, choose, over, picture, phone };
-await people(all);
-await analyses(all);
-await maps(all);
-await plans(all);
-await places({ ...all, dolphin, environment });
-await accessibility({ ...all, open, pictures });
-await listen({ ...all, dolphin, environment, browser, complaints });
-await imc({ ...all, home, dolphin, environment, browser, complaints });
+const more = { ...all, home, dolphin, environment, browser, complaints, open, pictures };
+for (const f of [helm, people, analyses, maps, plans, places, accessibility, stop, listen, imc]) {
+  part = f.name;
+  if (wanted(part)) await f(more);
+}
+part = "newcomer";
 
 await test("all can be reached by keyboard, and all has a name", async () => {
   const nameless = await page.evaluate(() => [...document.querySelectorAll("button, input, select, [role=tab]")]

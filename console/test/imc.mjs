@@ -12,7 +12,7 @@ async function until(process, wanted) {
   throw new Error("it ended, and said only: " + said);
 }
 
-export default async function ({ home, dolphin, environment, browser, test, same, over, complaints }) {
+export default async function imc({ home, dolphin, environment, browser, test, same, over, complaints }) {
   const folder = join(home, "real"), children = [];
   mkdirSync(folder);
   writeFileSync(join(folder, "lost.dol"), `input 'over'

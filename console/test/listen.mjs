@@ -1,13 +1,38 @@
 // For other machines: two links, of which one is for watching.
 import { spawn } from "node:child_process";
+import { chmodSync, existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
 
-export default async function ({ dolphin, folder, environment, browser, test, same, complaints }) {
+export default async function listen({ dolphin, home, folder, environment, browser, test, same, complaints }) {
   const server = spawn(dolphin, ["console", folder, "--port", "0", "--listen", "127.0.0.1", "--no-browser"],
     { env: environment, stdio: ["ignore", "pipe", "inherit"] });
   let said = "";
   for await (const text of server.stdout) { said += text; if (/watches: (\S+)/.test(said)) break; }
   const link = (role) => new RegExp(`${role}: (\\S+)`).exec(said)[1];
   const pages = {};
+
+  // Arguments of a process are visible to every user of the machine.
+  await test("no token is among the arguments of a process", async () => {
+    const fakes = join(home, "fakes"), opened = join(home, "opened");
+    mkdirSync(fakes);
+    writeFileSync(join(fakes, "xdg-open"), `#!/bin/sh\necho "$1" > ${opened}\n`);
+    chmodSync(join(fakes, "xdg-open"), 0o755);
+    const env = { ...environment, DISPLAY: ":99", PATH: fakes + ":" + process.env.PATH };
+    // On a terminal the command opens a browser.
+    async function begin(more) {
+      const console_ = spawn("script", ["-qec", [dolphin, "console", folder, "--port", "0", ...more].join(" "), "/dev/null"],
+        { env, stdio: ["pipe", "pipe", "inherit"] });
+      let printed = "";
+      for await (const text of console_.stdout) { printed += text; if (/watches: \S+\s|is at \S+\s/.test(printed)) break; }
+      await new Promise((go) => setTimeout(go, 500));
+      console_.kill("SIGTERM");
+      await new Promise((done) => console_.on("exit", done));
+    }
+    await begin(["--listen", "127.0.0.1"]);
+    same(existsSync(opened), false, "a browser was started with a link that has a token");
+    await begin([]);
+    same(/^http:\/\/127\.0\.0\.1:\d+\/$/.test(readFileSync(opened, "utf8").trim()), true, "the address without a token");
+  });
   async function open(name, address) {
     const page = pages[name] = await (await browser.newContext({ viewport: { width: 1440, height: 900 } })).newPage();
     page.setDefaultTimeout(60000);

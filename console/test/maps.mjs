@@ -20,7 +20,7 @@ for column in range(x - 1, x + 3):
 db.commit()
 `;
 
-export default async function ({ folder, page, test, same, choose, over, picture, phone }) {
+export default async function maps({ folder, page, test, same, choose, over, picture, phone }) {
   writeFileSync(join(folder, "charted.dol"), `harbour = Location.APDL
 zone = harbour ^ 300.m
 basin = polygon([harbour, harbour.displace(0, 300), harbour.displace(200, 300), harbour.displace(200, 0)])

@@ -2,7 +2,7 @@
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 
-export default async function ({ folder, page, test, same, text, choose, over, picture, phone }) {
+export default async function people({ folder, page, test, same, text, choose, over, picture, phone }) {
   writeFileSync(join(folder, "alarms.dol"), `input 'over'
 vs = pick { count 3; type 'UUV' }
 x = confirm 'Begin now?'

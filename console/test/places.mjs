@@ -4,7 +4,7 @@ import { spawnSync } from "node:child_process";
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
-export default async function ({ folder, page, test, same, text, choose, over, picture, dolphin, environment }) {
+export default async function places({ folder, page, test, same, text, choose, over, picture, dolphin, environment }) {
   mkdirSync(join(folder, "shore"));
   writeFileSync(join(folder, "shore", "rules.dol"), `// What all missions share.
 def permitted(what) {

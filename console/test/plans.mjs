@@ -2,7 +2,7 @@
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 
-export default async function ({ folder, page, test, same, text, choose, picture }) {
+export default async function plans({ folder, page, test, same, text, choose, picture }) {
   writeFileSync(join(folder, "plans.dol"), `parameter side = 100, 'metres'
 v = pick { id 'lauv-1' }
 w = pick { id 'lauv-2' }

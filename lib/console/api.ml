@@ -199,14 +199,16 @@ let api h role (r : Request.t) path =
   | None -> Lwt.return (of_refusal (refusal 404 "not-found" "there is nothing of this name"))
 
 let protected h (response : Response.t) =
-  { response with headers = response.headers @ Access.headers ~tiles:(Hall.settings h).tiles }
+  let is_new (name, _) = not (List.mem_assoc name response.headers) in
+  { response with
+    headers = response.headers @ List.filter is_new (Access.headers ~tiles:(Hall.settings h).tiles) }
 
 let page h (r : Request.t) =
   match Access.enter (Hall.access h) r with
   | Some headers -> Response.text ~headers ~kind:"text/plain" 303 ""
   | None ->
     let none = of_refusal (refusal 404 "not-found" "there is nothing of this name") in
-    Option.value (Page.find (Hall.settings h).page r.path) ~default:none
+    Option.value (Page.find (Hall.settings h).page r) ~default:none
 
 let reply h (r : Request.t) =
   let answered =

@@ -6,8 +6,9 @@ val load : string option -> t
 (** [load folder] is the files of [folder], or with [None], or where there are none, a page that says how to build
     it. *)
 
-val find : t -> string list -> Dolphin_http.Response.t option
-(** [find p path] is the file with this path. *)
+val find : t -> Dolphin_http.Request.t -> Dolphin_http.Response.t option
+(** [find p r] is the file that [r] asks for, compressed if [r] accepts gzip, or 304 if the client has it (by its
+    [ETag]). *)
 
 val folder : unit -> string option
 (** Where the built page is: in [DOLPHIN_CONSOLE] of the environment; in [share/dolphin/console] beside the [bin] of the

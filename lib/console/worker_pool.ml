@@ -1,9 +1,9 @@
 open Lwt.Infix
 open Exchange
 
-type limits = { workers : int; each : int; waiting : int; seconds : float; megabytes : int }
+type limits = { workers : int; each : int; waiting : int; seconds : float; megabytes : int; reply : int }
 
-let limits = { workers = 3; each = 2; waiting = 20; seconds = 20.; megabytes = 2048 }
+let limits = { workers = 3; each = 2; waiting = 20; seconds = 20.; megabytes = 2048; reply = 16 * 1024 * 1024 }
 
 type worker = { process : Lwt_process.process; mutable is_idle_since : float }
 
@@ -95,13 +95,17 @@ let leave p client =
 (* {1 Tasks} *)
 
 exception Too_long
+exception Too_large
 
-let frame w =
+let frame ~most w =
   let channel = w.process#stdout in
   let bytes = Bytes.create 4 in
   Lwt_io.read_into_exactly channel bytes 0 4 >>= fun () ->
-  let text = Bytes.create (Int32.to_int (Bytes.get_int32_be bytes 0)) in
-  Lwt_io.read_into_exactly channel text 0 (Bytes.length text) >|= fun () -> Bytes.unsafe_to_string text
+  let length = Int32.to_int (Bytes.get_int32_be bytes 0) in
+  if length < 0 || length > most then Lwt.fail Too_large
+  else
+    let text = Bytes.create length in
+    Lwt_io.read_into_exactly channel text 0 length >|= fun () -> Bytes.unsafe_to_string text
 
 let order w head body =
   let channel = w.process#stdin in
@@ -114,6 +118,7 @@ let why p : exn -> refusal = function
   | Too_long ->
     let message = Printf.sprintf "this takes longer than %.0f seconds" p.limits.seconds in
     refusal 503 "too-long" message
+  | Too_large -> refusal 503 "too-large" (Printf.sprintf "the reply has more than %d bytes" p.limits.reply)
   | End_of_file | Unix.Unix_error _ | Lwt_io.Channel_closed _ ->
     refusal 503 "worker-died" "the process that worked on this has died, perhaps for lack of memory"
   | error -> refusal 500 "trouble" (Printexc.to_string error)
@@ -132,24 +137,24 @@ let with_worker p ~client f =
       (fun () -> Lwt.catch work (fun error -> Lwt.return (Error (why p error))))
       (fun () -> leave p client; Lwt.return_unit)
 
-let rec rest w buffer =
-  frame w >>= function
+let rec rest ~most w buffer =
+  frame ~most:(most - Buffer.length buffer) w >>= function
   | "" -> Lwt.return (Buffer.contents buffer)
-  | piece -> Buffer.add_string buffer piece; rest w buffer
+  | piece -> Buffer.add_string buffer piece; rest ~most w buffer
 
 let whole p ~client task ?(body = "") () =
   let work w =
     within p (fun () ->
         order w (Worker.head task) body >>= fun () ->
-        frame w >>= fun head ->
-        rest w (Buffer.create 4096) >|= fun body -> (head, body))
+        frame ~most:p.limits.reply w >>= fun head ->
+        rest ~most:p.limits.reply w (Buffer.create 4096) >|= fun body -> (head, body))
   in
   with_worker p ~client work >|= fun found ->
   Result.bind found (fun (head, body) ->
       Result.map_error (refusal 500 "trouble") (Worker.response_of head (Text body)))
 
 let pieces p ~client task write =
-  let next w = within p (fun () -> frame w) in
+  let next w = within p (fun () -> frame ~most:p.limits.reply w) in
   let rec copy w =
     next w >>= function
     | "" -> Lwt.return_unit

@@ -9,10 +9,11 @@ type limits = {
   waiting : int;  (** tasks that wait for their turn; one client may have half of them *)
   seconds : float;  (** for a task, or for each piece of one that streams *)
   megabytes : int;  (** memory of a worker *)
+  reply : int;  (** bytes of a whole reply, or of one piece *)
 }
 
 val limits : limits
-(** 3 workers, 2 tasks of each client, 20 that wait, 20 seconds, 2 GiB. *)
+(** 3 workers, 2 tasks of each client, 20 that wait, 20 seconds, 2 GiB, 16 MiB. *)
 
 type t
 
@@ -22,7 +23,7 @@ val make : dolphin:string -> limits -> t
 val whole :
   t -> client:string -> Worker.order -> ?body:string -> unit -> (Dolphin_http.Response.t, refusal) result Lwt.t
 (** [whole p ~client order ~body ()] is the reply of a worker. It is refused as ["too-many"] if no place is left,
-    ["too-long"], or ["worker-died"]. *)
+    ["too-long"], ["too-large"], or ["worker-died"]. *)
 
 val pieces : t -> client:string -> Worker.order -> (string -> unit Lwt.t) -> (unit, refusal) result Lwt.t
 (** [pieces p ~client order write] gives the body of the reply to [write] as the worker sends it: the worker waits for

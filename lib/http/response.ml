@@ -35,6 +35,7 @@ let reason = function
 let head ~keep r =
   let length =
     match r.body with
+    | Text _ when r.status = 304 || r.status = 204 -> []
     | Text text -> [ ("Content-Length", string_of_int (String.length text)) ]
     | Stream _ -> []
   in

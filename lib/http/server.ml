@@ -7,13 +7,15 @@ type limits = {
   body : int;
   connections : rank -> int;
   rate : int;
+  unsent : int;
   patience : float;
   idle : float;
 }
 
 let limits =
   let connections = function Unknown -> 100 | Guest -> 150 | Trusted -> 150 in
-  { head = 16 * 1024; body = 4 * 1024 * 1024; connections; rate = 1000; patience = 10.; idle = 60. }
+  { head = 16 * 1024; body = 4 * 1024 * 1024; connections; rate = 1000; unsent = 64 * 1024 * 1024;
+    patience = 10.; idle = 60. }
 
 type client = {
   address : string;
@@ -32,6 +34,7 @@ type t = {
   reply : Request.t -> Response.t Lwt.t;
   mutable open_ : client list;  (* the latest first *)
   asked : (rank * string, int) Hashtbl.t;  (* by rank and address, in this second *)
+  unsent : (rank, int) Hashtbl.t;  (* bytes of the large replies that are being written *)
   mutable second : float;
   mutable accepting : unit Lwt.t;
   mutable over : bool;
@@ -115,12 +118,29 @@ let rec gone client =
   Lwt_unix.read client.socket client.piece 0 (Bytes.length client.piece) >>= fun n ->
   if n = 0 then Lwt.return_unit else gone client
 
+(* Replies of this length are not counted: there is at most one for each connection. *)
+let small = 65_536
+
+let unsent t rank = Option.value (Hashtbl.find_opt t.unsent rank) ~default:0
+let fits t client length = length <= small || unsent t client.rank + length <= t.limits.unsent
+
+(* A large text stays in memory until its reader has it. *)
+let write_text t client head text =
+  let length = String.length text in
+  if length <= small then write t client (head ^ text)
+  else begin
+    let rank = client.rank in
+    Hashtbl.replace t.unsent rank (unsent t rank + length);
+    let sent () = Hashtbl.replace t.unsent rank (unsent t rank - length); Lwt.return_unit in
+    Lwt.finalize (fun () -> write t client head >>= fun () -> write t client text) sent
+  end
+
 let respond t client ~keep ~only_head (r : Response.t) =
   let keep = keep && match r.body with Text _ -> true | Stream _ -> false in
   let head = Response.head ~keep r in
   let whole =
     match r.body with
-    | Text text -> write t client (if only_head then head else head ^ text)
+    | Text text -> if only_head then write t client head else write_text t client head text
     | Stream _ when only_head -> write t client head
     | Stream f -> write t client head >>= fun () -> Lwt.pick [ f (write t client); gone client ]
   in
@@ -216,7 +236,10 @@ let answer t client r =
   else if not (promoted t client rank) then respond t client ~keep:false ~only_head:false too_many
   else
     safely t r >>= fun response ->
-    respond t client ~keep:(Request.keeps_alive r) ~only_head:(r.verb = "HEAD") response
+    let length = match response.body with Text text -> String.length text | Stream _ -> 0 in
+    if fits t client length then
+      respond t client ~keep:(Request.keeps_alive r) ~only_head:(r.verb = "HEAD") response
+    else respond t client ~keep:false ~only_head:false (told 503 "too many large replies are being read")
 
 let rec serve t client ~first =
   request t client ~first >>= function
@@ -274,7 +297,8 @@ let start ?(limits = limits) ?(address = Unix.inet_addr_loopback) ?(rank = fun _
   | () ->
     let listening = Lwt_unix.of_unix_file_descr socket in
     let t =
-      { limits; listening; rank_of = rank; reply; open_ = []; asked = Hashtbl.create 16; second = 0.;
+      { limits; listening; rank_of = rank; reply; open_ = []; asked = Hashtbl.create 16;
+        unsent = Hashtbl.create 3; second = 0.;
         accepting = Lwt.return_unit; over = false }
     in
     t.accepting <- quietly (fun () -> accept t);

@@ -15,13 +15,16 @@ type limits = {
       and trusted clients with a reply under way: if there are only such, it gets a reply with this reason and is
       closed. *)
   rate : int;  (** requests of one rank and address in a second; more get a reply with this reason and are closed *)
+  unsent : int;
+  (** bytes of replies of more than 64 KiB that clients of one rank are reading at once: further ones of this length are
+      refused *)
   patience : float;  (** seconds until a client speaks, for a whole head and body, for each piece that it reads *)
   idle : float;  (** seconds between requests of one connection *)
 }
 
 val limits : limits
 (** 16 KiB, 4 MiB, 100 connections of unknown clients, 150 of guests and 150 of trusted ones, 1,000 requests,
-    10 seconds, 60 seconds. *)
+    64 MiB, 10 seconds, 60 seconds. *)
 
 type t
 

@@ -163,6 +163,82 @@ let with_tokens _ console =
   refused "from no other page" (403, "refused") r;
   ask ~body:{|{"program": "short.dol"}|} [ steers ] "/api/run" >|= fun r -> status "who steers" 200 r.status
 
+(* {1 The page} *)
+
+let gunzip text =
+  let path = Filename.temp_file "console" ".gz" in
+  write path text;
+  let channel = Unix.open_process_args_in "gzip" [| "gzip"; "-dc"; path |] in
+  let buffer = Buffer.create 4096 in
+  (try while true do Buffer.add_channel buffer channel 1 done with End_of_file -> ());
+  let found = Buffer.contents buffer in
+  let status = Unix.close_process_in channel in
+  Unix.unlink path;
+  if status = WEXITED 0 then found else Alcotest.fail "gzip cannot read it"
+
+let script = String.concat "" (List.init 20_000 (fun i -> Printf.sprintf "const x%d = %d;\n" i (i * i)))
+
+let page_of folder =
+  let page = Filename.concat folder "../page" in
+  Unix.mkdir page 0o755;
+  write (Filename.concat page "index.html") "<!doctype html>";
+  write (Filename.concat page "main.js") script;
+  write (Filename.concat page "empty.js") "";
+  Page.load (Some page)
+
+(* Compressed for browsers that read it; sent once, as long as it has not changed. *)
+let page_is_cached _ console =
+  let port = Console.port console in
+  let get ?(headers = []) path =
+    let lines = List.map (fun (name, x) -> name ^ ": " ^ x ^ "\r\n") headers in
+    let request = Printf.sprintf "GET /%s HTTP/1.1\r\nHost: 127.0.0.1:%d\r\nConnection: close\r\n%s\r\n" path port
+        (String.concat "" lines) in
+    Client.raw ~port request >|= fun reply ->
+    match Str.bounded_split_delim (Str.regexp_string "\r\n\r\n") reply 2 with
+    | [ head; body ] -> (String.split_on_char '\n' (String.concat "" (String.split_on_char '\r' head)), body)
+    | _ -> Alcotest.fail "no reply"
+  in
+  let header name head =
+    let before = name ^ ": " in
+    let n = String.length before in
+    let value line =
+      let length = String.length line in
+      if length > n && String.sub line 0 n = before then Some (String.sub line n (length - n)) else None in
+    match List.filter_map value head with [ value ] -> value | [] -> "" | _ -> Alcotest.failf "%s twice" name
+  in
+  get "main.js" >>= fun (head, body) ->
+  text "as it is" script body;
+  text "not compressed" "" (header "Content-Encoding" head);
+  text "asked for again" "no-cache" (header "Cache-Control" head);
+  let plain = header "ETag" head in
+  let gzip = ("Accept-Encoding", "deflate, gzip;q=0.8, br") in
+  get ~headers:[ gzip ] "main.js" >>= fun (head, body) ->
+  text "compressed" "gzip" (header "Content-Encoding" head);
+  holds "shorter" true (String.length body < String.length script / 2);
+  text "the same" script (gunzip body);
+  let tag = header "ETag" head in
+  holds "another tag" true (tag <> plain);
+  Lwt_list.iter_s
+    (fun (what, expected, headers) ->
+       get ~headers "main.js" >|= fun (head, body) ->
+       text what ("HTTP/1.1 " ^ expected) (List.hd head);
+       if expected = "304 Not Modified" then begin
+         text "no body" "" body;
+         text "no length" "" (header "Content-Length" head);
+         text "its tag" tag (header "ETag" head)
+       end)
+    [ ("the browser has it", "304 Not Modified", [ gzip; ("If-None-Match", tag) ]);
+      ("among others", "304 Not Modified", [ gzip; ("If-None-Match", "\"x\", W/" ^ tag) ]);
+      ("whatever it has", "304 Not Modified", [ gzip; ("If-None-Match", "*") ]);
+      ("in the other encoding", "200 OK", [ gzip; ("If-None-Match", plain) ]);
+      ("another one", "200 OK", [ ("If-None-Match", "\"x\"") ]) ]
+  >>= fun () ->
+  get ~headers:[ ("Accept-Encoding", "gzip;q=0, identity") ] "main.js" >>= fun (head, _) ->
+  text "refused by the browser" "" (header "Content-Encoding" head);
+  get ~headers:[ gzip ] "empty.js" >>= fun (head, body) ->
+  text "a short one" "" (header "Content-Encoding" head ^ body);
+  get "api/status" >|= fun (head, _) -> text "the interface is not kept" "no-store" (header "Cache-Control" head)
+
 (* {1 Files} *)
 
 let no_escape folder port =
@@ -470,6 +546,45 @@ let stuck folder port =
   Alcotest.(check (list string)) "told" [ "is stuck: executes onInterrupt"; "is stuck" ] of_program;
   Client.leave first
 
+(* A run that waits for a vehicle, which is not there yet or is busy, is not stuck: neither while it is stopped nor in
+   its replay. *)
+let interrupted_is_not_stuck folder port =
+  let vehicles =
+    "vehicle 'a', { type 'UUV' }\n"
+    ^ "vehicle 'late', { type 'UAV'; joins 5.hours }\nplan 'survey', { duration 3.hours }\n" in
+  let one (name, program) =
+    let file = name ^ ".dol" in
+    write (Filename.concat folder file) program;
+    write (Filename.concat folder (name ^ ".fleet")) vehicles;
+    Client.watch ~port "first" >>= fun first ->
+    Client.ask ~body:(Printf.sprintf {|{"program": "%s", "speed": 1}|} file) ~port "/api/run" >>= fun r ->
+    status "started" 200 r.status;
+    Client.until first (fun m -> m.event = "journal" && has_text "transition" m.data) >>= fun _ ->
+    Lwt_unix.sleep 0.2 >>= fun () ->
+    Client.ask ~body:"{}" ~port "/api/run/stop" >>= fun r ->
+    status "stopped" 200 r.status;
+    Client.until first is_over >>= fun seen ->
+    Client.leave first >>= fun () ->
+    let log seen = String.concat "\n" (data (events "log" seen)) in
+    holds (name ^ ": live: " ^ log seen) false (has_text "stuck" (log seen));
+    Client.ask ~port "/api/runs" >>= fun r ->
+    let runs = Yojson.Safe.Util.to_list (member [ "runs" ] (Client.json r)) in
+    let run = List.find (fun run -> member [ "program" ] run = `String file) runs in
+    text "kept as" {|"interrupted"|} (Yojson.Safe.to_string (member [ "state" ] run));
+    Client.events ~port ("/api/replay?run=" ^ Yojson.Safe.Util.to_string (member [ "run" ] run)) >>= fun replay ->
+    Client.until replay (fun m -> m.event = "end") >>= fun seen ->
+    holds (name ^ ": replayed: " ^ log seen) false (has_text "stuck" (log seen));
+    holds "as interrupted" true (has_text "interrupted" (log seen));
+    Client.leave replay
+  in
+  Lwt_list.iter_s one
+    [ ("picks", "message 'begins'\nv = pick { type 'UAV'; timeout 6.hours }\nexecute task('survey')[v]\n");
+      ("recruits",
+       "v = pick { type 'UUV' }\n"
+       ^ "execute task('survey')[v] | recruit { type 'UAV' } then { w -> task('survey')[w] }\n");
+      ("waits", "v = pick { type 'UUV' }\nexecute task('survey')[v] | condition { poll never: 1 }\n");
+      ("home", "onInterrupt task('survey')\nmessage 'begins'\nv = pick { type 'UAV'; timeout 6.hours }\n") ]
+
 let faults _ port =
   let start body = Client.ask ~body ~port "/api/run" in
   start {|{"program": "wrong.dol"}|} >>= fun r ->
@@ -556,6 +671,35 @@ let rate =
       begins "200" reply;
       holds "too many in a second" true
         (match Str.search_forward (Str.regexp_string "HTTP/1.1 429") reply 0 with _ -> true | exception Not_found -> false))
+
+(* Large replies that nobody reads take memory: there is a limit for each rank. *)
+let large_replies () =
+  let reply (r : Request.t) =
+    let length = if List.mem "large" r.path then 4_000_000 else 10 in
+    Lwt.return (Dolphin_http.Response.text ~kind:"text/plain" 200 (String.make length 'x')) in
+  let rank (r : Request.t) : Server.rank = if List.mem "guest" r.path then Guest else Trusted in
+  let limits = { Server.limits with unsent = 10_000_000 } in
+  let server = Result.get_ok (Server.start ~limits ~rank ~port:0 reply) in
+  let port = Server.port server in
+  let unread () =
+    Client.connect port >>= fun socket ->
+    let request = get "guest/large" in
+    Lwt_unix.write_string socket request 0 (String.length request) >>= fun _ ->
+    Lwt_unix.wait_read socket >|= fun () -> socket in
+  Lwt_main.run
+    (Lwt_list.map_s unread [ (); () ] >>= fun sockets ->
+     let answered what expected path =
+       Client.raw ~port (get path) >|= fun reply -> text what expected (String.sub reply 9 3) in
+     answered "a third large one" "503" "guest/large" >>= fun () ->
+     answered "a small one" "200" "guest" >>= fun () ->
+     answered "of another rank" "200" "large" >>= fun () ->
+     Lwt_list.iter_s Lwt_unix.close sockets >>= fun () ->
+     let rec again n =
+       Client.raw ~port (get "guest/large") >>= fun reply ->
+       if String.sub reply 9 3 = "200" then Lwt.return_unit
+       else if n = 0 then Alcotest.fail "large replies stay refused"
+       else Lwt_unix.sleep 0.05 >>= fun () -> again (n - 1) in
+     again 100 >>= fun () -> Server.close server)
 
 (* Bytes of a fixed seed, among them pieces of requests. *)
 let nonsense random =
@@ -758,6 +902,16 @@ let little_memory folder console =
     (r.status = 503 && List.mem (code r) [ "too-large"; "worker-died" ]);
   checked port >|= fun r -> status "the next request" 200 r.status
 
+(* The console does not hold a reply that is larger than its bound; the worker that sends it ends. *)
+let large_reply folder console =
+  let port = Console.port console in
+  worker console >>= fun pid ->
+  write (Filename.concat folder "large.dol") (String.make 20_000 '\n');
+  Client.ask ~port "/api/file?path=large.dol" >>= fun r ->
+  refused "too large" (503, "too-large") r;
+  holds "killed" false (List.mem pid (Console.workers console));
+  checked port >|= fun r -> status "the next request" 200 r.status
+
 (* A client has two workers at once, and ten requests that wait. *)
 let requests_of_one_client _ console =
   let port = Console.port console in
@@ -870,7 +1024,7 @@ let () =
   let slow name f = Alcotest.test_case name `Quick f in
   Alcotest.run "console"
     [ ("http",
-       [ slow "heads" heads; slow "sizes" sizes; slow "patience" patience; slow "connections" connections; slow "rate" rate ]);
+       [ slow "heads" heads; slow "sizes" sizes; slow "patience" patience; slow "connections" connections; slow "rate" rate; slow "large replies" large_replies ]);
       ("helm",
        [ slow "who has it" the_helm; slow "Stop without it" (console stop_without_helm);
          slow "Stop pressed twice" (console stop_twice) ]);
@@ -886,12 +1040,16 @@ let () =
        [ slow "killed" (with_limits Fun.id worker_killed);
          slow "too slow" (with_limits (fun l -> { l with seconds = 1. }) worker_too_slow);
          slow "little memory" (with_limits (fun l -> { l with megabytes = 150 }) little_memory);
+         slow "a large reply" (with_limits (fun l -> { l with reply = 10_000 }) large_reply);
          slow "requests of one client" (with_limits Fun.id requests_of_one_client);
          slow "a pipe among the runs" (with_limits (fun l -> { l with seconds = 2. }) pipe_among_runs);
          slow "a long journal" (with_limits Fun.id long_journal) ]);
+      ("page",
+       [ slow "compressed and cached" (served (fun folder -> { (settings folder) with page = page_of folder }) page_is_cached) ]);
       ("files", [ slow "saving" (console saving); slow "texts under way" (console texts);
                   slow "many constants" (with_limits Fun.id many_constants) ]);
       ("runs",
        [ slow "threads" threads_interrupt_nothing; slow "a run" (console a_run); slow "journals of the folder" (console journals); slow "answers and posts" (console answers_and_posts);
          slow "what is asked" (console what_is_asked); slow "on the map" (console on_the_map);
-         slow "stopped" (console stopped); slow "stuck" (console stuck); slow "faults" (console faults) ]) ]
+         slow "stopped" (console stopped); slow "stuck" (console stuck);
+         slow "interrupted is not stuck" (console interrupted_is_not_stuck); slow "faults" (console faults) ]) ]

@@ -34,7 +34,9 @@ class Departure:
     @property
     def _is_over(self):
         """Whether the mission was over, in a mode that the autopilot itself takes then."""
-        return self._progress is not None and self.mode in self._vehicle.modes.after and self._progress.was_over()
+        if self._progress is None or self.mode not in self._vehicle.modes.after:
+            return False
+        return self._progress.was_over(self._since)
 
     def is_ripe(self, now, timeout):
         v = self._vehicle

@@ -71,6 +71,11 @@ class Execution:
 
     # What the station calls
 
+    @property
+    def lands(self):
+        """Whether the vehicle is at an item that lands it."""
+        return self.stage == "run" and self._progress.lands
+
     def begin(self, now):
         self._stage_at = self._asked_at = self._begun = now
         return self._try(now)
@@ -381,7 +386,7 @@ class Execution:
                 if self._stopping:
                     return out
             if v.armed:
-                self._progress.flies_on()
+                self._progress.flies_on(now)
                 return []
             return self._was_disarmed(now)
         if self._asked_mode is not None and v.mode == self._mode_before and not self._progress.has_begun:

@@ -14,6 +14,7 @@ REST = 1.0  # seconds on the ground before an autopilot disarms
 LANDING = 1.5  # metres a second: no landing ends faster, unless the vehicle reports so
 NOISE = 1.0  # metres: errors of a height, also by the wash of the rotors
 AFTERWARDS = 4.0  # seconds in which reports of it come
+AIRCRAFT = ("copter", "plane", "vtol")
 POSITION, STATE = "GLOBAL_POSITION_INT", "EXTENDED_SYS_STATE"
 
 
@@ -32,8 +33,9 @@ class Disarmed:
 
     @property
     def fell(self):
-        """Whether it sank faster than any landing."""
-        return self._vehicle.sank_at > max(self._vehicle.armed_at, self.since - AWAY)
+        """Whether it sank faster than a landing, or while it was disarmed."""
+        v = self._vehicle
+        return v.frame in AIRCRAFT and v.sank_at > max(v.armed_at, self.since - AWAY)
 
     @property
     def has_landed(self):
@@ -41,7 +43,7 @@ class Disarmed:
         v = self._vehicle
         if self.fell:
             return False
-        if self._was_on_ground or v.frame not in ("copter", "plane", "vtol"):
+        if self._was_on_ground or v.frame not in AIRCRAFT:
             return True
         if v.landed is not None and not self._heard(STATE):
             return None
@@ -67,7 +69,7 @@ class Disarmed:
     def _was_in_flight(self):
         """Whether it was disarmed in the air."""
         v = self._vehicle
-        if v.frame not in ("copter", "plane", "vtol"):
+        if v.frame not in AIRCRAFT:
             return False
         return self.fell or v.landed is False or (self._flew and not self._lands)
 

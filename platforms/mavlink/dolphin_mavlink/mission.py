@@ -35,6 +35,14 @@ _NAVIGATION = {
     mavlink.MAV_CMD_NAV_SCRIPT_TIME,
     mavlink.MAV_CMD_NAV_ATTITUDE_TIME,
 }
+VTOL_TRANSITION = mavlink.MAV_CMD_DO_VTOL_TRANSITION
+# Commands that PX4 completes before it goes on, and ArduPilot carries out at once (PX4's `mission_block.cpp`).
+_NAVIGATION_OF_PX4 = {
+    VTOL_TRANSITION,
+    mavlink.MAV_CMD_DO_GRIPPER,
+    mavlink.MAV_CMD_DO_WINCH,
+    mavlink.MAV_CMD_CONDITION_GATE,
+}
 # Commands that fly to their place.
 DESTINATIONS = {16, 17, 18, 19, 21, 22, 31, 36, 82, 84, 85, 94}
 _DEFINED = mavlink.enums["MAV_CMD"]
@@ -42,6 +50,12 @@ _DEFINED = mavlink.enums["MAV_CMD"]
 # NAV_GUIDED_ENABLE, DO_GO_AROUND.
 _STORED_PLACE = {30, 92, 191}
 _NEED_A_PLACE = {16, 31, 36, 82, 195, 201, mavlink.MAV_CMD_CONDITION_GATE}
+
+# Which parameter has the seconds that the vehicle stays at the item's place.
+_SECONDS = {16: 1, 19: 1, 93: 1, mavlink.MAV_CMD_NAV_SCRIPT_TIME: 2, mavlink.MAV_CMD_NAV_ATTITUDE_TIME: 1}
+_ENDED_BY_AUTOPILOT = {LOITER_TURNS, mavlink.MAV_CMD_NAV_LOITER_TO_ALT, mavlink.MAV_CMD_NAV_SET_YAW_SPEED} | (
+    _NAVIGATION_OF_PX4
+)
 
 # The parameters that decide what a vehicle does: they must come back as they were sent.
 _DECISIVE = {
@@ -55,6 +69,7 @@ _DECISIVE = {
     mavlink.MAV_CMD_NAV_SET_YAW_SPEED: (1, 2),
     mavlink.MAV_CMD_NAV_SCRIPT_TIME: (1, 2),
     mavlink.MAV_CMD_NAV_ATTITUDE_TIME: (1,),
+    VTOL_TRANSITION: (1,),
 }
 
 
@@ -86,10 +101,19 @@ class Item:
     z: float = 0.0
     autocontinue: int = 1
 
-    @property
-    def is_navigation(self):
-        """Whether the autopilot goes on to the next item only after this one is fulfilled."""
+    def is_navigation(self, px4):
+        """Whether the autopilot, PX4 or ArduPilot, completes this item before it goes on to the next one."""
+        if px4 and self.command in _NAVIGATION_OF_PX4:
+            return True
         return self.command <= mavlink.MAV_CMD_NAV_LAST or self.command in _NAVIGATION
+
+    @property
+    def seconds(self):
+        """How long it takes where it takes place, at least; infinity if only the autopilot knows when it ends."""
+        if self.command in _ENDED_BY_AUTOPILOT:
+            return math.inf
+        n = _SECONDS.get(self.command)
+        return self.params[n - 1] if n is not None and math.isfinite(self.params[n - 1]) else 0.0
 
     @property
     def is_scaled(self):
@@ -177,16 +201,14 @@ class Mission:
     arm: bool = False  # whether the vehicle may be armed in order to begin
     endless: bool = False  # whether its last item goes on until it is stopped
 
-    @property
-    def last(self):
-        """The index of the last item that is navigated: what comes after it is done at once."""
-        return max((n for n, item in enumerate(self.items) if item.is_navigation), default=len(self.items) - 1)
+    def last(self, px4):
+        """The index of the last item that is navigated: later ones are carried out at once."""
+        return max((n for n, item in enumerate(self.items) if item.is_navigation(px4)), default=len(self.items) - 1)
 
-    @property
-    def visits(self):
-        """How many times the last navigated item is reached: jumps behind it lead back."""
+    def visits(self, px4):
+        """How many times the last navigated item is reached: jumps after it lead back."""
         times = 1
-        for item in self.items[self.last + 1 :]:
+        for item in self.items[self.last(px4) + 1 :]:
             if item.command == JUMP:
                 times *= math.inf if item.params[1] < 0 else 1 + item.params[1]
         return times
@@ -457,4 +479,6 @@ def problems(items):
             found.append(f"item {n} jumps to a tag, which Dolphin cannot follow: use DO_JUMP")
         if item.command == JUMP and not 1 <= item.params[0] <= len(items):
             found.append(f"item {n} jumps to item {item.params[0]:g}, and there are {len(items)}")
+        if item.command == VTOL_TRANSITION and item.params[0] not in (3, 4):
+            found.append(f"item {n} is a VTOL transition to state {item.params[0]:g}: 3 is rotary wing, 4 fixed wing")
     return found

@@ -20,7 +20,7 @@ class For:
     frame: str = None
     is_px4: bool = False
     home: tuple = None
-    place: tuple = None  # where it is
+    place: tuple = None  # its current position
     geoid: float = None
     known: bool = False  # whether there is a vehicle
     armed: bool = False
@@ -30,9 +30,10 @@ class For:
         return modes.TYPES.get(self.frame)
 
 
-def vehicle(name, v):
+def vehicle(now, name, v):
     home = v.home or (v.armed_from if v.armed else None)
-    return For(name, v.frame, v.autopilot == modes.PX4, home, v.place, v.geoid, True, v.armed)
+    place = v.place if v.unlocated(now) is None else None
+    return For(name, v.frame, v.autopilot == modes.PX4, home, place, v.geoid, True, v.armed)
 
 
 def compile_plan(plan, stored, whom):
@@ -59,6 +60,11 @@ def compile_plan(plan, stored, whom):
         for n, item in enumerate(found.items, 1):
             if item.command in (missions.TAKE_OFF, missions.LAND, missions.VTOL_TAKE_OFF, missions.VTOL_LAND):
                 problems.append(f"item {n}: a {whom.kind} neither takes off nor lands")
+    if whom.is_px4 and whom.frame != "vtol":
+        # PX4 would wait for it without end.
+        for n, item in enumerate(found.items, 1):
+            if item.command == missions.VTOL_TRANSITION:
+                problems.append(f"item {n}: a {whom.frame} has no VTOL transition")
     if problems:
         raise Refused(problems)
     return found
@@ -88,7 +94,7 @@ def _of_imc_plan(body, whom):
             problems.append(f"maneuver {maneuver['id']}: {misfit}")
     if problems:
         raise Refused(problems)
-    last = next(item for item in reversed(items) if item.is_navigation)
+    last = next(item for item in reversed(items) if item.is_navigation(whom.is_px4))
     return Mission(tuple(items), endless=last.command == missions.LOITER_UNLIMITED)
 
 

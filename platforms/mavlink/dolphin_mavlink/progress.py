@@ -4,9 +4,11 @@ import math
 
 from . import geo
 from . import mission as missions
+from . import modes
 from .wire import mavlink
 
 NEAR = {"plane": 150.0, "vtol": 150.0}  # metres within which a place counts as reached; others: 15
+LATE = 2.5  # seconds by which reports of its place and its item may be late
 APART = 5.0  # metres: no autopilot takes a place for reached from as far from the next one
 _ENDS_ON_THE_GROUND = (missions.LAND, missions.RETURN, missions.VTOL_LAND)
 
@@ -16,10 +18,13 @@ class Progress:
 
     def __init__(self, vehicle, mission):
         self._vehicle, self._mission = vehicle, mission
+        px4 = vehicle.autopilot == modes.PX4
+        self._last_index, self._most_visits = mission.last(px4), mission.visits(px4)
         self.current = None
         self._at = None  # the item that it is at, by that or by the last one that it reached
         self._is_past = False  # whether it is at the number after the last item, as MAVSDK's vehicle is at the end
         self._was_active, self._near_since, self._was_at_last = False, None, False
+        self._there_since = None  # since when it is at the place of the last item, and at that item
         self._reached, self._visits, self._reached_last = False, 0, None
         # What decides is believed when it is said twice.
         self._complete_since, self._completes = None, 0
@@ -28,6 +33,7 @@ class Progress:
     def begin(self):
         self.current, self._total, self._at, self._is_past = None, None, None, False
         self._was_active, self._reached, self._visits, self._was_at_last = False, False, 0, False
+        self._there_since = None
 
     def resume(self):
         """It has begun before."""
@@ -43,11 +49,11 @@ class Progress:
 
     @property
     def _last(self):
-        return self._mission.last + self.first
+        return self._last_index + self.first
 
     @property
     def _last_item(self):
-        return self._mission.items[self._mission.last]
+        return self._mission.items[self._last_index]
 
     @property
     def _at_last(self):
@@ -70,6 +76,7 @@ class Progress:
         self.current = self._at = v.current
         self._is_past = not v.home_is_item_0 and v.current == len(self._mission.items)
         self._was_at_last = self._was_at_last or self._at_last
+        self._look(now)
         if v.mission_state == mavlink.MISSION_STATE_ACTIVE:
             self._was_active = True
         if v.mission_state == mavlink.MISSION_STATE_COMPLETE:
@@ -81,9 +88,16 @@ class Progress:
         if self._total is None:
             self._total = v.total
 
-    def flies_on(self):
-        """The vehicle reports that it is armed and flies its mission, after it has told where in it it is."""
+    def flies_on(self, now):
+        """The vehicle reports that it is armed and flies its mission. Its item was reported before."""
         self._was_at_last = self._at_last
+        self._look(now)
+
+    def _look(self, now):
+        if not (self._at_last and self._is_near(self._last_item)):
+            self._there_since = None
+        elif self._there_since is None:
+            self._there_since = now
 
     def item_reached(self, seq):
         if self._at is None or seq >= self._at:
@@ -91,7 +105,7 @@ class Progress:
             self._was_at_last = self._was_at_last or self._at_last
         if seq >= self._last and (self._reached_last is None or self._reached_last < self._last):
             self._visits += 1
-            self._reached = self._visits >= self._mission.visits
+            self._reached = self._visits >= self._most_visits
         self._reached_last = seq
 
     # What follows
@@ -108,13 +122,16 @@ class Progress:
             return True
         return self._at_last and self._begun_without_end(now)
 
-    def was_over(self):
-        """Whether a vehicle that is in a mode that it takes after a mission has left the mission because it was over.
-        Each report may have been lost, the last ones too: then the place decides."""
+    def was_over(self, left):
+        """Whether a vehicle that went at `left` into a mode that it takes after a mission did so because the mission
+        was over. Each report may have been lost, the last ones too: then the place decides, and the time there."""
         is_complete = self._completes > 0 and (self._was_active or self.has_begun)
         if self._reached or is_complete or self._is_past:
             return True
-        if self._mission.visits > 1 or self._mission.endless or not self._is_near(self._last_item):
+        if self._most_visits > 1 or self._mission.endless or not self._is_near(self._last_item):
+            return False
+        seconds = self._last_item.seconds
+        if seconds > 0 and (self._there_since is None or left - self._there_since < seconds - LATE):
             return False
         return self._was_at_last or self._is_only_at_last()
 
@@ -124,7 +141,7 @@ class Progress:
         if self._at is None or self._at <= self.first or not last.is_destination:
             return False
         far = geo.distance(v.place, last.place)
-        items = self._mission.items[self._at - self.first : self._mission.last]
+        items = self._mission.items[self._at - self.first : self._last_index]
         others = [geo.distance(v.place, item.place) for item in items if item.is_destination]
         return all(other > max(2 * far, APART) for other in others)
 
@@ -146,7 +163,7 @@ class Progress:
     def is_where_it_lands(self):
         """Whether the mission ends with a landing, and the vehicle is at its place."""
         last = self._last_item
-        places = [item for item in self._mission.items[: self._mission.last + 1] if item.is_destination]
+        places = [item for item in self._mission.items[: self._last_index + 1] if item.is_destination]
         if last.command == missions.RETURN:
             return self._is_near(last)
         return self._lands(last) and bool(places) and self._is_near(places[-1])
@@ -167,7 +184,7 @@ class Progress:
         circles_home = last.command == missions.RETURN and self._vehicle.frame == "plane"
         if not circles_home and last.command not in (missions.LOITER_UNLIMITED, missions.WAYPOINT):
             return False
-        if self._mission.endless or self._mission.visits > 1:
+        if self._mission.endless or self._most_visits > 1:
             return False
         if not self._is_near(last):
             self._near_since = None
@@ -178,8 +195,7 @@ class Progress:
             return True
         # A vehicle that tells of its mission's state says itself when it is over.
         told = self._vehicle.mission_state is not None and last.command == missions.WAYPOINT
-        hold = last.params[0] if last.command == missions.WAYPOINT and math.isfinite(last.params[0]) else 0.0
-        return not told and now - self._near_since >= hold + 5
+        return not told and now - self._near_since >= last.seconds + 5
 
     def _is_near(self, item):
         v = self._vehicle

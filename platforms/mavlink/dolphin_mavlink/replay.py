@@ -206,7 +206,7 @@ def _mission(path):
 def main(arguments):
     given = _arguments(arguments)
     try:
-        options = Options(system=given.system, names=names_of(given.name), kinds=kinds_of(given.kind))
+        options = Options(system=given.system, names=names_of(given.name), kinds=kinds_of(given.kind), picks=False)
         key = None if given.key_file is None else _read(given.key_file, "key", "r").strip()
         mission = _mission(given.mission)
         try:

@@ -1,15 +1,21 @@
 """What Dolphin was told of each vehicle, and what has changed since. Pure."""
 
-from . import modes
+from . import geo, modes
 
-
+MOVE = 5.0  # metres, of which a pick is to know within a second
 _PLACE = ("latitude", "longitude")
 
 
-class Sightings:
-    """`telemetry`: whether positions and batteries are wanted every second."""
+def _moved(before, place):
+    return place is not None and "latitude" in before and geo.distance([before[k] for k in _PLACE], place) >= MOVE
 
-    def __init__(self):
+
+class Sightings:
+    """`telemetry`: whether positions and batteries are wanted every second. `picks`: whether vehicles may be picked,
+    by their distances."""
+
+    def __init__(self, picks=True):
+        self._picks = picks
         self._told, self._told_at = {}, {}  # by names
         self.telemetry = False
 
@@ -25,8 +31,12 @@ class Sightings:
             "link": vehicle.link(now),
             "unready": vehicle.unready(now, has_plan),
         }
+        may_be_picked = self._picks and not has_plan
+        if may_be_picked:
+            report["unready"] = report["unready"] or vehicle.unlocated(now)
         before = self._told.get(name, {})
-        due = now - self._told_at.get(name, -60) >= (1 if self.telemetry else 5)
+        moved = may_be_picked and _moved(before, vehicle.place)
+        due = now - self._told_at.get(name, -60) >= (1 if self.telemetry or moved else 5)
         first = (vehicle.place is not None and "latitude" not in before) or (
             vehicle.battery is not None and before.get("battery") is None
         )

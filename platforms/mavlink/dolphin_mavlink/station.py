@@ -18,6 +18,7 @@ from . import plans, version
 from . import mission as missions
 from .execution import TRANSFER, Execution
 from .sightings import Sightings
+from .telemetry import Telemetry
 from .transfer import RoundTrip
 from .vehicle import MOVE_SILENCE, Vehicle, is_autopilot
 from .wire import mavlink
@@ -30,19 +31,6 @@ CLOSING = 5.0
 UNHEARD = 10.0  # seconds in which a vehicle may be heard that a start is for, and then where it is
 RESUMING = 10.0  # seconds in which orders to resume may come
 REMEMBERED = 1000  # so many ended requests are known
-_WANTED = [
-    ("GLOBAL_POSITION_INT", 33, 1.0),
-    ("SYS_STATUS", 1, 1.0),
-    ("MISSION_CURRENT", 42, 1.0),
-    ("GPS_RAW_INT", 24, 0.2),
-    ("EXTENDED_SYS_STATE", 245, 1.0),
-    ("BATTERY_STATUS", 147, 0.5),
-    ("HOME_POSITION", 242, 0.2),
-    ("FENCE_STATUS", 162, 0.5),
-]
-_NEEDED = ("GLOBAL_POSITION_INT", "MISSION_CURRENT")  # asked for again when they are not heard
-MISSED = 2.5  # seconds after which one of these is missed
-ASKED = 10  # so many times it is asked for every 2 s, and then every 30 s
 SAID = 600.0  # seconds for which a text is not shown again
 MOST_TEXTS = 200  # so many texts of a vehicle are known to have been shown
 
@@ -56,6 +44,7 @@ class Options:
     stored: dict = dataclasses.field(default_factory=dict)  # items of missions, or why there are none, by names
     directory: str = "."  # where they are from
     on_stop: str = "hold"
+    picks: bool = True  # whether vehicles may be picked; not in a replay
 
 
 @dataclasses.dataclass
@@ -78,9 +67,9 @@ class Station:
         self._options = options
         self._out = []
         self._vehicles = {}  # by system
-        self._sightings = Sightings()
+        self._sightings = Sightings(options.picks)
         self._requests, self._over = {}, {}
-        self._asked = {}  # when each vehicle was asked for what it is to send
+        self._telemetry = {}  # by system
         self._foreign = set()
         self._early = []  # lines of the log that wait for the greeting
         self._doubts = {}  # by systems: why their messages are not believed
@@ -144,8 +133,8 @@ class Station:
             self._trips[system] = RoundTrip()
             if getattr(message, "needs_key", False):
                 self._log("signs its messages, and may not answer ours: no key was given (--key-file)", vehicle)
-            self._asked[system] = (0, now)
-            self._ask_for_telemetry(now, vehicle)
+            self._telemetry[system] = Telemetry(now, vehicle)
+            self._send_all(vehicle, self._telemetry[system].ask(now))
             self._send_heartbeat(vehicle.address, vehicle.version)
         if not self._believed(now, vehicle, address):
             return
@@ -180,32 +169,6 @@ class Station:
         """Answers to other ground stations are no answers to us. Older autopilots name nobody."""
         target = getattr(message, "target_system", 0)
         return target in (0, self._options.system)
-
-    def _ask_for_telemetry(self, now, vehicle):
-        times, _ = self._asked[vehicle.system]
-        self._asked[vehicle.system] = (times + 1, now)
-        command = mavlink.MAVLink_command_long_message
-        for _, number, rate in _WANTED:
-            interval = 1e6 / rate
-            self._send(
-                vehicle,
-                command(*vehicle.target, mavlink.MAV_CMD_SET_MESSAGE_INTERVAL, 0, number, interval, 0, 0, 0, 0, 0),
-            )
-        if times > 0 and any(kind not in vehicle.heard for kind in _NEEDED):
-            # Older autopilots know only this.
-            self._send(
-                vehicle,
-                mavlink.MAVLink_request_data_stream_message(*vehicle.target, mavlink.MAV_DATA_STREAM_ALL, 2, 1),
-            )
-
-    def _ask_again(self, now, vehicle):
-        """A request may be lost, and an autopilot that restarts forgets what it was asked for."""
-        times, at = self._asked[vehicle.system]
-        lacks = any(now - vehicle.heard.get(kind, at) > MISSED for kind in _NEEDED)
-        if not lacks:
-            self._asked[vehicle.system] = (min(times, 1), at)
-        elif vehicle.link(now) and now - at >= (2 if times < ASKED else 30):
-            self._ask_for_telemetry(now, vehicle)
 
     # From Dolphin
 
@@ -257,7 +220,7 @@ class Station:
 
     def _order_check(self, now, line):
         vehicle = self._find(line.get("vehicle"))
-        whom = plans.For() if vehicle is None else plans.vehicle(line["vehicle"], vehicle)
+        whom = plans.For() if vehicle is None else plans.vehicle(now, line["vehicle"], vehicle)
         problems = []
         try:
             plans.compile_plan(line["plan"], self._stored, whom)
@@ -319,7 +282,7 @@ class Station:
             request.heard_since = now
         why = None
         try:
-            mission = self._mission(request, vehicle)
+            mission = self._mission(now, request, vehicle)
         except Unheard as unheard:
             patience = min(request.timeout, UNHEARD)
             if now - request.heard_since < patience:
@@ -338,15 +301,15 @@ class Station:
             out += execution.stop(now)
         self._do(now, request, out)
 
-    def _mission(self, request, vehicle):
-        """What was noted when it was to begin, if it was: what a plan becomes depends on where the vehicle is."""
+    def _mission(self, now, request, vehicle):
+        """The mission noted when it was to begin, if there is a note: a plan may depend on the vehicle's place."""
         try:
             noted = missions.of_note(request.noted)
         except missions.Unreadable as unreadable:
             raise plans.Refused([str(unreadable)]) from None
         if noted is not None:
             return noted
-        return plans.compile_plan(request.plan, self._stored, plans.vehicle(request.vehicle, vehicle))
+        return plans.compile_plan(request.plan, self._stored, plans.vehicle(now, request.vehicle, vehicle))
 
     def _execution(self, now, vehicle, mission, timeout):
         vehicle.begins(now)
@@ -399,8 +362,7 @@ class Station:
     def _do(self, now, request, messages):
         """Sends what an execution sends, and reports what it reports."""
         execution = request.execution
-        for message in messages:
-            self._send(execution.vehicle, message)
+        self._send_all(execution.vehicle, messages)
         events, execution.events = execution.events, []
         for event in events:
             self._tell(now, request, *event)
@@ -456,7 +418,10 @@ class Station:
             else:
                 self._try_to_begin(now, name)
         for vehicle in self._vehicles.values():
-            self._ask_again(now, vehicle)
+            request = self._request_on(vehicle)
+            execution = None if request is None else request.execution
+            flies, lands = execution is not None, execution is not None and execution.lands
+            self._send_all(vehicle, self._telemetry[vehicle.system].tick(now, flies, lands))
             self._show_texts(now, vehicle)
             self._show(now, vehicle)
         self._quit_if_quiet(now)
@@ -506,8 +471,8 @@ class Station:
 
     # To vehicles
 
-    def _send(self, vehicle, message):
-        self._out.append(("send", vehicle.address, message, vehicle.version))
+    def _send_all(self, vehicle, messages):
+        self._out += [("send", vehicle.address, message, vehicle.version) for message in messages]
 
     def _send_heartbeat(self, address, version):
         heartbeat = mavlink.MAVLink_heartbeat_message(

@@ -15,6 +15,8 @@ DEAF = 10.0  # seconds in which a vehicle answers the first requests, over slow 
 UNSIGNED = "signs its messages: --key-file gives the pass phrase by which ours are signed"
 HEIGHTS = 10.0  # seconds for which reports of its height are kept
 FALL = 3.0  # metres a second: no copter lands as fast
+MOVES = 1.5  # metres a second: a vehicle at rest does not sink as fast
+CURRENT = 3.0  # seconds for which a position counts as the vehicle's current one: it is asked for once a second
 _CLOCK_WRAPS = 2**32 / 1000  # seconds
 _DEVICES = {mavlink.MAV_TYPE_CAMERA: "camera", mavlink.MAV_TYPE_GIMBAL: "gimbal", mavlink.MAV_TYPE_WINCH: "winch"}
 _DISTRESS = re.compile(
@@ -93,6 +95,7 @@ class Vehicle:
         self.mode, self.armed, self.status = None, False, mavlink.MAV_STATE_UNINIT
         self.heartbeats = 0  # how many there were
         self.place = None  # (latitude, longitude)
+        self.located_at = -math.inf  # when it was there
         self.armed_from = None  # its place when it was disarmed last: its home, if it does not report another one
         self.altitude = None  # above mean sea level
         self.relative = None  # above home; of what dives above the surface
@@ -103,7 +106,7 @@ class Vehicle:
         self.disarmed_at = -math.inf  # when one reported it disarmed for the first time after that
         self.flew_at = -math.inf  # when it last reported that it is in the air
         self.grounded = False  # whether it was on the ground while it was armed
-        self.sank_at = -math.inf  # when it last sank faster than any landing
+        self.sank_at = -math.inf  # when it last sank faster than a landing, or than a vehicle at rest once disarmed
         self.needs_key = False  # whether it signs its messages, and we have no key
         self.answers = False  # whether it has ever answered us
         self.boot, self.restarted_at = None, -math.inf  # the seconds since its start; when it last started again
@@ -199,7 +202,7 @@ class Vehicle:
     def _global_position_int(self, now, message):
         self._sink(now, message)
         if (message.lat, message.lon) != (0, 0) and abs(message.lat) <= 900000000 and abs(message.lon) <= 1800000000:
-            self.place = message.lat / 1e7, message.lon / 1e7
+            self.place, self.located_at = (message.lat / 1e7, message.lon / 1e7), now
             if not self.armed:
                 self.armed_from = self.place
             self.altitude, self.relative = message.alt / 1000, message.relative_alt / 1000
@@ -211,7 +214,7 @@ class Vehicle:
         if self.heights:
             before = self.heights[-1]
             sunk = before.height - report.height - 2 - 2 * abs(report.at - before.at)
-        if report.sinks > FALL or sunk > 0:
+        if report.sinks > (FALL if self.armed else MOVES) or sunk > 0:
             self.sank_at = now
         self.heights.append(report)
         while abs(report.at - self.heights[0].at) > HEIGHTS:
@@ -292,6 +295,12 @@ class Vehicle:
     def is_deaf(self, now):
         """Whether it signs its messages, and has left without an answer all of ours, which are not signed."""
         return self.needs_key and not self.answers and now - self.first_heard_at >= DEAF
+
+    def unlocated(self, now):
+        """Why its current position is not known, as a predicate; None if it is."""
+        if now - self.located_at < CURRENT:
+            return None
+        return "has not reported its position" + (" yet" if self.place is None else f" for {CURRENT:g} s")
 
     def unready(self, now, has_plan):
         """What keeps the vehicle from being given a plan though it has a link, as a predicate; None: nothing."""

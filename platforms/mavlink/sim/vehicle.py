@@ -17,6 +17,7 @@ from dolphin_mavlink.wire import mavlink
 KINDS = {
     "copter": mavlink.MAV_TYPE_QUADROTOR,
     "plane": mavlink.MAV_TYPE_FIXED_WING,
+    "vtol": mavlink.MAV_TYPE_VTOL_TILTROTOR,
     "rover": mavlink.MAV_TYPE_GROUND_ROVER,
     "boat": mavlink.MAV_TYPE_SURFACE_BOAT,
     "sub": mavlink.MAV_TYPE_SUBMARINE,
@@ -45,14 +46,17 @@ class SimVehicle:
         self.silent = False
         self.tells_state = True  # of its mission, as newer autopilots do
         self.tells_reached = True
+        self.grants_rates = True  # whether it sends its position as often as it is asked to
         self.keeps = lambda items: items  # what it keeps of an upload
         self.reasons = {}  # of refused commands, by their numbers: a severity and a text, after the acknowledgement
         self.lands_at = 1.5  # metres a second
+        self.transition = 8.0  # seconds that a VTOL transition takes, for which only PX4 waits
         self.lag = 0.1  # seconds between an acknowledgement and its heartbeat
         self.pace = 1.0  # how many times as fast its clock goes
         self._out, self._at = [], None
         self._soon = []  # what it says in a moment: when, and the messages then
         self._streams, self._booted, self._silent_until = True, 0.0, -1.0
+        self._place_interval, self._placed_at = 1.0, 0.0  # of its positions, in seconds
         self._on_ground, self._falls = True, None  # what it claims; since when it falls, and from what height
         self._upload = None
         self._waits_until, self._jumps = None, {}
@@ -202,6 +206,8 @@ class SimVehicle:
             self._rewind(is_new=False)
         elif command == mavlink.MAV_CMD_SET_MESSAGE_INTERVAL:
             self._streams = True
+            if message.param1 == mavlink.MAVLINK_MSG_ID_GLOBAL_POSITION_INT and self.grants_rates:
+                self._place_interval = message.param2 / 1e6
         elif command not in (mavlink.MAV_CMD_REQUEST_MESSAGE, mavlink.MAV_CMD_MISSION_START):
             return mavlink.MAV_RESULT_UNSUPPORTED
         return mavlink.MAV_RESULT_ACCEPTED
@@ -250,6 +256,7 @@ class SimVehicle:
         self.armed, self._on_ground, self._soon = False, True, []
         self.mode, self.state, self.current = self._first_mode(), mavlink.MISSION_STATE_NOT_STARTED, 0
         self._booted, self._silent_until, self._streams = now, now + away, False
+        self._place_interval = 1.0
 
     def _text(self, severity, text):
         self._out.append(mavlink.MAVLink_statustext_message(severity, text.encode()))
@@ -311,6 +318,14 @@ class SimVehicle:
                 break
         self._at = now
 
+    def _seconds(self, item):
+        """How long an item takes at its place."""
+        if item.command == mavlink.MAV_CMD_DO_VTOL_TRANSITION:
+            return self.transition if self.autopilot == modes.PX4 else 0.0
+        parameter = _SECONDS.get(item.command)
+        seconds = getattr(item, parameter) if parameter is not None else 0.0
+        return seconds if math.isfinite(seconds) else 0.0
+
     def _step(self, now):
         """Whether the current item was fulfilled before `now`."""
         item = self.items[self.current]
@@ -332,9 +347,7 @@ class SimVehicle:
                 self.altitude, self._on_ground = item.z, item.z <= 0
         if item.command == mavlink.MAV_CMD_NAV_LOITER_UNLIM:
             return False
-        parameter = _SECONDS.get(item.command)
-        seconds = getattr(item, parameter) if parameter is not None else 0.0
-        seconds = seconds if math.isfinite(seconds) else 0.0
+        seconds = self._seconds(item)
         if self._descends(item):
             seconds = self.altitude / self._sink + 1 if self._waits_until is None else 0
         if self._waits_until is None:
@@ -374,7 +387,8 @@ class SimVehicle:
             self._beat(self._at)
             return
         self.reached.append(self.current)
-        if self.tells_reached and (item.command <= 95 or item.command in _SECONDS):
+        is_told = item.command <= 95 or item.command in _SECONDS or self.autopilot == modes.PX4
+        if self.tells_reached and is_told:
             self._out.append(mavlink.MAVLink_mission_item_reached_message(self.current))
         if self._descends(item):
             self.altitude, self._on_ground, self.armed = 0.0, True, False
@@ -415,7 +429,10 @@ class SimVehicle:
             self._beat(now)
             if self._streams:
                 self._news()
-                self._sense(now)
+                self._say_place(now)
+                self._sense()
+        elif self._streams and now - self._placed_at > self._place_interval - 0.001:
+            self._say_place(now)
         upload = self._upload
         if upload is not None:
             px4 = self.autopilot == modes.PX4
@@ -426,12 +443,13 @@ class SimVehicle:
                 self._request(now)
         return self._take()
 
-    def _sense(self, now):
+    def _say_place(self, now):
+        self._placed_at = now
         latitude, longitude = round(self.place[0] * 1e7), round(self.place[1] * 1e7)
         millimetres = round(self.altitude * 1000)
         moves = self.state == mavlink.MISSION_STATE_ACTIVE and self.armed
         speed = round(self.speed * 100) if moves else 0
-        self._out += [
+        self._out.append(
             mavlink.MAVLink_global_position_int_message(
                 round((now - self._booted) * self.pace * 1000) & 0xFFFFFFFF,
                 latitude,
@@ -442,7 +460,11 @@ class SimVehicle:
                 0,
                 self._sinks(now),
                 65535,
-            ),
+            )
+        )
+
+    def _sense(self):
+        self._out += [
             mavlink.MAVLink_sys_status_message(0, 0, 0, 0, 12000, -1, self.battery, 0, 0, 0, 0, 0, 0),
             mavlink.MAVLink_home_position_message(
                 round(self.home[0] * 1e7), round(self.home[1] * 1e7), 0, 0, 0, 0, [1, 0, 0, 0], 0, 0, 0

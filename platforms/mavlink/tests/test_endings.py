@@ -115,28 +115,45 @@ class Motors(Case):
                     self.ends(wires, "r", "failed", "was disarmed in flight")
 
     def test_a_vehicle_whose_motors_are_stopped_close_to_the_ground(self):
-        """It has fallen before it reports how fast. It fell in less than the second for which a vehicle rests."""
-        for height in (4.0, 3.0, 2.0, 1.5):
-            for lands_at in (0.5, 1.5):
-                for seed in seeds(10):
-                    with self.subTest(height=height, lands_at=lands_at, seed=seed):
-                        vehicle, wires = begun((*way(3), LANDINGS["a landing"]), seed=seed, delay=0.05)
-                        vehicle.lands_at = lands_at
-                        wires.run(200, at_its_landing(vehicle, height + 0.1 * random.Random(seed).random()))
-                        wires.say(vehicle, vehicle.kill(wires.now))
-                        self.ends(wires, "r", "failed", "was disarmed in flight")
+        """While a vehicle lands, it reports its position ten times a second. With one report a second it has fallen
+        before it reports how fast: it fell in less than the second for which a vehicle rests."""
+        for grants_rates, heights in ((True, (3.0, 1.5, 1.0, 0.7, 0.5)), (False, (4.0, 3.0, 2.0, 1.5))):
+            for height in heights:
+                for lands_at in (0.5, 1.5):
+                    for seed in seeds(10):
+                        with self.subTest(rates=grants_rates, height=height, lands_at=lands_at, seed=seed):
+                            vehicle, wires = begun((*way(3), LANDINGS["a landing"]), seed=seed, delay=0.05)
+                            vehicle.lands_at, vehicle.grants_rates = lands_at, grants_rates
+                            wires.run(200, at_its_landing(vehicle, height + 0.1 * random.Random(seed).random()))
+                            wires.say(vehicle, vehicle.kill(wires.now))
+                            self.ends(wires, "r", "failed", "was disarmed in flight")
 
     def test_a_kill_of_which_the_heartbeat_is_late(self):
-        """As of autopilots that send it once a second. From 3 m on."""
-        for height in (4.0, 3.2):
-            for seed in seeds(20):
-                with self.subTest(height=height, seed=seed):
-                    vehicle, wires = begun((*way(3), LANDINGS["a landing"]), seed=seed, delay=0.05)
-                    vehicle.lands_at = 0.5
-                    wires.run(200, at_its_landing(vehicle, height))
-                    wires.run(random.Random(seed).random())
-                    vehicle.kill(wires.now)  # what it would say at once is lost
-                    self.ends(wires, "r", "failed", "was disarmed in flight")
+        """As of autopilots that send it once a second. From 1.2 m on, from 3 m with one position a second."""
+        for grants_rates, heights in ((True, (2.7, 1.7)), (False, (4.0, 3.2))):
+            for height in heights:
+                for seed in seeds(20):
+                    with self.subTest(rates=grants_rates, height=height, seed=seed):
+                        vehicle, wires = begun((*way(3), LANDINGS["a landing"]), seed=seed, delay=0.05)
+                        vehicle.lands_at, vehicle.grants_rates = 0.5, grants_rates
+                        wires.run(200, at_its_landing(vehicle, height))
+                        wires.run(random.Random(seed).random())
+                        vehicle.kill(wires.now)  # what it would say at once is lost
+                        self.ends(wires, "r", "failed", "was disarmed in flight")
+
+    def test_positions_come_often_only_while_it_lands(self):
+        for loss in (0.0, 0.3):
+            for seed in seeds(5):
+                with self.subTest(loss=loss, seed=seed):
+                    vehicle, wires = begun((*way(6), LANDINGS["a landing"]), seed=seed, loss=loss, delay=0.05)
+                    self.assertTrue(wires.run(60, lambda: vehicle.current > 3))
+                    self.assertEqual(vehicle._place_interval, 1.0)
+                    self.assertTrue(wires.run(200, at_its_landing(vehicle, 8.0)))
+                    self.assertEqual(vehicle._place_interval, 0.1)
+                    self.ends(wires, "r", "done")
+                    wires.run(1)
+                    if loss == 0:
+                        self.assertEqual(vehicle._place_interval, 1.0)
 
     def test_landings_at_any_speed(self):
         for lands_at in (0.3, 0.5, 1.0, 1.5, 2.5):

@@ -158,7 +158,7 @@ class Places(Case):
                 with self.subTest(dialect=dialect, command=entry.name):
                     is_point = re.match("MAV_CMD_NAV_(FENCE|RALLY)", entry.name)
                     is_named = entry.name.startswith("MAV_CMD_NAV_") and not is_point
-                    self.assertEqual(Item(number).is_navigation, number <= 95 or is_named)
+                    self.assertEqual(Item(number).is_navigation(False), number <= 95 or is_named)
 
     def test_a_mission_ends_after_what_is_fulfilled_last(self):
         """Not with the waypoint before it."""

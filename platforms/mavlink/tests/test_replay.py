@@ -28,7 +28,7 @@ def file_of(log):
 
 def concluded(data, **options):
     """The conclusions about vehicles, as (vehicle, text)."""
-    played = replay.Replay(Options(**options))
+    played = replay.Replay(Options(picks=False, **options))
     records, _ = tlog.read(data)
     for at, frame in records:
         played.hear(at - records[0][0], frame)

@@ -297,14 +297,9 @@ class Unheard(Case):
 
     def one(self, hidden, armed=False):
         vehicle = SimVehicle(1, "copter", False, HARBOUR, armed=armed)
-        sense, vehicle.hidden = vehicle._sense, {hidden}
-
-        def part(now):
-            sense(now)
-            vehicle._out = [m for m in vehicle._out if m.get_type() not in vehicle.hidden]
-
-        vehicle._sense = part
+        vehicle.hidden = {hidden}
         wires = Network([vehicle], options=Options(stored={"survey": way(5)}))
+        wires.loses = lambda message: message.get_type() in vehicle.hidden
         wires.run(3)
         return vehicle, wires
 
@@ -321,6 +316,19 @@ class Unheard(Case):
         wires.start("r", "mav-1", plan)
         self.ends(wires, "r", "failed", "its position was not heard for 10 seconds")
         self.assertEqual(vehicle.items, [])
+
+    def test_a_position_that_is_old(self):
+        """After a link that was away, a mission relative to the vehicle is made from where the vehicle is."""
+        vehicle, wires = one(armed=True)
+        wires.loses = lambda message: message.get_type() == "GLOBAL_POSITION_INT"
+        vehicle.place = geo.displace(HARBOUR, 500, 0)
+        wires.run(5)
+        wires.start("r", "mav-1", flight(["altitude", 20], ["move", 50, 0]))
+        wires.run(4)
+        self.assertEqual(vehicle.items, [])
+        wires.loses = lambda message: False
+        self.ends(wires, "r", "done")
+        self.assertLess(geo.distance(vehicle.place, geo.displace(HARBOUR, 550, 0)), 1)
 
     def test_the_home_position(self):
         """On the ground it is where the vehicle is; in flight it has to be known."""

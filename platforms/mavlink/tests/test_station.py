@@ -2,6 +2,7 @@
 
 import unittest
 
+from dolphin_mavlink import geo
 from dolphin_mavlink.station import Options, Station
 from dolphin_mavlink.wire import Wire, mavlink
 from sim.network import Network
@@ -94,6 +95,49 @@ class Protocol(Case):
         seen = wires.vehicle_said("mav-1")
         self.assertAlmostEqual(seen["latitude"], vehicle.place[0], 6)
         self.assertAlmostEqual(seen["longitude"], vehicle.place[1], 6)
+
+    def test_a_vehicle_is_not_ready_before_its_position_is_known(self):
+        """A pick goes by distances."""
+        for kind in ("copter", "plane", "rover", "sub"):
+            vehicle = SimVehicle(1, kind, False, HARBOUR)
+            wires = Network([vehicle])
+            hidden = {"GLOBAL_POSITION_INT"}
+            wires.loses = lambda message: message.get_type() in hidden
+            wires.run(4)
+            self.assertEqual(wires.vehicle_said("mav-1")["unready"], "has not reported its position yet")
+            hidden.clear()
+            wires.run(2)
+            seen = [r for r in wires.said("vehicle") if "unready" in r][-1]
+            self.assertEqual((seen["unready"], "latitude" in seen), (None, True))
+            hidden.add("GLOBAL_POSITION_INT")
+            wires.run(5)
+            self.assertEqual(wires.vehicle_said("mav-1")["unready"], "has not reported its position for 3 s")
+            vehicle.place = (41.2, -8.7)
+            hidden.clear()
+            wires.run(1.5)
+            seen = [r for r in wires.said("vehicle") if "unready" in r][-1]
+            self.assertIsNone(seen["unready"])
+            self.assertAlmostEqual(seen["latitude"], 41.2, 6)
+
+    def test_a_vehicle_without_a_fix_is_not_ready(self):
+        """Autopilots report 0, 0 then."""
+        wires = Network([SimVehicle(1, place=(0.0, 0.0))])
+        wires.run(4)
+        self.assertEqual(wires.vehicle_said("mav-1")["unready"], "has not reported its position yet")
+
+    def test_a_position_that_is_lost_now_and_then(self):
+        """It does not make a vehicle unready, nor does it fail a start."""
+        for seed in range(10):
+            _, wires = one(seed=seed, loss=0.1)
+            wires.run(60)
+            self.assertLess(len([r for r in wires.said("vehicle") if r.get("unready")]), 3)
+
+    def test_a_ready_vehicle_that_moves_is_reported_within_a_second(self):
+        vehicle, wires = one(armed=True)
+        for n in range(20):
+            vehicle.place = geo.displace(HARBOUR, 20.0 * n, 0)
+            wires.run(2.2)
+            self.assertAlmostEqual(wires.vehicle_said("mav-1")["latitude"], vehicle.place[0], 6)
 
     def test_a_report_that_was_refused_is_followed_by_a_whole_one(self):
         vehicle, wires = one()

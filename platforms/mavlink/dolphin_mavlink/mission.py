@@ -1,13 +1,9 @@
-"""Missions as autopilots have them: items in order. Also read from files, of QGroundControl (`.plan`) and of MAVProxy
-and Mission Planner (`.waypoints`)."""
+"""Missions as autopilots have them: items in order."""
 
 import dataclasses
 import hashlib
-import json
 import math
-import re
 
-from . import geo
 from .wire import mavlink
 
 WAYPOINT, LOITER_UNLIMITED, LOITER_TURNS, LOITER_TIME = 16, 17, 18, 19
@@ -17,8 +13,7 @@ JUMP_TO_TAG = 601
 
 # Frames in the form of MISSION_ITEM_INT; an autopilot may give back the same frame in its other form.
 GLOBAL, RELATIVE, MISSION_FRAME = 5, 6, 2
-_SAME_FRAME = {0: 5, 3: 6, 10: 11}
-_FRAMES = {0, 2, 3, 5, 6, 10, 11}
+SAME_FRAME = {0: 5, 3: 6, 10: 11}
 
 # In every frame but MISSION_FRAME, MISSION_ITEM_INT has places in units of 1e-7 degrees, whatever the command is. These
 # commands use param5 and param6 for other numbers in all frames, as ArduPilot reads them.
@@ -49,7 +44,6 @@ _DEFINED = mavlink.enums["MAV_CMD"]
 # ArduPilot stores a place also of these, for which MAVLink defines none: NAV_CONTINUE_AND_CHANGE_ALT,
 # NAV_GUIDED_ENABLE, DO_GO_AROUND.
 _STORED_PLACE = {30, 92, 191}
-_NEED_A_PLACE = {16, 31, 36, 82, 195, 201, mavlink.MAV_CMD_CONDITION_GATE}
 
 # Which parameter has the seconds that the vehicle stays at the item's place.
 _SECONDS = {16: 1, 19: 1, 93: 1, mavlink.MAV_CMD_NAV_SCRIPT_TIME: 2, mavlink.MAV_CMD_NAV_ATTITUDE_TIME: 1}
@@ -82,13 +76,13 @@ def is_scaled(command, frame):
     return frame != MISSION_FRAME and command not in _NOT_SCALED
 
 
-def _has_defined_place(command):
+def has_defined_place(command):
     return command in DESTINATIONS or (command in _DEFINED and _DEFINED[command].has_location)
 
 
 def _may_drop_place(command):
     """Whether MAVLink defines no place for the command: an autopilot need not keep one, and does not fly to it."""
-    return command in _DEFINED and not _has_defined_place(command) and command not in _STORED_PLACE
+    return command in _DEFINED and not has_defined_place(command) and command not in _STORED_PLACE
 
 
 @dataclasses.dataclass(frozen=True)
@@ -174,7 +168,7 @@ def difference(sent, kept):
             return (
                 f"parameter {n} of command {sent.command} is {kept.params[n - 1]:g} instead of {sent.params[n - 1]:g}"
             )
-    if sent.is_scaled or _has_defined_place(sent.command):
+    if sent.is_scaled or has_defined_place(sent.command):
         return _different_place(sent, kept)
     return None
 
@@ -186,7 +180,7 @@ def _different_place(sent, kept):
         return f"{kept.x / 1e7:.7f}, {kept.y / 1e7:.7f} instead of {sent.x / 1e7:.7f}, {sent.y / 1e7:.7f}"
     if not sent.is_scaled or not (sent.has_place or sent.command in DESTINATIONS):
         return None
-    if _SAME_FRAME.get(sent.frame, sent.frame) != _SAME_FRAME.get(kept.frame, kept.frame):
+    if SAME_FRAME.get(sent.frame, sent.frame) != SAME_FRAME.get(kept.frame, kept.frame):
         return f"frame {kept.frame} instead of {sent.frame}"
     if not (math.isnan(sent.z) or abs(sent.z - kept.z) <= 0.02):
         return f"a height of {kept.z:g} m instead of {sent.z:g} m"
@@ -263,222 +257,16 @@ def of_note(note):
     return Mission(items, note.get("arm") is True, note.get("endless") is True)
 
 
-# Files
-
-
-def _number(value, what, default=0.0):
-    if value is None:
-        return default
-    try:
-        number = math.inf if isinstance(value, bool) else float(value) if isinstance(value, (int, float)) else math.inf
-    except OverflowError:
-        number = math.inf
-    if not math.isfinite(number):
-        raise Unreadable(f"{what} is not a number")
-    return number
-
-
-def _item(command, frame, values, autocontinue, what):
-    if not isinstance(command, int) or isinstance(command, bool) or not 0 <= command <= 65535:
-        raise Unreadable(f"{what} has no command")
-    if frame not in _FRAMES:
-        raise Unreadable(f"{what} is in frame {frame}, which Dolphin does not know")
-    if not isinstance(values, list) or len(values) != 7:
-        raise Unreadable(f"{what} has not seven parameters")
-    named = [
-        _number(value, f"parameter {n} of {what}", math.nan if n == 4 else 0.0) for n, value in enumerate(values, 1)
-    ]
-    latitude, longitude, z = named[4:]
-    unset = [value is None for value in values[4:6]]
-    if _has_defined_place(command) and (unset[0] != unset[1] or (any(unset) and command in _NEED_A_PLACE)):
-        raise Unreadable(f"{what} has no place")
-    if command in DESTINATIONS and frame == MISSION_FRAME and (latitude, longitude) != (0, 0):
-        raise Unreadable(f"{what} flies to a place, and frame {frame} has none")
-    x, y = _integers(command, frame, latitude, longitude, what)
-    return Item(command, _SAME_FRAME.get(frame, frame), tuple(named[:4]), x, y, z, 1 if autocontinue else 0)
-
-
-def _integers(command, frame, param5, param6, what):
-    """param5 and param6 as MISSION_ITEM_INT has them."""
-    scaled = is_scaled(command, frame)
-    if scaled and not (abs(param5) <= 90 and abs(param6) <= 180):
-        raise Unreadable(f"{what} is at {param5:g}, {param6:g}, which is not a place")
-    x, y = (round(p * 1e7) if scaled else round(p) for p in (param5, param6))
-    if max(abs(x), abs(y)) >= 2**31:
-        raise Unreadable(f"{what} has a parameter out of range")
-    if (param5, param6) == (0, 0):
-        return x, y
-    if scaled and geo.distance((0.0, 0.0), (x / 1e7, y / 1e7)) < 1:
-        raise Unreadable(f"{what} is at {param5:g}, {param6:g}, within a metre of 0, 0: give 0, 0 or its true place")
-    if not scaled and _has_defined_place(command) and abs(x) <= 90 and abs(y) <= 180:
-        # Degrees, which the vehicle would take for units of 1e-7 degrees.
-        raise Unreadable(
-            f"{what} would be sent to a place within metres of 0, 0, for frame {frame} has none: give a global frame"
-        )
-    return x, y
-
-
-def _with_jumps(items, numbers):
-    """`items` with each jump to the place of its target among them, from 1. `numbers` are the items' own in the file,
-    which its jumps name; None where an item has none."""
-    found = []
-    for n, item in enumerate(items, 1):
-        if item.command == JUMP:
-            target = item.params[0]
-            places = [place for place, number in enumerate(numbers, 1) if number is not None and number == target]
-            if len(places) != 1:
-                which = "is the number of no item" if not places else f"is that of {len(places)} items"
-                raise Unreadable(f"item {n} jumps to number {target:g}, which {which} of the file")
-            item = dataclasses.replace(item, params=(float(places[0]), *item.params[1:]))
-        found.append(item)
-    return found
-
-
-_LANDING_PATTERNS = {"fwLandingPattern", "vtolLandingPattern"}
-
-
-def _refuse_constant(name):
-    raise ValueError(f"{name} is not JSON")
-
-
-def _json(text):
-    try:
-        plan = json.loads(text, parse_constant=_refuse_constant)
-    except (ValueError, RecursionError):
-        return None
-    return plan if isinstance(plan, dict) else None
-
-
-def _of_plan(text):
-    """A `.plan` of QGroundControl, of simple items, and of complex ones that list their items."""
-    mission = (_json(text) or {}).get("mission")
-    if not isinstance(mission, dict) or "items" not in mission:
-        raise Unreadable("it is no plan of QGroundControl")
-    flat, numbers = [], []
-
-    def add_complex(entry):
-        kind = entry.get("complexItemType")
-        if kind in _LANDING_PATTERNS:
-            raise Unreadable(
-                f"its landing pattern ({kind}) is not flown: replace it by way points and LAND, or by a return"
-            )
-        transects = entry.get("TransectStyleComplexItem")
-        inner = transects if isinstance(transects, dict) else entry
-        if "Items" not in inner:
-            raise Unreadable(f"its item of type {kind} lists no items: save it anew")
-        add(inner["Items"])
-
-    def add(entries):
-        if not isinstance(entries, list):
-            raise Unreadable("it has no list of items")
-        for entry in entries:
-            if not isinstance(entry, dict):
-                raise Unreadable("an item is no object")
-            kind = entry.get("type", "SimpleItem")
-            if kind == "ComplexItem":
-                add_complex(entry)
-            elif kind == "SimpleItem":
-                command, frame, params = (entry.get(key) for key in ("command", "frame", "params"))
-                flat.append(_item(command, frame, params, entry.get("autoContinue", True), f"item {len(flat) + 1}"))
-                numbers.append(entry.get("doJumpId"))
-            else:
-                raise Unreadable(f"item {len(flat) + 1} is of type {kind}, which Dolphin does not know")
-
-    add(mission["items"])
-    if all(number is None for number in numbers):
-        numbers = list(range(1, len(flat) + 1))
-    return _with_jumps(flat, numbers)
-
-
-def left_out(name, text):
-    """The parts of the file `name` that are not flown, in words; None if there are none."""
-    if not name.endswith(".plan"):
-        return None
-    plan = _json(text.removeprefix(_MARK)) or {}
-    fence, rally = plan.get("geoFence"), plan.get("rallyPoints")
-    has_fence = isinstance(fence, dict) and (fence.get("polygons") or fence.get("circles"))
-    has_rally = isinstance(rally, dict) and rally.get("points")
-    parts = ["its fence"] * bool(has_fence) + ["its rally points"] * bool(has_rally)
-    return f"{' and '.join(parts)} {'is' if parts == ['its fence'] else 'are'} not uploaded" if parts else None
-
-
-_WHOLE = re.compile(r"[0-9]{1,9}")
-_DECIMAL = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")
-
-
-def _column(text):
-    """The number in a column, None for `nan`: the autopilot's own choice."""
-    if text.lower() in ("nan", "-nan"):
-        return None
-    if not _DECIMAL.fullmatch(text):
-        raise ValueError(text)
-    return float(text)
-
-
-def _whole_column(text):
-    if not _WHOLE.fullmatch(text):
-        raise ValueError(text)
-    return int(text)
-
-
-# A row 0 with WAYPOINT is the home position. Ground stations take any first row as that, and lose it.
-def _check_home(number, item):
-    if number == 0 and item.command != WAYPOINT:
-        raise Unreadable(
-            f"row 0 is the home position, a WAYPOINT ({WAYPOINT}), and has command {item.command}: put a row before it"
-        )
-    if number != 0 and item.command == WAYPOINT:
-        raise Unreadable(
-            f"its first row is number {number}: number the home position 0, or put a row 0 with it before this one"
-        )
-
-
-def _of_waypoints(text):
-    """A `.waypoints`: a first line `QGC WPL 110`, then rows of twelve columns; a row 0 is the home position. A file
-    that begins with another row, a take-off, has none."""
-    lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
-    if not lines or lines[0].split()[:3] != ["QGC", "WPL", "110"]:
-        raise Unreadable("its first line is not QGC WPL 110")
-    items, numbers = [], []
-    for line in lines[1:]:
-        what = f"item {len(items)}"
-        columns = line.split()
-        if len(columns) != 12:
-            raise Unreadable(f"{what} has {len(columns)} columns instead of 12")
-        try:
-            number, _, frame, command = (_whole_column(c) for c in columns[:4])
-            values = [_column(c) for c in columns[4:11]]
-        except ValueError:
-            raise Unreadable(f"{what} has a column that is no number") from None
-        items.append(_item(command, frame, values, columns[11] != "0", what))
-        numbers.append(number)
-    if items:
-        _check_home(numbers[0], items[0])
-    if numbers and numbers[0] == 0:
-        del items[0], numbers[0]
-    return _with_jumps(items, numbers)
-
-
-_MARK = "\ufeff"  # of byte order
-
-
-def of_file(name, text):
-    """The items of the file `name`, which has `text`. Raises Unreadable."""
-    text = text.removeprefix(_MARK)
-    items = _of_plan(text) if name.endswith(".plan") else _of_waypoints(text)
-    if not items:
-        raise Unreadable("it has no items")
-    return tuple(items)
-
-
 def problems(items):
-    """What keeps any vehicle from carrying out `items`: jumps that lead nowhere, or that cannot be followed."""
+    """Why no vehicle can carry out `items`: jumps that lead nowhere, or that cannot be followed, and the like."""
     found = []
     for n, item in enumerate(items, 1):
         if item.command == JUMP_TO_TAG:
             found.append(f"item {n} jumps to a tag, which Dolphin cannot follow: use DO_JUMP")
         if item.command == JUMP and not 1 <= item.params[0] <= len(items):
             found.append(f"item {n} jumps to item {item.params[0]:g}, and there are {len(items)}")
+        if item.command == JUMP and (item.params[1] < -1 or item.params[1] != int(item.params[1])):
+            found.append(f"item {n} jumps {item.params[1]:g} times: give a whole number, or -1 for without end")
         if item.command == VTOL_TRANSITION and item.params[0] not in (3, 4):
             found.append(f"item {n} is a VTOL transition to state {item.params[0]:g}: 3 is rotary wing, 4 fixed wing")
     return found

@@ -60,6 +60,10 @@ def compile_plan(plan, stored, whom):
         for n, item in enumerate(found.items, 1):
             if item.command in (missions.TAKE_OFF, missions.LAND, missions.VTOL_TAKE_OFF, missions.VTOL_LAND):
                 problems.append(f"item {n}: a {whom.kind} neither takes off nor lands")
+    if whom.is_px4:
+        for n, item in enumerate(found.items[: found.last(True)], 1):
+            if not item.autocontinue:
+                problems.append(f"item {n} does not go on to the next one: set autocontinue to 1")
     if whom.is_px4 and whom.frame != "vtol":
         # PX4 would wait for it without end.
         for n, item in enumerate(found.items, 1):

@@ -9,6 +9,7 @@ import math
 import sys
 
 from . import mission as missions
+from . import mission_files
 from . import modes, tlog
 from .options import Trouble, kinds_of, names_of
 from .station import Options, Station
@@ -197,7 +198,7 @@ def _mission(path):
     if path is None:
         return None
     try:
-        items = missions.of_file(path, _read(path, "mission", "r"))
+        items = mission_files.of_file(path, _read(path, "mission", "r"))
     except (missions.Unreadable, RecursionError) as error:
         raise Trouble(f"mission {path}: {error}") from None
     return missions.Mission(tuple(items))

@@ -11,6 +11,7 @@ import termios
 import time
 
 from . import mission as missions
+from . import mission_files
 from . import replay
 from .options import Trouble, kinds_of, names_of, pairs
 from .station import Options, Station
@@ -146,8 +147,8 @@ def read_missions(directory):
         try:
             with open(os.path.join(directory, file), encoding="utf-8") as opened:
                 text = opened.read()
-            stored[name] = missions.of_file(file, text)
-            if unused := missions.left_out(file, text):
+            stored[name] = mission_files.of_file(file, text)
+            if unused := mission_files.left_out(file, text):
                 print(f"{file}: {unused}", file=sys.stderr)
         except (OSError, UnicodeDecodeError, missions.Unreadable, RecursionError) as error:
             stored[name] = f"{file}: {error}"

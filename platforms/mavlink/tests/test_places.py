@@ -9,7 +9,7 @@ import unittest
 
 from pymavlink.dialects import v20
 
-from dolphin_mavlink import mission
+from dolphin_mavlink import mission, mission_files
 from dolphin_mavlink.mission import Item, Unreadable
 from dolphin_mavlink.wire import mavlink
 from tests.support import Case, one, seeds, stored, waypoint
@@ -24,7 +24,9 @@ AS_IT_IS = (
     mavlink.MAV_CMD_NAV_SCRIPT_TIME,
     mavlink.MAV_CMD_NAV_ATTITUDE_TIME,
 )
-DEFINED = sorted(n for n in mavlink.enums["MAV_CMD"] if n not in (mission.JUMP, mission.JUMP_TO_TAG) and n < 65536)
+# These are read otherwise: jumps by numbers of items; points of fences and rally points are refused.
+OTHERS = (mission.JUMP, mission.JUMP_TO_TAG, *range(5000, 5005), 5100)
+DEFINED = sorted(n for n in mavlink.enums["MAV_CMD"] if n not in OTHERS and n < 65536)
 # Commands of which issues were reported, beside those that are drawn.
 KNOWN = (16, 22, 30, 36, 80, 94, 179, 189, 195, 201, 4501)
 
@@ -36,18 +38,18 @@ def file_of(kind, command, frame, x, y, z=30.0):
             {"type": "SimpleItem", "command": c, "frame": f, "params": [0, 0, 0, 0, *p], "doJumpId": n}
             for n, (c, f, p) in enumerate([(command, frame, (x, y, z)), (16, 3, (41.185, -8.706, 30))], 1)
         ]
-        return mission.of_file("a.plan", json.dumps({"mission": {"items": items}}))
+        return mission_files.of_file("a.plan", json.dumps({"mission": {"items": items}}))
     rows = [(16, 0, (41.185, -8.706, 10)), (command, frame, (x, y, z)), (16, 3, (41.185, -8.706, 30))]
     lines = [
         "\t".join(str(c) for c in (n, 0, f, c, 0, 0, 0, 0, *(repr(float(v)) for v in p), 1))
         for n, (c, f, p) in enumerate(rows)
     ]
-    return mission.of_file("a.waypoints", "QGC WPL 110\n" + "\n".join(lines) + "\n")
+    return mission_files.of_file("a.waypoints", "QGC WPL 110\n" + "\n".join(lines) + "\n")
 
 
 def drawn(generator):
     command = generator.choice((generator.choice(KNOWN), generator.choice(DEFINED), generator.randrange(65536)))
-    while command in (mission.JUMP, mission.JUMP_TO_TAG):
+    while command in OTHERS:
         command = generator.choice(DEFINED)
     frame = generator.choice((*GLOBAL_FRAMES, 2))
     return command, frame, round(generator.uniform(-90, 90), 7), round(generator.uniform(-180, 180), 7)
@@ -72,7 +74,7 @@ class Places(Case):
                         # Degrees in a frame without places.
                         self.assertFalse(is_place(command, frame), why)
                         self.assertIn(f"frame {frame}", str(why))
-                        self.assertTrue(mission._has_defined_place(command))
+                        self.assertTrue(mission.has_defined_place(command))
                         continue
                     sent = item.message((1, 1), 1)
                     scale = 1e7 if is_place(command, frame) else 1

@@ -6,7 +6,7 @@ import os
 import tempfile
 import unittest
 
-from dolphin_mavlink import geo, mission, plans
+from dolphin_mavlink import geo, mission, mission_files, plans
 from dolphin_mavlink import words as language
 from dolphin_mavlink.mission import Item, Unreadable
 from dolphin_mavlink.shell import read_missions
@@ -83,13 +83,13 @@ class Named(dict):
 
 class Files(unittest.TestCase):
     def test_a_plan_of_qgroundcontrol(self):
-        found = mission.of_file("a.plan", PLAN)
+        found = mission_files.of_file("a.plan", PLAN)
         self.assertEqual([i.command for i in found], [22, 16, 206, 177, 20])
         self.assertEqual((found[1].x, found[1].y, found[1].z, found[1].frame), (411860000, -87060000, 30.0, 6))
         self.assertEqual(found[3].params[:2], (2.0, 3.0))
 
     def test_waypoints(self):
-        found = mission.of_file("a.waypoints", WAYPOINTS)
+        found = mission_files.of_file("a.waypoints", WAYPOINTS)
         self.assertEqual([(i.command, i.params[0]) for i in found], [(22, 0.0), (16, 5.0)])
 
     def test_jumps_of_plans_name_items_by_their_ids(self):
@@ -107,9 +107,9 @@ class Files(unittest.TestCase):
             ]
             return json.dumps({"fileType": "Plan", "mission": {"items": entries}})
 
-        found = mission.of_file("a.plan", plan((22, 2, 0), (16, 3, 0), (16, 4, 0), (177, 5, 3)))
+        found = mission_files.of_file("a.plan", plan((22, 2, 0), (16, 3, 0), (16, 4, 0), (177, 5, 3)))
         self.assertEqual(found[3].params[:2], (2.0, 2.0))
-        found = mission.of_file("a.plan", plan((22, 9, 0), (177, 3, 9), (16, 1, 0), (177, 4, 1)))
+        found = mission_files.of_file("a.plan", plan((22, 9, 0), (177, 3, 9), (16, 1, 0), (177, 4, 1)))
         self.assertEqual([i.params[0] for i in found if i.command == 177], [1.0, 3.0])
         for items, why in (
             (((22, 2, 0), (177, 3, 1)), "item 2 jumps to number 1, which is the number of no item of the file"),
@@ -117,7 +117,7 @@ class Files(unittest.TestCase):
             (((22, 2, 0), (177, 3, 2.5)), "item 2 jumps to number 2.5, which is the number of no item of the file"),
         ):
             with self.assertRaises(Unreadable) as caught:
-                mission.of_file("a.plan", plan(*items))
+                mission_files.of_file("a.plan", plan(*items))
             self.assertEqual(str(caught.exception), why)
 
     def test_jumps_to_tags_are_refused(self):
@@ -130,11 +130,11 @@ class Files(unittest.TestCase):
     def test_what_is_left_out_of_a_plan_is_named(self):
         fence = '"geoFence": {"polygons": [[0]], "circles": []}'
         rally = '"rallyPoints": {"points": [[1, 2, 3]]}'
-        self.assertIsNone(mission.left_out("a.plan", PLAN))
-        self.assertIsNone(mission.left_out("a.waypoints", WAYPOINTS))
-        self.assertEqual(mission.left_out("a.plan", "{%s}" % fence), "its fence is not uploaded")
+        self.assertIsNone(mission_files.left_out("a.plan", PLAN))
+        self.assertIsNone(mission_files.left_out("a.waypoints", WAYPOINTS))
+        self.assertEqual(mission_files.left_out("a.plan", "{%s}" % fence), "its fence is not uploaded")
         self.assertEqual(
-            mission.left_out("a.plan", "{%s, %s}" % (fence, rally)),
+            mission_files.left_out("a.plan", "{%s, %s}" % (fence, rally)),
             "its fence and its rally points are not uploaded",
         )
 
@@ -143,7 +143,7 @@ class Files(unittest.TestCase):
         take_off = "1\t0\t3\t84\t0\t0\t-0.0\t0\t41.185\t-8.706\t10\t1"
 
         def commands(*lines):
-            return [i.command for i in mission.of_file("a.waypoints", "\n".join([head, *lines]))]
+            return [i.command for i in mission_files.of_file("a.waypoints", "\n".join([head, *lines]))]
 
         self.assertEqual(commands(home, *rows), [22, 16])
         self.assertEqual(commands(take_off, *rows), [84, 22, 16])
@@ -164,28 +164,28 @@ class Files(unittest.TestCase):
     def test_jumps_of_waypoints_name_rows(self):
         head, home, *rows = WAYPOINTS.splitlines()
         jump = "3\t0\t2\t177\t2\t4\t0\t0\t0\t0\t0\t1"
-        found = mission.of_file("a.waypoints", "\n".join([head, home, *rows, jump]))
+        found = mission_files.of_file("a.waypoints", "\n".join([head, home, *rows, jump]))
         self.assertEqual(found[2].params[:2], (2.0, 4.0))
         take_off = rows[0].replace("\t22\t", "\t84\t")
         with self.assertRaises(Unreadable):
-            mission.of_file("a.waypoints", "\n".join([head, take_off, *rows, jump.replace("177\t2", "177\t1")]))
+            mission_files.of_file("a.waypoints", "\n".join([head, take_off, *rows, jump.replace("177\t2", "177\t1")]))
 
     def test_comments_a_byte_order_mark_and_nan_in_waypoints(self):
         text = "\ufeff# mine\n" + WAYPOINTS.replace("22\t0\t0\t0\t0\t", "22\t0\tNaN\t0\tnan\t") + "# end\n"
-        found = mission.of_file("a.waypoints", text)
+        found = mission_files.of_file("a.waypoints", text)
         self.assertEqual([i.command for i in found], [22, 16])
         self.assertEqual(found[0].params[1], 0.0)
         self.assertTrue(math.isnan(found[0].params[3]))
-        self.assertEqual(len(mission.of_file("a.plan", "\ufeff" + PLAN)), 5)
+        self.assertEqual(len(mission_files.of_file("a.plan", "\ufeff" + PLAN)), 5)
 
     def test_numbers_are_those_of_the_format(self):
         for bad in ("1_0", "0x29", "inf", "1e999", "\u0661", "--1", "1e", "."):
             for column in ("\t5\t", "\t41.186\t"):
                 with self.assertRaises(Unreadable):
-                    mission.of_file("a.waypoints", WAYPOINTS.replace(column, f"\t{bad}\t"))
+                    mission_files.of_file("a.waypoints", WAYPOINTS.replace(column, f"\t{bad}\t"))
         for bad in ("NaN", "Infinity", "1e999", "1" + "0" * 400, "true", '"5"'):
             with self.assertRaises(Unreadable):
-                mission.of_file("a.plan", PLAN.replace("41.186", bad))
+                mission_files.of_file("a.plan", PLAN.replace("41.186", bad))
 
     def test_unreadable_ones_say_why(self):
         for name, text, why in (
@@ -235,7 +235,7 @@ class Files(unittest.TestCase):
             ("a.waypoints", WAYPOINTS.replace("41.186", "north"), "item 2 has a column that is no number"),
         ):
             with self.assertRaises(Unreadable) as caught:
-                mission.of_file(name, text)
+                mission_files.of_file(name, text)
             self.assertEqual(str(caught.exception), why)
 
     def test_a_directory(self):

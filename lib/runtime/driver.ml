@@ -46,9 +46,11 @@ let most_without_pause = 100
    and on the tasks that one vehicle begins at one instant. *)
 let most_rounds = 10_000
 
-(* Where time passes by itself, an instant is as long as this (s): a vehicle that refuses a plan takes some time, too.
-*)
-let instant = 0.001
+(* Where time passes by itself, a round takes some even if it does not wait: a vehicle that refuses a plan does, and so
+   does a busy machine. There, [most_rounds] must take less on average than [instant] (s), and in the machine's time,
+   of which a simulation may have several seconds in one, than [moment] (s). *)
+let instant = 0.1
+let moment = 0.006
 
 let begins_round (t : Transition.t) =
   List.exists (function Rule.Repeat_2 | Repeat_again | Watch_retry -> true | _ -> false) t.rules
@@ -98,6 +100,7 @@ module Make (P : Platform.S) = struct
     mutable since_pause : int;  (* transitions and events since others had their turn *)
     mutable rounds : int;  (* of repeats that began since the last event or instant *)
     mutable round_began : float;  (* when the latest of them, or of [starts], did *)
+    mutable counted_since : float * float;  (* a time of the run, and the same by the machine's clock *)
     starts : (Core.vehicle, int) Hashtbl.t;  (* of tasks, in the same way *)
     mutable restless : Core.site option;  (* the place of the task that one vehicle began too often *)
   }
@@ -206,19 +209,26 @@ module Make (P : Platform.S) = struct
     | None | Some (Recruited _) -> false
     | Some (Input _ | Interruption) -> true
     | Some (Vehicle_done _ | Vehicle_failed _ | Timer_expired _) ->
-      time -. s.round_began > if P.virtual_time then 0. else instant
+      P.virtual_time && time > s.round_began
     | Some (Confirmed _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _) ->
       (not P.virtual_time) || time > s.round_began
 
   let forget_rounds s =
+    s.counted_since <- (time_of s, Clock.system.elapsed ());
     s.rounds <- 0;
     s.restless <- None;
     Hashtbl.reset s.starts
 
+  (* Whether the rounds so far, if they are enough, follow each other without a wait. *)
+  let is_restless s =
+    let time, elapsed = s.counted_since and most = float_of_int most_rounds in
+    P.virtual_time
+    || (time_of s -. time <= most *. instant && Clock.system.elapsed () -. elapsed <= most *. moment)
+
   let count_start s v (p : Core.platform_task) =
     let n = 1 + Option.value (Hashtbl.find_opt s.starts v) ~default:0 in
     Hashtbl.replace s.starts v n;
-    if n > most_rounds then s.restless <- Some p.task_site
+    if n > most_rounds then if is_restless s then s.restless <- Some p.task_site else forget_rounds s
 
   (* The loops of a program, whatever they are made of: rounds of its tasks, and of its script if vehicles take part. *)
   let count_rounds s ~time ~cause (t : Transition.t) =
@@ -228,6 +238,7 @@ module Make (P : Platform.S) = struct
     Option.iter (fun (v, p) -> count_start s v p) start;
     let begins = begins_round t in
     if begins then s.rounds <- s.rounds + 1;
+    if s.rounds >= most_rounds && not (is_restless s) then forget_rounds s;
     if begins || start <> None then s.round_began <- time
 
   let take s ~cause (t : Transition.t) =
@@ -532,7 +543,8 @@ module Make (P : Platform.S) = struct
         dates = Dated_code.of_program program; moment = beginning.time; alarm = None; alarms = 0;
         telemetry = Off; upcoming = None; reply = None; questions = Task_questions.create (); posted = None;
         input_before = false; unknown = []; since_pause = 0; rounds = 0;
-        round_began = beginning.time; starts = Hashtbl.create 16; restless = None }
+        round_began = beginning.time; counted_since = (beginning.time, Clock.system.elapsed ());
+        starts = Hashtbl.create 16; restless = None }
     in
     let whole () =
       switch_telemetry s ~sensitive:false;

@@ -5,7 +5,7 @@ let random = Random.State.make [| 2016 |]
 let metres bound = Random.State.float random bound
 
 let leaf vehicles cost =
-  Leaf { candidates = Array.of_list (List.map (fun vehicle -> (vehicle, cost vehicle)) vehicles) }
+  Leaf (listed (List.map (fun vehicle -> (vehicle, cost vehicle)) vehicles))
 
 let range first count = List.init count (fun index -> first + index)
 
@@ -97,9 +97,9 @@ let problems =
 let () =
   let run (name, vehicles, make) =
     let tree = make () in
-    let start = Unix.gettimeofday () in
+    let start = Sys.time () in
     let result = solve_within ~effort ~vehicles tree in
-    let elapsed = Unix.gettimeofday () -. start in
+    let elapsed = Sys.time () -. start in
     let pp_result ppf = function
       | Ok { proven = true; _ } -> Fmt.string ppf "best"
       | Ok { proven = false; _ } -> Fmt.string ppf "feasible"

@@ -14,12 +14,13 @@
     exists is list colouring of a cograph, which is NP-complete, and to share as few vehicles as possible is minimum
     hitting set even without any [Disjoint].
 
-    Polynomial, in [O(n² m)] at worst and far less as a rule, are the trees that programs have: [Disjoint] branches
-    without a [Disjoint] inside, whose branches can, all at once, be served by one vehicle each. The number of vehicles
-    is then that of the branches, the rest is assignment of least cost, and pick order is decided on the dual solution.
-    A problem also falls apart, exactly, where candidates do not overlap: parts that want boats and parts that want
-    aircraft are solved separately; if all leaves of such a tree are alike, the cheapest vehicles suffice; and leaves
-    that may share and have the same candidates at the same costs are one.
+    Polynomial, in [O(n² m)] at worst and far less as a rule, and in [3 n m] bytes for distances of kilometres, are the
+    trees that programs have: [Disjoint] branches without a [Disjoint] inside, whose branches can, all at once, be
+    served by one vehicle each. The number of vehicles is then that of the branches, the rest is assignment of least
+    cost, and pick order is decided on the dual solution. A problem also falls apart, exactly, where candidates do not
+    overlap: parts that want boats and parts that want aircraft are solved separately; if all leaves of such a tree are
+    alike, the cheapest vehicles suffice; and leaves that may share and have the same candidates at the same costs are
+    one.
 
     The rest goes through branch and bound, with assignment problems on the cliques of the tree as bounds; if
     branches that exclude each other need several vehicles each, over the ways to split them up. Whether an
@@ -32,12 +33,17 @@ type 'a tree =
   | Disjoint of 'a tree list  (** branches of [|]: no vehicle in two branches *)
   | Shared of 'a tree list  (** parts of [>>], branches of [allOf] and [oneOf]: may share, and prefer to *)
 
+(** The vehicles that may do a leaf. Leaves that share one array of [vehicles] are looked through faster. *)
 type leaf = {
-  candidates : (int * float) array;
-  (** The vehicles that may do it, in any order, each by its place in pick order from 0, with its cost: metres, not
-      negative; more than 10⁹ counts as 10⁹, an infinite distance included. Of a vehicle that is listed twice the
-      lower cost counts. *)
+  vehicles : int array;  (** each by its place in pick order from 0, ascending, each once *)
+  metres : (int -> float) option;
+  (** The cost of each of them: metres, not negative; more than 10⁹ counts as 10⁹, an infinite distance included. It is
+      asked for as often as needed, and not kept. [None]: 0 for each. *)
 }
+
+val listed : (int * float) list -> leaf
+(** [listed candidates] is the leaf of these vehicles, in any order, with their costs. Of a vehicle that is listed twice
+    the lower cost counts. *)
 
 (** Why there is no allocation. Leaves are numbered from 0, left to right. *)
 type failure =
@@ -63,7 +69,8 @@ val solve_within : effort:int -> vehicles:int -> leaf tree -> (solution, failure
     best that [effort] steps have found, or the reason why there is none. It depends on its arguments only: steps are
     counted, time is not. Trees may be deep: the stack does not grow with the nesting.
 
-    @raise Invalid_argument if a candidate is not from 0 to [vehicles - 1], or a cost is negative or not a number. *)
+    @raise Invalid_argument if a vehicle is not from 0 to [vehicles - 1], if the vehicles of a leaf do not ascend, or if
+    a cost is negative or not a number. *)
 
 val pp_failure : Format.formatter -> failure -> unit
 (** One sentence without a full stop, about leaves and vehicles by number. *)

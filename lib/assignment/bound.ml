@@ -6,7 +6,7 @@ let match_clique search clique weight =
     Array.init (count * search.width) (fun place -> weight clique.(place / search.width) (place mod search.width))
   in
   search.spent := !(search.spent) + (count * search.width);
-  match Matching.solve ~spent:search.spent ~rows:count ~columns:search.width costs with
+  match Matching.solve ~spent:search.spent (Costs.of_array ~rows:count ~columns:search.width costs) with
   | Ok matching -> Ok matching.column_of
   | Error rows -> Error (List.map (fun place -> clique.(place)) rows)
 

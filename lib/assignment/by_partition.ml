@@ -19,7 +19,7 @@ type choice = { ways : block list list; fewest : int; relaxed : int array }
 
 let choice_of search rows =
   let cost row column = search.part.cost.((row * search.width) + column) in
-  let sum members column = List.fold_left (fun sum row -> Matching.add sum (cost row column)) 0 members in
+  let sum members column = List.fold_left (fun sum row -> Costs.add sum (cost row column)) 0 members in
   let block members =
     let members = List.sort Int.compare members in
     { members; costs = Array.init search.width (sum members) }
@@ -72,7 +72,8 @@ let improve search allocation =
         let matrix = Array.concat (decided @ List.init (count - branch) undecided) in
         let rows = used + count - branch in
         search.spent := !(search.spent) + (rows * search.width);
-        match Matching.solve ~spent:search.spent ~rows ~columns:search.width matrix with
+        let costs = Costs.of_array ~rows ~columns:search.width matrix in
+        match Matching.solve ~spent:search.spent costs with
         | Error _ -> ()
         | Ok matching ->
           let sum = ref 0 in
@@ -83,7 +84,7 @@ let improve search allocation =
                 (fun way -> decide (branch + 1) (List.rev_append way blocks) (used + List.length way))
                 choices.(branch).ways
             else begin
-              let column_of = Matching.in_pick_order ~rows ~columns:search.width matrix matching in
+              let column_of = Matching.in_pick_order costs matching in
               let found = Array.make search.rows 0 in
               List.iteri
                 (fun index block -> List.iter (fun row -> found.(row) <- column_of.(index)) block.members)

@@ -51,7 +51,7 @@ let polish search allocation =
   in
   let replace column =
     let rows = List.filter (fun row -> search.assigned.(row) = column) (List.init search.rows Fun.id) in
-    let total column = List.fold_left (fun sum row -> Matching.add sum (cost_at row column)) 0 rows in
+    let total column = List.fold_left (fun sum row -> Costs.add sum (cost_at row column)) 0 rows in
     let best = ref column and least = ref (total column) in
     for other = 0 to search.width - 1 do
       if search.uses.(other) = 0 && total other < !least then begin

@@ -1,6 +1,4 @@
-let forbidden = max_int / 4
-
-let add a b = if a >= forbidden || b >= forbidden then forbidden else a + b
+let forbidden = Costs.forbidden
 
 type t = {
   column_of : int array;
@@ -10,12 +8,14 @@ type t = {
 
 (* A square matrix: the rows of the given one, and below them rows that cost nothing anywhere, which hold the columns
    that are free in the end. *)
-type square = { rows : int; columns : int; cost : int array; nothing : int array }
+type square = { costs : Costs.t; columns : int; buffer : int array; nothing : int array }
 
-let square ~rows ~columns cost = { rows; columns; cost; nothing = Array.make columns 0 }
+let square (costs : Costs.t) =
+  let columns = costs.columns in
+  { costs; columns; buffer = Array.make columns 0; nothing = Array.make columns 0 }
 
-(* The array that has a row of the matrix, and the beginning of the row in it. *)
-let row_in m row = if row < m.rows then (m.cost, row * m.columns) else (m.nothing, 0)
+(* The array that has a row of the matrix, and the beginning of the row in it, until the next row is asked for. *)
+let row_in m row = if row < m.costs.rows then Costs.row m.costs row m.buffer else (m.nothing, 0)
 
 (* Each row that has one takes a free column among its cheapest: so dear searches start from few rows only. *)
 let take_cheapest m ~rows dual column_of row_of =
@@ -84,7 +84,7 @@ let auction ~spent ~most m dual step =
 
 let auctioned ~spent m =
   let dual = Array.make m.columns 0 in
-  let dearest = Array.fold_left (fun most c -> if c < forbidden then max most c else most) 0 m.cost in
+  let dearest = Costs.dearest m.costs in
   let rec rounds step =
     if not (auction ~spent ~most:(50 * m.columns) m dual step) then None
     else if step = 1 then Some dual
@@ -207,8 +207,8 @@ let given_rows ~rows { column_of; row_of; dual } =
     row_of = Array.map (fun row -> if row < rows then row else -1) row_of;
     dual = Array.map (fun d -> d - greatest) dual }
 
-let solve ~spent ~rows ~columns cost =
-  let m = square ~rows ~columns cost in
+let solve ~spent ({ rows; columns; _ } as costs : Costs.t) =
+  let m = square costs in
   match if is_for_auction ~rows ~columns then auctioned ~spent m else None with
   | Some dual -> Result.map (given_rows ~rows) (search_all ~spent m ~rows:columns dual)
   | None -> search_all ~spent m ~rows (Array.make columns 0)
@@ -217,31 +217,22 @@ let solve ~spent ~rows ~columns cost =
    cost 0, and every column whose dual is below 0. To see them as perfect matchings, one more row, [spare], holds all
    columns that are free, and may hold any whose dual is 0. Row by row, a lower column is taken if, along tight
    pairs between later rows, its holder can in the end be given the column that the row gave up. *)
-let in_pick_order ~rows ~columns cost { column_of; row_of; dual } =
+let in_pick_order ({ rows; columns; _ } as costs : Costs.t) { column_of; row_of; dual } =
   let spare = rows in
   let column_of = Array.copy column_of in
   let holder = Array.map (fun row -> if row < 0 then spare else row) row_of in
-  let is_tight row column =
-    if row = spare then dual.(column) = 0
-    else
-      let own = column_of.(row) in
-      let base = row * columns in
+  let tight = Array.init (rows + 1) (fun _ -> Bits.make columns) in
+  let buffer = Array.make columns 0 in
+  for row = 0 to rows - 1 do
+    let cost, base = Costs.row costs row buffer in
+    let own = column_of.(row) in
+    let least = cost.(base + own) - dual.(own) in
+    for column = 0 to columns - 1 do
       let c = cost.(base + column) in
-      c < forbidden && c - dual.(column) = cost.(base + own) - dual.(own)
-  in
-  let tight row =
-    let rec list column found =
-      if column < 0 then Array.of_list found
-      else list (column - 1) (if is_tight row column then column :: found else found)
-    in
-    list (columns - 1) []
-  in
-  let tight = Array.init (rows + 1) tight in
-  let may_hold = Array.init (rows + 1) (fun row ->
-      let set = Bytes.make columns '\000' in
-      Array.iter (fun column -> Bytes.set set column '\001') tight.(row);
-      set)
-  in
+      if c < forbidden && c - dual.(column) = least then Bits.add tight.(row) column
+    done
+  done;
+  Array.iteri (fun column d -> if d = 0 then Bits.add tight.(spare) column) dual;
   let visited = Array.make (rows + 1) (-1) (* for the sake of which row, last *) in
   let gives_up = Array.make (rows + 1) 0 and gives_to = Array.make (rows + 1) 0 in
   let queue = Queue.create () in
@@ -258,9 +249,9 @@ let in_pick_order ~rows ~columns cost { column_of; row_of; dual } =
   let rec last_taker row wanted =
     match Queue.take_opt queue with
     | None -> None
-    | Some taker when Bytes.get may_hold.(taker) wanted = '\001' -> Some taker
+    | Some taker when Bits.mem tight.(taker) wanted -> Some taker
     | Some taker ->
-      Array.iter (visit row ~taker) tight.(taker);
+      Bits.iter (visit row ~taker) tight.(taker);
       last_taker row wanted
   in
   let rec hand_over row taker column =
@@ -270,15 +261,15 @@ let in_pick_order ~rows ~columns cost { column_of; row_of; dual } =
   in
   for row = 0 to rows - 1 do
     let wanted = column_of.(row) in
-    let rec lower place =
-      let column = tight.(row).(place) in
-      if column < wanted then begin
-        Queue.clear queue;
-        visit row ~taker:row column;
-        match last_taker row wanted with
-        | Some taker -> hand_over row taker wanted
-        | None -> lower (place + 1)
-      end
+    let rec lower column =
+      match Bits.next tight.(row) column with
+      | Some column when column < wanted -> (
+          Queue.clear queue;
+          visit row ~taker:row column;
+          match last_taker row wanted with
+          | Some taker -> hand_over row taker wanted
+          | None -> lower (column + 1))
+      | Some _ | None -> ()
     in
     lower 0
   done;

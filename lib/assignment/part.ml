@@ -1,4 +1,4 @@
-type candidates = (int * int) array
+type candidates = { vehicles : int array; cost : (int -> int) option }
 
 type t = {
   cotree : Cotree.t;
@@ -16,31 +16,38 @@ let millimetres metres =
   if not (metres >= 0.) then invalid "Assignment.solve: a cost of %g" metres
   else int_of_float (Float.round (Float.min metres 1e9 *. 1000.))
 
-let candidates ~vehicles listed =
-  let candidates =
-    Array.map
-      (fun (vehicle, metres) ->
-         if vehicle < 0 || vehicle >= vehicles then invalid "Assignment.solve: no vehicle %d" vehicle;
-         (vehicle, millimetres metres))
-      listed
-  in
-  let order (vehicle, cost) (vehicle', cost') =
-    match Int.compare vehicle vehicle' with 0 -> Int.compare cost cost' | order -> order
-  in
-  let rec ascends place =
-    place >= Array.length candidates
-    || (fst candidates.(place - 1) < fst candidates.(place) && ascends (place + 1))
-  in
-  if ascends 1 then candidates
-  else begin
-    Array.sort order candidates;
-    let once kept (vehicle, cost) =
-      match kept with
-      | (previous, _) :: _ when previous = vehicle -> kept
-      | _ -> (vehicle, cost) :: kept
-    in
-    Array.of_list (List.rev (Array.fold_left once [] candidates))
-  end
+let rec ascends vehicles place =
+  place >= Array.length vehicles || (vehicles.(place - 1) < vehicles.(place) && ascends vehicles (place + 1))
+
+let candidates ~vehicles listed metres =
+  let check vehicle = if vehicle < 0 || vehicle >= vehicles then invalid "Assignment.solve: no vehicle %d" vehicle in
+  Array.iter check listed;
+  if not (ascends listed 1) then invalid "Assignment.solve: the vehicles of a leaf do not ascend";
+  { vehicles = listed; cost = Option.map (fun metres vehicle -> millimetres (metres vehicle)) metres }
+
+let cost_nothing (candidates : candidates) =
+  match candidates.cost with
+  | None -> true
+  | Some cost -> Array.for_all (fun vehicle -> cost vehicle = 0) candidates.vehicles
+
+let same_vehicles (a : candidates) (b : candidates) =
+  a.vehicles == b.vehicles
+  || (Array.length a.vehicles = Array.length b.vehicles && Array.for_all2 Int.equal a.vehicles b.vehicles)
+
+let equal_candidates (a : candidates) (b : candidates) =
+  a == b
+  || same_vehicles a b
+     &&
+     match a.cost, b.cost with
+     | None, None -> true
+     | None, Some _ -> cost_nothing b
+     | Some _, None -> cost_nothing a
+     | Some cost, Some cost' -> Array.for_all (fun vehicle -> cost vehicle = cost' vehicle) a.vehicles
+
+let visit visit (candidates : candidates) =
+  match candidates.cost with
+  | None -> Array.iter (fun vehicle -> visit vehicle 0) candidates.vehicles
+  | Some cost -> Array.iter (fun vehicle -> visit vehicle (cost vehicle)) candidates.vehicles
 
 let components ~vehicles candidates =
   let parent = Array.init vehicles Fun.id in
@@ -52,16 +59,16 @@ let components ~vehicles candidates =
       find parent.(vehicle)
     end
   in
-  let link candidates =
-    let root = find (fst candidates.(0)) in
-    Array.iter (fun (vehicle, _) -> parent.(find vehicle) <- root) candidates
+  let link { vehicles; _ } =
+    let root = find vehicles.(0) in
+    Array.iter (fun vehicle -> parent.(find vehicle) <- root) vehicles
   in
-  let is_as_before leaf = leaf > 0 && candidates.(leaf) == candidates.(leaf - 1) in
+  let is_as_before leaf = leaf > 0 && candidates.(leaf).vehicles == candidates.(leaf - 1).vehicles in
   Array.iteri (fun leaf candidates -> if not (is_as_before leaf) then link candidates) candidates;
   let leaves = Hashtbl.create 16 and roots = ref [] in
   Array.iteri
     (fun leaf candidates ->
-       let root = find (fst candidates.(0)) in
+       let root = find candidates.vehicles.(0) in
        match Hashtbl.find_opt leaves root with
        | None ->
          roots := root :: !roots;
@@ -71,7 +78,9 @@ let components ~vehicles candidates =
   List.rev_map (fun root -> Array.of_list (List.rev (Hashtbl.find leaves root))) !roots
 
 let hash_candidates candidates =
-  Array.fold_left (fun hash (vehicle, cost) -> (((hash * 31) + vehicle) * 1_000_003) lxor cost) 0 candidates
+  let hash = ref 0 in
+  visit (fun vehicle cost -> hash := (((!hash * 31) + vehicle) * 1_000_003) lxor cost) candidates;
+  !hash
 
 (* By row of [cotree], the least row that is one with it: they have the same [Any] parent and the same candidates.
    Moving one of two such leaves to the other's vehicle breaks nothing, and needs no further vehicle; so in the best
@@ -85,7 +94,7 @@ let twins (cotree : Cotree.t) candidates =
        | Cotree.All_different | Any -> ()
        | A_leaf row ->
          let parent = cotree.parent.(node) in
-         let is_twin other = candidates.(other) == candidates.(row) || candidates.(other) = candidates.(row) in
+         let is_twin other = equal_candidates candidates.(other) candidates.(row) in
          twin.(row) <-
            (if parent < 0 || cotree.kind.(parent) <> Any then row
             else
@@ -98,6 +107,22 @@ let twins (cotree : Cotree.t) candidates =
     cotree.kind;
   twin
 
+let vehicles_of candidates leaves =
+  let highest = Array.fold_left (fun most leaf -> Array.fold_left max most candidates.(leaf).vehicles) (-1) leaves in
+  let is_listed = Array.make (highest + 1) false in
+  let list place leaf =
+    let { vehicles; _ } = candidates.(leaf) in
+    let is_as_before = place > 0 && candidates.(leaves.(place - 1)).vehicles == vehicles in
+    if not is_as_before then Array.iter (fun vehicle -> is_listed.(vehicle) <- true) vehicles
+  in
+  Array.iteri list leaves;
+  Array.of_list (List.filter (Array.get is_listed) (List.init (highest + 1) Fun.id))
+
+let by_vehicle columns =
+  let column_of = Array.make (if columns = [||] then 0 else columns.(Array.length columns - 1) + 1) (-1) in
+  Array.iteri (fun column vehicle -> column_of.(vehicle) <- column) columns;
+  column_of
+
 let make ~restricted candidates leaves =
   let own = Array.map (fun leaf -> candidates.(leaf)) leaves in
   let twin = twins (restricted leaves) own in
@@ -107,22 +132,15 @@ let make ~restricted candidates leaves =
   done;
   let members = Array.of_list (List.filter (fun members -> members <> []) (Array.to_list members)) in
   let groups = Array.map List.hd members in
-  let each_candidate visit = Array.iter (fun leaf -> Array.iter visit candidates.(leaf)) groups in
-  let highest = ref (-1) in
-  each_candidate (fun (vehicle, _) -> highest := max !highest vehicle);
-  let column_of = Array.make (!highest + 1) (-1) in
-  each_candidate (fun (vehicle, _) -> column_of.(vehicle) <- 0);
-  let columns = List.filter (fun vehicle -> column_of.(vehicle) = 0) (List.init (!highest + 1) Fun.id) in
-  let columns = Array.of_list columns in
-  Array.iteri (fun column vehicle -> column_of.(vehicle) <- column) columns;
+  let columns = vehicles_of candidates groups in
+  let column_of = by_vehicle columns in
   let width = Array.length columns in
   let cost = Array.make (Array.length groups * width) Matching.forbidden in
   Array.iteri
     (fun row leaf ->
        let size = List.length members.(row) in
-       Array.iter
-         (fun (vehicle, millimetres) ->
-            cost.((row * width) + column_of.(vehicle)) <- size * millimetres)
+       visit
+         (fun vehicle millimetres -> cost.((row * width) + column_of.(vehicle)) <- size * millimetres)
          candidates.(leaf))
     groups;
   { cotree = restricted groups; groups; members; columns; cost }

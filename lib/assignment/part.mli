@@ -4,8 +4,11 @@
     Rows and columns keep the order of leaves and vehicles, so that what comes first by number also comes first in pick
     order. Costs are whole millimetres. *)
 
-type candidates = (int * int) array
-(** The vehicles that may serve a leaf, ascending, each once, and their costs. *)
+(** The vehicles that may serve a leaf. *)
+type candidates = private {
+  vehicles : int array;  (** ascending, each once *)
+  cost : (int -> int) option;  (** by vehicle; [None]: 0 for each *)
+}
 
 type t = private {
   cotree : Cotree.t;  (** of the rows *)
@@ -21,10 +24,25 @@ type outcome =
   | Impossible of int list option  (** leaves that cannot all be served, if any are known to be the cause *)
   | Undecided
 
-val candidates : vehicles:int -> (int * float) array -> candidates
-(** [candidates ~vehicles listed] is [listed], vehicles with metres as in {!Assignment.leaf}, in order.
+val candidates : vehicles:int -> int array -> (int -> float) option -> candidates
+(** [candidates ~vehicles listed metres] is those of a leaf, as {!Assignment.leaf} has them.
 
-    @raise Invalid_argument as {!Assignment.solve_within} does. *)
+    @raise Invalid_argument as {!Assignment.solve_within} does; for a cost when it is asked for. *)
+
+val equal_candidates : candidates -> candidates -> bool
+(** Whether these are the same vehicles at the same costs. *)
+
+val cost_nothing : candidates -> bool
+(** Whether all costs are 0. *)
+
+val visit : (int -> int -> unit) -> candidates -> unit
+(** [visit f candidates] is [f vehicle cost] for each of them, ascending. *)
+
+val vehicles_of : candidates array -> int array -> int array
+(** [vehicles_of candidates leaves] is the vehicles of [leaves], ascending, each once. *)
+
+val by_vehicle : int array -> int array
+(** [by_vehicle columns] is, by vehicle, its place in [columns], ascending; -1 if it has none. *)
 
 val components : vehicles:int -> candidates array -> int array list
 (** [components ~vehicles candidates] is the leaves in parts, so that no vehicle is a candidate in two of them. Leaves

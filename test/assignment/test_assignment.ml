@@ -1,9 +1,19 @@
-open Dolphin_assignment.Assignment
+module Assignment = Dolphin_assignment.Assignment
+open Assignment
 
 let case name run = Alcotest.test_case name `Quick run
 
+let rec with_leaves f = function
+  | Leaf candidates -> Leaf (f candidates)
+  | Disjoint children -> Disjoint (List.map (with_leaves f) children)
+  | Shared children -> Shared (List.map (with_leaves f) children)
+
+(* Here a leaf is the list of its vehicles, each with its cost. *)
+let solve_within ~effort ~vehicles tree = solve_within ~effort ~vehicles (with_leaves listed tree)
+let solve ~vehicles tree = solve ~vehicles (with_leaves listed tree)
+
 (* [leaf [ (v, cost); ... ]] and, where costs do not matter, [any [ v; ... ]]. *)
-let leaf candidates = Leaf { candidates = Array.of_list candidates }
+let leaf candidates = Leaf candidates
 
 let any vehicles = leaf (List.map (fun vehicle -> (vehicle, 0.)) vehicles)
 
@@ -75,7 +85,11 @@ let odd_trees () =
   rejects "negative" "Assignment.solve: a cost of -1" (leaf [ (0, -1.) ]);
   rejects "not a number" "Assignment.solve: a cost of nan" (leaf [ (0, Float.nan) ])
 
+(* Too deep for [with_leaves]. *)
 let deep_trees () =
+  let any vehicles = Leaf (listed (List.map (fun vehicle -> (vehicle, 0.)) vehicles)) in
+  let solve = Assignment.solve in
+  let gives name ~vehicles expected tree = Alcotest.(check string) name expected (show (solve ~vehicles tree)) in
   let rec nest count wrap tree = if count = 0 then tree else nest (count - 1) wrap (wrap tree) in
   let all n expected = function
     | Ok vehicles -> Array.length vehicles = n && Array.for_all (( = ) expected) vehicles
@@ -133,8 +147,8 @@ let thousand_by_thousand () =
 (* A matrix of them would have 400 million entries, and too many for the memory of many a console. *)
 let twenty_thousand_alike () =
   let n = 20_000 in
-  let one = { candidates = Array.init n (fun v -> (v, 0.)) } in
-  match solve ~vehicles:n (Disjoint (List.init n (fun _ -> Leaf one))) with
+  let one = { vehicles = Array.init n Fun.id; metres = None } in
+  match Assignment.solve ~vehicles:n (Disjoint (List.init n (fun _ -> Leaf one))) with
   | Ok vehicles -> Alcotest.(check bool) "pick order" true (vehicles = Array.init n Fun.id)
   | Error failure -> Alcotest.failf "%a" pp_failure failure
 
@@ -172,10 +186,10 @@ and flatten_all first children ~exclusive =
   List.fold_left add ([], [], first) children
 
 let allocations leaves =
-  let extend { candidates } rest =
+  let extend candidates rest =
     List.concat_map
       (fun (vehicle, cost) -> List.map (fun (vehicles, sum) -> (vehicle :: vehicles, cost +. sum)) rest)
-      (Array.to_list candidates)
+      candidates
   in
   List.fold_right extend leaves [ ([], 0.) ]
 
@@ -193,7 +207,7 @@ let best tree =
   |> function [] -> None | (_, _, vehicles) :: _ -> Some vehicles
 
 let rec pp_tree ppf = function
-  | Leaf { candidates } -> Fmt.pf ppf "[%a]" Fmt.(array ~sep:semi (pair ~sep:(any ":") int float)) candidates
+  | Leaf candidates -> Fmt.pf ppf "[%a]" Fmt.(list ~sep:semi (pair ~sep:(any ":") int float)) candidates
   | Disjoint children -> Fmt.pf ppf "(%a)" Fmt.(list ~sep:(any " | ") pp_tree) children
   | Shared children -> Fmt.pf ppf "(%a)" Fmt.(list ~sep:(any " >> ") pp_tree) children
 
@@ -205,7 +219,7 @@ let tree_generator ~leaves ~vehicles =
     let candidate vehicle (present, cost) = if present > 0 then Some (vehicle, float_of_int cost) else None in
     let candidates = List.filter_map Fun.id (List.mapi candidate (List.combine present costs)) in
     let+ candidates = if candidates = [] then return [ (0, 1.) ] else shuffle_l candidates in
-    Leaf { candidates = Array.of_list candidates }
+    Leaf candidates
   in
   let rec tree highest count =
     if count = 1 then leaf highest
@@ -233,7 +247,7 @@ let alike_generator ~leaves ~vehicles =
 let conflict_is_real tree leaves =
   let all, pairs, _ = flatten 0 tree in
   let chosen = List.filter (fun (a, b) -> List.mem a leaves && List.mem b leaves) pairs in
-  let free index leaf = if List.mem index leaves then leaf else { candidates = [| (0, 0.) |] } in
+  let free index leaf = if List.mem index leaves then leaf else [ (0, 0.) ] in
   let possible = allocations (List.mapi free all) in
   not (List.exists (fun (vehicles, _) -> is_allowed chosen vehicles) possible)
 
@@ -253,7 +267,7 @@ let is_honest (tree, effort) vehicles =
   | Ok { vehicles; proven }, Some expected ->
     let vehicles = Array.to_list vehicles in
     is_allowed pairs vehicles
-    && List.for_all2 (fun leaf vehicle -> List.mem_assoc vehicle (Array.to_list leaf.candidates)) leaves vehicles
+    && List.for_all2 (fun leaf vehicle -> List.mem_assoc vehicle leaf) leaves vehicles
     && ((not proven) || vehicles = expected)
   | Error (Conflict { leaves; _ }), None -> conflict_is_real tree leaves
   | Error (No_candidate _), _ | Ok _, None | Error (Conflict _), Some _ -> false
@@ -263,6 +277,7 @@ let is_honest (tree, effort) vehicles =
    Too large for all allocations to be tried: the duals of a matching prove that it costs least. *)
 
 module Matching = Dolphin_assignment.Matching
+module Costs = Dolphin_assignment.Costs
 
 type family = Random | On_a_line | Products | Few_costs
 
@@ -299,11 +314,52 @@ let lacks_columns ~columns cost rows =
   let reached = List.filter (fun column -> List.exists (fun row -> may row column) rows) (List.init columns Fun.id) in
   List.compare_lengths reached rows < 0
 
+(* Held in few bytes or in 8 for each cost, the same is found. *)
 let large_is_solved problem =
   let rows, columns, cost = matrix problem in
-  match Matching.solve ~spent:(ref 0) ~rows ~columns cost with
-  | Ok m -> costs_least ~rows ~columns cost m
+  let solved costs = Result.map (fun m -> (m, Matching.in_pick_order costs m)) (Matching.solve ~spent:(ref 0) costs) in
+  let narrow = Costs.make ~rows ~columns (fun row buffer -> Array.blit cost (row * columns) buffer 0 columns) in
+  let result = solved (Costs.of_array ~rows ~columns cost) in
+  result = solved narrow
+  &&
+  match result with
+  | Ok (m, _) -> costs_least ~rows ~columns cost m
   | Error lacking -> lacks_columns ~columns cost lacking
+
+(* {1 Located plans}
+
+   Costs of pairs are nowhere held, but those of branches, in 3 bytes. *)
+
+let two_thousand_places () =
+  let n = 2000 in
+  let random = Random.State.make [| 3 |] in
+  let place _ = (Random.State.float random 1e4, Random.State.float random 1e4) in
+  let here = Array.init n place and vehicles = Array.init n Fun.id in
+  let leaf _ =
+    let x, y = place () in
+    Leaf { vehicles; metres = Some (fun v -> hypot (fst here.(v) -. x) (snd here.(v) -. y)) }
+  in
+  let tree = Disjoint (List.init n (fun _ -> Shared (List.init 3 leaf))) in
+  let before = (Gc.quick_stat ()).heap_words in
+  let after = ref before in
+  let alarm = Gc.create_alarm (fun () -> after := max !after (Gc.quick_stat ()).heap_words) in
+  let result = within_seconds 30. (fun () -> Assignment.solve ~vehicles:n tree) in
+  Gc.delete_alarm alarm;
+  let megabytes = (max !after (Gc.quick_stat ()).heap_words - before) * 8 / 1_000_000 in
+  if megabytes > 60 then Alcotest.failf "took %d MB" megabytes;
+  match result with
+  | Ok vehicles ->
+    let branches = List.init n (fun branch -> vehicles.(3 * branch)) in
+    Alcotest.(check bool) "a permutation" true (is_permutation (Array.of_list branches))
+  | Error failure -> Alcotest.failf "%a" pp_failure failure
+
+(* Costs that 3 bytes hold, the first that they do not, and so for 4. *)
+let far_apart () =
+  let gives_far metres =
+    gives (Printf.sprintf "%f m" metres) ~vehicles:3 "1 0"
+      (Disjoint [ leaf [ (0, 1. +. metres); (1, 1.) ]; leaf [ (0, metres); (1, 0.5) ] ])
+  in
+  List.iter gives_far [ 16777.213; 16777.214; 16777.215; 4294967.293; 4294967.294; 4294967.295; 9e6 ]
 
 let large_generator =
   let open QCheck2.Gen in
@@ -346,6 +402,8 @@ let () =
         [
           case "1000 x 1000" thousand_by_thousand;
           case "20,000 alike" twenty_thousand_alike;
+          case "2,000 branches of three places" two_thousand_places;
+          case "costs far apart" far_apart;
           case "effort is a bound" effort_is_a_bound;
           law_of large_generator print_large large_is_solved ~count:100 "duals prove that a matching costs least";
         ] );

@@ -66,12 +66,82 @@ let candidate_of world vehicle =
   let place s = Result.map (fun p -> Some (Wgs84.cartesian p)) (World.place world s) in
   { vehicle; state; place = lazy (Option.fold ~none:(Ok None) ~some:place state) }
 
-let cost task =
-  match Option.map Wgs84.cartesian (Option.bind task.plan Inline_plan.reference) with
-  | None -> fun _ -> Ok 0.
-  | Some reference ->
-    let from place = Option.fold ~none:0. ~some:(fun place -> Wgs84.straight place reference) place in
-    fun candidate -> Result.map from (Lazy.force candidate.place)
+(* [once f] is [f], computed once for each key, which are few and known by identity. *)
+let once f =
+  let known = ref [] in
+  fun key ->
+    match List.assq_opt key !known with
+    | Some x -> x
+    | None ->
+      let x = f key in
+      known := (key, x) :: !known;
+      x
+
+(* [sharing ()] gives of equal neighbours the first: the vehicles of thousands of plans are the same as a rule. *)
+let sharing () =
+  let latest = ref [||] in
+  fun places ->
+    let is_latest = Array.length places = Array.length !latest && Array.for_all2 Int.equal places !latest in
+    if not is_latest then latest := places;
+    !latest
+
+(* Those of [places] with [keep]: the array itself if it keeps all. *)
+let filtered keep places =
+  if Array.for_all keep places then places else Array.of_list (List.filter keep (Array.to_list places))
+
+(* The first question about the place of a vehicle of [places]. *)
+let first_question all places =
+  let question i = match Lazy.force all.(i).place with Ok _ -> None | Error question -> Some question in
+  Seq.filter_map question (Array.to_seq places) ()
+
+(* The distance from the place of each vehicle of [all]. *)
+let metres_to reference all =
+  let reference = Wgs84.cartesian reference in
+  fun i ->
+    match Lazy.force all.(i).place with
+    | Ok (Some place) -> Wgs84.straight place reference
+    | Ok None | Error _ -> 0.
+
+(* So few vehicles are found one by one. *)
+let few = 8
+
+(* The leaves of assignment. What depends on the [T[V]] around a task is computed once, and so is the leaf of all tasks
+   by name under it. *)
+let candidates_once world bound =
+  let all = Array.map (candidate_of world) bound in
+  let everywhere = Array.init (Array.length bound) Fun.id and shared = sharing () in
+  let place_of = Hashtbl.create (Array.length bound) in
+  Array.iteri (fun i v -> Hashtbl.replace place_of v i) bound;
+  let are_all_known = lazy (Array.for_all (fun c -> Result.is_ok (Lazy.force c.place)) all) in
+  let among places leaf : (Assignment.leaf, World.question) result =
+    let lack = lack leaf.task in
+    let vehicles = shared (filtered (fun i -> Option.is_none (lack all.(i).vehicle all.(i).state)) places) in
+    match Option.bind leaf.task.plan Inline_plan.reference with
+    | None -> Ok { vehicles; metres = None }
+    | Some reference -> (
+        match if Lazy.force are_all_known then Seq.Nil else first_question all vehicles with
+        | Cons (question, _) -> Error question
+        | Nil -> Ok { vehicles; metres = Some (metres_to reference all) })
+  in
+  let places_of = function
+    | None -> everywhere
+    | Some vs ->
+      shared (Array.of_list (List.sort_uniq Int.compare (List.filter_map (Hashtbl.find_opt place_of) vs)))
+  in
+  let places_once = once places_of and by_name = ref [] in
+  fun leaf ->
+    match leaf.allowed, leaf.task.plan with
+    | Some vs, _ when List.compare_length_with vs few <= 0 -> among (places_of leaf.allowed) leaf
+    | (Some _ | None), Some _ -> among (places_once leaf.allowed) leaf
+    | (Some _ | None), None -> (
+        match List.assq_opt leaf.allowed !by_name with
+        | Some known -> known
+        | None ->
+          let candidates = among (places_once leaf.allowed) leaf in
+          by_name := (leaf.allowed, candidates) :: !by_name;
+          candidates)
+
+let names vs = String.concat ", " vs
 
 module String_set = Set.Make (String)
 
@@ -81,50 +151,6 @@ let permitted leaf =
   | Some vs ->
     let set = String_set.of_list vs in
     fun v -> String_set.mem v set
-
-let next_below n i = if i < n then Some (i, i + 1) else None
-
-(* Of the vehicles [places], by their places in [all], ascending. *)
-let candidates_among all places leaf : (Assignment.leaf, World.question) result =
-  let lack = lack leaf.task and cost = cost leaf.task in
-  let add found i =
-    let c = all.(i) in
-    if lack c.vehicle c.state = None then
-      Result.bind found (fun found -> Result.map (fun cost -> (i, cost) :: found) (cost c))
-    else found
-  in
-  let made found = { Assignment.candidates = Array.of_list (List.rev found) } in
-  Result.map made (Seq.fold_left add (Ok []) places)
-
-(* So few vehicles are found one by one. *)
-let few = 8
-
-(* Tasks by name under one [T[V]] have the same candidates, computed once. *)
-let candidates_once world bound =
-  let known = ref [] in
-  let all = Array.map (candidate_of world) bound in
-  let place_of = Hashtbl.create (Array.length bound) in
-  Array.iteri (fun i v -> Hashtbl.replace place_of v i) bound;
-  let candidates leaf =
-    let permitted = permitted leaf in
-    let places = Seq.filter (fun i -> permitted bound.(i)) (Seq.unfold (next_below (Array.length bound)) 0) in
-    candidates_among all places leaf
-  in
-  fun leaf ->
-    match leaf.allowed, leaf.task.plan with
-    | Some vs, _ when List.compare_length_with vs few <= 0 ->
-      let places = List.sort_uniq Int.compare (List.filter_map (Hashtbl.find_opt place_of) vs) in
-      candidates_among all (List.to_seq places) leaf
-    | (Some _ | None), Some _ -> candidates leaf
-    | (Some _ | None), None -> (
-        match List.assq_opt leaf.allowed !known with
-        | Some candidates -> candidates
-        | None ->
-          let candidates = candidates leaf in
-          known := (leaf.allowed, candidates) :: !known;
-          candidates)
-
-let names vs = String.concat ", " vs
 
 let no_candidate world bound leaf =
   let permitted = permitted leaf in

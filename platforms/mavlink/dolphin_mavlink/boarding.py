@@ -3,13 +3,13 @@
 from . import mission as missions
 from .transfer import Download, Upload, numbered
 
-UPLOADS = 5  # so many transfers are tried
-SILENCES = 20  # and so many more if the vehicle fell silent in the midst of them
+UPLOADS = 5  # transfers tried
+SILENCES = 20  # further transfers tried if the vehicle fell silent in the middle of one
 
 
 class Boarding:
-    """`stage` is "upload" or "verify", and `since` when what is transferred began. `result` is None as long as it goes
-    on; "aboard"; or in words why the mission is not."""
+    """`stage` is "upload" or "verify"; the transfer began at `since`. `result` is None during the transfer, "aboard"
+    after it, or the reason why the mission is not on board."""
 
     def __init__(self, vehicle, mission, round_trip):
         self._vehicle, self._mission, self._round_trip = vehicle, mission, round_trip
@@ -27,14 +27,14 @@ class Boarding:
         return self._transfer.begin(now)
 
     def compare(self, now):
-        """What was uploaded before is compared, and not uploaded again."""
+        """Compares the mission on board with ours, without another upload."""
         self._only_compares = True
         self._number()
         return self._verify(now)
 
     def hear(self, now, message):
         if self._upload_at is not None:
-            return []  # an answer to the upload that was given up
+            return []  # an answer to an abandoned upload
         return self._transfer.hear(now, message) + self._transferred(now)
 
     def tick(self, now):

@@ -1,8 +1,8 @@
 """A vehicle that has left its mission, or the mode it was in before: by its pilot, by an emergency, by the end of the
 mission, or by a late copy of an order. Pure.
 
-While it is judged, nothing is sent. What decides may be on its way, and one heartbeat may be an old one: so a verdict
-waits for another heartbeat, and if the mission may be over, for where the vehicle is."""
+Nothing is sent before the verdict. The decisive report may be on its way, and one heartbeat may be an old one: a
+verdict waits for another heartbeat, and if the mission may be over, for the vehicle's position."""
 
 from . import hands
 

@@ -1,5 +1,5 @@
 """A mission on a vehicle, from the order to the verdict. Pure: messages, orders and the time go in; messages to send
-come out, and what is to be reported is in `events`.
+come out, and reports are in `events`.
 
 The stages, in order:
 
@@ -8,16 +8,16 @@ The stages, in order:
     verify   they are downloaded, and compared
     rewind   the mission begins with its first item
     note     Dolphin keeps a note: from now on the mission may have been begun
-    arm      if the mission says so and the vehicle is not armed
-    settle   on a link that doubles or reorders: until no late copy of an order into another mode is to be expected
+    arm      if the mission allows it and the vehicle is not armed
+    settle   on a link that doubles or reorders: until late copies of an order into another mode have passed
     mode     the mode that flies missions
     run      until the last item is reached
     stop     the mode that holds, until the vehicle confirms it
-    back     what was refused: the mode before, and the reason, which comes in a text
+    back     after a refusal: into the mode before, until the reason has come in a text
 
-A hand on the vehicle wins: whenever its mode is neither the one before nor the one we asked for, somebody else flies,
-and we send nothing more. No command is repeated blindly: only while the vehicle's own heartbeats show that nothing
-happened.
+A hand on the vehicle wins: a mode that is neither the one before nor one that we asked for is a pilot's or another
+station's, and we send nothing more. No command is repeated blindly: only while the vehicle's own heartbeats show that
+nothing happened.
 """
 
 from .preparation import Preparation
@@ -45,7 +45,7 @@ class Execution(Preparation):
 
     def resume(self, now, unrecognised=None):
         """Finds out what became of a mission that an adapter before this one has begun, or was about to begin.
-        `unrecognised`: why it is not known which mission that is."""
+        `unrecognised`: the reason why that mission is unknown."""
         self._stage_at = self._asked_at = self._begun = now
         self._resumes, self._mode_asked, self._unrecognised = True, True, unrecognised
         return self._try(now)
@@ -66,7 +66,7 @@ class Execution(Preparation):
         kind = message.get_type()
         out = []
         if self._departure is not None and self.stage != "run" and kind != "HEARTBEAT":
-            return []  # nothing goes on while a hand may be on it; what is not answered is repeated
+            return []  # nothing goes on while a hand may be on it; open questions are repeated
         if kind == "COMMAND_ACK":
             out = self._acknowledged(now, message)
         elif kind == "HEARTBEAT":
@@ -178,7 +178,7 @@ class Execution(Preparation):
         if now - self._asked_at <= patience:
             return []
         if self._resumes:
-            return []  # it says nothing until it knows
+            return []  # nothing is reported before it is known
         if not self._mode_asked:
             return self._give_up(
                 now,
@@ -186,5 +186,5 @@ class Execution(Preparation):
                 f"no answer from its autopilot for {patience:g} seconds ({self.stage})"
                 + (f"; it {UNSIGNED}" if deaf else ""),
             )
-        self._tell_unknown(f"it did not say whether it went into mode {self.vehicle.modes.mission}")
+        self._tell_unknown(f"it did not report whether it went into mode {self.vehicle.modes.mission}")
         return []

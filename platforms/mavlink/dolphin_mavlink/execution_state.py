@@ -20,11 +20,11 @@ class ExecutionState:
         self._boarding, self._progress = None, Progress(vehicle, mission)
         self._next_after_note = None
         self._mode_before, self._asked_mode, self._mode_asked = None, None, False
-        self._first_mode, self._refusal_of = None, None  # where it was while it was not armed; what was refused
+        self._first_mode, self._refusal_of = None, None  # its mode before it was armed; the refused command
         self._restoration, self._departure, self._stop = None, None, None
         self._stage_at = self._asked_at = self._begun = 0.0
         self._beats = 0
-        self._in_mission_at = 0.0  # when it was in the mode of the mission last
+        self._in_mission_at = 0.0  # the last time in the mode of the mission
         self._rewinding = None
         self._known, self._asked_for = set(), set()  # the modes that it may be in; those that we asked for
         self._disarmed = None  # since it is disarmed
@@ -56,7 +56,7 @@ class ExecutionState:
 
     def _give_up(self, now, *event):
         """Ends a mission that was not begun. A vehicle that was not armed is disarmed, and goes back into the mode in
-        which it was: a plane that will not arm must not take off when somebody else arms it."""
+        which it was: a plane that will not arm must not take off when another station arms it."""
         out = self._disarm() if self._armed_by_us else []
         mode, self._boarding, self._armed_by_us = self._first_mode, None, False
         moved = mode is not None and bool(self._asked_for) and mode not in self._asked_for

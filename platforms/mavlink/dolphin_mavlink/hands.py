@@ -1,4 +1,4 @@
-"""Who or what took a vehicle out of its mission, in words. Pure."""
+"""The pilot, station or emergency that took a vehicle out of its mission, in words. Pure."""
 
 from .wire import mavlink
 
@@ -14,19 +14,19 @@ def restarted(vehicle):
 
 
 def is_emergency(now, vehicle):
-    """Whether it has told of one just now."""
+    """Whether it has reported one just now."""
     said_at, text = vehicle.distress
     return vehicle.breach(now, RECENT) is not None or (bool(text) and now - said_at <= RECENT)
 
 
 def emergency(now, vehicle):
-    """What it has told of one just now, to be added to a reason."""
+    """Its last report of one, if it came just now, to be added to a reason."""
     said_at, text = vehicle.distress
     return f": {text}" if text and now - said_at <= RECENT else ""
 
 
 def named(now, vehicle, mode):
-    """Why the task failed when the vehicle went into `mode`, and what keeps it from the next one, as a predicate."""
+    """Why the task failed when the vehicle went into `mode`, and why it cannot take the next one, as a predicate."""
     fence = vehicle.breach(now, RECENT)
     if fence is not None:
         return f"{fence}, in mode {mode}", f"is in mode {mode} after a fence breach"

@@ -83,7 +83,7 @@ class Disarmed:
             if self.has_landed is False and (self.fell or since >= AFTERWARDS):
                 return in_flight
             if since >= OPEN and v.link(now):
-                return "unknown", "was disarmed, and does not say whether it has landed"
+                return "unknown", "was disarmed, and does not report whether it has landed"
             return None
         if since < AFTERWARDS or not v.link(now):
             return None

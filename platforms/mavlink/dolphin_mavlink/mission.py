@@ -68,7 +68,7 @@ _DECISIVE = {
 
 
 class Unreadable(Exception):
-    """Why there is no mission; a text for people."""
+    """The reason why a mission cannot be read, as a text for people."""
 
 
 def is_scaled(command, frame):
@@ -103,7 +103,7 @@ class Item:
 
     @property
     def seconds(self):
-        """How long it takes where it takes place, at least; infinity if only the autopilot knows when it ends."""
+        """The least time that it takes at its place; infinity if only the autopilot knows its end."""
         if self.command in _ENDED_BY_AUTOPILOT:
             return math.inf
         n = _SECONDS.get(self.command)
@@ -154,13 +154,13 @@ def of_message(message):
 
 
 def _near(a, b):
-    """Whether an autopilot that stores numbers in few bits may have made `b` of `a`."""
+    """Whether `b` may be `a` as an autopilot stores it, in few bits."""
     a, b = (0.0 if math.isnan(c) else c for c in (a, b))
     return abs(a - b) <= max(0.51, 0.02 * abs(a)) if abs(a) >= 2 else abs(a - b) <= 0.26
 
 
 def difference(sent, kept):
-    """What a vehicle keeps otherwise than it was sent, in words; None if the two mean the same."""
+    """How the item on board differs from the one that was sent, in words; None if they mean the same."""
     if sent.command != kept.command:
         return f"command {kept.command} instead of {sent.command}"
     for n in _DECISIVE.get(sent.command, ()):
@@ -189,7 +189,7 @@ def _different_place(sent, kept):
 
 @dataclasses.dataclass(frozen=True)
 class Mission:
-    """What a vehicle is to do. `items` are without the home position that ArduPilot keeps before them."""
+    """The items for a vehicle, without the home position that ArduPilot keeps before them."""
 
     items: tuple
     arm: bool = False  # whether the vehicle may be armed in order to begin
@@ -213,7 +213,7 @@ class Mission:
 
     @property
     def note(self):
-        """All that a later adapter needs to recognise the mission on board, as a JSON object."""
+        """The mission as a JSON object, by which a later adapter recognises it on board."""
         return {
             "mission": self.digest,
             "items": len(self.items),
@@ -223,7 +223,7 @@ class Mission:
         }
 
 
-UNKNOWN = Mission((Item(0),))  # stands for a mission of which nothing is known
+UNKNOWN = Mission((Item(0),))  # stands for an unknown mission
 
 
 def _to_note(item):

@@ -119,7 +119,7 @@ def _of_plan(text):
     """A `.plan` of QGroundControl, of simple items, and of complex ones that list their items."""
     mission = (_json(text) or {}).get("mission")
     if not isinstance(mission, dict) or "items" not in mission:
-        raise Unreadable("it is no plan of QGroundControl")
+        raise Unreadable("it is not a plan of QGroundControl")
     flat, numbers = [], []
 
     def add_complex(entry):
@@ -133,7 +133,7 @@ def _of_plan(text):
         transects = entry.get("TransectStyleComplexItem")
         inner = transects if isinstance(transects, dict) else entry
         if "Items" not in inner:
-            raise Unreadable(f"its item of type {kind} lists no items: save it anew")
+            raise Unreadable(f"its item of type {kind} lists no items: save it again")
         add(inner["Items"])
 
     def add(entries):
@@ -141,7 +141,7 @@ def _of_plan(text):
             raise Unreadable("it has no list of items")
         for entry in entries:
             if not isinstance(entry, dict):
-                raise Unreadable("an item is no object")
+                raise Unreadable("an item is not an object")
             kind = entry.get("type", "SimpleItem")
             if kind == "ComplexItem":
                 add_complex(entry)
@@ -159,7 +159,7 @@ def _of_plan(text):
 
 
 def left_out(name, text):
-    """The parts of the file `name` that are not flown, in words; None if there are none."""
+    """The parts of the file `name` that are not flown, in words, or None."""
     if not name.endswith(".plan"):
         return None
     plan = _json(_plain(text)) or {}
@@ -217,7 +217,7 @@ def _of_waypoints(text):
             number, _, frame, command = (_whole_column(c) for c in columns[:4])
             values = [_column(c) for c in columns[4:11]]
         except ValueError:
-            raise Unreadable(f"{what} has a column that is no number") from None
+            raise Unreadable(f"{what} has a column that is not a number") from None
         if not items and number == 0 and command == WAYPOINT:
             values = [value or 0.0 for value in values]  # the home position is not flown
         items.append(_item(command, frame, values, columns[11] != "0", what))

@@ -12,7 +12,7 @@ _WINGED = {1, 7, 16, 28}
 
 
 def frame_of(mav_type):
-    """What the autopilot calls such a vehicle: "copter", "plane", "vtol", "rover", "boat", "sub"; None: no vehicle."""
+    """The kind of such a vehicle: "copter", "plane", "vtol", "rover", "boat", "sub"; None: not a vehicle."""
     if mav_type in _ROTARY:
         return "copter"
     if mav_type in _VTOL:
@@ -38,7 +38,7 @@ _PX4_AUTO = {1: "READY", 2: "TAKEOFF", 3: "HOLD", 4: "MISSION", 5: "RTL", 6: "LA
 
 
 def name_of(autopilot, frame, custom_mode):
-    """The mode that a heartbeat tells of, as its pilots call it."""
+    """The name of the mode in a heartbeat, as pilots call it."""
     if autopilot == PX4:
         main, sub = (custom_mode >> 16) & 0xFF, (custom_mode >> 24) & 0xFF
         return _PX4_AUTO.get(sub, f"AUTO {sub}") if main == 4 else _PX4_MAIN.get(main, f"mode {main}")
@@ -46,7 +46,7 @@ def name_of(autopilot, frame, custom_mode):
 
 
 def parameters_of(autopilot, frame, name):
-    """The second and third parameter of MAV_CMD_DO_SET_MODE for the mode `name`; None if there is no such mode."""
+    """The second and third parameter of MAV_CMD_DO_SET_MODE for the mode `name`; None if there is none."""
     if autopilot == PX4:
         for sub, known in _PX4_AUTO.items():
             if known == name:

@@ -1,6 +1,6 @@
 """Plans of programs as missions of items: stored ones by name, those of `imcPlan { ... }`, those of `mission { ... }`.
 
-What does not fit is refused as a whole, with a reason for each place, before anything is sent."""
+A plan that does not fit is refused as a whole before anything is sent, with the reason for each part."""
 
 import dataclasses
 import math
@@ -14,7 +14,7 @@ from .words import IMAGE_START, IMAGE_STOP, MOST_ITEMS, Builder, Misfit, Refused
 
 @dataclasses.dataclass(frozen=True)
 class For:
-    """Whom a plan is for, as far as it is known; without a vehicle, nothing."""
+    """The vehicle of a plan, as far as it is known."""
 
     name: str = None
     frame: str = None
@@ -38,7 +38,7 @@ def vehicle(now, name, v):
 
 def compile_plan(plan, stored, whom):
     """The Mission of `plan`, as it is in orders, for `whom`. `stored(name)` is the items of a stored mission, or raises
-    Unreadable. Raises Refused, and Unheard if it depends on what the vehicle has not reported yet."""
+    Unreadable. Raises Refused, and Unheard if it depends on a value that the vehicle has not reported yet."""
     try:
         if plan.get("language") is None:
             found = Mission(stored(plan["name"]))
@@ -129,7 +129,7 @@ def _height(maneuver, whom):
             return z, missions.GLOBAL
         if whom.geoid is None:
             raise Misfit(
-                "the vehicle does not tell how far the ellipsoid is from the sea: give z in Z.Units.ALTITUDE"
+                "the vehicle does not report the distance between ellipsoid and sea level: give z in Z.Units.ALTITUDE"
             )
         return z - whom.geoid, missions.GLOBAL
     if unit == "unspecified":
@@ -149,7 +149,7 @@ def _devices(payloads):
             try:
                 number = float(value)
             except ValueError:
-                raise Misfit(f"'{value}' is no number for {name} of the camera") from None
+                raise Misfit(f"'{value}' is not a number for {name} of the camera") from None
             if name.lower() == "interval" and number > 0:
                 interval = number
             elif name.lower() == "rate" and number > 0:
@@ -187,7 +187,7 @@ def _maneuver(m, whom):
 
 
 def _rows(m):
-    """The corners of the rows as (north, east) from where they start, as DUNE runs them: the first lies `curveOffset`
+    """The corners of the rows as (north, east) from their start, as DUNE runs them: the first lies `curveOffset`
     before the start; at the far end the vehicle shifts by `alternation` percent of a step, at the near end by the rest
     of two steps; a square curve shifts first and then comes back, another does both on a diagonal."""
     step, offset = m["horizontalStep"], m["curveOffset"]

@@ -38,7 +38,7 @@ class Preparation(Flight):
         if why is not None:
             return why
         if not v.armed and not self.mission.arm:
-            return "is not armed, and the plan does not say arm: true"
+            return "is not armed, and the plan has no arm: true"
         return None
 
     def _upload(self, now):
@@ -51,7 +51,7 @@ class Preparation(Flight):
         return out
 
     def _boarded(self, now):
-        """What follows once the mission is on board, or is not."""
+        """Goes on once the mission is on board, or has been refused."""
         result = self._boarding.result
         if result is None:
             self.stage, self._asked_at = self._boarding.stage, max(self._asked_at, self._boarding.since)
@@ -87,7 +87,7 @@ class Preparation(Flight):
 
     def _arm(self, now):
         if not self.mission.arm:
-            return self._fail("was disarmed, and the plan does not say arm: true")
+            return self._fail("was disarmed, and the plan has no arm: true")
         self.stage, self._armed_by_us = "arm", True
         return self._send_command(now, mavlink.MAV_CMD_COMPONENT_ARM_DISARM, 1)
 
@@ -154,7 +154,7 @@ class Preparation(Flight):
         if self.stage == "hold" and self.vehicle.idle_mission:
             return self._upload(now)  # its mission has ended: there was nothing to hold
         if result == mavlink.MAV_RESULT_TEMPORARILY_REJECTED and self.stage != "arm" and now - self._stage_at < GRACE:
-            # An autopilot that has just started or landed changes its mode in a moment; its heartbeats tell.
+            # An autopilot that has just started or landed changes its mode in a moment; heartbeats show it.
             self._commands.later(now)
             return []
         what = f"does not go into mode {self._asked_mode}"

@@ -1,4 +1,4 @@
-"""How far a vehicle is with its mission, by what it says and by where it is. Pure."""
+"""The progress of a vehicle in its mission, from its reports and its position. Pure."""
 
 import math
 
@@ -14,7 +14,7 @@ _ENDS_ON_THE_GROUND = (missions.LAND, missions.RETURN, missions.VTOL_LAND)
 
 
 class Progress:
-    """`current` is the item that it is at, as they are numbered on board; None until it was told."""
+    """`current` is the number on board of its current item; None until the vehicle has reported one."""
 
     def __init__(self, vehicle, mission):
         self._vehicle, self._mission = vehicle, mission
@@ -26,7 +26,7 @@ class Progress:
         self._was_active, self._near_since, self._was_at_last = False, None, False
         self._there_since = None  # since when it is at the place of the last item, and at that item
         self._reached, self._visits, self._reached_last = False, 0, None
-        # What decides is believed when it is said twice.
+        # Reports that decide are believed when they come twice.
         self._complete_since, self._completes = None, 0
         self._total, self._strange = None, 0
 
@@ -68,10 +68,10 @@ class Progress:
     def share(self):
         return min(max((self._vehicle.current - self.first) / len(self._mission.items), 0.0), 1.0)
 
-    # What the vehicle says
+    # Reports of the vehicle
 
     def news(self, now):
-        """The vehicle has told of its mission's state."""
+        """The vehicle has reported the state of its mission."""
         v = self._vehicle
         self.current = self._at = v.current
         self._is_past = not v.home_is_item_0 and v.current == len(self._mission.items)
@@ -108,7 +108,7 @@ class Progress:
             self._reached = self._visits >= self._most_visits
         self._reached_last = seq
 
-    # What follows
+    # Conclusions
 
     @property
     def is_replaced(self):
@@ -116,7 +116,7 @@ class Progress:
         return self._strange >= 2
 
     def is_over(self, now):
-        """Whether the last item is reached and what it does has begun."""
+        """Whether the last item is reached and its action has begun."""
         finished = self._completes >= 2 and (self._was_active or now - self._complete_since >= 2)
         if (self._reached and (self._was_at_last or self._completes > 0)) or finished:
             return True
@@ -156,7 +156,7 @@ class Progress:
     @property
     def was_at_its_landing(self):
         """Whether the vehicle was at its last item, which lands it. ArduCopter goes back to its first item when it is
-        disarmed: where it is then does not count."""
+        disarmed: its item does not count then."""
         return self._was_at_last and self._lands(self._last_item)
 
     @property
@@ -179,7 +179,8 @@ class Progress:
         return item.command in _ENDS_ON_THE_GROUND
 
     def _begun_without_end(self, now):
-        """Of an item that no autopilot calls reached, or whose word was lost: by where the vehicle is."""
+        """Whether the last item has begun, by the vehicle's position: no autopilot reports it as reached, or the report
+        was lost."""
         last = self._last_item
         circles_home = last.command == missions.RETURN and self._vehicle.frame == "plane"
         if not circles_home and last.command not in (missions.LOITER_UNLIMITED, missions.WAYPOINT):
@@ -193,7 +194,7 @@ class Progress:
             self._near_since = now
         if last.command == missions.LOITER_UNLIMITED:
             return True
-        # A vehicle that tells of its mission's state says itself when it is over.
+        # A vehicle that reports the state of its mission also reports its end.
         told = self._vehicle.mission_state is not None and last.command == missions.WAYPOINT
         return not told and now - self._near_since >= last.seconds + 5
 

@@ -8,7 +8,7 @@ from .wire import mavlink
 
 REASON = 1.2  # seconds after the acknowledgement in which the reason may come
 BEFORE = 3.0  # seconds before it in which it may have come
-MOST = 3  # so many texts are quoted
+MOST = 3  # texts that are quoted
 _ABOUT_IT = re.compile(r"\b(pre)?arm|\bmode\b|denied|\bauto\b|\bmission\b|reject", re.IGNORECASE)
 RESULTS = {
     mavlink.MAV_RESULT_TEMPORARILY_REJECTED: "not now",

@@ -1,4 +1,4 @@
-"""What became of a mission that an adapter before this one has begun, or was about to begin. Pure."""
+"""The fate of a mission that an earlier adapter has begun, or was about to begin. Pure."""
 
 from .wire import mavlink
 

@@ -5,7 +5,7 @@ older message: then the mission is at its first item when MISSION_CURRENT confir
 
 from .wire import mavlink
 
-SILENT = 3  # after so many commands without an answer the autopilot may not know it
+SILENT = 3  # commands without an answer after which the autopilot may not know the command
 COMMAND = mavlink.MAV_CMD_DO_SET_MISSION_CURRENT
 
 
@@ -25,7 +25,7 @@ class Rewinding:
         return [self._message()]
 
     def repeated(self):
-        """What goes with the command that is repeated just now."""
+        """The messages to send with the repeated command."""
         return [self._message()] if self._is_refused or self._commands.times >= SILENT else []
 
     @property

@@ -21,11 +21,11 @@ COMPONENT = 190  # MAV_COMP_ID_MISSIONPLANNER: a ground station
 LONGEST_LINE = 1 << 20
 
 
-# Links: each has a file descriptor, `read` (pairs of where from and data) and `write`.
+# Links: each has a file descriptor, `read` (pairs of an address and data) and `write`.
 
 
 class Udp:
-    """Listens, and answers whoever speaks; with `to`, also speaks first."""
+    """Listens, and answers each sender; with `to`, also speaks first."""
 
     def __init__(self, port, to=None):
         self._to = to
@@ -41,7 +41,7 @@ class Udp:
             data, where = self._socket.recvfrom(65536)
             return [(where, data)]
         except OSError:
-            return []  # nothing there, or an earlier datagram found nobody
+            return []  # nothing there, or an earlier datagram had no receiver
 
     def write(self, where, data):
         where = where or self._to
@@ -108,7 +108,7 @@ def _serial(text):
     device, _, baud = text.partition(",")
     speed = getattr(termios, "B" + (baud or "57600"), None)
     if speed is None:
-        raise Trouble(f"serial port {device}: {baud} is no speed, such as 57600 or 115200")
+        raise Trouble(f"serial port {device}: {baud} is not a speed, such as 57600 or 115200")
     try:
         file = os.open(device, os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK)
         attributes = termios.tcgetattr(file)
@@ -129,7 +129,7 @@ def _udp(text):
 
 
 def read_missions(directory):
-    """The stored missions of `directory` by their names; a text, why there is none, where a file is unreadable."""
+    """The stored missions of `directory` by their names; for an unreadable file the reason, as a text."""
     stored = {}
     if directory is None:
         return stored
@@ -233,7 +233,7 @@ class Shell:
         try:
             value = json.loads(line)
         except (ValueError, RecursionError):
-            print("an order is no JSON, and is ignored", file=sys.stderr)
+            print("an order is not JSON, and is ignored", file=sys.stderr)
             return
         self._station.order(self._now(), value)
         self._act()
@@ -296,21 +296,26 @@ def _arguments(arguments):
         metavar="DEVICE[,BAUD]",
         help="a serial line, at 57600 baud by default",
     )
-    add("--missions", metavar="DIRECTORY", help="where the stored missions are: NAME.plan, NAME.waypoints")
-    add("--name", action="append", default=[], metavar="NUMBER=VEHICLE", help="what system NUMBER is called")
+    add("--missions", metavar="DIRECTORY", help="directory of stored missions: NAME.plan, NAME.waypoints")
+    add("--name", action="append", default=[], metavar="NUMBER=VEHICLE", help="name of system NUMBER")
     add(
         "--kind",
         action="append",
         default=[],
         metavar="NUMBER=FRAME:AUTOPILOT",
-        help="what system NUMBER is, if it does not tell: 3=copter:px4, 4=boat:ardupilot",
+        help="type and autopilot of system NUMBER, if its heartbeat has neither: 3=copter:px4, 4=boat:ardupilot",
     )
-    add("--payload", action="append", default=[], metavar="VEHICLE=DEVICE,...", help="what a vehicle carries")
-    add("--on-stop", choices=["hold", "return"], default="hold", help="what a vehicle does that is told to stop")
+    add("--payload", action="append", default=[], metavar="VEHICLE=DEVICE,...", help="payload of a vehicle")
+    add(
+        "--on-stop",
+        choices=["hold", "return"],
+        default="hold",
+        help="how a vehicle is stopped: it holds its place, or returns home",
+    )
     add(
         "--key-file",
         metavar="FILE",
-        help="the pass phrase by which messages are signed; others are then not believed",
+        help="the pass phrase by which messages are signed; others are then ignored",
     )
     add("--system", type=int, default=255, metavar="NUMBER", help="our own system number, 255 by default")
     return parser.parse_args(arguments)

@@ -1,8 +1,8 @@
-"""What Dolphin was told of each vehicle, and what has changed since. Pure."""
+"""Reports about vehicles: the last report of each, and its changes since. Pure."""
 
 from . import geo, modes
 
-MOVE = 5.0  # metres, of which a pick is to know within a second
+MOVE = 5.0  # metres: longer moves are reported within a second, for picks
 _PLACE = ("latitude", "longitude")
 
 
@@ -11,8 +11,7 @@ def _moved(before, place):
 
 
 class Sightings:
-    """`telemetry`: whether positions and batteries are wanted every second. `picks`: whether vehicles may be picked,
-    by their distances."""
+    """`telemetry`: positions and batteries are wanted every second. `picks`: vehicles may be picked, by distance."""
 
     def __init__(self, picks=True):
         self._picks = picks
@@ -20,11 +19,11 @@ class Sightings:
         self.telemetry = False
 
     def forget(self):
-        """A report was refused, and it is not known which: the next one of each vehicle has all members."""
+        """An unknown report was refused: the next one about each vehicle has all members."""
         self._told = {}
 
     def news(self, now, name, vehicle, payload, has_plan, at_once):
-        """What is to be told of a vehicle: links and readiness at once, the rest about once a second. None: nothing."""
+        """The next report about a vehicle, or None: links and readiness at once, the rest about once a second."""
         report = {
             "type": modes.TYPES[vehicle.frame],
             "payload": list(payload),

@@ -1,10 +1,10 @@
-"""All vehicles of the network, and all that Dolphin ordered. The pure core of the adapter: what is heard, ordered and
-the time go in; frames to send and lines to report come out, by `take`.
+"""All vehicles of the network, and all orders of Dolphin. The pure core of the adapter: messages, orders and the time
+go in; frames to send and lines to report come out, by `take`.
 
     station.hear(now, address, message)    a message came from there
     station.order(now, line)               Dolphin wrote this line, as a value
     station.tick(now)                      time has passed: at least every `pace` seconds
-    station.take()                         what is to be done, oldest first:
+    station.take()                         actions to carry out, oldest first:
         ("send", address, message, version)    address None: to wherever vehicles are looked for
         ("report", line)
         ("quit",)
@@ -28,21 +28,21 @@ PROTOCOL = 1
 ANNOUNCE = 5
 PATIENCE = 120
 CLOSING = 5.0
-UNHEARD = 10.0  # seconds in which a vehicle may be heard that a start is for, and then where it is
+UNHEARD = 10.0  # seconds in which the vehicle of a start has to be heard, and then its position
 RESUMING = 10.0  # seconds in which orders to resume may come
-REMEMBERED = 1000  # so many ended requests are known
+REMEMBERED = 1000  # ended requests that are kept
 SAID = 600.0  # seconds for which a text is not shown again
-MOST_TEXTS = 200  # so many texts of a vehicle are known to have been shown
+MOST_TEXTS = 200  # shown texts that are kept for each vehicle
 
 
 @dataclasses.dataclass
 class Options:
     system: int = 255
     names: dict = dataclasses.field(default_factory=dict)  # of systems, by their numbers
-    kinds: dict = dataclasses.field(default_factory=dict)  # (autopilot, frame) of those that do not tell, by number
+    kinds: dict = dataclasses.field(default_factory=dict)  # (autopilot, frame) that heartbeats do not have, by number
     payloads: dict = dataclasses.field(default_factory=dict)  # devices, by names
-    stored: dict = dataclasses.field(default_factory=dict)  # items of missions, or why there are none, by names
-    directory: str = "."  # where they are from
+    stored: dict = dataclasses.field(default_factory=dict)  # items of missions, or why they cannot be read, by names
+    directory: str = "."  # their directory
     on_stop: str = "hold"
     picks: bool = True  # whether vehicles may be picked; not in a replay
 
@@ -72,8 +72,8 @@ class Station:
         self._telemetry = {}  # by system
         self._foreign = set()
         self._early = []  # lines of the log that wait for the greeting
-        self._doubts = {}  # by systems: why their messages are not believed
-        self._texts = {}  # by systems: the texts that were shown, and when they were said last
+        self._doubts = {}  # by systems: the reason why their messages are not believed
+        self._texts = {}  # by systems: the texts that were shown, and the last time of each
         self._trips = {}
         self._greeted, self._closing, self._heartbeat_at = False, None, None
         self._resumes_until = 0.0
@@ -162,18 +162,18 @@ class Station:
             return True
         if (vehicle.system, address) not in self._foreign and len(self._foreign) < 1000:
             self._foreign.add((vehicle.system, address))
-            self._log(f"another system has number {vehicle.system} too: what it says is ignored", vehicle)
+            self._log(f"another system has number {vehicle.system} too: its messages are ignored", vehicle)
         return False
 
     def _is_for_us(self, message):
-        """Answers to other ground stations are no answers to us. Older autopilots name nobody."""
+        """Answers to other ground stations are not for us. Older autopilots leave the receiver open."""
         target = getattr(message, "target_system", 0)
         return target in (0, self._options.system)
 
     # From Dolphin
 
     def order(self, now, line):
-        """`line` is any JSON value. What is unknown is ignored, as the protocol wants it."""
+        """`line` is any JSON value. Unknown orders are ignored, as the protocol demands."""
         kind = line.get("kind") if isinstance(line, dict) else None
         take = getattr(self, "_order_" + kind, None) if isinstance(kind, str) and kind.isidentifier() else None
         if take is None:
@@ -360,7 +360,7 @@ class Station:
         return next(n for n, r in self._requests.items() if r is request)
 
     def _do(self, now, request, messages):
-        """Sends what an execution sends, and reports what it reports."""
+        """Sends the messages of an execution, and reports its events."""
         execution = request.execution
         self._send_all(execution.vehicle, messages)
         events, execution.events = execution.events, []
@@ -438,7 +438,7 @@ class Station:
         if not self._greeted:
             return
         name = self.name_of(vehicle.system)
-        # Of what a vehicle flies it is not known yet whether it is ours, if orders to resume may follow.
+        # While orders to resume may follow, the mission of a vehicle may be ours.
         may_be_ours = vehicle.mode == vehicle.modes.mission and now < self._resumes_until
         has_plan = may_be_ours or self._request_on(vehicle) is not None
         payload = self._options.payloads.get(name, vehicle.devices)
@@ -447,7 +447,7 @@ class Station:
             self._report(news)
 
     def _show_texts(self, now, vehicle):
-        """What an autopilot says of severity 0 to 2, once. The pieces of a long text come one after another."""
+        """Shows texts of severity 0 to 2, each once. The pieces of a long text come one after another."""
         while vehicle.to_show and now - vehicle.to_show[0].at >= 0.5:
             words = vehicle.to_show.pop(0).words
             shown = self._texts.setdefault(vehicle.system, {})

@@ -36,7 +36,7 @@ class Stopping:
             if self._accepted is not None or self._at_stop != self._mode:
                 return STOPPED
         elif v.mode not in (self._at_stop, self._before):
-            return STOPPED  # by a pilot, who flies it
+            return STOPPED  # by a pilot's hand
         if self._progress.returns_by_itself():
             return GOES_ON
         never_begun = now - self._since > GRACE and v.heartbeats - self._beats >= 3

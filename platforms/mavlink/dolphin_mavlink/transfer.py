@@ -1,9 +1,9 @@
 """MAVLink's mission protocol, from the ground station's side: an upload, and a download. Pure: each takes messages and
 the time, and gives messages to send.
 
-Nothing is ever waited for only once. Whoever hears nothing repeats its last message, after four of the link's round
-trips, and then ever later; what comes twice, late or out of order changes nothing. What an upload's end leaves open (an
-acknowledgement that was lost, an error that answers a repeated item) the download after it decides.
+No message is sent only once. A message without an answer is repeated after four of the link's round trips, and then
+at longer and longer intervals; messages that come twice, late or out of order change nothing. The download after an
+upload decides the cases that its end leaves open: a lost acknowledgement, or an error that answers a repeated item.
 """
 
 from . import mission as missions
@@ -19,11 +19,11 @@ _REFUSALS = {
 }
 
 
-LONGEST = 10.0  # seconds: round trips that are longer are not told from losses
+LONGEST = 10.0  # seconds: longer round trips cannot be distinguished from losses
 ITEM_PATIENCE = 1.5  # seconds: earlier repeats of an item keep a vehicle from asking for it (MAVSDK's timer)
-SILENCE = 5.0  # seconds without a word, on a link that is not slower, after which the vehicle has given a transfer up
+SILENCE = 5.0  # seconds of silence after which the vehicle has given a transfer up, unless the link is slower
 ASKED_AGAIN = 0.4  # seconds: a download is given up by MAVSDK after five times 0.5 s without a question
-ERRORS = 5  # so many errors end a transfer that has not got under way: fewer may answer the one before
+ERRORS = 5  # errors that end a transfer before its first item: fewer may answer the transfer before it
 COPY = 0.1, 0.9  # seconds, by the round trip, within which a second request for an item is taken for the first one
 
 
@@ -67,7 +67,7 @@ class RoundTrip:
 
     @property
     def settled(self):
-        """After so many seconds, all that was sent before has been answered."""
+        """Seconds after which all earlier messages have been answered."""
         return max(0.25, 1.5 * self.seconds)
 
 
@@ -114,8 +114,8 @@ class Repeated:
 
 
 def numbered(items, home):
-    """The items with the numbers that the vehicle gives them. ArduPilot keeps its home position as item 0; others begin
-    with the first item, where jumps then lead to numbers that are smaller by one."""
+    """The items as they are numbered on board. ArduPilot keeps its home position as item 0; others begin with the first
+    item, and their jumps lead to numbers that are smaller by one."""
     if home is not None:
         x, y = round(home[0] * 1e7), round(home[1] * 1e7)
         return [missions.Item(missions.WAYPOINT, missions.GLOBAL, x=x, y=y), *items]
@@ -129,8 +129,8 @@ def numbered(items, home):
 
 
 class Upload:
-    """`result` is None while it goes on, then "accepted", "unclear" (a download will tell), "again" (the vehicle gave
-    the transfer up), "silent" (it asks for nothing any more), or ("refused", why)."""
+    """`result` is None during the transfer, then "accepted", "unclear" (a download decides), "again" (the vehicle gave
+    the transfer up), "silent" (it stopped asking for items), or ("refused", why)."""
 
     def __init__(self, target, items, round_trip):
         self._target, self._items, self._round_trip = target, items, round_trip
@@ -197,12 +197,12 @@ class Upload:
         return self._repeated.tick(now)
 
     def cancel(self):
-        """Tells the vehicle that nothing more will come."""
+        """Ends the transfer for the vehicle."""
         return [mavlink.MAVLink_mission_ack_message(*self._target, mavlink.MAV_MISSION_OPERATION_CANCELLED)]
 
 
 class Download:
-    """`items` is None until all are there. Up to `window` items are asked for at once; after a loss, one at a time."""
+    """`items` is None until all have come. Up to `window` items are asked for at once; after a loss, one at a time."""
 
     def __init__(self, target, round_trip, window=1, most=65535):
         self._target, self._window, self._most = target, window, most

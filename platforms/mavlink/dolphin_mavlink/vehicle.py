@@ -1,4 +1,4 @@
-"""What a vehicle says of itself. Pure: `hear` takes a message and the time."""
+"""The state of a vehicle, from its messages. Pure: `hear` takes a message and the time."""
 
 import collections
 import dataclasses
@@ -82,7 +82,7 @@ class Height:
 
 
 class Vehicle:
-    """`kind` is the autopilot and the frame of one that does not tell them."""
+    """`kind` is the autopilot and the frame, for a vehicle whose heartbeats do not have them."""
 
     def __init__(self, now, address, heartbeat, kind=None):
         self.system, self.component = heartbeat.get_srcSystem(), heartbeat.get_srcComponent()
@@ -98,10 +98,10 @@ class Vehicle:
         self.located_at = -math.inf  # when it was there
         self.armed_from = None  # its place when it was disarmed last: its home, if it does not report another one
         self.altitude = None  # above mean sea level
-        self.relative = None  # above home; of what dives above the surface
-        self.geoid = None  # how far mean sea level is above the ellipsoid, where it says so
+        self.relative = None  # above home; for submarines above the surface
+        self.geoid = None  # height of mean sea level above the ellipsoid, if reported
         self.battery, self.speed, self.home, self.landed = None, None, None, None
-        self.heard = {}  # when each kind of message was heard last
+        self.heard = {}  # the last time of each kind of message
         self.armed_at = -math.inf  # when a heartbeat last reported it armed
         self.disarmed_at = -math.inf  # when one reported it disarmed for the first time after that
         self.flew_at = -math.inf  # when it last reported that it is in the air
@@ -112,10 +112,10 @@ class Vehicle:
         self.boot, self.restarted_at = None, -math.inf  # the seconds since its start; when it last started again
         self.current, self.total, self.mission_state = None, None, None
         self.heights = collections.deque()  # reports of its height, of the last HEIGHTS seconds
-        self.news = 0  # how many times it told of its mission
-        self.distress = (-math.inf, "")  # when it last spoke of an emergency, and how
-        self.texts = collections.deque(maxlen=30)  # what it said in words, oldest first
-        self.to_show = []  # of these, those that are for people
+        self.news = 0  # number of MISSION_CURRENT messages
+        self.distress = (-math.inf, "")  # its last text about an emergency, and the time
+        self.texts = collections.deque(maxlen=30)  # STATUSTEXT messages, oldest first
+        self.to_show = []  # those of them that people are to see
         self._fence, self._breach = (-math.inf, ""), None  # when its fence was breached last, and which one goes on
         self._chunk = None  # where a text in pieces goes on
         self.devices = []
@@ -134,7 +134,7 @@ class Vehicle:
         return self.autopilot == modes.ARDUPILOT
 
     def finished(self, unseen):
-        """Its mission is over. `unseen`: whether no heartbeat has shown the mode of the mission yet."""
+        """Its mission is over. `unseen`: no heartbeat has shown the mode of the mission yet."""
         self.idle_mission = True
         now = max(self.heard.values(), default=self.heard_at)
         self._idle_until = now + LINK_SILENCE if unseen and self.mode != self.modes.mission else -math.inf
@@ -153,7 +153,7 @@ class Vehicle:
         return order is not None and now - order.confused_at <= CONFUSED
 
     def hear(self, now, message):
-        """Takes in `message` of this system. Gives whether it is of the autopilot, and later than all before it."""
+        """Takes in `message` of this system. Returns whether the autopilot sent it, later than all before it."""
         component = message.get_srcComponent()
         new = self._orders.setdefault(component, Order()).is_new(now, message.get_seq())
         kind = message.get_type()
@@ -269,7 +269,7 @@ class Vehicle:
             self._judge(now, said.words)
 
     def _judge(self, now, words):
-        """Whether `words` are about an emergency, or its end."""
+        """Takes note of an emergency, or of its end, in `words`."""
         if _FENCE.search(words):
             self._fence = (now, self._fence[1] if now - self._fence[0] < 2 else "")
         elif _DISTRESS.search(words):
@@ -285,7 +285,7 @@ class Vehicle:
         self._breach = breach  # one that goes on is not a new one
 
     def breach(self, now, recent):
-        """The breach of its fence within the last `recent` seconds, in words; None: there was none."""
+        """The breach of its fence within the last `recent` seconds, in words, or None."""
         at, kind = self._fence
         return f"fence breach{kind}" if now - at <= recent else None
 
@@ -303,7 +303,7 @@ class Vehicle:
         return "has not reported its position" + (" yet" if self.place is None else f" for {CURRENT:g} s")
 
     def unready(self, now, has_plan):
-        """What keeps the vehicle from being given a plan though it has a link, as a predicate; None: nothing."""
+        """Why the vehicle cannot take a plan although it has a link, as a predicate; None if it can."""
         if has_plan:
             return None
         if self.is_deaf(now):

@@ -39,7 +39,7 @@ class _Codec(mavlink.MAVLink):
 
 
 class Wire:
-    """One end of MAVLink links: who we are, what we count, and the key if there is one."""
+    """One end of MAVLink links: our numbers, our counter of frames, and the key if one is given."""
 
     def __init__(self, system, component, key=None):
         self._codec = _Codec(None, srcSystem=system, srcComponent=component)
@@ -50,7 +50,7 @@ class Wire:
             self._codec.signing.sign_outgoing = True
 
     def set_date(self, date):
-        """`date`, in seconds since 1970, is what signatures are stamped with, unless one was stamped later."""
+        """Signatures are stamped with `date`, in seconds since 1970, unless one had a later stamp."""
         signing = self._codec.signing
         signing.timestamp = max(signing.timestamp, int((date - SIGNING_EPOCH) * 1e5))
 

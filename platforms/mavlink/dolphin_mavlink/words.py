@@ -1,5 +1,5 @@
 """`mission { ... }`: a language of plans for vehicles whose plans are missions of items. Heights are metres above the
-home position, distances metres, times seconds. What cannot be done is refused with all its reasons."""
+home position, distances metres, times seconds. A mission that cannot be flown is refused with all reasons."""
 
 import dataclasses
 import math
@@ -15,7 +15,7 @@ APPROACH = 5.0  # metres ahead for each metre of height that a plane's way down 
 
 
 class Refused(Exception):
-    """`problems`: why there is no mission, each a few words."""
+    """`problems`: the reasons why the plan is refused, each in a few words."""
 
     def __init__(self, problems):
         super().__init__("; ".join(problems))
@@ -23,7 +23,7 @@ class Refused(Exception):
 
 
 class Unheard(Exception):
-    """What the vehicle has not reported yet, without which the plan cannot be made."""
+    """A value that the plan depends on, and that the vehicle has not reported yet."""
 
 
 class Misfit(Exception):
@@ -57,7 +57,7 @@ class Builder:
             name = entry["item"]
             make = getattr(self, "_" + WORDS[name], None) if name in WORDS else None
             if make is None:
-                problems.append(f"'{name}' is no item of missions")
+                problems.append(f"'{name}' is not an item of missions")
                 continue
             before = len(self.items)
             try:
@@ -82,7 +82,7 @@ class Builder:
 
     @property
     def _place(self):
-        """Where the vehicle is by then."""
+        """The place of the vehicle after the items so far."""
         if self._at is None:
             raise Unheard("position")
         return self._at
@@ -158,14 +158,14 @@ class Builder:
     def _take_off(self, a):
         self._altitude = a.number("altitude")
         if self._altitude <= 0:
-            raise Misfit(f"to {self._altitude:g} m is no take-off")
+            raise Misfit(f"to {self._altitude:g} m is not a take-off")
         yaw = a.number("yaw", math.nan)
         self.items.append(
             Item(missions.TAKE_OFF, missions.RELATIVE, (0.0, 0.0, 0.0, yaw), *_scaled(self._place), self._altitude)
         )
 
     def _to_offset(self, a):
-        """To the position that is given, or from where it is then, and as far north, east and up as is said."""
+        """To the given position, or else its place then, moved north, east and up by the given distances."""
         start = a.place("position", None) or self._place
         self._to(geo.displace(start, a.number("north", 0.0), a.number("east", 0.0)))
         self._rise(a)
@@ -340,7 +340,7 @@ _WORDS_TAKE = {word: (positional, named) for word, _, positional, named in _LANG
 
 
 class _Arguments:
-    """What stands behind a word, by the names of its arguments."""
+    """The arguments of a word, by name."""
 
     def __init__(self, word, given, named, positional, only_named):
         if len(given) > len(positional):
@@ -366,7 +366,7 @@ class _Arguments:
         if name not in self._of:
             return value
         if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) < 1e7:
-            raise Misfit(f"{name} is no number that would do")
+            raise Misfit(f"{name} is not a number within range")
         return float(value)
 
     def truth(self, name):
@@ -378,7 +378,7 @@ class _Arguments:
     def text(self, name):
         value = self._get(name, None, True)
         if not isinstance(value, str):
-            raise Misfit(f"{name} is no text")
+            raise Misfit(f"{name} is not a text")
         return value
 
     def place(self, name, *default):
@@ -398,7 +398,7 @@ def _place(what, value):
         numbers = all(isinstance(c, (int, float)) and not isinstance(c, bool) for c in (latitude, longitude))
         if numbers and abs(latitude) <= 90 and abs(longitude) <= 180:
             return float(latitude), float(longitude)
-    raise Misfit(f"{what} is no position")
+    raise Misfit(f"{what} is not a position")
 
 
 def survey_lines(corners, spacing, bearing):

@@ -51,7 +51,7 @@ class Network:
         return ends[0] if ends else None
 
     def vehicle_said(self, name):
-        """What is known of a vehicle by all reports on it."""
+        """The state of a vehicle by all reports about it."""
         known = {}
         for report in self.said("vehicle"):
             if report["vehicle"] == name:
@@ -59,7 +59,7 @@ class Network:
         return known
 
     def run(self, seconds, until=None, step=0.05):
-        """Lets time pass until `until()` holds. Gives whether it does."""
+        """Lets time pass until `until()` holds. Returns whether it does."""
         end = self.now + seconds
         while self.now < end:
             if until is not None and until():
@@ -88,11 +88,11 @@ class Network:
                 self._transmit(data, lambda data, v=vehicle: self._to_station(v, data))
 
     def repeat(self, message, system=1):
-        """A copy of what the station has sent arrives, however late."""
+        """A copy of a message of the station arrives, however late."""
         self._to_vehicle(self.vehicles[system], self._wire.encode(message))
 
     def inject(self, data, address="elsewhere"):
-        """A datagram of somebody else."""
+        """A datagram of another sender."""
         for message in self._wire.decode_datagram(data):
             self.station.hear(self.now, address, message)
         self._act()

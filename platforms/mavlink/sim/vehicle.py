@@ -54,10 +54,10 @@ class SimVehicle:
         self.lag = 0.1  # seconds between an acknowledgement and its heartbeat
         self.pace = 1.0  # how many times as fast its clock goes
         self._out, self._at = [], None
-        self._soon = []  # what it says in a moment: when, and the messages then
+        self._soon = []  # messages to come, each with its time
         self._streams, self._booted, self._silent_until = True, 0.0, -1.0
         self._place_interval, self._placed_at = 1.0, 0.0  # of its positions, in seconds
-        self._on_ground, self._falls = True, None  # what it claims; since when it falls, and from what height
+        self._on_ground, self._falls = True, None  # its report; the time and height at which it began to fall
         self._upload = None
         self._waits_until, self._jumps = None, {}
         self._beat_at = -1.0
@@ -212,7 +212,7 @@ class SimVehicle:
             return mavlink.MAV_RESULT_UNSUPPORTED
         return mavlink.MAV_RESULT_ACCEPTED
 
-    # What others do to it
+    # Actions of others
 
     def pilot(self, now, mode):
         self._advance(now)
@@ -404,7 +404,7 @@ class SimVehicle:
             self._beat(self._at)
         self._news()
 
-    # What it says
+    # Reports
 
     def _beat(self, now):
         main, sub = modes.parameters_of(self.autopilot, self.frame, self.mode)

@@ -1,4 +1,4 @@
-"""Runs the tests of the adapter, and says how many there were, as Alcotest does, for scripts/tally."""
+"""Runs the tests of the adapter, and prints their number as Alcotest does, for scripts/tally."""
 
 import os
 import sys

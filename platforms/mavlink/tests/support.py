@@ -1,4 +1,4 @@
-"""What tests of the adapter share: missions, and networks of one vehicle."""
+"""Shared by tests of the adapter: missions, and networks of one vehicle."""
 
 import os
 import random

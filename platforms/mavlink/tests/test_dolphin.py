@@ -31,7 +31,7 @@ class Programs(unittest.TestCase):
         self.began = os.path.join(tempfile.mkdtemp(), "began")
 
     def fly(self, *arguments):
-        """Simulated vehicles, whose missions are told in `began`."""
+        """Simulated vehicles, whose missions are listed in `began`."""
         options = ["--to", f"127.0.0.1:{self.port}", "--time", "10", "--began", self.began]
         self.spawn([sys.executable, "-B", "-m", "sim", *options, *arguments])
 
@@ -54,12 +54,12 @@ class Programs(unittest.TestCase):
         return process
 
     def flights(self):
-        """How many items each mission had that was begun, in order."""
+        """The number of items of each mission that was begun, in order."""
         with open(self.began, encoding="utf-8") as file:
             return [int(line) for line in file]
 
     def test_missions_of_the_program(self):
-        """They arm, and only who has a camera takes photos."""
+        """They arm, and only those with a camera take photos."""
         self.fly("--place=41.1850,-8.7062", "copter", "copter:px4")
         adapter = f"{os.path.join(FOLDER, 'dolphin-mavlink')} --udp {self.port} --payload mav-2=camera"
         run = subprocess.run(
@@ -124,7 +124,7 @@ class Programs(unittest.TestCase):
         self.assertEqual(self.flights(), [2, 2, 2])
 
     def test_a_console_that_is_killed_and_resumed(self):
-        """At a hundred moments of its run, far apart at first (DOLPHIN_KILLS: how many): each mission is flown once."""
+        """At DOLPHIN_KILLS moments of its run, far apart at first: each mission is flown once."""
         self.rendezvous_plane()
         for number in range(int(os.environ.get("DOLPHIN_KILLS", "2"))):
             with self.subTest(number=number), tempfile.TemporaryDirectory() as folder:

@@ -138,7 +138,7 @@ class Motors(Case):
                         vehicle.lands_at, vehicle.grants_rates = 0.5, grants_rates
                         wires.run(200, at_its_landing(vehicle, height))
                         wires.run(random.Random(seed).random())
-                        vehicle.kill(wires.now)  # what it would say at once is lost
+                        vehicle.kill(wires.now)  # its immediate reports are lost
                         self.ends(wires, "r", "failed", "was disarmed in flight")
 
     def test_positions_come_often_only_while_it_lands(self):
@@ -335,7 +335,7 @@ class Pilots(Case):
 
 
 class Departures(Case):
-    """What took a vehicle out of its mission is named."""
+    """The cause that took a vehicle out of its mission is named."""
 
     def flying(self, kind="copter", px4=False, **more):
         vehicle, wires = one(kind, px4, items=way(40), **more)

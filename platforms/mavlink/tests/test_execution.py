@@ -123,7 +123,7 @@ class Refusals(Case):
         for kind, px4 in KINDS:
             vehicle, wires = one(kind, px4)
             wires.start("r", "mav-1", stored(arm=False))
-            self.ends(wires, "r", "failed", "is not armed, and the plan does not say arm: true")
+            self.ends(wires, "r", "failed", "is not armed, and the plan has no arm: true")
             self.assertNotIn(ARM, [c for c, *_ in vehicle.commands])
             self.assertEqual(vehicle.items, [])
 
@@ -138,7 +138,7 @@ class Refusals(Case):
         wires.start("r", "mav-1", stored(arm=False))
         wires.run(1.2)
         wires.say(vehicle, vehicle.disarm(wires.now))
-        self.ends(wires, "r", "failed", "was disarmed, and the plan does not say arm: true")
+        self.ends(wires, "r", "failed", "was disarmed, and the plan has no arm: true")
         self.assertNotIn(ARM, [c for c, *_ in vehicle.commands])
 
     def test_its_autopilot_refuses_the_mission(self):

@@ -1,4 +1,4 @@
-"""Files of missions as other programs, people and accidents leave them: the same mission, or why there is none."""
+"""Files of missions as other programs, people and accidents leave them: the mission, or the reason of a refusal."""
 
 import copy
 import json
@@ -58,7 +58,7 @@ def rows(lines):
 
 
 def paths(value, at=()):
-    """Where the values inside of a JSON value are."""
+    """The paths to all values inside of a JSON value."""
     inner = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
     for key, x in inner:
         yield (*at, key)
@@ -193,7 +193,7 @@ class Written(unittest.TestCase):
 
 
 class Refused(unittest.TestCase):
-    """What cannot be flown is named."""
+    """Items that cannot be flown are named."""
 
     def refused(self, why, *items):
         with self.assertRaises(Unreadable) as caught:

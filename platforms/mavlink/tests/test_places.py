@@ -81,7 +81,7 @@ class Places(Case):
                     self.assertEqual((sent.x, sent.y), (round(x * scale), round(y * scale)))
 
     def test_each_place_is_compared(self):
-        """What a vehicle keeps elsewhere is a difference. It may drop a place where MAVLink defines none."""
+        """A place that is kept wrongly is a difference. A vehicle may drop places that MAVLink does not define."""
         for seed in seeds(20):
             generator = random.Random(seed)
             for _ in range(100):

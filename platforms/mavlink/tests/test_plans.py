@@ -1,4 +1,4 @@
-"""Stored missions, inline plans: what they become, and what is refused with which words."""
+"""Stored missions and inline plans: their items, and the reasons of refusals."""
 
 import json
 import math
@@ -189,10 +189,10 @@ class Files(unittest.TestCase):
 
     def test_unreadable_ones_say_why(self):
         for name, text, why in (
-            ("a.plan", "{", "it is no plan of QGroundControl"),
-            ("a.plan", "[]", "it is no plan of QGroundControl"),
+            ("a.plan", "{", "it is not a plan of QGroundControl"),
+            ("a.plan", "[]", "it is not a plan of QGroundControl"),
             ("a.plan", '{"mission": {"items": []}}', "it has no items"),
-            ("a.plan", '{"mission": {"items": [3]}}', "an item is no object"),
+            ("a.plan", '{"mission": {"items": [3]}}', "an item is not an object"),
             (
                 "a.plan",
                 '{"mission": {"items": [{"command": 16, "frame": 3, "params": [1]}]}}',
@@ -206,7 +206,7 @@ class Files(unittest.TestCase):
             (
                 "a.plan",
                 '{"mission": {"items": [{"type": "ComplexItem", "complexItemType": "survey"}]}}',
-                "its item of type survey lists no items: save it anew",
+                "its item of type survey lists no items: save it again",
             ),
             (
                 "a.plan",
@@ -229,10 +229,10 @@ class Files(unittest.TestCase):
                 '{"mission": {"items": [{"command": 16, "frame": 2, "params": [0,0,0,0,41,-8,0]}]}}',
                 "item 1 flies to a place, and frame 2 has none",
             ),
-            ("a.plan", "[" * 100000, "it is no plan of QGroundControl"),
+            ("a.plan", "[" * 100000, "it is not a plan of QGroundControl"),
             ("a.waypoints", "", "its first line is not QGC WPL 110"),
             ("a.waypoints", WAYPOINTS + "1 2\n", "item 3 has 2 columns instead of 12"),
-            ("a.waypoints", WAYPOINTS.replace("41.186", "north"), "item 2 has a column that is no number"),
+            ("a.waypoints", WAYPOINTS.replace("41.186", "north"), "item 2 has a column that is not a number"),
         ):
             with self.assertRaises(Unreadable) as caught:
                 mission_files.of_file(name, text)
@@ -252,7 +252,7 @@ class Files(unittest.TestCase):
             found = read_missions(folder)
             self.assertEqual(len(found["a"]), 5)
             self.assertEqual(found["b"], f"{folder} has it twice, as .plan and as .waypoints")
-            self.assertEqual(found["c"], "c.plan: it is no plan of QGroundControl")
+            self.assertEqual(found["c"], "c.plan: it is not a plan of QGroundControl")
             self.assertNotIn("d", found)
 
     def test_what_may_come_back_otherwise(self):
@@ -313,7 +313,7 @@ class Inline(unittest.TestCase):
     def test_heights(self):
         height = inline(maneuver("goTo", zUnit="height", z=100))
         self.assertEqual((read(height).items[1].z, read(height).items[1].frame), (47.0, mission.GLOBAL))
-        self.assertIn("does not tell how far the ellipsoid", self.refused(height, COPTER)[0])
+        self.assertIn("does not report the distance between ellipsoid", self.refused(height, COPTER)[0])
         depth = inline(maneuver("goTo", zUnit="depth", z=5))
         self.assertEqual(read(depth, SUB).items[1].z, -5.0)
         self.assertEqual(
@@ -488,13 +488,13 @@ class Missions(unittest.TestCase):
 
     def test_refusals(self):
         for words, problems in (
-            ([("fly",)], ["'fly' is no item of missions"]),
+            ([("fly",)], ["'fly' is not an item of missions"]),
             ([("takeOff",)], ["item 1, takeOff: lacks altitude"]),
-            ([("takeOff", "high")], ["item 1, takeOff: altitude is no number that would do"]),
+            ([("takeOff", "high")], ["item 1, takeOff: altitude is not a number within range"]),
             ([("takeOff", 1, 2)], ["item 1, takeOff: takes altitude, not 2 arguments"]),
             ([("takeOff", Named(height=3))], ["item 1, takeOff: has no argument 'height': it has altitude"]),
             ([("goPos", HERE)], ["item 1, goPos: how high? Give altitude: metres above home, or begin with takeOff"]),
-            ([("takeOff", 5), ("goPos", 4)], ["item 2, goPos: position is no position"]),
+            ([("takeOff", 5), ("goPos", 4)], ["item 2, goPos: position is not a position"]),
             ([("takeOff", 5), ("jumpToItem", 7)], ["jumpToItem 7: there are 2 items"]),
             ([("arm", 1)], ["item 1, arm: arm is true or false"]),
             ([("arm", True)], ["it has no items"]),

@@ -39,8 +39,8 @@ _LEASES = []  # locks of files, as long as this process lives
 
 
 def free_ports(count=1):
-    """The first of `count` ports in a row that nobody has. Other tests that run beside this one take others, and they
-    are below those that systems give to sockets without a port: nobody comes between now and when they are bound.
+    """The first of `count` free ports in a row. Other tests that run beside this one take others, and they are below
+    those that systems give to sockets without a port: they stay free until they are bound.
     Every run of tests on the machine looks there, whatever its folder for temporary files."""
     folder = "/tmp/dolphin-test-ports"
     os.makedirs(folder, exist_ok=True)

@@ -1,4 +1,4 @@
-"""Adapters and links that die at 100 moments of a mission: nothing is flown twice, nothing is lost, or it is said."""
+"""Adapters and links that die at 100 moments of a mission: nothing is flown twice, and losses are reported."""
 
 import json
 import math
@@ -17,7 +17,7 @@ LENGTH = 16.0  # seconds that the mission takes, from the order to its end, and 
 
 
 def moments():
-    """Dense at the beginning, where most is decided."""
+    """Dense at the beginning, which decides most."""
     return [LENGTH * (k / POINTS) ** 2 for k in range(POINTS)]
 
 
@@ -29,13 +29,13 @@ def flight(*words):
 
 
 class Console:
-    """What Dolphin does beside an adapter: keeps what was ordered and noted, and resumes."""
+    """The part of Dolphin beside an adapter: keeps orders and notes, and resumes."""
 
     def __init__(self, wires):
         self.wires = wires
 
     def restart(self, request, plan):
-        """The adapter has died a second ago, and is started anew."""
+        """The adapter has died a second ago, and is started again."""
         ended = self.wires.end_of(request)
         notes = [r["note"] for r in reversed(self.wires.said("note", request))]
         self.wires.start_station(resumes=True)
@@ -43,7 +43,7 @@ class Console:
             self.wires.order(kind="resume", request=request, vehicle="mav-1", plan=plan, timeout=60, notes=notes)
 
     def follow(self, request, plan):
-        """The end of `request`; what is absent is ordered again, what is unknown is stopped."""
+        """The end of `request`. An absent one is ordered again, an unknown one is stopped."""
         done_before = 0
         for _ in range(3):
             self.wires.run(
@@ -111,7 +111,7 @@ class Killed(Case):
                 self.assertEqual((len(vehicle.began), len(vehicle.reached)), (1, 8))
 
     def test_killed_links_that_stay_dead(self):
-        """A mission that was not begun has failed; of one that may have, nothing is claimed."""
+        """A mission that was certainly not begun has failed; nothing is claimed about others."""
         for number, moment in enumerate(moments()):
             with self.subTest(moment=moment):
                 vehicle, wires = one(px4=number % 2 == 1, items=way(8), seed=number, delay=0.03)
@@ -217,7 +217,7 @@ class Killed(Case):
                         self.assertEqual(wires.said("unknown"), [])
 
     def test_a_note_without_the_items(self):
-        """As earlier adapters wrote it. What the plan becomes now is another mission: it is stopped."""
+        """As earlier adapters wrote it. Now the plan becomes another mission: it is stopped."""
         plan = flight(["takeOff", 20], ["move", 500, 0], ["move", 0, 500])
         vehicle, wires = self.flying(plan)
         self.resume(wires, plan, notes=[{"mission": "x", "items": 3}])
@@ -293,7 +293,7 @@ class Killed(Case):
 
 
 class Unheard(Case):
-    """Nothing is made of a plan before the vehicle has reported what it depends on."""
+    """A plan waits for reports of the vehicle that it depends on."""
 
     def one(self, hidden, armed=False):
         vehicle = SimVehicle(1, "copter", False, HARBOUR, armed=armed)
@@ -318,7 +318,7 @@ class Unheard(Case):
         self.assertEqual(vehicle.items, [])
 
     def test_a_position_that_is_old(self):
-        """After a link that was away, a mission relative to the vehicle is made from where the vehicle is."""
+        """After a link that was away, a mission relative to the vehicle is made from its current position."""
         vehicle, wires = one(armed=True)
         wires.loses = lambda message: message.get_type() == "GLOBAL_POSITION_INT"
         vehicle.place = geo.displace(HARBOUR, 500, 0)
@@ -331,7 +331,7 @@ class Unheard(Case):
         self.assertLess(geo.distance(vehicle.place, geo.displace(HARBOUR, 550, 0)), 1)
 
     def test_the_home_position(self):
-        """On the ground it is where the vehicle is; in flight it has to be known."""
+        """On the ground it is the vehicle's position; in flight it has to be known."""
         plan = flight(["altitude", 20], ["returnHomeAndLand"])
         vehicle, wires = self.one("HOME_POSITION")
         wires.start("r", "mav-1", flight(["takeOff", 20], ["move", 50, 0], ["returnHome"]))

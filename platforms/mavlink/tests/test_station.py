@@ -1,4 +1,4 @@
-"""The platform protocol, and whom the station believes."""
+"""The platform protocol, and the senders that the station believes."""
 
 import unittest
 
@@ -97,7 +97,7 @@ class Protocol(Case):
         self.assertAlmostEqual(seen["longitude"], vehicle.place[1], 6)
 
     def test_a_vehicle_is_not_ready_before_its_position_is_known(self):
-        """A pick goes by distances."""
+        """A pick compares distances."""
         for kind in ("copter", "plane", "rover", "sub"):
             vehicle = SimVehicle(1, kind, False, HARBOUR)
             wires = Network([vehicle])
@@ -244,7 +244,7 @@ class Protocol(Case):
 
 
 class Trust(Case):
-    """Nobody else ends our task."""
+    """No other sender ends our task."""
 
     def flying(self):
         vehicle, wires = one(items=way(40))
@@ -285,7 +285,7 @@ class Trust(Case):
         wires.run(2)
         self.assertIsNone(wires.end_of("r"))
         logs = [r["text"] for r in wires.said("log")]
-        self.assertEqual(logs, ["another system has number 1 too: what it says is ignored"])
+        self.assertEqual(logs, ["another system has number 1 too: its messages are ignored"])
 
     def test_nor_can_answers_to_another_station(self):
         vehicle, wires = one(items=way(100), delay=0.05)
@@ -306,7 +306,7 @@ class Trust(Case):
         self.assertEqual(stranger.said("vehicle"), [])
 
     def test_a_vehicle_that_wants_signed_messages_and_no_key(self):
-        """It does not answer: that is said at once, and kept in mind where vehicles are picked."""
+        """It does not answer: that is reported at once, and it is not ready for a pick."""
         vehicle = SimVehicle(1)
         wires = Network([vehicle], options=Options(stored={"survey": way(3)}))
         wires._wires[1] = Wire(1, 1, "dolphins")

@@ -170,7 +170,7 @@ class Uploads(unittest.TestCase):
 
 class Downloads(unittest.TestCase):
     def test_errors_that_answer_copies_of_the_upload(self):
-        """They are no refusal; one that answers each repeated question is."""
+        """They are not a refusal; an error that answers each repeated question is."""
         download = Download((1, 1), RoundTrip())
         download.begin(0.0)
         denied = mavlink.MAVLink_mission_ack_message(255, 190, mavlink.MAV_MISSION_DENIED)

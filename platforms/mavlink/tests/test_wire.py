@@ -77,8 +77,8 @@ class Old(Case):
 
 class Hostile(Case):
     def test_mutated_datagrams(self):
-        """Of a vehicle that flies our mission and says nothing more itself: all that comes is noise, of which a quarter
-        has right checksums, from foreign systems or foreign addresses. No exception, no event about our task."""
+        """A vehicle flies our mission and is silent. The noise, of which a quarter has right checksums, from foreign
+        systems or foreign addresses, causes no exception and no event about our task."""
         vehicle, wires = one(items=way(40))
         recorded = []
         encode = wires._wires[1].encode

@@ -8,7 +8,8 @@ open Dolphin_imc
 type t = {
   program : string;  (** the file's name; [""] if not known *)
   run : string;  (** which run of the program: the identity in its journal, which copies share; [""] if none *)
-  resuming : bool;  (** it has not commanded anything yet, and ends if the run lives elsewhere *)
+  resuming : bool;
+  (** it was resumed or slept, listens whether the run lives elsewhere, and commands nothing meanwhile *)
   vehicles : Core.vehicle list;
 }
 

@@ -112,7 +112,7 @@ let aborted ~now (p : Packet.t) s =
 
 (* The action for an expected vehicle is taken once it has reported its plan. *)
 let take_over ~now (n : Node.t) s =
-  if Execution.report n.execution = None || now < s.wary_until then (s, [])
+  if Execution.report n.execution = None || listens ~now s then (s, [])
   else
     let inputs, expected = Expected.heard n.name s.expected in
     let s = { s with expected } in
@@ -158,21 +158,20 @@ let request_of_another ~now (vehicle : Node.t) (p : Packet.t) s =
     command ~now (Stopped_by (name_of p.src s)) vehicle { s with accepted = s.accepted + 1 }
   | Message _ | Unknown _ -> skip s
 
-(* A vehicle that two consoles hold at once was picked by both at the same time. *)
-(* The same run, of a copy of its journal, lives there; of two that resume it one goes on. *)
-let with_twin (n : Node.t) s =
-  match n.claim with
-  | Some (_, claim)
-    when s.resuming && claim.run = s.settings.run && claim.run <> "" && not (claim.resuming && s.settings.id < n.id) ->
-    { s with twin = Some n.name }
-  | Some _ | None -> s
+(* Of two consoles that want the same, the one that was resumed or slept gives way; else that of the higher address. *)
+let gives_way ~now (n : Node.t) s =
+  let listens_there = match n.claim with Some (_, claim) -> claim.resuming | None -> false in
+  match listens ~now s, listens_there with
+  | true, false -> true
+  | false, true -> false
+  | true, true | false, false -> n.id < s.settings.id
+
+(* Of two that have one run, by a copy of its journal, one goes on. *)
+let with_twin ~now (n : Node.t) s = if gives_way ~now n s then { s with twin = Some n.name } else s
 
 (* Those that the console [n] had first, or that two want and it gets. *)
 let yielded ~now (n : Node.t) s =
-  let is_lost v =
-    Name_set.mem v s.bound
-    && (now < s.wary_until || (n.id < s.settings.id && now < deferred_until v s))
-  in
+  let is_lost v = Name_set.mem v s.bound && now < deferred_until v s && gives_way ~now n s in
   { s with yielded = List.fold_left (fun set v -> Name_set.add v set) s.yielded (List.filter is_lost (held_by n)) }
 
 let let_go ~now vehicles s =
@@ -184,9 +183,8 @@ let let_go ~now vehicles s =
   in
   List.fold_left one s vehicles
 
-let claimed ~now (before : Node.t) s =
-  let n = again before s in
-  let s = yielded ~now n (with_twin n s) in
+let claimed_by_other_run ~now (before : Node.t) (n : Node.t) s =
+  let s = yielded ~now n s in
   let held = held_by n and held_before = held_by before in
   if held = held_before then (s, [])
   else
@@ -198,6 +196,10 @@ let claimed ~now (before : Node.t) s =
       | Some _ | None -> None
     in
     (tell_all ~now (held @ held_before) s, List.filter_map conflict held)
+
+let claimed ~now (before : Node.t) s =
+  let n = again before s in
+  if is_of_this_run n s then (with_twin ~now n s, []) else claimed_by_other_run ~now before n s
 
 let packet ~now ~from (p : Packet.t) s =
   match p.content with
@@ -223,7 +225,7 @@ let record ~from (h : Header.t) bytes s =
   | Some _ | None -> s
 
 (* After a longer gap it is for a tick to find out that the console slept. *)
-let dated ~now s = if now -. s.seen <= Claim.patience then { s with seen = Float.max now s.seen } else s
+let dated ~now s = if now -. s.seen <= longest_pause then { s with seen = Float.max now s.seen } else s
 
 let datagram ~now ~from ?len bytes s =
   let s = dated ~now s in

@@ -40,7 +40,8 @@ let start_now ~now vehicle task s =
 let start ~now vehicle task s =
   let s = awake ~now s in
   let s = { s with outbox = Outbox.without_task vehicle s.outbox } in
-  if now < deferred_until vehicle s && not (Expected.mem vehicle s.expected) then
+  if s.twin <> None then (s, [])
+  else if now < deferred_until vehicle s && not (Expected.mem vehicle s.expected) then
     ({ s with deferred = Names.add vehicle task s.deferred }, [])
   else
     match taken_by_another vehicle s with
@@ -62,6 +63,7 @@ let tick ~now s =
   (s, sent @ more)
 
 let stop ~now vehicle s =
+  let s = awake ~now s in
   let s = { s with outbox = Outbox.without_task vehicle s.outbox; deferred = Names.remove vehicle s.deferred } in
   match find vehicle s with
   | None | Some _ when Expected.mem vehicle s.expected -> ({ s with expected = Expected.stop vehicle s.expected }, [])
@@ -82,6 +84,7 @@ let bind ~now vehicles s =
   (s, List.filter_map also vehicles @ claims ~now s)
 
 let release ~now vehicles s =
+  let s = awake ~now s in
   let without set = List.fold_left (fun set v -> Name_set.remove v set) set vehicles in
   let s = { s with bound = without s.bound; yielded = without s.yielded } in
   (tell_all ~now vehicles s, claims ~now s)
@@ -115,18 +118,29 @@ let telemetry ~now on s =
 
 (* {1 Events and displays} *)
 
-let take s = Option.map (fun (event, outbox) -> (event, { s with outbox })) (Outbox.take s.outbox)
-let waiting s = not (Outbox.is_empty s.outbox)
+let waiting s = s.twin = None && not (Outbox.is_empty s.outbox)
+
+let take s =
+  if waiting s then Option.map (fun (event, outbox) -> (event, { s with outbox })) (Outbox.take s.outbox) else None
+
 let twin s = s.twin
+let commands ~now s =
+  let s = awake ~now s in
+  (s, s.twin = None && not (listens ~now s))
+
 let resuming s = s.resuming
 let owes_stop s = Expected.halts s.expected <> []
 let quiet ~now s =
-  (not (owes_stop s)) && Names.is_empty s.deferred
-  && not (Systems.exists (fun n -> not (Execution.is_settled ~now n.execution)) s.systems)
+  let is_unsettled (n : Node.t) = not (Execution.is_settled ~now n.execution) in
+  s.twin <> None
+  || ((not (owes_stop s)) && Names.is_empty s.deferred && not (Systems.exists is_unsettled s.systems))
 
+(* The console that has the run stops them. *)
 let unsettled ~now s =
-  let of_node (n : Node.t) = Option.map (fun plan -> (n.name, plan)) (Execution.unsettled ~now n.execution) in
-  List.sort compare (List.filter_map of_node (Systems.to_list s.systems) @ Expected.halts s.expected)
+  if s.twin <> None then []
+  else
+    let of_node (n : Node.t) = Option.map (fun plan -> (n.name, plan)) (Execution.unsettled ~now n.execution) in
+    List.sort compare (List.filter_map of_node (Systems.to_list s.systems) @ Expected.halts s.expected)
 
 type system = { node : Node.t; state : World.vehicle_state; age : float; linked : bool }
 

@@ -102,7 +102,13 @@ val resuming : t -> bool
 (** It is still listened whether the run lives elsewhere: nothing was commanded since {!resume}. *)
 
 val twin : t -> string option
-(** The console in which the run that was to be resumed lives. *)
+(** Another console that has the same run, by a copy of its journal, and to which this one gives way: it commands
+    nothing and reports no event any more. Of two that are resumed at once, or both slept, or met late, the one with
+    the higher IMC address gives way; else the one that is resumed or slept. *)
+
+val commands : now:float -> t -> t * bool
+(** Whether messages that waited for the disk may leave. A console that slept does not know yet what others hold,
+    and one that has a {!twin} commands nothing: then they are dropped, and executions repeat them. *)
 
 val owes_stop : t -> bool
 (** A vehicle that is to be stopped was not heard yet, since {!resume}. *)

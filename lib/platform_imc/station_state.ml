@@ -64,8 +64,11 @@ let create settings =
     timers = Timers.none; expected = Expected.none; outbox = Outbox.empty; presence = Presence.start;
     dropped = Names.empty; skipped = 0; accepted = 0; received = Received.nothing }
 
-(* Claims come each second, and at once from consoles that know this one. *)
-let wariness = 2.5
+(* Ticks come each second at least. *)
+let longest_pause = 2.
+
+(* Claims come each second, and later by a pause that is not noticed as one. *)
+let wariness = 3.5
 let contest = 0.3
 let timeout_of name s = Option.value (Names.find_opt name s.timeouts) ~default:s.timeout
 let add_timeouts pairs s = { s with timeouts = List.fold_left (fun map (v, x) -> Names.add v x map) s.timeouts pairs }
@@ -82,13 +85,16 @@ let resume ~now ?(lingering = []) (outstanding : History.outstanding) s =
 
 let held_by (n : Node.t) = match n.claim with Some (_, claim) -> claim.vehicles | None -> []
 
+let is_of_this_run (n : Node.t) s =
+  match n.claim with Some (_, claim) -> claim.run = s.settings.run && claim.run <> "" | None -> false
+
 let with_claims s =
   let add held (n : Node.t) =
     match n.claim with
-    | Some (_, claim) ->
+    | Some (_, claim) when not (is_of_this_run n s) ->
       let why = Claim.obstacle ~console:n.name claim in
       List.fold_left (fun held v -> Names.add v why held) held claim.vehicles
-    | None -> held
+    | Some _ | None -> held
   in
   { s with held = List.fold_left add Names.empty (Systems.to_list s.systems) }
 
@@ -106,12 +112,14 @@ let wake ~now s =
     expected = Expected.postpone gap s.expected }
 
 let awake ~now s =
-  let s = if s.seen > neg_infinity && now -. s.seen > Claim.patience then wake ~now s else s in
+  let s = if s.seen > neg_infinity && now -. s.seen > longest_pause then wake ~now s else s in
   { s with seen = Float.max s.seen now }
 
 (* Until when a task of [v] must not be started. *)
 let deferred_until v s =
   Float.max s.wary_until (Option.value (Names.find_opt v s.contests) ~default:neg_infinity)
+
+let listens ~now s = now < s.wary_until
 
 (* Another console has it, and had it first. *)
 let taken_by_another v s = if Name_set.mem v s.yielded then Names.find_opt v s.held else None
@@ -163,12 +171,13 @@ let is_console (n : Node.t) = n.kind = Ccu && n.address <> None
 let holds ~now s =
   let add held (n : Node.t) = if Execution.unsettled ~now n.execution = None then held else Name_set.add n.name held in
   let halted = Name_set.of_list (List.map fst (Expected.halts s.expected)) in
-  Name_set.diff (List.fold_left add (Name_set.union s.bound halted) (Systems.to_list s.systems)) s.yielded
+  if s.twin <> None then Name_set.empty
+  else Name_set.diff (List.fold_left add (Name_set.union s.bound halted) (Systems.to_list s.systems)) s.yielded
 
 let claims ~now s =
   let vehicles = Name_set.elements (holds ~now s) in
   let { program; run; _ } = s.settings in
-  let claim = Claim.to_message { program; run; resuming = s.resuming; vehicles } in
+  let claim = Claim.to_message { program; run; resuming = listens ~now s; vehicles } in
   let to_console n = if is_console n then to_node ~now n claim s else [] in
   List.concat_map to_console (Systems.to_list s.systems)
 
@@ -200,18 +209,31 @@ let tell_all ~now names s =
 
 (* {1 Executions} *)
 
-let carry_out ~now (n : Node.t) outputs s =
+let may_command ~now (n : Node.t) s =
+  s.twin = None && (not (listens ~now s)) && taken_by_another n.name s = None
+
+let is_start : Execution.output -> bool = function
+  | Send (Plan_control { op = Start; type_ = Request; _ }) -> true
+  | Send _ | Keep _ | Done | Failed _ | Remark _ -> false
+
+let rec carry_out ~now (n : Node.t) outputs s =
+  let may_command = may_command ~now n s in
   let carry (s, sent) : Execution.output -> t * output list = function
-    | Send message -> (s, List.rev_append (to_node ~now n message s) sent)
+    | Send message -> (s, if may_command then List.rev_append (to_node ~now n message s) sent else sent)
     | Done -> (push (Task_done n.name) (tell ~urgent:true ~now n s), sent)
     | Failed why -> (push (Task_failed (n.name, why)) (tell ~urgent:true ~now n s), sent)
     | Keep note -> (s, Keep (n.name, note) :: sent)
     | Remark text -> (s, Remark (n.name, text) :: sent)
   in
   let s, sent = List.fold_left carry (s, []) outputs in
-  (tell ~now n s, List.rev sent)
+  let s = tell ~now n s in
+  match taken_by_another n.name s with
+  | Some why when List.exists is_start outputs ->
+    let s, more = command ~now (Execution.Lost why) n s in
+    (s, List.rev_append sent more)
+  | Some _ | None -> (s, List.rev sent)
 
-let command ~now input (n : Node.t) s =
+and command ~now (input : Execution.input) (n : Node.t) s =
   let n, outputs = Node.command ~now input n in
   carry_out ~now n outputs (update n s)
 

@@ -33,7 +33,7 @@ type t = {
   wary_until : float;
   (** after a sleep, and at a resumption: until then nothing is started; [neg_infinity]: all is well *)
   resuming : bool;  (** [wary_until] is that of a resumption *)
-  twin : string option;  (** another console that has the run which was to be resumed *)
+  twin : string option;  (** another console that has the same run: this one commands nothing any more *)
   contests : float Names.t;  (** vehicles that were bound a moment ago: until when others may object *)
   yielded : Name_set.t;  (** bound, but others held them when it mattered *)
   warned : Name_set.t;  (** the warnings given *)
@@ -73,15 +73,22 @@ val hold : Core.vehicle list -> t -> t
 
 (** {1:holds Who holds what} *)
 
+val longest_pause : float
+(** 2 s: a console to which nothing happened for longer has slept. *)
+
 val wariness : float
-(** 2.5 s: how long claims are listened for after a sleep, and before anything is resumed. *)
+(** 3.5 s: how long claims are listened for after a sleep, and before anything is resumed. *)
 
 val contest : float
 (** 0.3 s: how long, and up to that much longer ([jitter]), claims on vehicles that were just bound are listened for. *)
 
 val awake : now:float -> t -> t
 (** [awake ~now s] is [s] as something happens. A console to which nothing has happened for longer than
-    {!Claim.patience} has slept: others hold for free what it held, so it listens first; and silences do not count. *)
+    {!longest_pause} has slept: others hold for free what it held, so it listens first; and silences do not count. *)
+
+val listens : now:float -> t -> bool
+(** [listens ~now s] is whether this console, after a sleep or at a resumption, still finds out what others hold. It
+    sends no command meanwhile; executions repeat theirs later. *)
 
 val deferred_until : Core.vehicle -> t -> float
 (** Until when no task of the vehicle is started. *)
@@ -98,8 +105,12 @@ val again : Node.t -> t -> Node.t
 val held_by : Node.t -> Core.vehicle list
 (** The holdings of the console [n]. *)
 
+val is_of_this_run : Node.t -> t -> bool
+(** The console has the same run, by a copy of its journal. *)
+
 val with_claims : t -> t
-(** [with_claims s] is [s] after a change of other consoles' holdings. *)
+(** [with_claims s] is [s] after a change of other consoles' holdings. Those of this run do not count: one of the two
+    consoles gives way ([twin]). *)
 
 val state_of : now:float -> Node.t -> t -> World.vehicle_state
 
@@ -135,7 +146,9 @@ val tell_all : now:float -> Core.vehicle list -> t -> t
 (** {1:executions Executions} *)
 
 val carry_out : now:float -> Node.t -> Execution.output list -> t -> t * output list
-(** [carry_out ~now n outputs s] is the consequences of the execution on [n], which is in [s]. *)
+(** [carry_out ~now n outputs s] is the consequences of the execution on [n], which is in [s]. Commands are left out
+    while {!listens}, if [s] has a [twin], and if another console had [n] first: then a task that was to be started
+    fails. *)
 
 val command : now:float -> Execution.input -> Node.t -> t -> t * output list
 (** [command ~now input n s] gives [input] to the execution on [n]. *)

@@ -47,6 +47,8 @@ type t = {
   mutable unsent : int;
 }
 
+exception Superseded of string
+
 let name = "imc"
 let virtual_time = false
 
@@ -101,9 +103,16 @@ let carry_out p : Station.output -> unit = function
 
 (* {1 The state and its changes} *)
 
+let lives_in console what =
+  Printf.sprintf "this run lives in %s: its journal was copied, or moved while it ran; %s" console what
+
+let give_way p console =
+  Shell.fail p.shell (Superseded (lives_in console "this console commands nothing any more"))
+
 let change p (station, outputs) =
   Network_log.changed ~now:(now p) p.station station;
   p.station <- station;
+  Option.iter (give_way p) (Station.twin station);
   List.iter (carry_out p) outputs
 
 (* After some changes: code that waits for their results goes on. *)
@@ -129,7 +138,12 @@ let write_ahead p sync =
     let time = now p in
     p.station <- Station.leaves ~now:time ~at:time vehicles p.station
   in
-  let leave vehicles messages = List.iter (send_to p) messages; settled vehicles in
+  let leave vehicles messages =
+    let station, may_leave = Station.commands ~now:(now p) p.station in
+    p.station <- station;
+    if may_leave then List.iter (send_to p) messages;
+    settled vehicles
+  in
   let failed vehicles error = settled vehicles; Shell.fail p.shell error in
   Write_ahead.make ~sync ~leave ~failed
 
@@ -250,9 +264,7 @@ let release_sockets p =
 let rec alone p =
   match Station.twin p.station with
   | Some console ->
-    release_sockets p >|= fun () ->
-    let why = "its journal was copied, or moved while it ran; nothing was commanded" in
-    Error (Printf.sprintf "this run lives in %s: %s" console why)
+    release_sockets p >|= fun () -> Error (lives_in console "nothing was commanded")
   | None when Station.resuming p.station -> Lwt_unix.sleep 0.05 >>= fun () -> alone p
   | None -> Lwt.return (Ok p)
 

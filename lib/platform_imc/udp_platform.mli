@@ -40,6 +40,9 @@ val default : options
 
 include Platform.S
 
+exception Superseded of string
+(** From [next]: another console has the run ({!Station.twin}), in words. *)
+
 val open_ : options -> (t, string) result
 (** [open_ options] listens and announces itself from now on. The error names the port that is not available. *)
 

@@ -21,7 +21,8 @@ let lacks_entities ~now (n : Node.t) =
   && not (Node.silent ~now ~timeout:5. n)
 
 let beat ~now s =
-  let awaited = Systems.exists (fun n -> is_awaited ~now n || lacks_entities ~now n) s.systems in
+  let listens = listens ~now s in
+  let awaited = listens || Systems.exists (fun n -> is_awaited ~now n || lacks_entities ~now n) s.systems in
   let presence, heartbeats = Presence.beat ~now ~awaited s.presence in
   let is_due =
     match heartbeats with
@@ -38,12 +39,13 @@ let beat ~now s =
     let held = holds ~now s in
     (* The last one reports that nothing is held. *)
     let is_free = s.settings.run = "" && Name_set.is_empty held && Name_set.is_empty s.claimed in
-    let is_due = heartbeats = All && not is_free in
+    let is_due = (heartbeats = All || listens) && not is_free in
     let claims = if is_due then claims ~now s else [] in
     ({ s with claimed = held }, claims @ beaten @ queried)
 
 let announce ~now s =
-  let presence, is_due = Presence.announce ~now ~awaited:(Systems.exists (is_awaited ~now) s.systems) s.presence in
+  let awaited = listens ~now s || Systems.exists (is_awaited ~now) s.systems in
+  let presence, is_due = Presence.announce ~now ~awaited s.presence in
   ({ s with presence }, if is_due then [ Announce (announcement ~now s) ] else [])
 
 let expire ~now s =

@@ -167,6 +167,90 @@ let slept =
       Alcotest.(check int) "nothing was started" 0 (List.length sleeper.started);
       Alcotest.(check (list string)) "why" [ held_by_other ] sleeper.failures)
 
+(* What is drawn of a console that holds the vehicle, sleeps, and has its program start a plan afterwards, or of one that
+   resumes a run that held it: beside another one, which waits for the vehicle. *)
+type absence = {
+  latency : float;
+  jitters : float * float;
+  is_lower : bool;  (* its address *)
+  from : float;
+  length : float;  (* the console sleeps, or is dead *)
+  is_resumed : bool;
+  is_heard_late : bool;  (* what came meanwhile is heard afterwards *)
+  wanted : float;  (* from then on by the other console *)
+  starts : float;  (* so long after the sleep *)
+}
+
+let absences =
+  let open QCheck2.Gen in
+  let* latency = float_range 0.001 0.1
+  and* jitters = pair (float_range 0. 1.) (float_range 0. 1.)
+  and* is_lower = bool
+  and* from = float_range 3. 5.
+  and* length = float_range 0. 15.
+  and* is_resumed = bool
+  and* is_heard_late = bool
+  and* wanted = float_range 0. 22.
+  and* starts = oneof [ return 0.; float_range 0. 5. ] in
+  return { latency; jitters; is_lower; from; length; is_resumed; is_heard_late; wanted; starts }
+
+let print_absence a =
+  Printf.sprintf
+    "latency %g, jitters %g and %g, is_lower %b, from %g, length %g, is_resumed %b, is_heard_late %b, wanted %g, starts %g"
+    a.latency (fst a.jitters) (snd a.jitters) a.is_lower a.from a.length a.is_resumed a.is_heard_late a.wanted a.starts
+
+let outstanding : History.outstanding =
+  { bound = [ "lauv-1" ];
+    tasks = [ ("lauv-1", { task; is_stopped = false; notes = []; before = None }) ];
+    timers = []; timeout = None; timeouts = [] }
+
+(* The other console begins to want the vehicle, at its time. *)
+let advance ?asleep w other a ~until =
+  while w.now < until do
+    other.wants <- w.now >= a.wanted;
+    live w other;
+    step ?asleep w (telemetry w ~free:0.)
+  done
+
+let one_after_an_absence a =
+  let jitter, other_jitter = a.jitters in
+  let id, other_id = if a.is_lower then (0x4001, 0x4002) else (0x4002, 0x4001) in
+  let other_settings = settings ~run:"b" ~jitter:other_jitter other_id 6102 in
+  let settings = settings ~run:"a" ~jitter id 6101 in
+  let absent = console ~wants:false (Station.create settings) id 6101 in
+  let other = console ~wants:false (Station.create other_settings) other_id 6102 in
+  let w = { now = 0.; consoles = [ absent; other ]; latency = a.latency; under_way = [] } in
+  introduce w;
+  advance w other a ~until:2.;
+  change w absent (Station.bind ~now:w.now [ "lauv-1" ] absent.station);
+  advance w other a ~until:a.from;
+  let waking = a.from +. a.length in
+  let asleep c = c == absent in
+  let missed = ref [] in
+  while w.now < waking do
+    let for_absent, others = List.partition (fun (_, port, _) -> port = 6101) w.under_way in
+    missed := for_absent @ !missed;
+    w.under_way <- others;
+    advance ~asleep w other a ~until:(w.now +. instant)
+  done;
+  if a.is_resumed then begin
+    absent.station <- Station.resume ~now:w.now outstanding (Station.create settings);
+    introduce w
+  end
+  else begin
+    if a.is_heard_late then List.iter (fun (_, _, bytes) -> hear w absent bytes) (List.sort compare !missed);
+    advance w other a ~until:(waking +. a.starts);
+    change w absent (Station.start ~now:w.now "lauv-1" task absent.station)
+  end;
+  advance w other a ~until:(waking +. 40.);
+  match commanders w with
+  | [ _ ] -> true
+  | found -> QCheck2.Test.fail_reportf "%d consoles command it" (List.length found)
+
+let absent =
+  Test_support.Property.case ~count:300 "beside a console that slept or is resumed: one commands the vehicle"
+    ~print:print_absence absences one_after_an_absence
+
 let silence =
   Alcotest.test_case "the silence while a console slept is not the vehicle's" `Quick (fun () ->
       let c = console (Station.create (settings ~run:"a" 0x4001 6101)) 0x4001 6101 in
@@ -180,11 +264,6 @@ let silence =
         (List.for_all (fun why -> not (String.length why > 7 && String.sub why 0 7 = "no word")) c.failures))
 
 (* {1 Resumption} *)
-
-let outstanding : History.outstanding =
-  { bound = [ "lauv-1" ];
-    tasks = [ ("lauv-1", { task; is_stopped = false; notes = []; before = None }) ];
-    timers = []; timeout = None; timeouts = [] }
 
 let resumed ?run id port =
   let station = Station.resume ~now:0. outstanding (Station.create (settings ?run id port)) in
@@ -223,4 +302,4 @@ let held =
       Alcotest.(check int) "nothing was started" 0 (List.length c.started);
       Alcotest.(check (list string)) "why" [ held_by_other ] c.failures)
 
-let tests = ("holds", [ three; slept; silence; copied; both; held ])
+let tests = ("holds", [ three; slept; absent; silence; copied; both; held ])

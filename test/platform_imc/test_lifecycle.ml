@@ -54,15 +54,24 @@ let replay ?(keep = fun _ -> true) ?(until = infinity) ~request commands =
         | None -> run)
     | None -> run
   in
-  let hear run (line : Recording.line) =
+  (* Repeated datagrams are left out of the recording; a console that is awake has ticks meanwhile. *)
+  let rec tick ~last ~now run =
+    let next = Float.min now (last +. 1.) in
+    let run = after ~now:next run (Station.tick ~now:next run.station) in
+    if next < now then tick ~last:next ~now run else run
+  in
+  let hear (run, last) (line : Recording.line) =
     let now = line.time in
-    let run = after ~now run (Station.tick ~now run.station) in
-    if not line.inward then act run line
-    else if keep line then after ~now run (Station.datagram ~now ~from:loopback line.bytes run.station)
-    else run
+    let run = tick ~last ~now run in
+    let run =
+      if not line.inward then act run line
+      else if keep line then after ~now run (Station.datagram ~now ~from:loopback line.bytes run.station)
+      else run
+    in
+    (run, now)
   in
   let lines = List.filter (fun (l : Recording.line) -> l.time < until) (Lazy.force Recording.lines) in
-  List.fold_left hear { station = station ~request; events = []; sent = [] } lines
+  fst (List.fold_left hear ({ station = station ~request; events = []; sent = [] }, 0.) lines)
 
 let verdicts run =
   List.filter_map

@@ -300,6 +300,7 @@ let drive r recording host ~interruption (Platform ((module P), { platform; esti
       | Recording.Broken why -> unavailable (why ^ "; the run was ended as by Ctrl-C")
       | Unix.Unix_error (error, call, _) ->
         unavailable (Printf.sprintf "trouble of the platform: %s: %s" call (Unix.error_message error))
+      | Udp_platform.Superseded why -> unavailable why
       | error -> Lwt.fail error)
 
 let ( let*? ) result f = match result with Ok x -> f x | Error _ as error -> Lwt.return error

@@ -1,6 +1,7 @@
 open Cmdliner
 open Dolphin_app
 open Lwt.Infix
+module Certificate = Dolphin_console.Certificate
 module Console = Dolphin_console.Console
 module Folder = Dolphin_console.Folder
 module Page = Dolphin_console.Page
@@ -49,7 +50,18 @@ let serve settings ~port ~browser =
 (* A fleet that cannot be read is reported now, and not at the first run. *)
 let check_fleet = function None -> Ok () | Some path -> Result.map ignore (Fleet_file.load (Some path))
 
-let run () folder sim fleet network adapters definition supplier supplier_timeout tiles listen port no_browser =
+(* Other machines reach it by TLS, unless that is not wanted. *)
+let certificate_of listen files no_tls =
+  match listen, files, no_tls with
+  | None, None, false -> Ok None
+  | None, _, _ -> Error (Error.Bad_input "--certificate and --no-tls go with --listen: other machines cannot connect")
+  | Some _, None, true -> Ok None
+  | Some _, Some _, true -> Error (Error.Bad_input "--certificate does not go with --no-tls")
+  | Some _, None, false -> Result.map Option.some (Certificate.own ~name:(Console.name listen))
+  | Some _, Some (certificate, key), false -> Result.map Option.some (Certificate.load ~certificate ~key)
+
+let run () folder sim fleet network adapters definition supplier supplier_timeout tiles (listen, files, no_tls) port
+    no_browser =
   let fleet = match fleet, sim with Some _, _ -> fleet | None, sim -> sim in
   Report.result
     (let* folder = trouble (Folder.make folder) in
@@ -62,9 +74,10 @@ let run () folder sim fleet network adapters definition supplier supplier_timeou
            (Error.Bad_input "vehicles of a network (--imc, --platform) are not simulated: --sim does not go with them")
        else check_fleet fleet
      in
+     let* certificate = certificate_of listen files no_tls in
      let settings =
        { Console.folder; run; fleet; dolphin = Sys.executable_name; page = Page.load (Page.folder ()); tiles; listen;
-         version = Version.number; workers = Dolphin_console.Worker_pool.limits }
+         certificate; version = Version.number; workers = Dolphin_console.Worker_pool.limits }
      in
      serve settings ~port ~browser:(not no_browser))
 
@@ -96,8 +109,9 @@ let tiles =
 let listen =
   let doc =
     "Serve the address $(docv) of this machine, for other machines, instead of 127.0.0.1: $(b,0.0.0.0) is all of them. \
-     Two links are printed, each with a token: one for who steers, one for who watches. What is sent can be read on \
-     the way: use it within a network that you trust, a VPN or a tunnel."
+     Two links are printed, each with a token: one to steer, one to watch. Connections are encrypted by TLS, by a \
+     certificate that signs itself, made by $(b,openssl) and kept: its fingerprint stands at the end of the links, and \
+     in the browser's warning about it."
   in
   let parse text =
     match Unix.inet_addr_of_string text with
@@ -105,6 +119,24 @@ let listen =
     | exception Failure _ -> Error (`Msg (Printf.sprintf "'%s' is no address such as 192.168.1.5" text)) in
   let print ppf address = Format.pp_print_string ppf (Unix.string_of_inet_addr address) in
   Arg.(value & opt (some (conv ~docv:"ADDRESS" (parse, print))) None & info [ "listen" ] ~docv:"ADDRESS" ~doc)
+
+let certificate =
+  let doc =
+    "With $(b,--listen): the certificate and the private key of TLS, in two files in PEM, such as \
+     $(b,console.crt,console.key)."
+  in
+  Arg.(value & opt (some (pair file file)) None & info [ "certificate" ] ~docv:"CERT,KEY" ~doc)
+
+let no_tls =
+  let doc =
+    "With $(b,--listen): connections are not encrypted. Tokens and all else can be read on the way: for use within a \
+     VPN or a tunnel."
+  in
+  Arg.(value & flag & info [ "no-tls" ] ~doc)
+
+let listening =
+  let together listen certificate no_tls = (listen, certificate, no_tls) in
+  Term.(const together $ listen $ certificate $ no_tls)
 
 let no_browser =
   let doc = "Open no browser." in
@@ -150,4 +182,4 @@ let command =
   Cmd.v info
     Term.(
       const run $ Verbosity.setup $ folder $ sim $ Options.fleet $ Imc_options.chosen $ Platform_options.adapters
-      $ Imc_options.definition $ supplier $ supplier_timeout $ tiles $ listen $ port $ no_browser)
+      $ Imc_options.definition $ supplier $ supplier_timeout $ tiles $ listening $ port $ no_browser)

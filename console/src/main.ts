@@ -546,6 +546,9 @@ function showTab(name: string) {
 
 // {1 Beginning}
 
+// The link's fingerprint is for people and programs, before the page is open.
+if (location.hash.startsWith("#sha256=")) history.replaceState(null, "", location.pathname);
+
 let first = true;
 listen({
   status(s) {

@@ -25,7 +25,7 @@ export default async function stop({ dolphin, home, environment, browser, test, 
   execFileSync(dolphin, ["exec", join(home, "short.dol"), "--journal", join(home, "short.run")], { env: environment, stdio: "ignore" });
   longJournal(join(home, "short.run"), join(folder, "long.run"));
 
-  const server = spawn(dolphin, ["console", folder, "--port", "0", "--listen", "127.0.0.1", "--no-browser"],
+  const server = spawn(dolphin, ["console", folder, "--port", "0", "--listen", "127.0.0.1", "--no-tls", "--no-browser"],
     { env: environment, stdio: ["ignore", "pipe", "inherit"] });
   process.on("exit", () => server.kill("SIGKILL"));
   let said = "";

@@ -2,7 +2,7 @@ module Request = Dolphin_http.Request
 
 type role = Steers | Watches
 type tokens = { steer : string; watch : string }
-type t = { port : int; tokens : tokens option }
+type t = { port : int; tls : bool; tokens : tokens option }
 
 (* {1 Tokens} *)
 
@@ -42,21 +42,23 @@ let port_of text =
     int_of_string_opt text
   else None
 
-let split_port text =
+let scheme a = if a.tls then "https" else "http"
+
+let split_port a text =
   match String.rindex_opt text ':' with
   | Some i when text.[String.length text - 1] <> ']' ->
     (String.sub text 0 i, port_of (String.sub text (i + 1) (String.length text - i - 1)))
-  | Some _ | None -> (text, Some 80)
+  | Some _ | None -> (text, Some (if a.tls then 443 else 80))
 
 (* On the loopback address its names alone: others may have been bound to it. Elsewhere there are tokens, and any
    address may be that of this machine. *)
 let is_host a text =
-  let name, port = split_port (String.lowercase_ascii text) in
+  let name, port = split_port a (String.lowercase_ascii text) in
   let loopback = List.mem name [ "127.0.0.1"; "localhost"; "[::1]" ] in
   let named () = is_address name || name = String.lowercase_ascii (Unix.gethostname ()) in
   port = Some a.port && (loopback || (a.tokens <> None && named ()))
 
-let is_origin ~host text = String.lowercase_ascii text = "http://" ^ String.lowercase_ascii host
+let is_origin a ~host text = String.lowercase_ascii text = scheme a ^ "://" ^ String.lowercase_ascii host
 
 (* Of every header at most one counts: with two, nobody knows which. *)
 let header (r : Request.t) name =
@@ -76,7 +78,8 @@ let meant a (r : Request.t) =
   | `One host, _, _, _ when not (is_host a host) -> Error (421, "this console is not called so")
   | (`None | `Many), _, _, _ -> Error (400, "a request has one Host")
   | _, `Many, _, _ -> Error (403, "a request has one Origin")
-  | `One host, `One origin, _, _ when not (is_origin ~host origin) -> Error (403, "this comes from the page of another")
+  | `One host, `One origin, _, _ when not (is_origin a ~host origin) ->
+    Error (403, "this comes from the page of another")
   | _, _, `One ("cross-site" | "same-site"), _ when is_api r -> Error (403, "this comes from the page of another")
   | _, _, `Many, _ -> Error (403, "this comes from the page of another")
   | _, _, _, `One kind when (not reads) && is_json kind -> Ok ()
@@ -119,8 +122,9 @@ let rank a (r : Request.t) : Dolphin_http.Server.rank =
 let enter a (r : Request.t) =
   match a.tokens, r.path, Request.parameter r "token" with
   | Some tokens, [], Some text when role_of tokens text <> None ->
+    let secure = if a.tls then "; Secure" else "" in
     Some [ ("Location", "/");
-           ("Set-Cookie", Printf.sprintf "%s=%s; Path=/; HttpOnly; SameSite=Strict" (cookie a.port) text) ]
+           ("Set-Cookie", Printf.sprintf "%s=%s; Path=/; HttpOnly; SameSite=Strict%s" (cookie a.port) text secure) ]
   | (Some _ | None), _, _ -> None
 
 (* {1 Replies} *)

@@ -7,8 +7,12 @@ type tokens = { steer : string; watch : string }
 
 type t = {
   port : int;
+  tls : bool;  (** its addresses begin with [https] *)
   tokens : tokens option;  (** [None]: on the loopback address, where all who can connect may steer *)
 }
+
+val scheme : t -> string
+(** [http] or [https]. *)
 
 val fresh : unit -> tokens
 (** Tokens that nobody guesses: 128 bits each. *)

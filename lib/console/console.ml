@@ -9,6 +9,7 @@ type settings = Hall.settings = {
   page : Page.t;
   tiles : string option;
   listen : Unix.inet_addr option;
+  certificate : Certificate.t option;
   version : string;
   workers : Worker_pool.limits;
 }
@@ -23,20 +24,25 @@ let start settings ~port =
     { hall; server }
   in
   let rank r = Access.rank (Hall.access hall) r in
-  Result.map started (Server.start ?address:settings.listen ~rank ~port (Api.reply hall))
+  let tls = Option.map (fun (c : Certificate.t) -> c.context) settings.certificate in
+  Result.map started (Server.start ?address:settings.listen ?tls ~rank ~port (Api.reply hall))
 
 let port c = Server.port c.server
-let name settings =
-  match settings.listen with
+
+let name = function
   | None -> "127.0.0.1"
   | Some address when address = Unix.inet_addr_any || address = Unix.inet6_addr_any -> Unix.gethostname ()
-  | Some address ->
-    let text = Unix.string_of_inet_addr address in
-    if String.contains text ':' then "[" ^ text ^ "]" else text
+  | Some address -> Unix.string_of_inet_addr address
 
 let links c =
-  let link token = Printf.sprintf "http://%s:%d/%s" (name (Hall.settings c.hall)) (port c) token in
-  match (Hall.access c.hall).tokens with
+  let settings = Hall.settings c.hall and access = Hall.access c.hall in
+  let name = name settings.listen in
+  let name = if String.contains name ':' then "[" ^ name ^ "]" else name in
+  let link token =
+    let plain = Printf.sprintf "%s://%s:%d/%s" (Access.scheme access) name (port c) token in
+    Option.fold settings.certificate ~none:plain ~some:(fun c -> Certificate.with_fingerprint c plain)
+  in
+  match access.tokens with
   | None -> [ ("", link "") ]
   | Some { steer; watch } -> [ ("steers", link ("?token=" ^ steer)); ("watches", link ("?token=" ^ watch)) ]
 

@@ -12,6 +12,7 @@ type settings = {
   page : Page.t;
   tiles : string option;  (** where the map has tiles from, {!Access.check_tiles}; [None]: it has none *)
   listen : Unix.inet_addr option;  (** the address that is served, with tokens; [None]: 127.0.0.1, without *)
+  certificate : Certificate.t option;  (** connections are encrypted *)
   version : string;  (** of Dolphin *)
   workers : Worker_pool.limits;  (** of the processes that compute for requests *)
 }
@@ -22,6 +23,9 @@ val start : settings -> port:int -> (t, string) result
 (** [start s ~port] serves from now on; port 0 is any free one. *)
 
 val port : t -> int
+
+val name : Unix.inet_addr option -> string
+(** [name listen] is the host name or address in the links of a console that listens there. *)
 
 val links : t -> (string * string) list
 (** Where pages find it: the address, or with tokens one that ["steers"] and one that ["watches"]. *)

@@ -10,6 +10,7 @@ type settings = {
   page : Page.t;
   tiles : string option;
   listen : Unix.inet_addr option;
+  certificate : Certificate.t option;
   version : string;
   workers : Worker_pool.limits;
 }
@@ -53,8 +54,9 @@ type t = {
 let make settings =
   let instance =
     Digest.to_hex (Digest.string (Printf.sprintf "%d %f" (Unix.getpid ()) (Unix.gettimeofday ()))) in
+  let tokens = Option.map (fun _ -> Access.fresh ()) settings.listen in
   { settings; instance = String.sub instance 0 8; grown = Lwt_condition.create ();
-    access = { port = 0; tokens = Option.map (fun _ -> Access.fresh ()) settings.listen }; run = None;
+    access = { port = 0; tls = settings.certificate <> None; tokens }; run = None;
     run_path = None; pools = pools settings; runs = 0;
     analyses = []; begun = 0; visitors = Visitors.make (); helm = Helm.free; alive = []; watching = [] }
 

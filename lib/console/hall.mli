@@ -10,6 +10,7 @@ type settings = {
   page : Page.t;
   tiles : string option;
   listen : Unix.inet_addr option;
+  certificate : Certificate.t option;
   version : string;
   workers : Worker_pool.limits;
 }

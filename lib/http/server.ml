@@ -7,6 +7,7 @@ type limits = {
   body : int;
   connections : rank -> int;
   rate : int;
+  handshakes : int;
   unsent : int;
   patience : float;
   idle : float;
@@ -14,12 +15,15 @@ type limits = {
 
 let limits =
   let connections = function Unknown -> 100 | Guest -> 150 | Trusted -> 150 in
-  { head = 16 * 1024; body = 4 * 1024 * 1024; connections; rate = 1000; unsent = 64 * 1024 * 1024;
+  { head = 16 * 1024; body = 4 * 1024 * 1024; connections; rate = 1000; handshakes = 200; unsent = 64 * 1024 * 1024;
     patience = 10.; idle = 60. }
+
+type kind = Handshake | Request of rank
 
 type client = {
   address : string;
   socket : Lwt_unix.file_descr;
+  mutable channel : Lwt_ssl.socket;  (* over the socket, plain until it is encrypted *)
   piece : Bytes.t;
   since : float;
   mutable rank : rank;  (* the best of its requests *)
@@ -30,10 +34,11 @@ type client = {
 type t = {
   limits : limits;
   listening : Lwt_unix.file_descr;
+  tls : Ssl.context option;
   rank_of : Request.t -> rank;
   reply : Request.t -> Response.t Lwt.t;
   mutable open_ : client list;  (* the latest first *)
-  asked : (rank * string, int) Hashtbl.t;  (* by rank and address, in this second *)
+  asked : (kind * string, int) Hashtbl.t;  (* by kind and address, in this second *)
   unsent : (rank, int) Hashtbl.t;  (* bytes of the large replies that are being written *)
   mutable second : float;
   mutable accepting : unit Lwt.t;
@@ -50,7 +55,7 @@ let connections t = List.length t.open_
 exception Gone
 
 let refill client =
-  Lwt_unix.read client.socket client.piece 0 (Bytes.length client.piece) >|= fun n ->
+  Lwt_ssl.read client.channel client.piece 0 (Bytes.length client.piece) >|= fun n ->
   if n = 0 then raise Gone;
   client.unread <- client.unread ^ Bytes.sub_string client.piece 0 n
 
@@ -104,18 +109,19 @@ let request t client ~first =
 (* {1 Writing} *)
 
 let write t client text =
+  let bytes = Bytes.unsafe_of_string text in
   let rec from start =
     if start = String.length text then Lwt.return_unit
     else
       let size = min 65_536 (String.length text - start) in
-      within t.limits.patience (fun () -> Lwt_unix.write_string client.socket text start size) >>= fun n ->
+      within t.limits.patience (fun () -> Lwt_ssl.write client.channel bytes start size) >>= fun n ->
       from (start + n)
   in
   from 0
 
 (* Resolves when the client is gone. Its further messages are ignored. *)
 let rec gone client =
-  Lwt_unix.read client.socket client.piece 0 (Bytes.length client.piece) >>= fun n ->
+  Lwt_ssl.read client.channel client.piece 0 (Bytes.length client.piece) >>= fun n ->
   if n = 0 then Lwt.return_unit else gone client
 
 (* Replies of this length are not counted: there is at most one for each connection. *)
@@ -158,16 +164,18 @@ let of_fault : Request.fault -> Response.t = function
 let safely t r =
   Lwt.catch (fun () -> t.reply r) (fun _ -> Lwt.return (told 500 "this is trouble of the server, not of the request"))
 
-(* Whether too many requests of this rank came from this address in this second. *)
-let too_often t client rank =
+(* How many of this kind came from this address in this second, with this one. *)
+let count_one t client kind =
   let second = Float.of_int (Float.to_int (Unix.gettimeofday ())) in
   if second <> t.second then begin
     Hashtbl.reset t.asked;
     t.second <- second
   end;
-  let n = 1 + Option.value (Hashtbl.find_opt t.asked (rank, client.address)) ~default:0 in
-  Hashtbl.replace t.asked (rank, client.address) n;
-  n > t.limits.rate
+  let n = 1 + Option.value (Hashtbl.find_opt t.asked (kind, client.address)) ~default:0 in
+  Hashtbl.replace t.asked (kind, client.address) n;
+  n
+
+let too_often t client rank = count_one t client (Request rank) > t.limits.rate
 
 (* {2 Places} *)
 
@@ -250,6 +258,17 @@ let rec serve t client ~first =
     client.is_served <- false;
     if keep && not t.over then serve t client ~first:false else Lwt.return_unit
 
+exception Too_often
+
+(* A handshake takes a thousand times as long as a request that is refused. *)
+let encrypt t client =
+  match t.tls with
+  | None -> Lwt.return_unit
+  | Some _ when count_one t client Handshake > t.limits.handshakes -> Lwt.fail Too_often
+  | Some context ->
+    within t.limits.patience (fun () -> Lwt_ssl.ssl_accept client.socket context) >|= fun channel ->
+    client.channel <- channel
+
 let quietly f = Lwt.catch f (fun _ -> Lwt.return_unit)
 
 let name : Unix.sockaddr -> string = function
@@ -258,12 +277,13 @@ let name : Unix.sockaddr -> string = function
 
 let admit t (socket, address) =
   let client =
-    { address = name address; socket; since = Unix.gettimeofday (); piece = Bytes.create 8192; rank = Unknown;
+    { address = name address; socket; channel = Lwt_ssl.plain socket; since = Unix.gettimeofday ();
+      piece = Bytes.create 8192; rank = Unknown;
       is_served = false; unread = "" } in
   let has_room = make_room t Unknown in
   t.open_ <- client :: t.open_;
   let whole () =
-    if has_room then serve t client ~first:true
+    if has_room then encrypt t client >>= fun () -> serve t client ~first:true
     else respond t client ~keep:false ~only_head:false too_many >|= ignore
   in
   let leave () =
@@ -285,7 +305,7 @@ let rec accept t =
       | error -> Lwt.fail error)
   >>= fun () -> accept t
 
-let start ?(limits = limits) ?(address = Unix.inet_addr_loopback) ?(rank = fun _ -> Trusted) ~port reply =
+let start ?(limits = limits) ?(address = Unix.inet_addr_loopback) ?tls ?(rank = fun _ -> Trusted) ~port reply =
   Sys.set_signal Sys.sigpipe Signal_ignore;
   let place = Unix.ADDR_INET (address, port) in
   let socket = Unix.socket ~cloexec:true (Unix.domain_of_sockaddr place) SOCK_STREAM 0 in
@@ -297,7 +317,7 @@ let start ?(limits = limits) ?(address = Unix.inet_addr_loopback) ?(rank = fun _
   | () ->
     let listening = Lwt_unix.of_unix_file_descr socket in
     let t =
-      { limits; listening; rank_of = rank; reply; open_ = []; asked = Hashtbl.create 16;
+      { limits; listening; tls; rank_of = rank; reply; open_ = []; asked = Hashtbl.create 16;
         unsent = Hashtbl.create 3; second = 0.;
         accepting = Lwt.return_unit; over = false }
     in

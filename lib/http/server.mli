@@ -15,6 +15,7 @@ type limits = {
       and trusted clients with a reply under way: if there are only such, it gets a reply with this reason and is
       closed. *)
   rate : int;  (** requests of one rank and address in a second; more get a reply with this reason and are closed *)
+  handshakes : int;  (** of TLS, of one address in a second; more connections are closed *)
   unsent : int;
   (** bytes of replies of more than 64 KiB that clients of one rank are reading at once: further ones of this length are
       refused *)
@@ -24,17 +25,17 @@ type limits = {
 
 val limits : limits
 (** 16 KiB, 4 MiB, 100 connections of unknown clients, 150 of guests and 150 of trusted ones, 1,000 requests,
-    64 MiB, 10 seconds, 60 seconds. *)
+    200 handshakes, 64 MiB, 10 seconds, 60 seconds. *)
 
 type t
 
 val start :
-  ?limits:limits -> ?address:Unix.inet_addr -> ?rank:(Request.t -> rank) -> port:int ->
+  ?limits:limits -> ?address:Unix.inet_addr -> ?tls:Ssl.context -> ?rank:(Request.t -> rank) -> port:int ->
   (Request.t -> Response.t Lwt.t) -> (t, string) result
-(** [start ~limits ~address ~rank ~port reply] serves [address], by default the loopback address 127.0.0.1, from now on;
-    port 0 is any free one. [rank r] is that of the client that sent [r], by default [Trusted]. [reply] may fail: the
-    client gets a reply about an error in the server. The error is the reason why the port is not available. From then
-    on SIGPIPE is ignored. *)
+(** [start ~limits ~address ~tls ~rank ~port reply] serves [address], by default the loopback address 127.0.0.1, from
+    now on; port 0 is any free one. With [tls] connections are encrypted. [rank r] is that of the client that sent [r],
+    by default [Trusted]. [reply] may fail: the client gets a reply about an error in the server. The error is the
+    reason why the port is not available. From then on SIGPIPE is ignored. *)
 
 val port : t -> int
 

@@ -37,7 +37,7 @@ let in_folder f =
 
 let settings folder : Console.settings =
   { folder = Result.get_ok (Folder.make folder); run = Dolphin_app.Run.simulated; fleet = None;
-    dolphin = Sys.executable_name; page = Page.load None; tiles = None; listen = None; version = "test";
+    dolphin = Sys.executable_name; page = Page.load None; tiles = None; listen = None; certificate = None; version = "test";
     workers = Worker_pool.limits }
 
 let served settings f () =
@@ -701,6 +701,81 @@ let large_replies () =
        else Lwt_unix.sleep 0.05 >>= fun () -> again (n - 1) in
      again 100 >>= fun () -> Server.close server)
 
+(* {1 TLS} *)
+
+let encrypted limits f () =
+  in_folder (fun _ ->
+      let certificate = match Certificate.own ~name:"127.0.0.1" with
+        | Ok certificate -> certificate | Error e -> Alcotest.fail (String.concat "; " (Dolphin_app.Error.sentences e)) in
+      let reply (r : Request.t) =
+        let length = if List.mem "large" r.path then 3_000_000 else 10 in
+        Lwt.return (Dolphin_http.Response.text ~kind:"text/plain" 200 (String.make length 'x')) in
+      let server = Result.get_ok (Server.start ~limits ~tls:certificate.context ~port:0 reply) in
+      Lwt_main.run (Lwt.finalize (fun () -> Lwt_unix.with_timeout 60. (fun () -> f certificate (Server.port server)))
+                      (fun () -> Server.close server)))
+
+let client = lazy (Ssl.init (); Ssl.create_context Ssl.SSLv23 Ssl.Client_context)
+
+let connect_encrypted port = Client.connect port >>= fun socket -> Lwt_ssl.ssl_connect socket (Lazy.force client)
+
+(* The whole reply, read piece by piece with a pause after each. *)
+let ask_encrypted ?(pause = 0.) port path =
+  connect_encrypted port >>= fun channel ->
+  let request = Bytes.of_string (get path) and piece = Bytes.create 65_536 and found = Buffer.create 1000 in
+  Lwt_ssl.write channel request 0 (Bytes.length request) >>= fun _ ->
+  let rec read () =
+    Lwt.catch (fun () -> Lwt_ssl.read channel piece 0 (Bytes.length piece)) (fun _ -> Lwt.return 0) >>= function
+    | 0 -> Lwt_ssl.close channel >|= fun () -> Buffer.contents found
+    | n -> Buffer.add_subbytes found piece 0 n; Lwt_unix.sleep pause >>= read
+  in
+  read ()
+
+let tls =
+  encrypted { Server.limits with patience = 1. } (fun certificate port ->
+      connect_encrypted port >>= fun channel ->
+      let shown = Option.map Ssl.get_certificate (Lwt_ssl.ssl_socket channel) in
+      let hexadecimal c = Printf.sprintf "%02x" (Char.code c) in
+      let digest c =
+        String.concat "" (List.map hexadecimal (List.of_seq (String.to_seq (Ssl.digest `SHA256 c)))) in
+      Alcotest.(check (option string)) "its fingerprint" (Some certificate.fingerprint) (Option.map digest shown);
+      Lwt_ssl.close channel >>= fun () ->
+      let again = Result.get_ok (Certificate.own ~name:"127.0.0.1") in
+      text "kept" certificate.fingerprint again.fingerprint;
+      let other = Result.get_ok (Certificate.own ~name:"here.example") in
+      holds "of another name" true (other.fingerprint <> again.fingerprint);
+      let folder = Filename.concat (Sys.getenv "XDG_STATE_HOME") "dolphin/certificates" in
+      Alcotest.(check (list int)) "only its owner reads the keys" [ 0o600; 0o600 ]
+        (List.map (fun name -> (Unix.stat (Filename.concat folder name)).st_perm) (Array.to_list (Sys.readdir folder)));
+      let key_alone = Filename.concat folder "wrong.pem" in
+      write key_alone "no certificate";
+      holds "what is none is refused" true (Result.is_error (Certificate.load ~certificate:key_alone ~key:key_alone));
+      ask_encrypted port "" >>= fun reply ->
+      begins "200" reply;
+      ask_encrypted ~pause:0.01 port "large" >>= fun reply ->
+      holds "all of it" true (String.length reply > 3_000_000);
+      Client.raw ~port (get "") >>= fun reply ->
+      holds "what is not encrypted is not answered" false (has_text "200 OK" reply);
+      (* One that does not go on with the handshake does not keep others waiting. *)
+      Client.connect port >>= fun silent ->
+      ask_encrypted port "" >>= fun reply ->
+      begins "200" reply;
+      Client.raw ~port "\x16\x03\x01" >>= fun reply ->
+      text "cut off" "" reply;
+      Lwt_unix.close silent)
+
+let handshakes =
+  encrypted { Server.limits with handshakes = 3 } (fun _ port ->
+      let rec until_refused n =
+        if n = 0 then Lwt.return_false
+        else
+          Lwt.catch (fun () -> ask_encrypted port "" >|= fun reply -> reply = "") (fun _ -> Lwt.return_true) >>= function
+          | true -> Lwt.return_true
+          | false -> until_refused (n - 1)
+      in
+      until_refused 20 >>= fun refused ->
+      holds "too many in a second" true refused;
+      Lwt_unix.sleep 1.1 >>= fun () -> ask_encrypted port "" >|= begins "200")
+
 (* Bytes of a fixed seed, among them pieces of requests. *)
 let nonsense random =
   let pieces =
@@ -1024,7 +1099,8 @@ let () =
   let slow name f = Alcotest.test_case name `Quick f in
   Alcotest.run "console"
     [ ("http",
-       [ slow "heads" heads; slow "sizes" sizes; slow "patience" patience; slow "connections" connections; slow "rate" rate; slow "large replies" large_replies ]);
+       [ slow "heads" heads; slow "sizes" sizes; slow "patience" patience; slow "connections" connections; slow "rate" rate; slow "large replies" large_replies;
+         slow "TLS" tls; slow "handshakes" handshakes ]);
       ("helm",
        [ slow "who has it" the_helm; slow "Stop without it" (console stop_without_helm);
          slow "Stop pressed twice" (console stop_twice) ]);

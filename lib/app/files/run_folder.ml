@@ -24,6 +24,14 @@ let rec make path =
     try Unix.mkdir path 0o700 with Unix.Unix_error (EEXIST, _, _) -> ()
   end
 
+let beside name =
+  let* runs = folder () in
+  let path = Filename.concat (Filename.dirname runs) name in
+  match make path with
+  | () -> Ok path
+  | exception Unix.Unix_error (error, _, _) ->
+    Error (Error.Unavailable (Printf.sprintf "%s: %s" path (Unix.error_message error)))
+
 let ending = ".run"
 
 let rec unused folder base n =

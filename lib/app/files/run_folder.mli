@@ -22,6 +22,9 @@ val fresh : program:string -> (string, Error.t) result
     now on, empty, and removed when the process ends if it still is. The folder is made if it is not there. The
     error, {!Error.Unavailable}, gives the reason. *)
 
+val beside : string -> (string, Error.t) result
+(** [beside name] is the folder [name] beside that of the journals, which is made if it does not exist. *)
+
 val writable : unit -> (string, Error.t) result
 (** The folder, which may be yet to be made, if it can be written to. *)
 

@@ -9,11 +9,15 @@
 #include <sys/prctl.h>
 #endif
 
+/* A lower limit that the process already has stays: most systems do not let it be raised. */
 value dolphin_limit_memory(value megabytes)
 {
   struct rlimit limit;
+  rlim_t wanted = (rlim_t) Long_val(megabytes) * 1024 * 1024;
 
-  limit.rlim_cur = limit.rlim_max = (rlim_t) Long_val(megabytes) * 1024 * 1024;
+  if (getrlimit(RLIMIT_AS, &limit) == -1) caml_failwith("memory cannot be limited");
+  if (limit.rlim_max == RLIM_INFINITY || limit.rlim_max > wanted) limit.rlim_max = wanted;
+  if (limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur > limit.rlim_max) limit.rlim_cur = limit.rlim_max;
   if (setrlimit(RLIMIT_AS, &limit) == -1) caml_failwith("memory cannot be limited");
   return Val_unit;
 }

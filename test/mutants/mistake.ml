@@ -1172,7 +1172,7 @@ let maps =
   @ in_file "lib/maps/geojson_file.ml" ~noticed_by:"maps/test_maps"
     [
       ("features count from 0", {|"feature %d%s" (i + 1)|}, {|"feature %d%s" i|});
-      ("any authority's 4326 is WGS 84", {|("4326" | "4979") :: _ -> is_of_epsg|}, {|("4326" | "4979") :: _ -> true|});
+      ("any authority's 4326 is WGS 84", {|("4326" | "4979") :: _ -> is_of_epsg|}, {|("4326" | "4979") :: _ -> is_of_epsg || true|});
     ]
   @ in_file "lib/maps/qgc_plan_file.ml" ~noticed_by:"maps/test_maps"
     [
@@ -1181,7 +1181,7 @@ let maps =
       ("an item without a position is at 0, 0", {|latitude = 0. && longitude = 0.|}, {|latitude = 1. && longitude = 0.|});
     ]
   @ in_file "lib/maps/zip_text.ml" ~noticed_by:"maps/test_maps"
-    [ ("checksums of archives are not compared", {||| checksum contents <> entry.check|}, {||}) ]
+    [ ("checksums of archives are not compared", {||| checksum contents <> entry.check|}, {||| (checksum contents <> entry.check && false)|}) ]
   @ in_file "lib/geo/repair.ml" ~noticed_by:"maps/test_maps"
     [ ("rims that cross themselves make areas", {|(0.001 *. whole)|}, {|(1000. *. Float.abs whole)|}) ]
   @ in_file "lib/maps/neptus_file.ml" ~noticed_by:"maps/test_maps"

@@ -1,5 +1,6 @@
 (* Work that is shared out among processes: what comes back, and how it ends. *)
 
+module Limits = Dolphin_processes.Limits
 module Workers = Dolphin_processes.Workers
 
 let rec all workers found =
@@ -68,10 +69,19 @@ let test_orphan () =
   let is_closed = Unix.select [ input ] [] [] 60. <> ([], [], []) in
   Alcotest.(check bool) "it has ended" true (is_closed && Unix.read input (Bytes.create 1) 0 1 = 0)
 
+(* The limit of a service, or of a shell, may be below that which the console gives to its workers. *)
+let test_lower_limit () =
+  let held _ =
+    Limits.memory 1000;
+    Limits.memory 2000;
+    match Bytes.create 1_500_000_000 with _ -> "1.5 GB are there" | exception Out_of_memory -> "1 GB holds" in
+  with_workers ~jobs:1 ~last:1 held (fun workers ->
+      Alcotest.(check (list (pair int string))) "limit" [ (1, "1 GB holds") ] (all workers []))
+
 let () =
   let case name f = Alcotest.test_case name `Quick f in
   Alcotest.run "workers"
     [ ("results", [ case "by one" (test_all 1); case "by three" (test_all 3); case "large" test_large ]);
       ("ends",
        [ case "killed" test_killed; case "an exception" test_exception; case "Ctrl-C" test_interrupted; case "stopped" test_stop;
-         case "left alone" test_orphan ]) ]
+         case "left alone" test_orphan; case "a lower limit" test_lower_limit ]) ]

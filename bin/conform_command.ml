@@ -4,16 +4,19 @@ open Dolphin_conformance
 
 (* {1 The report} *)
 
+(* Cases, and what an implementation replies, may have anything in their texts. *)
+let print format = Printf.ksprintf (fun text -> print_string (Dolphin_trace.Phrase.harmless text)) format
+
 let report verbose ({ case; verdict; passed } : Corpus.judged) =
   let kinds = List.sort_uniq compare (List.map (fun (f : Judge.failure) -> f.kind) verdict.failures) in
   let suffix = match kinds with [] -> "" | kinds -> ": " ^ String.concat ", " kinds in
-  if passed then (if verbose then Printf.printf "passed %s%s\n" case.path suffix)
+  if passed then (if verbose then print "passed %s%s\n" case.path suffix)
   else begin
-    Printf.printf "failed %s%s\n" case.path suffix;
-    Printf.printf "  %s\n" case.title;
-    List.iter (fun (f : Judge.failure) -> Printf.printf "  %s: %s\n" f.kind f.why) verdict.failures;
+    print "failed %s%s\n" case.path suffix;
+    print "  %s\n" case.title;
+    List.iter (fun (f : Judge.failure) -> print "  %s: %s\n" f.kind f.why) verdict.failures;
     if case.fails <> [] then
-      Printf.printf "  this case is wrong on purpose, in %s, and that was not noticed\n" (String.concat ", " case.fails)
+      print "  this case is wrong on purpose, in %s, and that was not noticed\n" (String.concat ", " case.fails)
   end;
   flush stdout
 
@@ -31,7 +34,7 @@ let judge_with ask ~named ~with_matrix ~verbose cases : (Exit_status.t, Error.t)
   | exception Dialogue.Trouble why ->
     Error (Error.Bad_input ("the implementation does not speak the step protocol: " ^ why))
   | name ->
-    if named then Printf.printf "%s\n%!" name;
+    if named then (print "%s\n" name; flush stdout);
     let judged, matrix = Corpus.judge ask (report verbose) cases in
     let complete = report_matrix with_matrix matrix in
     let passed, failed = List.partition (fun (j : Corpus.judged) -> j.passed) judged in

@@ -48,7 +48,7 @@ let arguments =
   | arguments -> Array.of_list (complete arguments)
 
 let evaluate () =
-  match Cmd.eval_value ~catch:false ~argv:arguments command with
+  match Cmd.eval_value ~err:Report.of_arguments ~catch:false ~argv:arguments command with
   | Ok (`Ok status) -> status
   | Ok (`Help | `Version) -> Exit_status.Done
   | Error (`Parse | `Term) -> Exit_status.Bad_input

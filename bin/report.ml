@@ -4,6 +4,16 @@ module Diagnostic = Dolphin_syntax.Diagnostic
 (* An error may quote names and texts from anywhere: a terminal gets no control characters from it. *)
 let complain sentence = Format.eprintf "dolphin: %s@." (Dolphin_trace.Phrase.harmless sentence)
 
+(* Cmdliner quotes arguments as they were typed. *)
+let of_arguments =
+  let text = Buffer.create 200 in
+  let show () =
+    prerr_string (Dolphin_trace.Phrase.harmless (Buffer.contents text));
+    flush stderr;
+    Buffer.clear text
+  in
+  Format.make_formatter (Buffer.add_substring text) show
+
 let diagnostics ~source found =
   if found <> [] then Format.eprintf "%a@." Error.pp (Error.Bad_text { source; found })
 

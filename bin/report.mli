@@ -3,6 +3,9 @@
 val complain : string -> unit
 (** [complain sentence] prints the error, as ["dolphin: ..."]. *)
 
+val of_arguments : Format.formatter
+(** Standard error, for faults of the command line: what they quote is made harmless. *)
+
 val diagnostics : source:string -> Dolphin_syntax.Diagnostic.t list -> unit
 (** Each with the line of [source] that it points at, in the order of the text. *)
 

@@ -8,11 +8,14 @@ let columns () =
   if Unix.isatty Unix.stdout then snd (Dolphin_display.Terminal.size Unix.stdout)
   else Option.value (Option.bind (Sys.getenv_opt "COLUMNS") int_of_string_opt) ~default:80
 
+(* Choices and traces may quote texts from anywhere. *)
+let print text = print_endline (Dolphin_trace.Phrase.harmless text)
+
 (* Text typed on a terminal stands there already. *)
 let read prompt =
   print_string prompt;
   flush stdout;
-  let echo line = if not (Unix.isatty Unix.stdin) then print_endline line in
+  let echo line = if not (Unix.isatty Unix.stdin) then print line in
   match input_line stdin with
   | line -> echo line; Some line
   | exception End_of_file -> print_newline (); None
@@ -22,7 +25,7 @@ let run path set fleet answers faults trace =
     (let recorded = Option.bind trace Witness_file.settings in
      let* program, fleet = Program_file.load_with_fleet ~set ?recorded ~fleet path in
      Report.diagnostics ~source:program.source program.warnings;
-     let* () = Walk_session.run ~read ~print:print_endline ~columns program fleet ~answers ~faults ~trace in
+     let* () = Walk_session.run ~read ~print ~columns program fleet ~answers ~faults ~trace in
      Ok Exit_status.Done)
 
 let trace =

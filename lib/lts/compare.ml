@@ -37,7 +37,8 @@ let pp_side ppf side = Fmt.string ppf (match side with Left -> "left" | Right ->
 
 let pp_traces ppf = function
   | Only (side, trace) ->
-    Fmt.pf ppf "Only the %a one has the trace@;<1 2>@[<hov>%a@]" pp_side side Fmt.(list ~sep:sp string) trace
+    let label = Fmt.using Dolphin_utf8.Utf8.line Fmt.string in
+    Fmt.pf ppf "Only the %a one has the trace@;<1 2>@[<hov>%a@]" pp_side side Fmt.(list ~sep:sp label) trace
   | Same -> Fmt.string ppf "They have the same traces, but choose at different times."
   | Not_known -> Fmt.string ppf "Whether they have the same traces was not found out within the limit of effort."
 

@@ -57,7 +57,7 @@ let pp ppf f =
       Fmt.string ppf "not ";
       print parts (Formula f :: rest)
     | Formula (Can (label, fs)) :: rest -> (
-        Fmt.pf ppf "<%s>" label;
+        Fmt.pf ppf "<%s>" (Dolphin_utf8.Utf8.line label);
         let parts = parts + 1 in
         match fs with
         | [] -> print parts rest

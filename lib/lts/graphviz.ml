@@ -1,5 +1,7 @@
-(* In a quoted string of dot, backslashes start escapes, and a line feed is [\n]. *)
+(* In a quoted string of dot, backslashes start escapes, and a line feed is [\n]. Other control characters, and bytes
+   that are not UTF-8, are replaced. *)
 let quoted text =
+  let text = String.concat "\n" (List.map Dolphin_utf8.Utf8.line (String.split_on_char '\n' text)) in
   let b = Buffer.create (String.length text + 2) in
   Buffer.add_char b '"';
   String.iter

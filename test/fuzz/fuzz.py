@@ -5,7 +5,8 @@ fuzz.py DOLPHIN [--seconds S | --inputs N] [--seed N] [--only READER] [--first N
 
 Input i of a reader depends on the seed, the reader and i alone. Each has `limit` seconds of the processor's time and
 1 GB. Faults are: other statuses than 0 to 3 and 130, death by a signal, no end, output that is not UTF-8, JSON or XML
-that is not valid, control characters. What fails is kept in DIR/READER-SEED-i/, with `command` and what was written."""
+that is not valid, control characters. What fails is kept in DIR/READER-SEED-i/, with `command` and what was written.
+Missions for MAVLink are read by the Python that DOLPHIN_MAVLINK names, which has pymavlink; without it they are not."""
 
 import argparse
 import concurrent.futures
@@ -18,10 +19,14 @@ import sys
 import tempfile
 import time
 
-from readers import READERS, Bench
+import consoles
+import readers
+import searches
+from readers import Bench
 
 ROOT = pathlib.Path(__file__).absolute().parents[2]
 MOST_KEPT = 100
+READERS = {**readers.READERS, **searches.READERS, **consoles.READERS}
 
 
 def arguments():
@@ -62,7 +67,8 @@ def main():
     read = faults = 0
     with tempfile.TemporaryDirectory() as scratch, concurrent.futures.ThreadPoolExecutor() as pool:
         scratch = pathlib.Path(scratch)
-        bench = Bench(options.dolphin, ROOT, options.limit, scratch)
+        os.environ.update(XDG_STATE_HOME=str(scratch / "state"), XDG_CACHE_HOME=str(scratch / "cache"))
+        bench = Bench(options.dolphin, ROOT, options.limit, scratch, os.environ.get("DOLPHIN_MAVLINK"))
         for index in itertools.count(options.first):
             if index >= options.first + options.inputs or time.monotonic() > end:
                 break

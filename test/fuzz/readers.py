@@ -3,6 +3,7 @@ an empty folder: it writes a mutated input there, has it read, and returns what 
 
 import functools
 import json
+import os
 import socket
 import subprocess
 import time
@@ -67,9 +68,10 @@ PLAN = json.dumps({
 class Bench:
     """A command `dolphin`, the time that it has for each input, and the valid inputs that are mutated."""
 
-    def __init__(self, dolphin, root, seconds, folder):
-        self.dolphin, self.seconds, self.folder = dolphin, seconds, folder
-        cases = [json.loads(path.read_text()) for path in sorted(root.glob("conformance/cases/*/*.json"))]
+    def __init__(self, dolphin, root, seconds, folder, mavlink=None):
+        self.dolphin, self.seconds, self.folder, self.mavlink = dolphin, seconds, folder, mavlink
+        self.case_texts = [path.read_bytes() for path in sorted(root.glob("conformance/cases/*/*.json"))]
+        cases = [json.loads(text) for text in self.case_texts]
         self.examples = sorted(root.glob("examples/*.dol"))
         self.programs = [(path.read_bytes(), path.with_suffix(".fleet").read_bytes()) for path in self.examples]
         self.programs += [("\n".join(case["program"]).encode(), "\n".join(case.get("fleet", [])).encode())
@@ -107,7 +109,7 @@ class Bench:
 
     def run(self, arguments, folder, form="text", stdin=b"", interrupt_after=None):
         """What is wrong with how `dolphin` reads it; the command is kept in the folder for who repeats it by hand."""
-        (folder / "command").write_text(" ".join(["dolphin", *arguments]) + "\n")
+        (folder / "command").write_bytes(os.fsencode(" ".join(["dolphin", *arguments]) + "\n"))
         if stdin:
             (folder / "stdin").write_bytes(stdin)
         ended = Running([self.dolphin, *arguments], folder, self.seconds, stdin).end(interrupt_after)
@@ -126,12 +128,15 @@ def source_commands(random):
         (["check", "m.dol"], "text"), (["parse", "m.dol"], "source"), (["help", "m.dol"], "text"),
         (["plan", "m.dol", "--json"], "json"),
         (["explore", "m.dol", "--workers", "1", "--max-states", "300", "--timeout", "4", "--json"], "json"),
+        (["time", "m.dol", "--workers", "1", "--max-states", "300", "--timeout", "4", "--json"], "json"),
+        (["lts", "m.dol", "--workers", "1", "--max-states", "300", "--timeout", "4", "--format", "json"], "json"),
+        (["tla", "m.dol", "-o", "model"], "text"), (["walk", "m.dol"], "text"),
         (["exec", "m.dol", "--no-socket", "--journal", "m.run"], "text")])
 
 
 def read_source(bench, random, folder):
     arguments, form = source_commands(random)
-    endless = arguments[0] in ("exec", "plan", "explore")
+    endless = arguments[0] in ("exec", "plan", "explore", "time", "lts", "tla", "walk")
     why = bench.run(arguments, folder, form, interrupt_after=PATIENCE if endless else None)
     journal = folder / "m.run"
     return why or (journal.exists() and bad_output("journal", "lines", journal.read_bytes())) or None

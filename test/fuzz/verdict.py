@@ -127,6 +127,8 @@ FORMS = {"text": bad_text, "json": bad_json, "lines": bad_lines, "xml": bad_xml,
 
 def bad_output(name, form, data):
     """What is wrong with the bytes `data` of a stream or file `name`, which has the form `form`; or None."""
+    if form == "bytes":
+        return None
     try:
         why = data and FORMS[form](data.decode())
     except UnicodeDecodeError as error:
@@ -142,4 +144,6 @@ def judge(ended, form):
         return f"ends with {ended.status}" if ended.status >= 0 else f"dies of signal {-ended.status}"
     if re.search(rb"[Oo]ut[ _]of[ _]memory|not enough memory", ended.err):
         return "needs more than 1 GB"
+    if b"Traceback" in ended.err:
+        return "an adapter of ours raises an exception"
     return bad_output("standard output", form, ended.out) or bad_output("standard error", "text", ended.err)

@@ -7,6 +7,10 @@ type t = No_deadlock | Termination | No_error | Assertions | Vehicles | Allocati
 
 let all = [ No_deadlock; Termination; No_error; Assertions; Vehicles; Allocation; No_halt; No_leftover; All_reached ]
 
+(* What was typed may have anything in it, also ends of lines, where names are one line. *)
+let typed text =
+  Dolphin_syntax.Character.printable (String.map (function '\n' | '\t' | '\r' -> ' ' | c -> c) text)
+
 let name = function
   | No_deadlock -> "no deadlock"
   | Termination -> "termination"
@@ -17,8 +21,8 @@ let name = function
   | No_halt -> "no halt"
   | No_leftover -> "no leftover tuples"
   | All_reached -> "all code reached"
-  | Invariant text -> "invariant " ^ text
-  | Formula text -> "formula " ^ text
+  | Invariant text -> "invariant " ^ typed text
+  | Formula text -> "formula " ^ typed text
   | Apart fence -> fence
 
 let question = function

@@ -100,7 +100,7 @@ def _with_jumps(items, numbers):
     return found
 
 
-_LANDING_PATTERNS = {"fwLandingPattern", "vtolLandingPattern"}
+_LANDING_PATTERNS = ("fwLandingPattern", "vtolLandingPattern")
 
 
 def _refuse_constant(name):

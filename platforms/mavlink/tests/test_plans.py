@@ -3,6 +3,7 @@
 import json
 import math
 import os
+import struct
 import tempfile
 import unittest
 
@@ -186,6 +187,31 @@ class Files(unittest.TestCase):
         for bad in ("NaN", "Infinity", "1e999", "1" + "0" * 400, "true", '"5"'):
             with self.assertRaises(Unreadable):
                 mission_files.of_file("a.plan", PLAN.replace("41.186", bad))
+
+    def test_values_of_any_type_in_a_plan(self):
+        """Each value of a plan, replaced by one of each type: the items can be sent, or the plan is unreadable."""
+
+        def places(value):
+            for key in value if isinstance(value, dict) else range(len(value)) if isinstance(value, list) else ():
+                yield value, key
+                yield from places(value[key])
+
+        read = 0
+        for index in range(len(list(places(json.loads(PLAN))))):
+            for other in (None, True, 2.5, 3.0, "text", [], [[]], {}, {"a": 1}):
+                plan = json.loads(PLAN)
+                container, key = list(places(plan))[index]
+                container[key] = other
+                text = json.dumps(plan)
+                mission.left_out("a.plan", text)
+                try:
+                    items = mission.of_file("a.plan", text)
+                except Unreadable:
+                    continue
+                read += 1
+                for item in items:
+                    struct.pack("<HBffffiifB", item.command, item.frame, *item.params, item.x, item.y, item.z, 1)
+        self.assertGreater(read, 0)
 
     def test_unreadable_ones_say_why(self):
         for name, text, why in (

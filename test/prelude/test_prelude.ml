@@ -129,6 +129,12 @@ let told_of_themselves =
        }\n\
        execute repeat 2, (t() until { consume x: 1 })\n\
        assert { n == 2 }";
+    holds "fresh: pairs posted after its end last until the executed task is over"
+      "n = 0\n\
+       key = ''\n\
+       execute fresh { k -> action { key = k } } >> action { post((key): 1) } >>\n\
+       condition { poll((key): 1) } >> action { n++ }\n\
+       assert { n == 1 && !poll((key): 1) }";
     holds "race: two of the same tasks, of which one is cut off" ~failures:true ~ends:[ "completed" ]
       "n = 0\n\
        def t() { race([watch p onError { ignore() }, condition { false }]) >> action { n++ } }\n\

@@ -203,9 +203,9 @@ class Files(unittest.TestCase):
                 container, key = list(places(plan))[index]
                 container[key] = other
                 text = json.dumps(plan)
-                mission.left_out("a.plan", text)
+                mission_files.left_out("a.plan", text)
                 try:
-                    items = mission.of_file("a.plan", text)
+                    items = mission_files.of_file("a.plan", text)
                 except Unreadable:
                     continue
                 read += 1

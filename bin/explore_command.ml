@@ -105,12 +105,7 @@ let rest_of_run settings path set named ~journal ~strict ~json ~period ~files ~c
     | { trace = _; drawing = _; junit = _; sarif = _ }, _ ->
       Error (Error.Bad_input "--trace, --draw and --cache are for runs from the beginning: leave them out with --from")
   in
-  let* journal = Run_folder.journal journal in
-  let* set = if set = [] then Ok (Option.value (Journal_file.settings journal) ~default:[]) else Ok set in
-  let* program = Program_file.load ~set path in
-  let* present = Present.read program journal in
-  let* fleet = Present.fleet present ~program:path ~named in
-  let* program = Program_file.within fleet program in
+  let* present, program, fleet = Present.load path ~set ~fleet:named ~journal in
   let remarks = Present.remarks present program fleet in
   List.iter Report.complain (remarks @ Left_out.sentences settings.Exploration.faults fleet);
   of_program settings program fleet ~from:(Some present) ~strict ~json ~period ~files ~cache
@@ -180,14 +175,9 @@ let max_memory = bound size "max-memory" "SIZE"
 let timeout = bound Arg.float "timeout" "SECONDS" "Stop after $(docv) seconds."
 
 let from =
-  let doc =
-    "Explore what can still happen in the run $(docv), from where its journal ends: a run by its name, how its name \
-     begins, $(b,latest), or the path of a journal. The run may go on meanwhile. $(i,PROG) may differ from the program \
-     that the run began with, if what happened so far is the beginning of a run of $(i,PROG) too: so a change is \
-     checked before the run is resumed with it. By default the fleet is that of the run. Vehicles stand where they \
-     were seen last; tasks of a vehicle out of contact may fail. Not with $(b,--trace), $(b,--draw) and $(b,--cache)."
-  in
-  Arg.(value & opt (some string) None & info [ "from" ] ~docv:"RUN" ~doc)
+  Options.from
+    "Explore what can still happen in the run $(docv), from where its journal ends. Vehicles stand where they were \
+     seen last; tasks of a vehicle out of contact may fail. Not with $(b,--trace), $(b,--draw) and $(b,--cache)."
 
 let answers =
   let doc =

@@ -88,3 +88,13 @@ let see_also =
   [ `S Manpage.s_see_also;
     `P "The reference manual of the language, of fleets and of the supplier's protocol is $(i,docs/language.md); \
         $(i,examples/) has a program for every construct." ]
+
+let from doc =
+  let doc =
+    doc
+    ^ " $(docv) is a run by its name, how its name begins, $(b,latest), or the path of a journal; it may go on \
+       meanwhile. $(i,PROG) may differ from the program that the run began with, if what happened so far is the \
+       beginning of a run of $(i,PROG) too: so a change is checked before the run is resumed with it. By default the \
+       fleet is that of the run."
+  in
+  Arg.(value & opt (some string) None & info [ "from" ] ~docv:"RUN" ~doc)

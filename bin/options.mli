@@ -32,6 +32,9 @@ val number : docv:string -> string -> (float -> bool) -> float Arg.conv
 val positive : docv:string -> float Arg.conv
 (** Finite numbers greater than 0. *)
 
+val from : string -> string option Cmdliner.Term.t
+(** [from doc] is [--from RUN]: [doc] says to which purpose, and more is said of runs and of programs that changed. *)
+
 val workers : doc:string -> int Term.t
 (** [--workers N]: processes, by default the number of cores. *)
 

@@ -7,10 +7,10 @@ let ( let* ) = Result.bind
 
 (* {1 One question, or several} *)
 
-let of_program (settings : Time_analysis.settings) (program : Program_file.t) fleet ~slack ~json ~trace ~drawing =
+let of_program ?from (settings : Time_analysis.settings) (program : Program_file.t) fleet ~slack ~json ~trace ~drawing =
   let { Time_analysis.deadline; _ } = settings in
   let ask ~interrupted ~progress =
-    let outcome = Time_analysis.run ~interrupted ~progress settings program fleet in
+    let outcome = Time_analysis.run ?from ~interrupted ~progress settings program fleet in
     (outcome, if slack then Some (Time_analysis.slacks ~interrupted ~progress settings program fleet outcome) else None)
   in
   let outcome, slacks = Watched.search ~json ask in
@@ -22,8 +22,9 @@ let of_program (settings : Time_analysis.settings) (program : Program_file.t) fl
       ~html:(fun () -> Time_picture.html ?deadline program outcome)
   in
   let drawn = Option.fold drawing ~none:(Ok ()) ~some:draw in
-  if json then print_endline (Dolphin_json.Canonical.to_string (Time_report.to_json ?deadline ?slacks program outcome))
-  else Time_report.print ?deadline ?slacks program outcome;
+  let as_json () = Time_report.to_json ?from ?deadline ?slacks program outcome in
+  if json then print_endline (Dolphin_json.Canonical.to_string (as_json ()))
+  else Time_report.print ?from ?deadline ?slacks program outcome;
   let* () = traced in
   let* () = drawn in
   let is_cut_short = Option.fold slacks ~none:false ~some:(fun (s : Timing.slacks) -> s.cut_short <> None) in
@@ -53,32 +54,53 @@ let of_fleets (settings : Time_analysis.settings) program fleet ~json =
 
 let no_slack = Error.Bad_input "--slack is for one program and its whole fleet: give no --fewest, and --set no range"
 
-let run path set fleet answers faults deadline slack fewest json trace drawing workers max_states max_depth max_memory
-    timeout =
+(* The rest of the run whose journal is [journal]. *)
+let rest_of_run (settings : Time_analysis.settings) path set fleet ~journal ~slack ~fewest ~json ~trace ~drawing =
+  if slack || fewest || trace <> None || drawing <> None then
+    let options = "--slack, --fewest, --trace and --draw" in
+    Error (Error.Bad_input (options ^ " are for runs from the beginning: leave them out with --from"))
+  else
+    let* from, program, fleet = Present.load path ~set ~fleet ~journal in
+    Report.diagnostics ~source:program.source program.warnings;
+    List.iter Report.complain (Present.remarks from program fleet @ Left_out.sentences settings.faults fleet);
+    of_program ~from settings program fleet ~slack ~json ~trace ~drawing
+
+let run path set fleet from answers faults deadline slack fewest json trace drawing workers max_states max_depth
+    max_memory timeout =
   let settings : Time_analysis.settings =
     { answers; faults; deadline; workers; max_states; max_depth; max_memory; timeout } in
   Report.result
     (let* () = Option.fold trace ~none:(Ok ()) ~some:Text_file.check in
      let* () = Option.fold drawing ~none:(Ok ()) ~some:Drawing.check in
-     let* question = Sweep.question ~set path in
-     let* fleet = Fleet_file.load_for ~program:path fleet in
-     let* question = Sweep.within fleet question in
-     let left_out = if fewest then Left_out.sentences else Left_out.of_time in
-     List.iter Report.complain (left_out faults fleet);
-     match question with
-     | Several _ when slack -> Error no_slack
-     | One _ when slack && fewest -> Error no_slack
-     | Several _ when fewest ->
-       Error (Error.Bad_input "--fewest looks for the least fleet of one program: give --set no range with it")
-     | Several _ when trace <> None || drawing <> None ->
-       Error (Error.Bad_input "--trace and --draw are for one program: give --set no range of values")
-     | One _ when fewest && (trace <> None || drawing <> None) ->
-       Error (Error.Bad_input "--trace and --draw do not go with --fewest")
-     | Several sweep -> of_values settings sweep fleet ~json
-     | One program ->
-       Report.diagnostics ~source:program.source program.warnings;
-       if fewest then Ok (of_fleets settings program fleet ~json)
-       else of_program settings program fleet ~slack ~json ~trace ~drawing)
+     match from with
+     | Some journal -> rest_of_run settings path set fleet ~journal ~slack ~fewest ~json ~trace ~drawing
+     | None ->
+       let* question = Sweep.question ~set path in
+       let* fleet = Fleet_file.load_for ~program:path fleet in
+       let* question = Sweep.within fleet question in
+       let left_out = if fewest then Left_out.sentences else Left_out.of_time in
+       List.iter Report.complain (left_out faults fleet);
+       match question with
+       | Several _ when slack -> Error no_slack
+       | One _ when slack && fewest -> Error no_slack
+       | Several _ when fewest ->
+         Error (Error.Bad_input "--fewest looks for the least fleet of one program: give --set no range with it")
+       | Several _ when trace <> None || drawing <> None ->
+         Error (Error.Bad_input "--trace and --draw are for one program: give --set no range of values")
+       | One _ when fewest && (trace <> None || drawing <> None) ->
+         Error (Error.Bad_input "--trace and --draw do not go with --fewest")
+       | Several sweep -> of_values settings sweep fleet ~json
+       | One program ->
+         Report.diagnostics ~source:program.source program.warnings;
+         if fewest then Ok (of_fleets settings program fleet ~json)
+         else of_program settings program fleet ~slack ~json ~trace ~drawing)
+
+let from =
+  Options.from
+    "Ask when the run $(docv) will be over, from where its journal ends, in times since its start: what is under way \
+     has gone on since it began, and vehicles at rest stand where they were seen last. What should be over already \
+     may take any time. Vehicles neither join nor leave by the fleet any more, and batteries are left out. Not with \
+     $(b,--slack), $(b,--fewest), $(b,--trace) and $(b,--draw)."
 
 let fewest =
   let doc =
@@ -157,7 +179,8 @@ let man =
     `S Manpage.s_options;
     `S Manpage.s_exit_status;
     `S Manpage.s_examples;
-    `Pre "  $(mname) $(tname) examples/rendezvous.dol\n  $(mname) $(tname) examples/rendezvous.dol --deadline 20.min";
+    `Pre "  $(mname) $(tname) examples/rendezvous.dol\n  $(mname) $(tname) examples/rendezvous.dol --deadline 20.min\n\
+         \  $(mname) $(tname) mission.dol --from latest";
     `P "How many vehicles it takes: of a program that says by a parameter how many it picks; or of the fleet's:";
     `Pre "  $(mname) $(tname) mission.dol --set vehicles=1..8 --deadline 40.min\n\
          \  $(mname) $(tname) mission.dol --fewest --deadline 40.min" ]
@@ -171,6 +194,6 @@ let command =
   let json = Arg.(value & flag & info [ "json" ] ~doc:"Print the result as one JSON object.") in
   Cmd.v info
     Term.(
-      const run $ Options.program $ Options.set_range $ Options.fleet $ Explore_command.answers $ Explore_command.faults
-      $ deadline $ slack $ fewest $ json $ trace $ drawing $ workers
+      const run $ Options.program $ Options.set_range $ Options.fleet $ from $ Explore_command.answers
+      $ Explore_command.faults $ deadline $ slack $ fewest $ json $ trace $ drawing $ workers
       $ Explore_command.max_states $ Explore_command.max_depth $ Explore_command.max_memory $ Explore_command.timeout)

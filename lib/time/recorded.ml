@@ -20,6 +20,10 @@ let start ~tolerance (options : Timed.options) =
   let began = List.map (fun (p : Timed.pending) -> (p.item, 0)) state.pending in
   { options; tolerance; state; began; told = []; silent = []; ordered = []; back = [] }
 
+let onwards (r : t) ~outside ~date ~seen =
+  let began item = Option.value (List.assoc_opt item r.began) ~default:0 in
+  (r.options, Timed.onwards r.options r.state ~outside ~now:date ~began ~seen)
+
 let with_tolerance tolerance r = { r with tolerance }
 
 (* {1 Links} *)

@@ -17,6 +17,12 @@ val start : tolerance:int -> Timed.options -> t
 (** [start ~tolerance o] is before the first transition. Differences up to this number of milliseconds do not count:
     links and clocks are not exact. *)
 
+val onwards :
+  t -> outside:Dolphin_environment.Environment.t -> date:int -> seen:(Core.vehicle * Dolphin_geo.Position.t) list ->
+  Timed.options * Timed.state
+(** [onwards r ~outside ~date ~seen] is {!Timed.onwards} from [date] after [r], and the options of [r]: vehicles neither
+    join nor leave by the fleet any more. *)
+
 val with_tolerance : int -> t -> t
 (** [with_tolerance ms r] is [r], with this one from now on. *)
 

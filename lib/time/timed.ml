@@ -258,6 +258,36 @@ let initial o =
     { configuration; outside; pending = []; elsewhere = []; patience = []; date = 0; changes = 0; settled = false } in
   fst (with_pending o ~before:[] ~over:None [] s)
 
+(* What is left of [p] after [passed] milliseconds. *)
+let shortened passed p =
+  let bounds : Bounds.t =
+    match p.bounds, p.item with
+    | Within { least; most }, _ when passed <= most ->
+      Within { least = max 0 (least - passed); most = most - passed }
+    | Within _, (Timer _ | Date _) -> Bounds.at_once
+    | (Within _ | Some_time), _ -> Some_time
+    | Never, _ -> Never
+  in
+  { p with bounds }
+
+let onwards o s ~outside ~now ~began ~seen =
+  let passed k = k * 1000 <= now in
+  let named = match o.dates with Ok dates -> dates | Error _ -> [] in
+  let date = List.fold_left max s.date (List.filter passed named) in
+  let before = List.filter (fun p -> match p.item with Date _ -> false | _ -> true) s.pending in
+  let runs v = List.exists (fun p -> is_same p.item (Task v)) before in
+  let place (v, place) = if runs v then None else Some (v, Some place) in
+  let places = List.filter_map place seen in
+  let others = List.filter (fun (v, _) -> not (List.mem_assoc v places)) s.elsewhere in
+  let elsewhere = List.sort Stdlib.compare (places @ others) in
+  let s, fresh = with_pending o ~before ~over:None [] { s with outside; date; elsewhere } in
+  let since p =
+    match p.item with
+    | Date _ -> date * 1000
+    | item -> if List.exists (is_same item) fresh then 0 else began item
+  in
+  { s with pending = List.map (fun p -> shortened (now - since p) p) s.pending }
+
 (* {1 Where vehicles are} *)
 
 let moved elsewhere v place = List.sort Stdlib.compare ((v, place) :: List.remove_assoc v elsewhere)

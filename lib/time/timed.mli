@@ -58,6 +58,14 @@ type state = private {
 
 val initial : options -> state
 
+val onwards :
+  options -> state -> outside:Environment.t -> now:int -> began:(item -> int) ->
+  seen:(Core.vehicle * Dolphin_geo.Position.t) list -> state
+(** [onwards o s ~outside ~now ~began ~seen] is where a run goes on from that is in [s] at [now], in milliseconds since
+    its start, such that dates from there on count from [now]: what is pending since [began] has that much less before
+    it. It may take any time if it should be over; a timer expires at once. Vehicles at rest are where they were [seen];
+    [outside] is the environment's memory. *)
+
 val doing : options -> state -> Core.vehicle -> Dolphin_scenario.Battery.doing
 (** [doing o s v] is whether [v] carries a task out, and whether that charges its battery. It rests while its order
     waits for the link, and once its task is over; away from its chargers if it has some. *)

@@ -45,6 +45,7 @@ type node = { place : Timed_place.t; zone : Zone.t; parent : int; move : move op
 type t = {
   numbering : Numbering.t;
   goal : goal;
+  start : Timed.state;
   options : Timed.options;
   course : Course.t option;
   places : Timed_place.places;
@@ -229,7 +230,7 @@ let widen t ~reserved =
 
 let numbers t key f = f (number t key.(0))
 
-let create ?(working = false) goal successors =
+let create ?(working = false) ?start goal successors =
   let filled = match goal with Latest -> Zone.reaching_down | Earliest -> Zone.reaching_up in
   let deadlines = ref [] in
   let note s =
@@ -238,7 +239,8 @@ let create ?(working = false) goal successors =
   in
   let places = Timed_place.places successors ~filled ~note in
   let options = Successors.options successors and course = Successors.course successors in
-  { numbering = Numbering.create (); goal; options; course; places; reduced = false; nodes = [||]; count = 0;
+  let start = match start with Some start -> start | None -> Timed.initial options in
+  { numbering = Numbering.create (); goal; start; options; course; places; reduced = false; nodes = [||]; count = 0;
     reserved = 0; moments = Hashtbl.create 100; tasks = []; endings = []; cycle = None; returns = [];
     edges = (if working || course <> None then Some [] else None); edge_count = 0;
     stuck = None; unknown = []; deadlines; missed = Hashtbl.create 8 }
@@ -247,7 +249,7 @@ let visit t (v : via System.visitor) n = v.visit [| n lsl t.reserved |] 0 ()
 
 let initial t v =
   if t.count = 0 then begin
-    let state = Timed.initial t.options in
+    let state = t.start in
     let awaited = List.map (fun (p : Timed.pending) -> p.item) state.pending in
     let fresh = Option.to_list (Timed_place.course_item t.places) @ awaited in
     let place, _, zone =
@@ -515,7 +517,7 @@ let deadlines t =
   in
   List.rev_map missed !(t.deadlines)
 
-let start t = t.nodes.(0).place.state
+let start t = t.start
 let is_reduced t = t.reduced
 let places t = t.places
 let successors t = Timed_place.successors t.places

@@ -15,9 +15,9 @@ exception Broken
 
 type reduction = Successors.reduction = Nothing | Inert_ends | Inert_ends_and_likeness
 
-val create : ?working:bool -> goal -> Successors.t -> t
-(** [working] is whether there are {!edges}, by default not; with a course, there are too, each with its
-    {!type-passage}. *)
+val create : ?working:bool -> ?start:Timed.state -> goal -> Successors.t -> t
+(** Runs go on from [start], by default {!Timed.initial}. [working] is whether there are {!edges}, by default not; with
+    a course, there are too, each with its {!type-passage}. *)
 
 (** {1:dates Dates} *)
 

@@ -126,8 +126,8 @@ let deadlines options early late =
   in
   List.map both (Timed_system.deadlines late)
 
-let search ?working ~started limits successors goal phase =
-  let search = Search.create ~phase ~started limits (Timed_system.create ?working goal successors) in
+let search ?working ?start ~started limits successors goal phase =
+  let search = Search.create ~phase ~started limits (Timed_system.create ?working ?start goal successors) in
   Search.run search;
   search
 
@@ -224,10 +224,10 @@ let batteries options system ~observed ~tasks ~last ~is_known vehicles =
    computing. *)
 let most_observed = 10
 
-let find ~(reduction : reduction) ~started ?deadline ~vehicles limits options =
+let find ?start ~(reduction : reduction) ~started ?deadline ~vehicles limits options =
   let successors = Successors.create reduction options in
-  let late = search ~working:(vehicles <> []) ~started limits successors Latest "latest dates" in
-  let early = search ~started limits successors Earliest "earliest dates" in
+  let late = search ~working:(vehicles <> []) ?start ~started limits successors Latest "latest dates" in
+  let early = search ?start ~started limits successors Earliest "earliest dates" in
   let late_system = Search.system late and early_system = Search.system early in
   let dates system = List.map (fun (e, (date, _)) -> (e, date)) (Timed_system.endings system) in
   let tasks =
@@ -279,9 +279,9 @@ let untimed limits (options : Timed.options) =
     options.program options.world
 
 (* Ends that are inert leave A too, and states that are alike have other plans: so all is followed. *)
-let pairs ~started limits (options : Timed.options) ~candidates =
+let pairs ?start ~started limits (options : Timed.options) ~candidates =
   let beside = Side_by_side.create options.program.fences in
-  let system = Timed_system.create Latest (Successors.create Nothing options) in
+  let system = Timed_system.create ?start Latest (Successors.create Nothing options) in
   let search = Search.create ~phase:"looking for plans side by side" ~started limits system in
   let seen = ref 0 in
   let enough () =
@@ -295,11 +295,12 @@ let pairs ~started limits (options : Timed.options) ~candidates =
   ignore (enough ());
   (Side_by_side.pairs beside, Search.stopped search)
 
-let apart ~started limits (options : Timed.options) =
+let apart ?start ~started limits (options : Timed.options) =
   let found (fence : Fences.fence) =
     let pairs, cut_short =
       match untimed limits options with
-      | _ when Links.count options.durations.links > 0 -> pairs ~started limits options ~candidates:None
+      | _ when start <> None || Links.count options.durations.links > 0 ->
+        pairs ?start ~started limits options ~candidates:None
       | [], stopped -> ([], stopped)
       | candidates, None -> pairs ~started limits options ~candidates:(Some (List.length candidates))
       | _, Some _ -> pairs ~started limits options ~candidates:None
@@ -308,12 +309,37 @@ let apart ~started limits (options : Timed.options) =
   in
   Option.map found (Fences.least_distance options.program.fences)
 
-let run ?(reduction = Inert_ends_and_likeness) ?deadline ?(vehicles = []) limits options =
+(* {1 From the middle of a run} *)
+
+let dates_after ms o =
+  let date = function At n -> At (n + ms) | Unbounded -> Unbounded in
+  let window w = { earliest = w.earliest + ms; latest = date w.latest } in
+  let turn (t : Batteries.turn) = { t with at = t.at + ms } in
+  let run r = { r with dates = List.map (( + ) ms) r.dates; turns = List.map turn r.turns } in
+  let windows of_named = List.map (fun (name, w) -> (name, window w)) of_named in
+  let missed (site, found) = (site, Option.map (fun (w, r) -> (window w, run r)) found) in
+  { o with
+    endings = windows o.endings; tasks = List.map (fun (task, moments) -> (task, windows moments)) o.tasks;
+    last = Option.map run o.last; first = Option.map run o.first; late = Option.map run o.late;
+    failing = Option.map run o.failing; endless = Option.map (fun (r, why) -> (run r, why)) o.endless;
+    deadlines = List.map missed o.deadlines }
+
+type start = { state : Timed.state; date : int }
+
+(* What is reduced is alike, or inert, from the beginning. *)
+let run ?start ?(reduction = Inert_ends_and_likeness) ?deadline ?(vehicles = []) limits options =
   let started = limits.Limits.clock () in
-  let found = attempt (fun reduction -> find ~reduction ~started ?deadline ~vehicles limits options) reduction in
-  match apart ~started limits options with
-  | None -> found
-  | Some _ as apart -> { found with apart; seconds = limits.clock () -. started }
+  let state = Option.map (fun s -> s.state) start and past = Option.fold start ~none:0 ~some:(fun s -> s.date) in
+  let reduction, vehicles = if start = None then (reduction, vehicles) else (Nothing, []) in
+  let deadline = Option.map (fun date -> date - past) deadline in
+  let found =
+    attempt (fun reduction -> find ?start:state ~reduction ~started ?deadline ~vehicles limits options) reduction in
+  let found =
+    match apart ?start:state ~started limits options with
+    | None -> found
+    | Some _ as apart -> { found with apart; seconds = limits.clock () -. started }
+  in
+  dates_after past found
 
 let slack_searches = "slack"
 

@@ -58,12 +58,16 @@ type outcome = {
   bytes : int;
 }
 
+type start = { state : Timed.state; date : int  (** milliseconds since the start of the run *) }
+(** Where a run is that goes on: {!Timed.onwards}. *)
+
 val run :
-  ?reduction:reduction -> ?deadline:int -> ?vehicles:Dolphin_scenario.Scenario.vehicle list ->
+  ?start:start -> ?reduction:reduction -> ?deadline:int -> ?vehicles:Dolphin_scenario.Scenario.vehicle list ->
   Dolphin_checker.Limits.t -> Timed.options -> outcome
 (** [run ~deadline ~vehicles limits o] is the complete result, within [limits]; [deadline] is in milliseconds; of
     [vehicles], by default none, the batteries are analysed. The [reduction], all by default, makes no difference to
-    the answers, but for how close the bounds of batteries are. *)
+    the answers, but for how close the bounds of batteries are. With a [start], it is of what follows there: nothing is
+    reduced, and batteries, of which it is not known what is left, are not analysed. *)
 
 val latest : outcome -> date option
 (** [latest o] is when the last run is over; [None] if none that was looked at ends. *)

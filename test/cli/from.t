@@ -122,3 +122,62 @@ A run is named as for the other commands. A run that is over has nothing left; t
   $ dolphin explore ride.dol --from ./out.run --cache
   dolphin: --trace, --draw and --cache are for runs from the beginning: leave them out with --from
   [2]
+
+It is known when the run will be over, in times since its start: what is under way has gone on since it began.
+
+  $ cat > pair.dol << 'END'
+  > v = pick { type 'UUV' }
+  > execute task('out')[v]
+  > pause(2.min)
+  > execute task('home')[v]
+  > END
+  $ cat > pair.fleet << 'END'
+  > vehicle 'a', { type 'UUV' }
+  > plan 'out', { duration 6.min, 10.min }
+  > plan 'home', { duration 5.min }
+  > END
+  $ dolphin time pair.dol | head -n 1
+  completed: 13:00 at the earliest, 17:00 at the latest
+  $ rm whole.run; dolphin exec pair.dol --journal whole.run | grep out
+     0:00  a           starts out
+     9:25  a           ends out
+  $ upto '"time":450,' later; dolphin time pair.dol --from ./later.run | grep -v states
+  from 7:30 of ./later.run, after 4 transitions
+  completed: 14:30 at the earliest, 17:00 at the latest
+  task  vehicle  starts         ends            where
+  out   a                       7:30 to 10:00   pair.dol:2
+  home  a        9:30 to 12:00  14:30 to 17:00  pair.dol:4
+  
+  a run that ends last:
+          program     a            where       variables
+  10:00               ends out                 v = a
+  10:00   pause(120)               pair.dol:3
+  12:00   resume                   pair.dol:3
+  12:00   execute                  pair.dol:4
+  12:00               starts home  pair.dol:4
+  17:00               ends home    pair.dol:4
+  17:00   end
+  its end depends on: pair.dol:2:9: out on a (2:30), then a timer of the program (2:00), then pair.dol:4:9: home on a (5:00)
+  $ upto '"label":"pause' paused; dolphin time pair.dol --from ./paused.run --deadline 16.min | head -n 3
+  from 9:25 of ./paused.run, after 6 transitions
+  completed: 16:25.445 at the earliest, 16:25.445 at the latest
+  deadline 16:00: violated
+  $ dolphin time pair.dol --from ./later.run --deadline 14.min --json | grep -o '"from":{[^}]*}\|"inTime":"[a-z]*"'
+  "inTime":"violated"
+  "from":{"journal":"./later.run","time":450.0,"transitions":4}
+
+A task that should be over already may take any time.
+
+  $ sed 's/6.min, 10.min/6.min, 7.min/' pair.fleet > short.fleet
+  $ dolphin time pair.dol --fleet short.fleet --from ./later.run 2>&1 | head -n 4
+  dolphin: the fleet is not the one that the run began with, or it has changed since
+  from 7:30 of ./later.run, after 4 transitions
+  completed: 14:30 at the earliest, no latest time
+  nobody knows how long it takes: pair.dol:2:9: out on a; in the fleet: plan 'out', { duration 3.min, 9.min }
+  $ dolphin time pair.dol --from ./later.run --slack
+  dolphin: --slack, --fewest, --trace and --draw are for runs from the beginning: leave them out with --from
+  [2]
+
+Of runs of the examples, cut off at drawn lines, the answers hold.
+
+  $ python3 from.py ../../examples

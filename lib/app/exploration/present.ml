@@ -3,38 +3,48 @@ open Dolphin_environment
 open Dolphin_runtime
 open Dolphin_trace
 
+(* What bears on the time that things take. *)
+type line = Took of Transition.event option * Transition.t | Heard of Core.vehicle * bool
+
 type t = {
   path : string;
   past : Resumption.t;
   configuration : Configuration.t;
   happened : (Configuration.t * Transition.event) list;  (* each with the configuration that it came in *)
+  lines : (float * line) list;
 }
 
 (* An event whose transition was not written has happened too. *)
-let finish path (past : Resumption.t) program happened =
+let finish path (past : Resumption.t) program ~happened ~lines =
   let c = Replay.configuration past.replay and world = Replay.world past.replay in
   let accepted event = Result.to_option (Transition.accept program world c event) in
-  let configuration, happened =
+  let configuration, happened, lines =
     match past.pending, Option.bind past.pending accepted with
-    | Some event, Some (t : Transition.t) -> (t.next, (c, event) :: happened)
-    | None, _ | Some _, None -> (c, happened)
+    | Some event, Some (t : Transition.t) ->
+      (t.next, (c, event) :: happened, (Replay.time past.replay, Took (Some event, t)) :: lines)
+    | None, _ | Some _, None -> (c, happened, lines)
   in
   match configuration.control with
   | Ended _ -> Error (Error.Bad_input (path ^ ": this run is over"))
-  | Script _ | Waiting _ | Executing _ -> Ok { path; past; configuration; happened = List.rev happened }
+  | Script _ | Waiting _ | Executing _ -> 
+    Ok { path; past; configuration; happened = List.rev happened; lines = List.rev lines }
 
 let read (program : Program_file.t) path =
-  let latest = ref (Configuration.initial program.program) and happened = ref [] in
-  let tell (_ : Entry.t) replay =
+  let latest = ref (Configuration.initial program.program) and happened = ref [] and lines = ref [] in
+  let add time line = lines := (time, line) :: !lines in
+  let tell (entry : Entry.t) replay =
+    (match entry with Vehicle { time; state } -> add time (Heard (state.id, state.connected)) | _ -> ());
     (match Replay.latest replay with
-     | Some (Some event, _) -> happened := (!latest, event) :: !happened
-     | Some (None, _) | None -> ());
+     | Some (cause, t) ->
+       Option.iter (fun event -> happened := (!latest, event) :: !happened) cause;
+       add (Replay.time replay) (Took (cause, t))
+     | None -> ());
     latest := Replay.configuration replay
   in
   let { Header.hash; _ } = Program_file.header program in
   Text_file.with_channel path (fun channel ->
       match Resumption.read ~tell ~changed:true program.program ~hash (Journal.of_channel channel) with
-      | Ok past -> finish path past program.program !happened
+      | Ok past -> finish path past program.program ~happened:!happened ~lines:!lines
       | Error trouble -> Error (Error.Bad_input (Format.asprintf "@[<v 2>%s: %a@]" path Resumption.pp_trouble trouble)))
 
 let fleet p ~program ~named =
@@ -43,6 +53,17 @@ let fleet p ~program ~named =
   | None, Some source -> Fleet_file.load (Some source.path)
   | None, None when p.past.header.platform = "sim" -> Fleet_file.load None
   | None, None -> Fleet_file.load_for ~program None
+
+let ( let* ) = Result.bind
+
+let load path ~set ~fleet:named ~journal =
+  let* journal = Run_folder.journal journal in
+  let set = if set = [] then Option.value (Journal_file.settings journal) ~default:[] else set in
+  let* program = Program_file.load ~set path in
+  let* present = read program journal in
+  let* fleet = fleet present ~program:path ~named in
+  let* program = Program_file.within fleet program in
+  Ok (present, program, fleet)
 
 (* {1 The state} *)
 
@@ -57,6 +78,25 @@ let start p options program =
   (options, (p.configuration, outside))
 
 let world p scenario = Scenario_world.seen scenario (Replay.world p.past.replay)
+
+(* {1 Time} *)
+
+let milliseconds time = Option.value (Dolphin_time.Bounds.milliseconds time) ~default:0
+
+let timed p (options : Dolphin_time.Timed.options) =
+  let open Dolphin_time in
+  let take r (time, line) =
+    let date = milliseconds time in
+    match line with
+    | Heard (v, connected) -> Recorded.heard r ~date v connected
+    | Took (on, t) -> fst (Recorded.transition r ~date ~on t)
+  in
+  let recorded = List.fold_left take (Recorded.start ~tolerance:0 options) p.lines in
+  let environment, (_, outside) = start p options.environment options.program in
+  let seen = List.map (fun (s : World.vehicle_state) -> (s.id, s.position)) (known p) in
+  let date = milliseconds (Replay.time p.past.replay) in
+  let options, state = Recorded.onwards recorded ~outside ~date ~seen in
+  ({ options with environment }, { Timing.state; date })
 
 (* {1 Texts} *)
 

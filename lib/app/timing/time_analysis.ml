@@ -22,10 +22,14 @@ let options s (program : Program_file.t) (fleet : Fleet_file.t) : Dolphin_time.T
     durations = Dolphin_time.Durations.of_scenario fleet.scenario;
     dates = Dolphin_semantics.Dated_code.named program.program }
 
-let run ~interrupted ~progress s program fleet =
+let run ?from ~interrupted ~progress s program fleet =
   let { Fleet_file.scenario; _ } = fleet in
-  let limits = limits ~interrupted ~progress s in
-  Timing.run ?deadline:s.deadline ~vehicles:scenario.vehicles limits (options s program fleet)
+  let limits = limits ~interrupted ~progress s and options = options s program fleet in
+  match from with
+  | None -> Timing.run ?deadline:s.deadline ~vehicles:scenario.vehicles limits options
+  | Some present ->
+    let options, start = Present.timed present { options with world = Present.world present scenario } in
+    Timing.run ~start ?deadline:s.deadline limits options
 
 let slacks ~interrupted ~progress s program fleet =
   Timing.slacks ~workers:s.workers (limits ~interrupted ~progress s) (options s program fleet)

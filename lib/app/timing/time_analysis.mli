@@ -14,9 +14,10 @@ type settings = {
 }
 
 val run :
-  interrupted:(unit -> bool) -> progress:(Dolphin_checker.Limits.progress -> unit) -> settings -> Program_file.t ->
-  Fleet_file.t -> Timing.outcome
-(** [interrupted] and [progress] are as in {!Dolphin_checker.Limits}. *)
+  ?from:Present.t -> interrupted:(unit -> bool) -> progress:(Dolphin_checker.Limits.progress -> unit) -> settings ->
+  Program_file.t -> Fleet_file.t -> Timing.outcome
+(** How a program's runs may go, by default from the beginning, or from the present [from] of one. [interrupted] and
+    [progress] are as in {!Dolphin_checker.Limits}. *)
 
 val slacks :
   interrupted:(unit -> bool) -> progress:(Dolphin_checker.Limits.progress -> unit) -> settings -> Program_file.t ->

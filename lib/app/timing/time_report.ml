@@ -223,7 +223,8 @@ let print_slacks (s : Timing.slacks) =
   let print bound = say "slack: inconclusive: %s" (bound_text bound) in
   Option.iter print s.cut_short
 
-let print ?deadline ?slacks p (o : Timing.outcome) =
+let print ?from ?deadline ?slacks p (o : Timing.outcome) =
+  Option.iter (Format.printf "%a@." Present.pp) from;
   (match o.stopped with
    | Some bound -> say "inconclusive: %s; times are of the runs until then" (bound_text bound)
    | None -> ());
@@ -275,7 +276,7 @@ let json_of_apart p (a : Timing.apart) : Yojson.Safe.t =
        ("pairs", Beside_report.json p a.pairs) ]
      @ Option.to_list (Option.map bound a.cut_short))
 
-let to_json ?deadline ?slacks p (o : Timing.outcome) : Yojson.Safe.t =
+let to_json ?from ?deadline ?slacks p (o : Timing.outcome) : Yojson.Safe.t =
   let { Timing.known; cut_short } = Option.value slacks ~default:{ Timing.known = []; cut_short = None } in
   let task ((t : Timing.task), windows) =
     let window m = Option.map (fun w -> (Timed_system.moment_name m, json_of_window w)) (List.assoc_opt m windows) in
@@ -318,4 +319,5 @@ let to_json ?deadline ?slacks p (o : Timing.outcome) : Yojson.Safe.t =
      @ optional "endless" endless o.endless
      @ optional "shown" json_of_shown (shown o)
      @ optional "bound" bound o.stopped @ optional "slackBound" bound cut_short
+     @ optional "from" Present.to_json from
      @ [ ("states", `Int o.states); ("depth", `Int o.depth); ("seconds", `Float o.seconds); ("bytes", `Int o.bytes) ])

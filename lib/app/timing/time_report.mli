@@ -2,10 +2,10 @@
 
 module Timing = Dolphin_time.Timing
 
-val print : ?deadline:int -> ?slacks:Timing.slacks -> Program_file.t -> Timing.outcome -> unit
-(** For people: when runs are over and when tasks start and end, with their slacks if asked for, the charge left in
-    batteries, the run that ends last, breaks the [deadline] or empties a battery, in columns with times, the
-    durations that determine its end, and the unknown ones. *)
+val print : ?from:Present.t -> ?deadline:int -> ?slacks:Timing.slacks -> Program_file.t -> Timing.outcome -> unit
+(** For people: the present [from] that runs go on from, when runs are over and when tasks start and end, with their
+    slacks if asked for, the charge left in batteries, the run that ends last, breaks the [deadline] or empties a
+    battery, in columns with times, the durations that determine its end, and the unknown ones. *)
 
 val print_run : ?deadline:int -> Program_file.t -> Timing.outcome -> unit
 (** Only the run, after a blank line and its title. *)
@@ -29,5 +29,6 @@ val write_shown :
 (** [write_shown ~deadline program fleet path o] writes the run that {!print} shows, if there is one, into the file
     [path], as {!Witness_file} does. *)
 
-val to_json : ?deadline:int -> ?slacks:Timing.slacks -> Program_file.t -> Timing.outcome -> Yojson.Safe.t
+val to_json :
+  ?from:Present.t -> ?deadline:int -> ?slacks:Timing.slacks -> Program_file.t -> Timing.outcome -> Yojson.Safe.t
 (** The same for programs; times in seconds. *)

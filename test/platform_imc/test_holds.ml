@@ -167,8 +167,8 @@ let slept =
       Alcotest.(check int) "nothing was started" 0 (List.length sleeper.started);
       Alcotest.(check (list string)) "why" [ held_by_other ] sleeper.failures)
 
-(* What is drawn of a console that holds the vehicle, sleeps, and has its program start a plan afterwards, or of one that
-   resumes a run that held it: beside another one, which waits for the vehicle. *)
+(* A drawn console, beside another one that waits for the vehicle: it holds the vehicle, sleeps, and has its program
+   start a plan afterwards, or it resumes a run that held the vehicle. *)
 type absence = {
   latency : float;
   jitters : float * float;

@@ -112,10 +112,43 @@ let wrong_paths folders page =
   in
   List.filteri (fun i quoted -> i mod 2 = 1 && is_wrong quoted) (String.split_on_char '`' page)
 
-let print page all =
+(* {1 Numbers of lines}
+
+   A row of the table of files is [| number | what | `files` | lines |]; a file without a folder is in that of the file
+   before it. *)
+
+let quoted text = List.filteri (fun i _ -> i mod 2 = 1) (String.split_on_char '`' text)
+
+let files text =
+  let add (folder, found) name =
+    let path = if String.contains name '/' then name else folder ^ "/" ^ name in
+    (Filename.dirname path, path :: found)
+  in
+  List.rev (snd (List.fold_left add (".", []) (quoted text)))
+
+let lines root path =
+  List.length (String.split_on_char '\n' (read (Filename.concat root path))) - 1
+
+(* A number stays until it is more than a sixth off. *)
+let up_to_date shown counted = if 6 * abs (shown - counted) <= counted then shown else (counted + 5) / 10 * 10
+
+let row root line =
+  match String.split_on_char '|' line with
+  | [ ""; number; what; names; shown; "" ] -> (
+      match int_of_string_opt (String.trim number), int_of_string_opt (String.trim shown) with
+      | Some _, Some shown ->
+        let counted = List.fold_left (fun n path -> n + lines root path) 0 (files names) in
+        String.concat "|" [ ""; number; what; names; Printf.sprintf " %d " (up_to_date shown counted); "" ]
+      | _, _ -> line)
+  | _ -> line
+
+let with_lines root page = String.concat "\n" (List.map (row root) (String.split_on_char '\n' page))
+
+let print page root all =
   let opening = "<!-- drawing -->\n" and ending = "<!-- end of drawing -->" in
   let start = find page opening + String.length opening and stop = find page ending in
-  print_string (String.sub page 0 start ^ draw all ^ String.sub page stop (String.length page - stop))
+  let drawn = String.sub page 0 start ^ draw all ^ String.sub page stop (String.length page - stop) in
+  print_string (with_lines root drawn)
 
 let check page folders all =
   let missing = List.filter (fun c -> not (has page ("| `" ^ c.folder ^ "` |"))) all in
@@ -129,5 +162,5 @@ let () =
   | _ :: command :: page :: folders ->
     let page = read page in
     let all = List.concat_map (fun folder -> components ~shown:(Filename.basename folder) folder) folders in
-    if command = "check" then check page folders all else print page all
+    if command = "check" then check page folders all else print page (Filename.dirname (List.hd folders)) all
   | _ -> failwith "usage: drawing.exe (print | check) PAGE FOLDER ..."

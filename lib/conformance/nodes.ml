@@ -13,11 +13,7 @@ and add nodes (e : expression) =
   Hashtbl.replace nodes.expressions e.site e;
   match e.node with
   | Constant (Closure { lambda; _ }) | Make_closure (lambda, _) -> add_lambda nodes lambda
-  | Constant _ | Local _ | Global _ | Break | Continue -> ()
-  | Set_local (_, e) | Set_global (_, e) | Return e -> add nodes e
-  | Apply (_, es) | Block es -> List.iter (add nodes) es
-  | If (test, yes, no) -> List.iter (add nodes) [ test; yes; no ]
-  | While (test, body) | For (_, test, body) -> List.iter (add nodes) [ test; body ]
+  | _ -> List.iter (add nodes) (Code_walk.parts e)
 
 let of_program (program : program) =
   let nodes = { expressions = Hashtbl.create 256; lambdas = Hashtbl.create 32 } in

@@ -2,15 +2,10 @@ open Dolphin_semantics
 open Dolphin_syntax
 
 let rec in_expression found (e : Core.expression) =
-  let all = List.fold_left in_expression in
   match e.node with
   | Apply (Builtin Platform_task, [ { node = Constant (String name); site } ]) -> (name, site) :: found
-  | Apply (_, es) | Block es -> all found es
   | Make_closure (lambda, _) -> in_expression found lambda.code
-  | If (a, b, c) -> all found [ a; b; c ]
-  | While (a, b) | For (_, a, b) -> all found [ a; b ]
-  | Set_local (_, a) | Set_global (_, a) | Return a -> in_expression found a
-  | Constant _ | Local _ | Global _ | Break | Continue -> found
+  | _ -> List.fold_left in_expression found (Code_walk.parts e)
 
 let of_program (p : Core.program) =
   let codes = List.map (fun (piece : Core.lambda) -> piece.code) (Code_walk.pieces p) in

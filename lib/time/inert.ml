@@ -23,9 +23,7 @@ let components : Residual.t -> Residual.t list = function Parallel rs -> rs | r 
 let only_ends : Residual.t -> Timed.item option = function
   | Running (_, v) -> Some (Task v)
   | Idle { timer; _ } -> Some (Timer timer)
-  | Ready _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _ | Confirm _ | During _
-  | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ | Recruit _ | Recruited _ | Fresh _ ->
-    None
+  | _ -> None
 
 let certainly_succeeds i v (p : Core.platform_task) = not (Environment.may_fail i.options.environment v p.name)
 

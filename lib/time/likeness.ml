@@ -212,25 +212,15 @@ let form ~color ~colored { likeness; execution; parts = { tree; awaited; placed;
 
 (* {1 Automorphisms} *)
 
-let closures r =
-  let of_branch (b : Residual.branch) = (false, b.guard) in
-  let add found : Residual.t -> _ = function
-    | Action c | Condition c | Until (_, c, _) | During { duration = Given_by c; _ } -> (false, c) :: found
-    | Watch (_, { code; _ }) -> (true, code) :: found
-    | All_of (_, bs) | One_of bs -> List.map of_branch bs @ found
-    | Repeat { again = { until = Some c; _ }; _ } | Made { code = c; _ } | Recruit { code = c; _ } ->
-      (false, c) :: found
-    | Ready _ | Running _ | Sequence _ | Parallel _ | Idle _ | Confirm _ | During _ | Repeat _ | Unallocated _ | Hold _
-    | Recruited _ | Fresh _ -> found
-  in
-  Residual.fold_all add [] r
+let closures =
+  Residual.fold_leaves (fun found -> function
+      | Code c | Maker c -> (false, c) :: found
+      | Handler c -> (true, c) :: found
+      | Plan _ | Given _ | Term _ | Held _ | Timer _ -> found) []
 
 let labels r =
-  let add found : Residual.t -> _ = function
-    | Ready (p, v) | Running (p, v) -> label_of v p :: found
-    | _ -> found
-  in
-  List.sort_uniq Stdlib.compare (Residual.fold_all add [] r)
+  let add found : Residual.leaf -> _ = function Plan (p, v) -> label_of v p :: found | _ -> found in
+  List.sort_uniq Stdlib.compare (Residual.fold_leaves add [] r)
 
 (* The numbers of classes of [xs] with the same [key], each that of its first member, and the members. *)
 let classes key xs =

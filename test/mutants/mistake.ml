@@ -933,8 +933,8 @@ let unknown =
     ]
   @ in_file "lib/semantics/rules/residual.ml" ~noticed_by:"semantics/test_rules"
     [ ("what was given to a task is not held", 
-       {|  | Hold (vs, _) -> List.fold_left (fun found v -> Vehicle_set.add v found) found vs|},
-       {|  | Hold (_, _) -> found|} ) ]
+       {|  | Hold (vs, a) -> begun (each leaf (fun v -> Held v) vs acc) a|},
+       {|  | Hold (_, a) -> begun acc a|} ) ]
   @ in_file "lib/explore/steps/expansion.ml" ~noticed_by:"explore/test_agreement"
     [ ("what stands beside a step holds nothing", {|if child == place then [] else standing x child|},
        {|if child == place then [] else (ignore (standing x child); [])|}) ]

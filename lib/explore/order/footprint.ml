@@ -394,15 +394,7 @@ and branches_composed looked lambda slot =
   for_all added lambda.code
 
 (* Whether [p] holds of all expressions of one piece of code. *)
-and for_all p e =
-  p e
-  &&
-  match e.node with
-  | Constant _ | Local _ | Global _ | Make_closure _ | Break | Continue -> true
-  | Set_local (_, e) | Set_global (_, e) | Return e -> for_all p e
-  | Apply (_, es) | Block es -> List.for_all (for_all p) es
-  | If (a, b, c) -> List.for_all (for_all p) [ a; b; c ]
-  | While (a, b) | For (_, a, b) -> for_all p a && for_all p b
+and for_all p e = p e && List.for_all (for_all p) (Code_walk.parts e)
 
 (* Code that is seen may be that of a task that fails, or that the outside remembers. *)
 let of_maker code c =

@@ -232,8 +232,7 @@ let rec is_settled c (r : Residual.t) =
   | Confirm { prompt; _ } -> List.mem (Ok true) (Environment.confirmations c.options prompt)
   | Sequence (r, rest) -> List.for_all (is_settled c) (r :: rest)
   | Parallel rs -> List.for_all (is_settled c) rs
-  | Condition _ | All_of _ | One_of _ | Until _ | During _ | Watch _ | Repeat _ | Made _ | Unallocated _
-  | Hold _ | Recruit _ | Recruited _ | Fresh _ -> false
+  | _ -> false
 
 let only_takes (f : Footprint.t) =
   Footprint.(Pairs.is_empty f.posts && Pairs.is_empty f.tests && Globals.is_empty f.writes && not f.anything)
@@ -263,8 +262,7 @@ let rec first_branches c around (r : Residual.t) =
   | Watch (r, handler) when not ((of_handler c handler).ignores && (future c r).breaks) ->
     first_branches c (union around (of_handler c handler)) r
   | All_of (None, bs) -> branches_first c around bs
-  | Parallel _ | Ready _ | Running _ | Action _ | Condition _ | One_of _ | Until _ | Idle _ | Confirm _
-  | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ | Recruit _ | Recruited _ | Fresh _ -> []
+  | _ -> []
 
 (* {1 Components} *)
 

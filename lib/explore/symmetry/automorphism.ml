@@ -63,14 +63,13 @@ let subtasks context r =
   let of_branch b = subtask (Residual.One_of [ b ]) in
   let rec lists (r : Residual.t) =
     match r with
-    | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ | Repeat _ | Made _ | Unallocated _
-    | Recruit _ -> []
-    | Sequence (a, rest) -> List.concat_map lists (a :: rest)
-    | Parallel rs -> List.map subtask rs :: List.concat_map lists rs
-    | All_of (a, bs) -> (List.map of_branch bs :: List.concat_map lists (Option.to_list a)) @ bodies bs
-    | One_of bs -> List.map of_branch bs :: bodies bs
-    | Until (_, _, a) | Watch (a, _) | Hold (_, a) | Recruited (_, a) | Fresh (_, a) | During { body = a; _ } -> lists a
-  and bodies bs = List.concat_map (fun (b : Residual.branch) -> lists b.body) bs in
+    | Repeat _ -> []
+    | r -> beside r @ List.concat_map lists (Residual.parts r)
+  and beside = function
+    | Parallel rs -> [ List.map subtask rs ]
+    | All_of (_, bs) | One_of bs -> [ List.map of_branch bs ]
+    | _ -> []
+  in
   lists r
 
 let by_key subtasks =

@@ -250,18 +250,11 @@ let check_all_plans r =
   let plans = r.options.plans in
   List.iter (check_plan r) (String.concat "" ("other" :: plans) :: plans)
 
-let rec check_plans r (t : Residual.t) =
-  let branches = List.iter (fun (b : Residual.branch) -> check_plans r b.body) in
-  match t with
-  | Ready (p, _) | Running (p, _) -> check_plan r p.name
-  | Action _ | Condition _ | Idle _ | Confirm _ -> ()
-  | Sequence (a, rest) -> List.iter (check_plans r) (a :: rest)
-  | Parallel rs -> List.iter (check_plans r) rs
-  | All_of (a, bs) -> Option.iter (check_plans r) a; branches bs
-  | One_of bs -> branches bs
-  | Until (_, _, a) | During { body = a; _ } | Watch (a, { anew = None; _ }) | Hold (_, a) | Recruited (_, a)
-  | Fresh (_, a) | Repeat { again = { each = a; _ }; _ } -> check_plans r a
-  | Made _ | Unallocated _ | Recruit _ | Watch (_, { anew = Some _; _ }) -> check_all_plans r
+let check_plans r =
+  Residual.fold_leaves (fun () -> function
+      | Plan (p, _) -> check_plan r p.name
+      | Maker _ | Term _ -> check_all_plans r
+      | Code _ | Handler _ | Given _ | Held _ | Timer _ -> ()) ()
 
 let choices r outside (c : Configuration.t) =
   let alike =

@@ -33,95 +33,17 @@ and setting r s =
 
 and closure r c = if Array.length c.captured = 0 then c else { c with captured = Array.map (value_by r) c.captured }
 
-and duration r = function Seconds s -> Seconds s | Given_by c -> Given_by (closure r c)
-
 and task r t =
   enter r;
-  match t with
-  | Platform _ | Idle _ | Confirm _ -> t
-  | Action c -> Action (closure r c)
-  | Condition c -> Condition (closure r c)
-  | Sequence (a, b) ->
-    let a = task r a in
-    Sequence (a, task r b)
-  | Parallel (a, b) ->
-    let a = task r a in
-    Parallel (a, task r b)
-  | Allocated (a, vs) ->
-    let vs = List.map r.f vs in
-    Allocated (task r a, vs)
-  | All_of bs -> All_of (List.map (branch r) bs)
-  | One_of bs -> One_of (List.map (branch r) bs)
-  | Until (on_cut, c, a) ->
-    let c = closure r c in
-    Until (on_cut, c, task r a)
-  | During (on_cut, d, a) ->
-    let d = duration r d in
-    During (on_cut, d, task r a)
-  | Watch (a, c) ->
-    let a = task r a in
-    Watch (a, closure r c)
-  | Repeat x ->
-    let until = Option.map (closure r) x.until in
-    Repeat { x with until; body = task r x.body }
-  | Made c -> Made (closure r c)
-  | Fresh c -> Fresh (closure r c)
-  | Recruit x -> Recruit { x with code = closure r x.code }
+  Task.map { part = task r; code = closure r; vehicle = r.f } t
 
-and branch r b =
-  let guard = closure r b.guard in
-  { guard; body = task r b.body }
-
-let rec residual_by r (t : Residual.t) : Residual.t =
-  let go = residual_by r in
-  match t with
-  | Ready (p, v) -> Ready (p, r.f v)
-  | Running (p, v) -> Running (p, r.f v)
-  | Action c -> Action (closure r c)
-  | Condition c -> Condition (closure r c)
-  | Sequence (a, rest) ->
-    let a = go a in
-    Sequence (a, List.map go rest)
-  | Parallel rs -> Parallel (List.map go rs)
-  | All_of (a, bs) ->
-    let a = Option.map go a in
-    All_of (a, List.map (residual_branch r) bs)
-  | One_of bs -> One_of (List.map (residual_branch r) bs)
-  | Until (on_cut, c, a) ->
-    let c = closure r c in
-    Until (on_cut, c, go a)
-  | Idle _ | Confirm _ -> t
-  | During d ->
-    let duration = duration r d.duration in
-    During { d with duration; body = go d.body }
-  | Watch (a, h) ->
-    let a = go a in
-    let code = closure r h.code in
-    Watch (a, { code; anew = Option.map (fun (t, q) -> (task r t, made r q)) h.anew })
-  | Repeat { round; again } ->
-    let until = Option.map (closure r) again.until in
-    let round = Option.map go round in
-    Repeat { round; again = { again with until; each = go again.each } }
-  | Made { code; given; request = q } ->
-    let code = closure r code in
-    Made { code; given = List.map (value_by r) given; request = made r q }
-  | Unallocated { task = t; request = q } ->
-    let t = task r t in
-    Unallocated { task = t; request = made r q }
-  | Hold (vs, a) ->
-    let vs = List.map r.f vs in
-    Hold (vs, go a)
-  | Recruit x -> Recruit { x with code = closure r x.code }
-  | Recruited (v, a) ->
-    let v = r.f v in
-    Recruited (v, go a)
-  | Fresh (ns, a) -> Fresh (ns, go a)
-
-and made r (q : Residual.request) = { q with allowed = Option.map (List.map r.f) q.allowed }
-
-and residual_branch r (b : Residual.branch) : Residual.branch =
-  let guard = closure r b.guard in
-  { guard; body = residual_by r b.body }
+let residual_by r t =
+  let code = closure r in
+  let rec part t = Residual.map mapper t
+  and mapper =
+    { Residual.part; code; handler = code; maker = code; value = value_by r; term = task r; vehicle = r.f }
+  in
+  part t
 
 let items r : Machine.items -> Machine.items = function
   | Items (xs, i) -> Items (Array.map (value_by r) xs, i)

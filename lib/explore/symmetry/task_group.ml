@@ -160,27 +160,15 @@ let image_of_closure g p ~handler c =
   | Some c -> c
   | None -> invalid_arg "Task_group.image_of_closure: an automorphism leads out of the task"
 
-let rec image_of_residual g p (r : Residual.t) : Residual.t =
-  let go = image_of_residual g p and code = image_of_closure g p ~handler:false in
-  let branch (b : Residual.branch) : Residual.branch = { guard = code b.guard; body = go b.body } in
-  match r with
-  | Ready _ | Running _ | Idle _ | Confirm _ -> r
-  | Action c -> Action (code c)
-  | Condition c -> Condition (code c)
-  | Sequence (a, rest) -> Sequence (go a, List.map go rest)
-  | Parallel rs -> Parallel (List.map go rs)
-  | All_of (a, bs) -> All_of (Option.map go a, List.map branch bs)
-  | One_of bs -> One_of (List.map branch bs)
-  | Until (on_cut, c, a) -> Until (on_cut, code c, go a)
-  | During ({ duration = Given_by c; _ } as d) -> During { d with duration = Given_by (code c); body = go d.body }
-  | During ({ duration = Seconds _; _ } as d) -> During { d with body = go d.body }
-  | Fresh (ns, a) -> Fresh (ns, go a)
-  | Watch (a, { code; anew = None }) -> Watch (go a, { code = image_of_closure g p ~handler:true code; anew = None })
-  | Repeat { round; again } ->
-    let again = { again with until = Option.map code again.until; each = go again.each } in
-    Repeat { round = Option.map go round; again }
-  | Watch (_, { anew = Some _; _ }) | Made _ | Unallocated _ | Hold _ | Recruit _ | Recruited _ ->
-    invalid_arg "Task_group: a task in which tasks are made has no group"
+let image_of_residual g p r =
+  let code = image_of_closure g p in
+  let without _ = invalid_arg "Task_group: a task in which tasks are made has no group" in
+  let rec part r = Residual.map mapper r
+  and mapper =
+    { Residual.part; code = code ~handler:false; handler = code ~handler:true; maker = without; value = without;
+      term = without; vehicle = Fun.id }
+  in
+  part r
 
 (* The image of [x], which has no blocks but [blocks]; memoised. *)
 let image known x blocks (p : permutation) find =

@@ -15,25 +15,15 @@ type leaf = Of_task of platform_task | Of_code of bool * closure
 
 let rec fold f acc (r : Residual.t) =
   match r with
-  | Ready (p, _) | Running (p, _) -> f acc (Of_task p)
-  | Action c | Condition c -> f acc (Of_code (false, c))
-  | Sequence (a, rest) -> List.fold_left (fold f) (fold f acc a) rest
-  | Parallel rs -> List.fold_left (fold f) acc rs
-  | All_of (a, bs) -> List.fold_left (fold_branch f) (Option.fold ~none:acc ~some:(fold f acc) a) bs
-  | One_of bs -> List.fold_left (fold_branch f) acc bs
-  | Until (_, c, a) -> fold f (f acc (Of_code (false, c))) a
-  | Idle _ | Confirm _ -> acc
-  | During { duration = Seconds _; body; _ } -> fold f acc body
-  | During { duration = Given_by c; body; _ } -> fold f (f acc (Of_code (false, c))) body
-  | Watch (a, h) -> fold f (f acc (Of_code (true, h.code))) a
-  | Repeat { again = { until; each; _ }; _ } ->
-    (* What is left of the round that runs is in [each]. *)
-    fold f (Option.fold until ~none:acc ~some:(fun c -> f acc (Of_code (false, c)))) each
-  | Made { code; _ } | Recruit { code; _ } -> f acc (Of_code (false, code))
-  | Unallocated _ -> acc
-  | Hold (_, a) | Recruited (_, a) | Fresh (_, a) -> fold f acc a
+  (* What is left of the round that runs is in [each]. *)
+  | Repeat { round = Some _; again } -> fold f acc (Repeat { round = None; again })
+  | r -> Residual.fold ~begun:(fold f) ~later:(fold f) ~leaf:(fold_leaf f) acc r
 
-and fold_branch f acc (b : Residual.branch) = fold f (f acc (Of_code (false, b.guard))) b.body
+and fold_leaf f acc : Residual.leaf -> _ = function
+  | Plan (p, _) -> f acc (Of_task p)
+  | Code c | Maker c -> f acc (Of_code (false, c))
+  | Handler c -> f acc (Of_code (true, c))
+  | Given _ | Term _ | Held _ | Timer _ -> acc
 
 let label = function Of_task p -> Task p.task_site | Of_code (_, c) -> Code c.lambda.id
 let collected f r = List.rev (fold (fun found leaf -> List.rev_append (f leaf) found) [] r)
@@ -163,10 +153,7 @@ let matched context ~rename r r' =
       both (same_code ~handler:false) again.until again'.until;
       both go round round';
       go again.each again'.each
-    | ( ( Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _
-        | Idle _ | Confirm _ | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ | Recruit _
-        | Recruited _ | Fresh _ ),
-        _ ) -> raise_notrace Different
+    | _, _ -> raise_notrace Different
   and branch (b : Residual.branch) (b' : Residual.branch) =
     same_code ~handler:false b.guard b'.guard;
     go b.body b'.body

@@ -64,14 +64,8 @@ let rec replace ask (e : Ast.expression) : Ast.expression =
   { e with it }
 
 let rec globals (e : Core.expression) =
-  match e.node with
-  | Global i -> [ i ]
-  | Set_global (i, e) -> i :: globals e
-  | Constant _ | Local _ | Make_closure _ | Break | Continue -> []
-  | Set_local (_, e) | Return e -> globals e
-  | Apply (_, es) | Block es -> List.concat_map globals es
-  | If (a, b, c) -> List.concat_map globals [ a; b; c ]
-  | While (a, b) | For (_, a, b) -> globals a @ globals b
+  let own = match e.node with Global i | Set_global (i, _) -> [ i ] | _ -> [] in
+  own @ List.concat_map globals (Code_walk.parts e)
 
 let first_message : Dolphin_syntax.Diagnostic.t list -> string = function
   | d :: _ -> d.message

@@ -62,11 +62,6 @@ let unreached t program =
     let all = List.iter (expression ~script) in
     match e.node with
     | Constant (Task (Platform p)) -> at_site p.task_site "task"
-    | Constant _ | Local _ | Global _ | Break | Continue -> ()
-    | Set_local (_, e) | Set_global (_, e) | Return e -> expression ~script e
-    | If (a, b, c) -> all [ a; b; c ]
-    | Block es -> all es
-    | While (a, b) | For (_, a, b) -> all [ a; b ]
     | Make_closure (lambda, _) -> code lambda
     | Apply (operation, arguments) ->
       let code_for what argument =
@@ -84,6 +79,7 @@ let unreached t program =
        | (Build (Pick, _) | Pick_if_any) when script -> at_site e.site "pick"
        | _ -> ());
       all arguments
+    | _ -> all (Code_walk.parts e)
   and code lambda =
     if not (Sites.mem lambda.id !walked) then begin
       walked := Sites.add lambda.id !walked;

@@ -237,25 +237,13 @@ let is_too_large t =
       if count > most_parts || depth > deepest then true
       else
         let down ts = from (count + 1) (List.rev_append (List.rev_map (fun t -> (depth + 1, t)) ts) rest) in
-        (match t with
-         | Platform _ | Action _ | Condition _ | Idle _ | Confirm _ | Made _ | Recruit _ | Fresh _ ->
-           from (count + 1) rest
-         | Sequence (a, b) | Parallel (a, b) -> down [ a; b ]
-         | Allocated (a, _) | Until (_, _, a) | During (_, _, a) | Watch (a, _) | Repeat { body = a; _ } -> down [ a ]
-         | All_of bs | One_of bs -> down (List.map (fun (b : Core.branch) -> b.body) bs))
+        down (Task.parts t)
   in
   from 0 [ (0, t) ]
 
 (* The code of each [fresh] in [t], from left to right; the other tasks that it gives are not seen. *)
 let fresh t =
-  let rec add t rest =
-    match t with
-    | Fresh code -> code :: rest
-    | Platform _ | Action _ | Condition _ | Idle _ | Confirm _ | Made _ | Recruit _ -> rest
-    | Sequence (a, b) | Parallel (a, b) -> add a (add b rest)
-    | Allocated (a, _) | Until (_, _, a) | During (_, _, a) | Watch (a, _) | Repeat { body = a; _ } -> add a rest
-    | All_of bs | One_of bs -> List.fold_right (fun (b : Core.branch) rest -> add b.body rest) bs rest
-  in
+  let rec add t rest = match t with Fresh code -> code :: rest | t -> List.fold_right add (Task.parts t) rest in
   if is_too_large t then [] else add t []
 
 type opened = { tasks : (Residual.timer list * task) list; numbers : Residual.timer Seq.t }

@@ -84,18 +84,15 @@ let pp program ppf c =
   Format.fprintf ppf "; %a" (Shared.pp program) c.shared
 
 (* Whether no vehicle is named twice in parallel parts. *)
-let rec are_apart r =
-  match (r : Residual.t) with
-  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ | Made _ | Unallocated _ | Recruit _ -> true
-  | Parallel rs ->
-    let names = List.concat_map Residual.named rs in
-    List.length (List.sort_uniq String.compare names) = List.length names && List.for_all are_apart rs
-  | Sequence (a, rest) -> List.for_all are_apart (a :: rest)
-  | All_of (a, bs) -> List.for_all are_apart (Option.to_list a) && are_apart (One_of bs)
-  | One_of bs -> List.for_all (fun (b : Residual.branch) -> are_apart b.body) bs
-  | Until (_, _, a) | Watch (a, _) | Hold (_, a) | Recruited (_, a) | Fresh (_, a) | During { body = a; _ } ->
-    are_apart a
-  | Repeat { round; again } -> List.for_all are_apart (again.each :: Option.to_list round)
+let rec are_apart (r : Residual.t) =
+  let apart_here =
+    match r with
+    | Parallel rs ->
+      let names = List.concat_map Residual.named rs in
+      List.length (List.sort_uniq String.compare names) = List.length names
+    | _ -> true
+  in
+  apart_here && List.for_all are_apart (Residual.parts r)
 
 let is_apart c = match c.control with Executing (_, r) -> are_apart r | Script _ | Waiting _ | Ended _ -> true
 

@@ -43,11 +43,7 @@ let may_give lambda =
   and returns e =
     match e.node with
     | Return e -> value e
-    | Constant _ | Local _ | Global _ | Break | Continue | Make_closure _ -> false
-    | Set_local (_, e) | Set_global (_, e) -> returns e
-    | Apply (_, es) | Block es -> List.exists returns es
-    | If (a, b, c) -> List.exists returns [ a; b; c ]
-    | While (a, b) | For (_, a, b) -> returns a || returns b
+    | _ -> List.exists returns (Code_walk.parts e)
   in
   of_lambda lambda
 

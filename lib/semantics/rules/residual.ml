@@ -197,14 +197,144 @@ let rec pp ppf r =
 
 and pp_branch ppf b = Format.fprintf ppf "when { %s } then %a" b.guard.lambda.label pp b.body
 
+(* {1 The view of a residual}
+
+   [fold] and [map] list the constructors with the same parts; [test_parts] compares the two. *)
+
+type leaf =
+  | Plan of platform_task * vehicle
+  | Code of closure
+  | Handler of closure
+  | Maker of closure
+  | Given of value
+  | Term of task
+  | Held of vehicle
+  | Timer of timer
+
+let each f leaf xs acc = List.fold_left (fun acc x -> f acc (leaf x)) acc xs
+let optional f x acc = match x with Some x -> f acc x | None -> acc
+
+let fold_branches ~later ~leaf acc bs =
+  List.fold_left (fun acc (b : branch) -> later (leaf acc (Code b.guard)) b.body) acc bs
+
+let fold ~begun ~later ~leaf acc r =
+  match r with
+  | Ready (p, v) | Running (p, v) -> leaf acc (Plan (p, v))
+  | Action c | Condition c -> leaf acc (Code c)
+  | Sequence (a, rest) -> List.fold_left later (begun acc a) rest
+  | Parallel rs -> List.fold_left begun acc rs
+  | All_of (None, bs) | One_of bs -> fold_branches ~later ~leaf acc bs
+  | All_of (Some a, bs) -> fold_branches ~later ~leaf (begun acc a) bs
+  | Until (_, c, a) -> begun (leaf acc (Code c)) a
+  | Idle { timer; _ } | Confirm { question = timer; _ } -> leaf acc (Timer timer)
+  | During { timer; duration; started; body; _ } ->
+    let acc = leaf acc (Timer timer) in
+    let acc = match duration with Seconds _ -> acc | Given_by c -> leaf acc (Code c) in
+    if started then begun acc body else later acc body
+  | Watch (a, { code; anew = None }) -> leaf (begun acc a) (Handler code)
+  | Watch (a, { code; anew = Some (t, _) }) -> leaf (leaf (begun acc a) (Handler code)) (Term t)
+  | Repeat { round; again = { until; each; _ } } ->
+    let acc = match until with None -> acc | Some c -> leaf acc (Code c) in
+    later (optional begun round acc) each
+  | Made { code; given; _ } -> leaf acc (Maker code) |> each leaf (fun x -> Given x) given
+  | Unallocated { task; _ } -> leaf acc (Term task)
+  | Hold (vs, a) -> begun (each leaf (fun v -> Held v) vs acc) a
+  | Recruit { number; code; _ } -> leaf (leaf acc (Timer number)) (Maker code)
+  | Recruited (v, a) -> begun (leaf acc (Held v)) a
+  | Fresh (ns, a) -> begun (each leaf (fun n -> Timer n) ns acc) a
+
+type mapper = {
+  part : t -> t;
+  code : closure -> closure;
+  handler : closure -> closure;
+  maker : closure -> closure;
+  value : value -> value;
+  term : task -> task;
+  vehicle : vehicle -> vehicle;
+}
+
+(* From left to right: a function may number what it meets. *)
+let map m r =
+  let request q = { q with allowed = Option.map (List.map m.vehicle) q.allowed } in
+  let branch b =
+    let guard = m.code b.guard in
+    { guard; body = m.part b.body }
+  in
+  match r with
+  | Ready (p, v) -> Ready (p, m.vehicle v)
+  | Running (p, v) -> Running (p, m.vehicle v)
+  | Action c -> Action (m.code c)
+  | Condition c -> Condition (m.code c)
+  | Sequence (a, rest) ->
+    let a = m.part a in
+    Sequence (a, List.map m.part rest)
+  | Parallel rs -> Parallel (List.map m.part rs)
+  | All_of (a, bs) ->
+    let a = Option.map m.part a in
+    All_of (a, List.map branch bs)
+  | One_of bs -> One_of (List.map branch bs)
+  | Until (on_cut, c, a) ->
+    let c = m.code c in
+    Until (on_cut, c, m.part a)
+  | Idle _ | Confirm _ -> r
+  | During d ->
+    let duration = match d.duration with Seconds s -> Seconds s | Given_by c -> Given_by (m.code c) in
+    During { d with duration; body = m.part d.body }
+  | Watch (a, h) ->
+    let a = m.part a in
+    let code = m.handler h.code in
+    let renewed (t, q) =
+      let t = m.term t in
+      (t, request q)
+    in
+    Watch (a, { code; anew = Option.map renewed h.anew })
+  | Repeat { round; again } ->
+    let until = Option.map m.code again.until in
+    let round = Option.map m.part round in
+    Repeat { round; again = { again with until; each = m.part again.each } }
+  | Made { code; given; request = q } ->
+    let code = m.maker code in
+    let given = List.map m.value given in
+    Made { code; given; request = request q }
+  | Unallocated { task; request = q } ->
+    let task = m.term task in
+    Unallocated { task; request = request q }
+  | Hold (vs, a) ->
+    let vs = List.map m.vehicle vs in
+    Hold (vs, m.part a)
+  | Recruit x -> Recruit { x with code = m.maker x.code }
+  | Recruited (v, a) ->
+    let v = m.vehicle v in
+    Recruited (v, m.part a)
+  | Fresh (ns, a) -> Fresh (ns, m.part a)
+
+let no_leaf acc (_ : leaf) = acc
+
+let parts r =
+  let add found r = r :: found in
+  List.rev (fold ~begun:add ~later:add ~leaf:no_leaf [] r)
+
+let fold_leaves f =
+  let rec part acc r = fold ~begun:part ~later:part ~leaf:f acc r in
+  part
+
+let fold_all f =
+  let rec part acc r = fold ~begun:part ~later:part ~leaf:no_leaf (f acc r) r in
+  part
+
+let fold_active f =
+  let later acc _ = acc in
+  let rec begun acc r = fold ~begun ~later ~leaf:no_leaf (f acc r) r in
+  begun
+
 (* {1 Normal forms} *)
 
-let parts = function Sequence (a, rest) -> a :: rest | r -> [ r ]
+let successive = function Sequence (a, rest) -> a :: rest | r -> [ r ]
 
 let sequence r r' =
   match r with
-  | Sequence (a, rest) -> Sequence (a, rest @ parts r')
-  | _ -> Sequence (r, parts r')
+  | Sequence (a, rest) -> Sequence (a, rest @ successive r')
+  | _ -> Sequence (r, successive r')
 
 let parallel rs =
   let flat = List.concat_map (function Parallel rs -> rs | r -> [ r ]) rs in
@@ -274,16 +404,6 @@ let rec exists_active p r =
 
 and exists_in_some p = function [] -> false | r :: rs -> exists_active p r || exists_in_some p rs
 
-let rec fold_active f acc r =
-  let acc = f acc r in
-  match r with
-  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ | One_of _ | All_of (None, _) | Made _
-  | Unallocated _ | Recruit _ -> acc
-  | During { started = false; _ } | Repeat { round = None; _ } -> acc
-  | Sequence (a, _) | All_of (Some a, _) | Until (_, _, a) | Watch (a, _) | Hold (_, a) | Recruited (_, a)
-  | Fresh (_, a) | During { body = a; _ } | Repeat { round = Some a; _ } -> fold_active f acc a
-  | Parallel rs -> List.fold_left (fold_active f) acc rs
-
 let collect f r = List.rev (fold_active (fun found r -> match f r with Some x -> x :: found | None -> found) [] r)
 
 let running = collect (function Running (_, v) -> Some v | _ -> None)
@@ -293,23 +413,18 @@ let waits =
       | Idle { timer; seconds } | During { started = true; timer; duration = Seconds seconds; _ } ->
         Some (timer, Time seconds)
       | Confirm { question; prompt; _ } -> Some (question, Answer prompt)
-      | Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _
-      | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ | Recruit _ | Recruited _ | Fresh _ -> None)
+      | _ -> None)
 
 let recruits = collect (function Recruited (v, _) -> Some v | _ -> None)
 
-let rec may_go_round r =
-  match r with
-  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ -> false
-  (* The result of code is not known: it may be without end. *)
-  | Made _ | Unallocated _ | Recruit _ -> true
-  | Sequence (a, rest) -> may_go_round a || List.exists may_go_round rest
-  | Parallel rs -> List.exists may_go_round rs
-  | All_of (a, bs) -> Option.fold a ~none:false ~some:may_go_round || List.exists (fun b -> may_go_round b.body) bs
-  | One_of bs -> List.exists (fun b -> may_go_round b.body) bs
-  | Watch (a, { anew; _ }) -> anew <> None || may_go_round a
-  | Until (_, _, a) | During { body = a; _ } | Hold (_, a) | Recruited (_, a) | Fresh (_, a) -> may_go_round a
-  | Repeat { again = { left; each; _ }; _ } -> left = None || may_go_round each
+(* The result of code is not known: it may be without end. *)
+let may_go_round r =
+  let makes found = function
+    | Maker _ | Term _ -> true
+    | Plan _ | Code _ | Handler _ | Given _ | Held _ | Timer _ -> found
+  in
+  let is_endless found = function Repeat { again = { left = None; _ }; _ } -> true | _ -> found in
+  fold_leaves makes (fold_all is_endless false r) r
 
 (* {1 Contexts} *)
 
@@ -361,43 +476,24 @@ let plug contexts r = List.fold_left (fun r context -> within context r) r conte
 
 (* {1 What is held} *)
 
-let rec fold_all f acc r =
-  let acc = f acc r in
-  let all = List.fold_left (fold_all f) and branches = List.fold_left (fun acc (b : branch) -> fold_all f acc b.body) in
-  match r with
-  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ | Made _ | Unallocated _ | Recruit _ -> acc
-  | Sequence (a, rest) -> all (fold_all f acc a) rest
-  | Parallel rs -> all acc rs
-  | All_of (running, bs) -> branches (all acc (Option.to_list running)) bs
-  | One_of bs -> branches acc bs
-  | Until (_, _, a) | Watch (a, _) | Hold (_, a) | Recruited (_, a) | Fresh (_, a) | During { body = a; _ } ->
-    fold_all f acc a
-  | Repeat { round; again } -> all acc (again.each :: Option.to_list round)
-
 module Timer_set = Set.Make (Int)
 
-let add_named found = function
-  | Ready (_, v) | Running (_, v) | Recruited (v, _) -> Vehicle_set.add v found
-  | Hold (vs, _) -> List.fold_left (fun found v -> Vehicle_set.add v found) found vs
-  | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _ | Idle _ | Confirm _ | During _
-  | Watch _ | Repeat _ | Made _ | Unallocated _ | Recruit _ | Fresh _ -> found
+let add_named =
+  fold_leaves (fun found -> function
+      | Plan (_, v) | Held v -> Vehicle_set.add v found
+      | Code _ | Handler _ | Maker _ | Given _ | Term _ | Timer _ -> found)
 
-let add_timer found = function
-  | Idle { timer; _ } | During { timer; _ } | Confirm { question = timer; _ } | Recruit { number = timer; _ } ->
-    Timer_set.add timer found
-  | Fresh (ns, _) -> List.fold_left (fun found n -> Timer_set.add n found) found ns
-  | Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _ | Watch _
-  | Repeat _ | Made _ | Unallocated _ | Hold _ | Recruited _ -> found
+let add_timers =
+  fold_leaves (fun found -> function
+      | Timer n -> Timer_set.add n found
+      | Plan _ | Code _ | Handler _ | Maker _ | Given _ | Term _ | Held _ -> found)
 
-let named r = Vehicle_set.elements (fold_all add_named Vehicle_set.empty r)
+let named r = Vehicle_set.elements (add_named Vehicle_set.empty r)
 
-let makes_tasks r =
-  let makes found = function
-    | Made _ | Unallocated _ | Hold _ | Recruit _ | Recruited _ | Watch (_, { anew = Some _; _ }) -> true
-    | Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _ | Idle _
-    | Confirm _ | During _ | Watch _ | Repeat _ | Fresh _ -> found
-  in
-  fold_all makes false r
+let makes_tasks =
+  fold_leaves (fun found -> function
+      | Maker _ | Term _ | Held _ -> true
+      | Plan _ | Code _ | Handler _ | Given _ | Timer _ -> found) false
 
 type surrounding = Beside of t list | Inside of context | Around of t list
 
@@ -405,24 +501,24 @@ let hole = Idle { timer = script_timer; seconds = 0. }
 
 let held around =
   let beside found = function
-    | Beside rs -> List.fold_left (fold_all add_named) found rs
+    | Beside rs -> List.fold_left add_named found rs
     | Inside _ | Around _ -> found
   in
   Vehicle_set.elements (List.fold_left beside Vehicle_set.empty around)
 
 let needed_around around =
   let add found = function
-    | Beside rs -> List.fold_left (fold_all add_named) found rs
+    | Beside rs -> List.fold_left add_named found rs
     | Inside (Holding _) | Around _ -> found
-    | Inside context -> fold_all add_named found (within context hole)
+    | Inside context -> add_named found (within context hole)
   in
   Vehicle_set.elements (List.fold_left add Vehicle_set.empty around)
 
 let named_around around =
   let add found = function
-    | Beside rs -> List.fold_left (fold_all add_named) found rs
+    | Beside rs -> List.fold_left add_named found rs
     | Around _ -> found
-    | Inside context -> fold_all add_named found (within context hole)
+    | Inside context -> add_named found (within context hole)
   in
   Vehicle_set.elements (List.fold_left add Vehicle_set.empty around)
 
@@ -457,8 +553,8 @@ let allocation_around around =
 
 let timers_around around =
   let add found = function
-    | Beside rs -> List.fold_left (fold_all add_timer) found rs
-    | Inside context -> fold_all add_timer found (within context hole)
+    | Beside rs -> List.fold_left add_timers found rs
+    | Inside context -> add_timers found (within context hole)
     | Around _ -> found
   in
   Timer_set.elements (Timer_set.remove script_timer (List.fold_left add Timer_set.empty around))

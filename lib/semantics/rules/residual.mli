@@ -76,6 +76,52 @@ val hash : t -> int
 val pp : Format.formatter -> t -> unit
 (** A short text in the language's syntax. *)
 
+(** {1:parts Parts}
+
+    Traversals that need no rule of a constructor are functions of its parts, from left to right. *)
+
+(** A part that is not a residual. *)
+type leaf =
+  | Plan of platform_task * vehicle
+  | Code of closure  (** of an action, a condition, a guard, a duration *)
+  | Handler of closure
+  | Maker of closure  (** gives a task *)
+  | Given of value  (** an argument of it *)
+  | Term of task  (** may become a residual *)
+  | Held of vehicle  (** until the whole ends *)
+  | Timer of timer  (** or the number of a question, a recruit, a key *)
+
+val fold : begun:('a -> t -> 'a) -> later:('a -> t -> 'a) -> leaf:('a -> leaf -> 'a) -> 'a -> t -> 'a
+(** [fold ~begun ~later ~leaf x r] folds over the parts of [r], without their own parts: [begun] of those that run if
+    [r] does, [later] of those to come, which include each round of a [repeat]. *)
+
+val parts : t -> t list
+(** [parts r] is the residuals among the parts of [r]. *)
+
+val fold_leaves : ('a -> leaf -> 'a) -> 'a -> t -> 'a
+(** [fold_leaves f x r] folds [f] over the leaves of [r] and of all residuals in it. *)
+
+val fold_all : ('a -> t -> 'a) -> 'a -> t -> 'a
+(** [fold_all f x r] folds [f] over [r] and all residuals in it, from the outside in. *)
+
+val fold_active : ('a -> t -> 'a) -> 'a -> t -> 'a
+(** [fold_active f x r] folds [f] over [r] and the residuals in it that have begun, from the outside in. *)
+
+(** A function for each kind of part; [vehicle] is also for the vehicles that a task made later may be given. *)
+type mapper = {
+  part : t -> t;
+  code : closure -> closure;
+  handler : closure -> closure;
+  maker : closure -> closure;
+  value : value -> value;
+  term : task -> task;
+  vehicle : vehicle -> vehicle;
+}
+
+val map : mapper -> t -> t
+(** [map m r] is [r] with each part replaced by its image. Timers, plans and filters stay. The functions are applied
+    once a part, from left to right. *)
+
 (** {1:normal Normal forms} *)
 
 val sequence : t -> t -> t
@@ -108,10 +154,6 @@ val recruits : t -> vehicle list
 
 val waits : t -> (timer * wait) list
 (** [waits r] is the timers of [r] that have started, and the questions that stand. *)
-
-val fold_active : ('a -> t -> 'a) -> 'a -> t -> 'a
-(** [fold_active f x r] is [f (... (f x r1) ...) rn] for the nodes of [r] that have begun, from the outside in, left to
-    right. *)
 
 val exists_active : (t -> bool) -> t -> bool
 (** [exists_active p r] is whether [p] holds of a node of [r] that has begun and may have steps of its own: of no
@@ -152,9 +194,6 @@ val plug : context list -> t -> t
 (** [plug ks r] is [r] in the contexts [ks], the innermost first. *)
 
 (** {1:held What is held} *)
-
-val fold_all : ('a -> t -> 'a) -> 'a -> t -> 'a
-(** [fold_all f x r] folds [f] over all nodes of [r], those to come included. *)
 
 val named : t -> vehicle list
 (** [named r] is the vehicles that [r] names: that its platform tasks run on, those to come included, or that it holds;

@@ -1,16 +1,19 @@
 open Core
 
+let parts e =
+  match e.node with
+  | Constant _ | Local _ | Global _ | Make_closure _ | Break | Continue -> []
+  | Set_local (_, e) | Set_global (_, e) | Return e -> [ e ]
+  | Apply (_, es) | Block es -> es
+  | If (a, b, c) -> [ a; b; c ]
+  | While (a, b) | For (_, a, b) -> [ a; b ]
+
 (* [visit] of the expressions of one piece of code; [enter] of the code that it makes or holds. *)
 let rec walk ~visit ~enter e =
-  let go = walk ~visit ~enter in
   visit e;
   match e.node with
   | Constant (Closure { lambda; _ }) | Make_closure (lambda, _) -> enter lambda
-  | Constant _ | Local _ | Global _ | Break | Continue -> ()
-  | Set_local (_, e) | Set_global (_, e) | Return e -> go e
-  | Apply (_, es) | Block es -> List.iter go es
-  | If (a, b, c) -> List.iter go [ a; b; c ]
-  | While (a, b) | For (_, a, b) -> go a; go b
+  | _ -> List.iter (walk ~visit ~enter) (parts e)
 
 let pieces (program : program) =
   (program.main :: List.map snd program.functions) @ Option.to_list program.on_interrupt

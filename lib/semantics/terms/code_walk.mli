@@ -2,6 +2,10 @@
 
 open Core
 
+val parts : expression -> expression list
+(** [parts e] is the expressions directly in [e], in the order in which they stand. The code that [e] makes or holds is
+    not among them. *)
+
 val pieces : program -> lambda list
 (** [pieces p] is the code of [p] outside of other code: the script, the functions, the task of [onInterrupt]. *)
 

@@ -1,0 +1,118 @@
+open Dolphin_semantics
+open Test_support
+
+(* {1 Residuals} *)
+
+let constructor : Residual.t -> string = function
+  | Ready _ -> "Ready" | Running _ -> "Running" | Action _ -> "Action" | Condition _ -> "Condition"
+  | Sequence _ -> "Sequence" | Parallel _ -> "Parallel" | All_of _ -> "All_of" | One_of _ -> "One_of"
+  | Until _ -> "Until" | Idle _ -> "Idle" | Confirm _ -> "Confirm" | During _ -> "During" | Watch _ -> "Watch"
+  | Repeat _ -> "Repeat" | Made _ -> "Made" | Unallocated _ -> "Unallocated" | Hold _ -> "Hold"
+  | Recruit _ -> "Recruit" | Recruited _ -> "Recruited" | Fresh _ -> "Fresh"
+
+(* A part that both views see, compared by identity. *)
+type seen = Residual of Residual.t | Code of string * Core.closure | Value of Core.value | Term of Core.task
+          | Vehicle of Core.vehicle
+
+let same a b =
+  match a, b with
+  | Residual a, Residual b -> a == b
+  | Code (kind, a), Code (kind', b) -> String.equal kind kind' && a == b
+  | Value a, Value b -> a == b
+  | Term a, Term b -> a == b
+  | Vehicle a, Vehicle b -> String.equal a b
+  | (Residual _ | Code _ | Value _ | Term _ | Vehicle _), _ -> false
+
+let folded r =
+  let residual found r = Residual r :: found in
+  let leaf found (leaf : Residual.leaf) =
+    match leaf with
+    | Plan (_, v) | Held v -> Vehicle v :: found
+    | Code c -> Code ("code", c) :: found
+    | Handler c -> Code ("handler", c) :: found
+    | Maker c -> Code ("maker", c) :: found
+    | Given x -> Value x :: found
+    | Term t -> Term t :: found
+    | Timer _ -> found
+  in
+  List.rev (Residual.fold ~begun:residual ~later:residual ~leaf [] r)
+
+let mapped r =
+  let found = ref [] in
+  let note seen x =
+    found := seen x :: !found;
+    x
+  in
+  let code kind = note (fun c -> Code (kind, c)) in
+  let image =
+    Residual.map
+      { part = note (fun r -> Residual r); code = code "code"; handler = code "handler"; maker = code "maker";
+        value = note (fun x -> Value x); term = note (fun t -> Term t); vehicle = note (fun v -> Vehicle v) }
+      r
+  in
+  (image, List.rev !found)
+
+(* Only [map] has the vehicles that a task made later may be given. *)
+let has_a_request (r : Residual.t) =
+  match r with Made _ | Unallocated _ | Watch (_, { anew = Some _; _ }) -> true | _ -> false
+
+let without_vehicles = List.filter (function Vehicle _ -> false | Residual _ | Code _ | Value _ | Term _ -> true)
+
+let views_agree r =
+  let image, mapped = mapped r in
+  let mapped, folded =
+    if has_a_request r then without_vehicles mapped, without_vehicles (folded r) else mapped, folded r
+  in
+  let fail what = QCheck2.Test.fail_reportf "%s: %a" what Residual.pp r in
+  if not (List.equal same mapped folded) then fail "fold and map differ";
+  if not (Residual.equal r image) then fail "the identity maps to another residual"
+
+(* {1 Tasks} *)
+
+(* The task inside of code is not in a task: that of each [repeat] is, for instance. *)
+let rec parts_are_smaller t =
+  let all = Task.parts t in
+  let image = Task.map { part = Fun.id; code = Fun.id; vehicle = Fun.id } t in
+  if Value.compare_task t image <> 0 then QCheck2.Test.fail_reportf "the identity maps a task to another";
+  List.iter parts_are_smaller all;
+  let shown t = String.length (Value.to_string (Core.Task t)) in
+  if List.exists (fun part -> shown part > shown t) all then QCheck2.Test.fail_reportf "a part is larger than its whole"
+
+(* {1 Along walks} *)
+
+let seen = Hashtbl.create 32
+
+let judge (c : Configuration.t) =
+  match c.control with
+  | Executing (_, r) ->
+    let node () r =
+      Hashtbl.replace seen (constructor r) ();
+      views_agree r
+    in
+    Residual.fold_all node () r;
+    let counted = List.length (Residual.fold_all (fun all r -> r :: all) [] r) in
+    let rec count r = 1 + List.fold_left (fun n r -> n + count r) 0 (Residual.parts r) in
+    if counted <> count r then QCheck2.Test.fail_reportf "fold_all misses parts of %a" Residual.pp r
+  | Waiting (_, Execute t) -> parts_are_smaller t
+  | Script _ | Waiting (_, (Pick _ | Ask _ | Pause _ | Host_call _)) | Ended _ -> ()
+
+let walks = QCheck2.Gen.pair Generate.program Walk.choices
+
+let along_walks =
+  Property.case ~count:1_000 "the views see the same parts" ~print:(fun (p, _) -> Generate.print p) walks
+    (fun (program, choices) ->
+       let walk = Walk.run ~choices (Generate.compile program) Generate.world in
+       List.iter (fun (s : Walk.step) -> judge s.before) walk;
+       true)
+
+let all =
+  [ "Ready"; "Running"; "Action"; "Condition"; "Sequence"; "Parallel"; "All_of"; "One_of"; "Until"; "Idle"; "Confirm";
+    "During"; "Watch"; "Repeat"; "Made"; "Unallocated"; "Hold"; "Recruit"; "Recruited"; "Fresh" ]
+
+let every_constructor () =
+  let missing = List.filter (fun name -> not (Hashtbl.mem seen name)) all in
+  Alcotest.(check (list string)) "constructors that no walk met" [] missing
+
+let () =
+  Alcotest.run "parts"
+    [ ("views", [ along_walks; Alcotest.test_case "every constructor was met" `Quick every_constructor ]) ]

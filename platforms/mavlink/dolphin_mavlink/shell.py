@@ -155,6 +155,11 @@ def read_missions(directory):
     return stored
 
 
+def encoded(line):
+    """A line for Dolphin. Texts may quote files with lone surrogates, which no JSON text in UTF-8 holds."""
+    return json.dumps(line, separators=(",", ":"), ensure_ascii=False).encode(errors="replace") + b"\n"
+
+
 class Shell:
     def __init__(self, links, options, key):
         self._links, self._station = links, Station(options)
@@ -257,7 +262,7 @@ class Shell:
             link.write(None, self._wire.encode(message, version))
 
     def _report(self, line):
-        self._output += json.dumps(line, separators=(",", ":")).encode() + b"\n"
+        self._output += encoded(line)
 
     def _flush(self, wait=False):
         until = time.monotonic() + (0.5 if wait else 0)
@@ -348,7 +353,8 @@ def main(arguments=None):
         asked = [(_udp, x) for x in given.udp] + [(_tcp, x) for x in given.tcp] + [(_serial, x) for x in given.serial]
         links = [make(x) for make, x in asked or [(_udp, "14550")]]
     except Trouble as trouble:
-        print(json.dumps({"kind": "error", "why": str(trouble)}), flush=True)
+        sys.stdout.buffer.write(encoded({"kind": "error", "why": str(trouble)}))
+        sys.stdout.buffer.flush()
         return 1
     Shell(links, options, key).run()
     return 0

@@ -10,7 +10,7 @@ import unittest
 from dolphin_mavlink import geo, mission, mission_files, plans
 from dolphin_mavlink import words as language
 from dolphin_mavlink.mission import Item, Unreadable
-from dolphin_mavlink.shell import read_missions
+from dolphin_mavlink.shell import encoded, read_missions
 from tests.support import HARBOUR, waypoint, way
 
 UAV = plans.For("x8", "plane", False, HARBOUR, HARBOUR, 53.0, True)
@@ -212,6 +212,12 @@ class Files(unittest.TestCase):
                 for item in items:
                     struct.pack("<HBffffiifB", item.command, item.frame, *item.params, item.x, item.y, item.z, 1)
         self.assertGreater(read, 0)
+
+    def test_a_lone_surrogate_in_a_plan_can_be_reported(self):
+        with self.assertRaises(Unreadable) as caught:
+            mission_files.of_file("a.plan", json.dumps({"mission": {"items": [{"type": "\ud800\u00e9"}]}}))
+        why = json.loads(encoded({"kind": "checked", "problems": [str(caught.exception)]}).decode())["problems"][0]
+        self.assertEqual(why, "item 1 is of type ?\u00e9, which Dolphin does not know")
 
     def test_unreadable_ones_say_why(self):
         for name, text, why in (

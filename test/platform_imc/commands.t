@@ -72,6 +72,18 @@ A definition that is none, one that contradicts itself, and one of another proto
   dolphin: other.xml is not the IMC that Dolphin speaks: field 1 of message Announce is sys_name u8, not sys_name text
   dolphin: other.xml is not the IMC that Dolphin speaks: message PlanControl has the id 1559, not 559
   [2]
+  $ python3 -c "print('<messages>\n' + '<message>\n' * 200000)" > deep.xml
+  $ dolphin fleet --imc-xml deep.xml
+  deep.xml:101:10: error: elements are nested more than 100 deep
+    101 | <message>
+        |          ^
+  [2]
+  $ python3 -c "print('<messages>\n' + '<message/>\n' * 1000000 + '</messages>')" > wide.xml
+  $ dolphin plan hello.dol P --imc-xml wide.xml
+  wide.xml:100001:11: error: there are more than 100000 elements
+    100001 | <message/>
+           |           ^
+  [2]
   $ dolphin exec hello.dol --imc-xml nowhere.xml
   dolphin: nowhere.xml: No such file or directory
   [2]

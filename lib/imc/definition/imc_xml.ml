@@ -19,23 +19,32 @@ type element = {
   parts : element list;
 }
 
-let rec element input at ((_, tag), attributes) =
-  let attributes = List.map (fun ((_, name), value) -> (name, value)) attributes in
-  { at; tag; attributes; parts = elements input [] }
+(* IMC.xml has four levels, and some 6,000 elements. *)
+let most_deep = 100
+let most_elements = 100_000
 
-and elements input parts =
-  let at = Xmlm.pos input in
-  match Xmlm.input input with
-  | `El_start tag -> elements input (element input at tag :: parts)
+type reader = { input : Xmlm.input; mutable count : int }
+
+let rec element ~depth reader at ((_, tag), attributes) =
+  if depth = most_deep then fail at "elements are nested more than %d deep" most_deep;
+  reader.count <- reader.count + 1;
+  if reader.count > most_elements then fail at "there are more than %d elements" most_elements;
+  let attributes = List.map (fun ((_, name), value) -> (name, value)) attributes in
+  { at; tag; attributes; parts = elements ~depth:(depth + 1) reader [] }
+
+and elements ~depth reader parts =
+  let at = Xmlm.pos reader.input in
+  match Xmlm.input reader.input with
+  | `El_start tag -> elements ~depth reader (element ~depth reader at tag :: parts)
   | `El_end -> List.rev parts
-  | `Data _ | `Dtd _ -> elements input parts
+  | `Data _ | `Dtd _ -> elements ~depth reader parts
 
 let document text =
   let input = Xmlm.make_input ~strip:true (`String (0, text)) in
   ignore (Xmlm.input input);
   let at = Xmlm.pos input in
   match Xmlm.input input with
-  | `El_start tag -> element input at tag
+  | `El_start tag -> element ~depth:0 { input; count = 0 } at tag
   | `El_end | `Data _ | `Dtd _ -> fail at "expected an element"
 
 (* {1 Attributes} *)

@@ -74,15 +74,15 @@ A definition that is none, one that contradicts itself, and one of another proto
   [2]
   $ python3 -c "print('<messages>\n' + '<message>\n' * 200000)" > deep.xml
   $ dolphin fleet --imc-xml deep.xml
-  deep.xml:101:10: error: elements are nested more than 100 deep
+  deep.xml:101:9: error: elements are nested more than 100 deep
     101 | <message>
-        |          ^
+        |         ^
   [2]
   $ python3 -c "print('<messages>\n' + '<message/>\n' * 1000000 + '</messages>')" > wide.xml
   $ dolphin plan hello.dol P --imc-xml wide.xml
-  wide.xml:100001:11: error: there are more than 100000 elements
+  wide.xml:100001:9: error: there are more than 100000 elements
     100001 | <message/>
-           |           ^
+           |         ^
   [2]
   $ dolphin exec hello.dol --imc-xml nowhere.xml
   dolphin: nowhere.xml: No such file or directory

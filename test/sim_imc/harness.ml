@@ -117,7 +117,7 @@ let line (p : Packet.t) =
 
 let is_repeated text = List.mem (kind text) [ "state"; "vehicle" ]
 
-(* Repeated states are no news. *)
+(* Without repeated states. *)
 let summarise packets =
   let add (lines, last) p =
     match line p with

@@ -1,4 +1,4 @@
-(** One vehicle and one console, without a network: what the console sends, what the vehicle answers and when. *)
+(** One vehicle and one console, without a network: requests, answers, and their times. *)
 
 open Dolphin_imc
 open Dolphin_sim_imc
@@ -21,8 +21,8 @@ val settings :
   ?seed:int ->
   string ->
   Vehicle_node.settings
-(** [settings source] is those for the first vehicle of the fleet file [source]. Contacts are seen at once, unless said
-    otherwise. *)
+(** [settings source] is those for the first vehicle of the fleet file [source]. By default, contacts are seen at
+    once. *)
 
 val make : Vehicle_node.settings -> t
 val epoch : float
@@ -35,7 +35,7 @@ val until : t -> float -> unit
 (** [until s time] lets time pass; a vehicle to which nothing happens any more without any time passing fails the
     test. *)
 
-(** {1:console What the console does} *)
+(** {1:console The console} *)
 
 val announce : ?id:int -> ?port:int -> t -> unit
 val send : ?id:int -> ?dst:int -> ?host:string -> t -> Message.t -> unit
@@ -52,7 +52,7 @@ val start : ?dst:int -> ?arg:Message.t -> ?flags:Message.Plan_control.Flags.t ->
 
 val stop : t -> int -> unit
 
-(** {1:vehicle What the vehicle does} *)
+(** {1:vehicle The vehicle} *)
 
 type heard = { time : float; announced : bool; packet : Packet.t }
 

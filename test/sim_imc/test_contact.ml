@@ -150,7 +150,7 @@ let battery () =
   in
   Alcotest.(check (list (float 1e-3))) "percent" [ 80. ] (List.filter_map level (Harness.heard s))
 
-(* What IMC has no message for is not told. *)
+(* Values without a message in IMC are not sent. *)
 let measurements () =
   let shows = "vehicle 'a', { type 'UUV'; shows 'Salinity', 35; shows 'Taste', 1; shows 'Temperature', 14.5 }" in
   let s = Harness.make (Harness.settings shows) in

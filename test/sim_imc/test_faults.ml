@@ -43,7 +43,7 @@ let start number =
 
 let source = "vehicle 'a', { type 'UUV' }\nplan 'p', { duration 1 }"
 
-(* What a console that sends [datagrams], each at a time, gets in ten seconds; and what the vehicle did. *)
+(* A console sends [datagrams], each at a time: the messages that it gets in ten seconds, and the vehicle's deeds. *)
 let exchange ?faults ~seed datagrams =
   let rec go r got did = function
     | [] -> List.rev got, List.rev did
@@ -169,7 +169,7 @@ let fleet =
   "vehicle 'a', { type 'UUV'; battery 10.percent; drain 100.percent; drops 50, 20 }\nplan 'p', { duration 5, 50 }\n\
    plan 'q', { duration 20; mayFail 50.percent }\nplan 'r', { only 'UAV' }"
 
-(* Whatever is started ends once, or is running. *)
+(* Each plan that is started ends once, or runs. *)
 let rec is_well_formed running : Activity.t list -> bool = function
   | [] -> true
   | Started { instead; request; _ } :: rest -> instead = running && is_well_formed (Some request.plan) rest

@@ -136,7 +136,7 @@ let finds_and_runs () =
       request w a ~op:Stop 3 "long" >>= fun () ->
       wait_for w (fun w -> List.mem "stopped" (did w a)))
 
-(* As many requests as arrive are obeyed; half of them do. *)
+(* Half of the requests arrive, and these are obeyed. *)
 let loses () =
   with_world { (settings source) with faults = { Faults.none with loss = 0.5 } } (fun w ->
       let a = List.hd (Network.vehicles w.network) in

@@ -1,3 +1,3 @@
-(** What a simulated vehicle makes of requests. What the recording of a real vehicle shows is in {!Test_recording}. *)
+(** The reaction of a simulated vehicle to requests. {!Test_recording} compares it with a real vehicle. *)
 
 val tests : unit Alcotest.test_case list

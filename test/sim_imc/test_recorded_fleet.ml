@@ -26,7 +26,7 @@ let console = 0x5A0E
 
 type request = { at : float; message : Message.t; number : int; plan : string; inline : bool }
 
-(* Each once: vehicles send on what is asked of them. *)
+(* Each once: vehicles send requests on to all consoles. *)
 let requests id =
   let start h =
     match h.packet.content with
@@ -38,7 +38,7 @@ let requests id =
   let once found r = if List.exists (fun x -> x.number = r.number) found then found else r :: found in
   List.rev (List.fold_left once [] (List.filter_map start (Lazy.force recorded)))
 
-(* What the vehicle said from its first request on. *)
+(* The messages of the vehicle from its first request on. *)
 let said id =
   let first = (List.hd (requests id)).at in
   List.filter (fun h -> h.packet.src = id && h.time >= first) (Lazy.force recorded)
@@ -48,7 +48,7 @@ let reply r info h =
   | Message (Plan_control { type_ = Success; request_id; info = text; _ }) -> request_id = r.number && text = info
   | Message _ | Unknown _ -> false
 
-(* Seconds from the request until something is said. *)
+(* Seconds from the request to a message. *)
 let delay heard r is_it =
   match List.find_opt is_it heard with
   | Some h -> h.time -. r.at
@@ -84,9 +84,9 @@ let replay id =
   let begun = (List.hd asked).at in
   (asked, List.filter (fun h -> h.packet.src = Harness.vehicle && h.time >= begun) all)
 
-(* {1 What is said} *)
+(* {1 Messages} *)
 
-(* What the vehicles had done before the recording shows in their first states and in
+(* The deeds of the vehicles before the recording show in their first states and in
    whether a plan is new to them. *)
 let story heard =
   let lines = Harness.summarise (List.map (fun h -> h.packet) heard) in
@@ -119,7 +119,7 @@ let same prefix id () =
 
 let kinds = [ "reply"; "state"; "vehicle"; "log Plan.Engine"; "log Supervisors.Vehicle" ]
 
-(* {1 When} *)
+(* {1 Times} *)
 
 let executing r h =
   match h.packet.content with
@@ -131,7 +131,7 @@ let ready r h =
   | Message (Plan_control_state { state = Ready; plan_id; _ }) -> plan_id = r.plan
   | Message _ | Unknown _ -> false
 
-(* A request is answered at once, by both; a plan ends as the fleet says. *)
+(* A request is answered at once, by both; the fleet file has the end of a plan. *)
 let times id () =
   let asked, ours = replay id and real = said id in
   let compare_one r r' =

@@ -21,7 +21,7 @@ let packets =
 
 let console = 0x4ABC
 
-(* What the console asked for, without the copies that the vehicle sent on; and what the vehicle said. *)
+(* The requests of the console, without the copies that the vehicle sent on; and the messages of the vehicle. *)
 let requests, answers =
   let is_from id (p : Packet.t) = p.src = id in
   let of_console = lazy (List.sort_uniq compare (List.filter (is_from console) (Lazy.force packets))) in
@@ -54,7 +54,7 @@ let replay () =
   Harness.beat_until s (Harness.now s +. 200.);
   s
 
-(* By message: what of different messages is sent within a millisecond comes in one order or the other. *)
+(* By message: different messages within a millisecond come in either order. *)
 let of_kind kind lines = List.filter (fun line -> Harness.kind line = kind) lines
 
 (* The names that the two consoles go by. *)

@@ -111,8 +111,10 @@ let wake ~now s =
     yielded = Name_set.union yielded s.yielded;
     expected = Expected.postpone gap s.expected }
 
+let has_slept ~now s = s.seen > neg_infinity && now -. s.seen > longest_pause
+
 let awake ~now s =
-  let s = if s.seen > neg_infinity && now -. s.seen > longest_pause then wake ~now s else s in
+  let s = if has_slept ~now s then wake ~now s else s in
   { s with seen = Float.max s.seen now }
 
 (* Until when a task of [v] must not be started. *)
@@ -210,7 +212,7 @@ let tell_all ~now names s =
 (* {1 Executions} *)
 
 let may_command ~now (n : Node.t) s =
-  s.twin = None && (not (listens ~now s)) && taken_by_another n.name s = None
+  s.twin = None && (not (has_slept ~now s || listens ~now s)) && taken_by_another n.name s = None
 
 let is_start : Execution.output -> bool = function
   | Send (Plan_control { op = Start; type_ = Request; _ }) -> true

@@ -87,8 +87,7 @@ val awake : now:float -> t -> t
     {!longest_pause} has slept: others hold for free what it held, so it listens first; and silences do not count. *)
 
 val listens : now:float -> t -> bool
-(** [listens ~now s] is whether this console, after a sleep or at a resumption, still finds out what others hold. It
-    sends no command meanwhile; executions repeat theirs later. *)
+(** [listens ~now s] is whether this console, after a sleep or at a resumption, still finds out what others hold. *)
 
 val deferred_until : Core.vehicle -> t -> float
 (** Until when no task of the vehicle is started. *)
@@ -147,8 +146,8 @@ val tell_all : now:float -> Core.vehicle list -> t -> t
 
 val carry_out : now:float -> Node.t -> Execution.output list -> t -> t * output list
 (** [carry_out ~now n outputs s] is the consequences of the execution on [n], which is in [s]. Commands are left out
-    while {!listens}, if [s] has a [twin], and if another console had [n] first: then a task that was to be started
-    fails. *)
+    after a sleep that {!awake} has not noticed yet, while {!listens}, and if [s] has a [twin]; executions repeat them
+    later. They are left out also if another console had [n] first: then a task that was to be started fails. *)
 
 val command : now:float -> Execution.input -> Node.t -> t -> t * output list
 (** [command ~now input n s] gives [input] to the execution on [n]. *)

@@ -251,6 +251,23 @@ let absent =
   Test_support.Property.case ~count:300 "beside a console that slept or is resumed: one commands the vehicle"
     ~print:print_absence absences one_after_an_absence
 
+let repeated =
+  Alcotest.test_case "a request without effect is repeated after a sleep only once others were listened for" `Quick
+    (fun () ->
+       let c = console (Station.create (settings ~run:"a" 0x4001 6101)) 0x4001 6101 in
+       let w = { now = 0.; consoles = [ c ]; latency = 0.01; under_way = [] } in
+       introduce w;
+       run w ~free:0. ~until:5.;
+       let before = List.length c.started in
+       Alcotest.(check bool) "it was requested" true (before > 0);
+       w.now <- 20.;
+       hear w c (encoded ~now:w.now ~src:vehicle (says Ready));
+       Alcotest.(check int) "before the console notices its sleep" before (List.length c.started);
+       run w ~free:0. ~until:23.;
+       Alcotest.(check int) "while it listens" before (List.length c.started);
+       run w ~free:0. ~until:30.;
+       Alcotest.(check bool) "afterwards" true (List.length c.started > before))
+
 let silence =
   Alcotest.test_case "the silence while a console slept is not the vehicle's" `Quick (fun () ->
       let c = console (Station.create (settings ~run:"a" 0x4001 6101)) 0x4001 6101 in
@@ -302,4 +319,4 @@ let held =
       Alcotest.(check int) "nothing was started" 0 (List.length c.started);
       Alcotest.(check (list string)) "why" [ held_by_other ] c.failures)
 
-let tests = ("holds", [ three; slept; absent; silence; copied; both; held ])
+let tests = ("holds", [ three; slept; absent; repeated; silence; copied; both; held ])

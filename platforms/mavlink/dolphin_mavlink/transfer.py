@@ -53,12 +53,13 @@ class RoundTrip:
         """A question had no answer in time: the link has lost it, or is slower than it was."""
         self._backoff = min(1.5 * self._backoff, 40.0)
 
-    def patience(self, most, measured=2.0):
+    def patience(self, most, measured=2.0, hurried=False):
         """Seconds without an answer after which a question is repeated: `most`, on a link that was measured to be fast
-        `measured`, and more if it is known to be slower."""
-        known = max(0.25, min(4 * self.seconds, max(2.0, 1.5 * self.seconds)))
+        `measured`, and more if it is known to be slower. `hurried`: the vehicle gives up if no question comes."""
+        least, share, longest = (1.0, 1.2, 1.2) if hurried else (2.0, 1.5, 3.0)
+        known = max(0.25, min(4 * self.seconds, max(least, share * self.seconds)))
         if self._is_measured:
-            most = min(most, max(measured, 3 * self.seconds))
+            most = min(most, max(measured, longest * self.seconds))
         return min(known * self._backoff, max(known, most))
 
     @property
@@ -75,8 +76,8 @@ class Repeated:
     """A message that is sent until it is answered, at the latest every `most` seconds if the link is not slower, and
     every `measured` seconds if it was measured to be fast."""
 
-    def __init__(self, round_trip, most=8.0, measured=2.0):
-        self._round_trip, self._most, self._measured = round_trip, most, measured
+    def __init__(self, round_trip, most=8.0, measured=2.0, hurried=False):
+        self._round_trip, self._patience = round_trip, (most, measured, hurried)
         self.messages, self.sent_at, self.times = [], 0.0, 0
         self._due, self._least = 0.0, 0.0
 
@@ -87,7 +88,7 @@ class Repeated:
         return self.messages
 
     def _sent(self, now):
-        self.sent_at, self._due = now, now + max(self._least, self._round_trip.patience(self._most, self._measured))
+        self.sent_at, self._due = now, now + max(self._least, self._round_trip.patience(*self._patience))
 
     def answered(self, now):
         if self.times == 1:
@@ -206,7 +207,7 @@ class Download:
 
     def __init__(self, target, round_trip, window=1, most=65535):
         self._target, self._window, self._most = target, window, most
-        self._repeated = Repeated(round_trip, measured=ASKED_AGAIN)
+        self._repeated = Repeated(round_trip, measured=ASKED_AGAIN, hurried=window == 1)
         self._count, self._got, self._asked = None, {}, 0
         self._round_trip, self._errors, self._heard_at = round_trip, 0, 0.0
         self._asked_at = {}  # when each item was asked for that was asked for once

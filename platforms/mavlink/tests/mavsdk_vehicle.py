@@ -1,10 +1,10 @@
-"""A vehicle that nobody here wrote: the vehicle's side of MAVSDK 4.1, in C++, which speaks as PX4 does.
+"""A vehicle that is not ours: the vehicle's side of MAVSDK 4.1, in C++, which speaks as PX4 does.
 
-    mavsdk_vehicle.py PORT
+    mavsdk_vehicle.py PORT [SYSTEM]
 
 It flies a mission by reporting that each item is complete, ten a second, at the item's place. MAVSDK reports each item
-once. Ends when its input ends. Letters on its input: S, it takes 2 s for each item; R and L, somebody else sends it
-home, or to land.
+once. Ends when its input ends. Letters on its input: S, it takes 2 s for each item; F, a tenth of a second again; R, L
+and H, another station sends it home, to land, or holds it.
 """
 
 import os
@@ -19,6 +19,8 @@ from mavsdk.plugins.mission_raw_server import MissionRawServer
 from mavsdk.plugins.telemetry_server import Heading, Position, TelemetryServer, VelocityNed
 
 HARBOUR = (41.185, -8.706)
+PACES = {b"S": 2.0, b"F": 0.1}
+MODES = {b"R": FlightMode.RETURN_TO_LAUNCH, b"L": FlightMode.LAND, b"H": FlightMode.HOLD}
 DESTINATIONS = range(16, 22)  # the commands of waypoints, loiters, landings
 
 
@@ -36,8 +38,10 @@ class Flight:
             self.place = item.x / 1e7, item.y / 1e7
 
 
-def main(port):
-    mavsdk = Mavsdk(Configuration.create_with_component_type(ComponentType.AUTOPILOT))
+def main(port, system=1):
+    configuration = Configuration.create_with_component_type(ComponentType.AUTOPILOT)
+    configuration.system_id = system
+    mavsdk = Mavsdk(configuration)
     component = mavsdk.server_component()
     action, telemetry, missions = ActionServer(component), TelemetryServer(component), MissionRawServer(component)
     flight = Flight()
@@ -47,8 +51,9 @@ def main(port):
         print("mission", [item.command for item in flight.items], file=sys.stderr, flush=True)
 
     def mode(result, wanted, _):
-        flight.mode = wanted
-        print("mode", wanted, file=sys.stderr, flush=True)
+        if wanted == FlightMode.MISSION:  # MAVSDK calls this also for the modes that it refuses
+            flight.mode = wanted
+        print("mode", result, wanted, file=sys.stderr, flush=True)
 
     def arm(result, wanted, _):
         flight.armed = bool(wanted.arm)
@@ -67,10 +72,10 @@ def main(port):
 
     def obey():
         while letter := os.read(0, 1):
-            if letter == b"S":
-                flight.seconds = 2.0
+            if letter in PACES:
+                flight.seconds = PACES[letter]
             else:
-                flight.mode = FlightMode.RETURN_TO_LAUNCH if letter == b"R" else FlightMode.LAND
+                flight.mode = MODES[letter]
                 action.set_flight_mode_internal(flight.mode)
         ended.set()
 
@@ -94,4 +99,4 @@ def main(port):
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]))
+    main(*map(int, sys.argv[1:]))

@@ -182,6 +182,21 @@ class Downloads(unittest.TestCase):
                 download.hear(now / 10, denied)
         self.assertEqual(download.refused, "it was denied")
 
+    def test_a_lost_question_is_repeated_before_the_vehicle_gives_up(self):
+        """MAVSDK's vehicle gives a download up after 2.5 s without a question, so two questions in a row may be lost
+        on a link with round trips of up to a second."""
+        for tenths in range(1, 11):
+            with self.subTest(tenths=tenths):
+                trip = RoundTrip()
+                download = Download((1, 1), trip)
+                download.begin(0.0)
+                for _ in range(3):
+                    trip.measured(tenths / 10)
+                now = tenths / 10
+                download.hear(now, mavlink.MAVLink_mission_count_message(255, 190, 5))
+                asked = [n / 10 for n in range(1, 60) if download.tick(now + n / 10)]
+                self.assertLessEqual(asked[1], 2.5)
+
 
 if __name__ == "__main__":
     unittest.main()

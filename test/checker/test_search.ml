@@ -5,18 +5,18 @@ open Dolphin_checker
 open Dolphin_ltl
 
 (* A system of vectors of small numbers, one word each, given by the successors of a vector. Words get a bit wider each
-   time that a number does not fit, so that the search has to encode its states anew. *)
+   time that a number does not fit, so that the search has to encode its states again. *)
 module Vectors = struct
   type t = {
     start : int list;
     successors : int list -> int list list;
-    is_end : bool;  (* whether resting is no deadlock *)
+    is_end : bool;  (* whether a state that rests is not a deadlock *)
     is_broken : int -> bool;  (* of the first number *)
     mutable bits : int;  (* of a number *)
     mutable reserved : int;
     mutable outgrown : bool;  (* whether the next expansion outgrows the encoding, whatever it visits *)
     numbering : Numbering.t;
-    is_known : bool;  (* whether the system can say what its initial state is *)
+    is_known : bool;  (* whether the system knows its initial state *)
   }
 
   type via = unit
@@ -94,7 +94,8 @@ let check_states = Alcotest.(check (list (list int)))
 
 (* {1 Philosophers}
 
-   Each thinks (0), has the left fork (1) or eats (2). Who eats has the left fork of the next, who then thinks. So the
+   Each thinks (0), has the left fork (1) or eats (2). An eating philosopher has the left fork of the next one, which
+   then thinks. So the
    states are the words of 0, 1, 2 around a table in which 0 follows each 2, and all of them are reached. *)
 
 let philosophers n =
@@ -111,7 +112,7 @@ let philosophers n =
   in
   Vectors.make (List.init n (fun _ -> 0)) successors
 
-(* The trace of the power of the matrix of who may follow whom. *)
+(* The trace of the power of the matrix of allowed neighbours. *)
 let tables n =
   let follows = [| [| 1; 1; 1 |]; [| 1; 1; 1 |]; [| 1; 0; 0 |] |] in
   let times a b =
@@ -163,7 +164,8 @@ let test_cycle ?spill ?workers ?limits ~outgrown () =
 
 (* {1 Several processes}
 
-   A state leads to a hundred others, and these to one. What they do depends on who expands them. The leader waits
+   A state leads to a hundred others, and these to one. Their transitions depend on the process that expands
+   them. The leader waits
    until a worker has begun: this one is sure to have some of the hundred, and to be the first at one. *)
 
 let among_two ~worker ~leader =
@@ -288,7 +290,7 @@ let sampled ?(limits = Limits.none) system ~walks ~seed =
 let summary search =
   match Search.sample search with Some s -> s | None -> Alcotest.fail "there were walks"
 
-(* Walks that have been everywhere have all states, and say so. *)
+(* Walks that have reached every state report it. *)
 let test_everywhere () =
   let search = sampled (philosophers 5) ~walks:1_000 ~seed:1 in
   check_int "states" (tables 5) (Search.count search);
@@ -515,7 +517,7 @@ let test_bound_on_disk () =
 (* It rests at 3. *)
 let resting () = Vectors.make ~is_end:true [ 0 ] (function [ 3 ] -> [] | numbers -> [ List.map succ numbers ])
 
-(* A system that cannot say what its initial state is: nothing is searched, and nothing is called true. *)
+(* A system without an initial state: nothing is searched, and no verdict is "holds". *)
 let test_no_beginning () =
   let search = searched (Vectors.make ~is_known:false [ 0 ] (fun _ -> [])) in
   check_int "states" 0 (Search.count search);

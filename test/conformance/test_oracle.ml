@@ -164,7 +164,7 @@ let first_transition reply =
       | _ -> None)
   | _ -> None
 
-(* The mutated configurations of a run: what they are depends on chance, but each has a reply. *)
+(* The mutated configurations of a run are random; each has a reply. *)
 let hostile () =
   let source =
     "v = pick { id 'noptilus-1' }\nfor (x in [1, 2]) { message([x].collect { it + 1 }) }\n\

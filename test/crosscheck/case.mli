@@ -8,7 +8,7 @@ type t = {
   environment : Dolphin_environment.Environment.options;
   plans : string list;  (** that the environment may treat in a way of their own *)
   prompts : string list;  (** the same in reverse *)
-  calls : string list;  (** likewise *)
+  calls : string list;  (** in the same way *)
 }
 
 val random : seed:int -> int -> t list

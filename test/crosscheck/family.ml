@@ -46,7 +46,7 @@ let without_constants lines =
   and inside = function "" :: rest -> "" :: outside rest | _ :: rest -> inside rest | [] -> [] in
   outside lines
 
-(* Assumptions on constants are no longer about constants: they are an invariant ({!assumed}). *)
+(* Assumptions on constants become an invariant ({!assumed}), since these are constants no longer. *)
 let assumed = [ "PlacesOK"; "ProgramOK"; "FleetOK"; "EnvironmentOK" ]
 let assumed_of_time = "TimedOK"
 

@@ -1,5 +1,4 @@
-(* What the outside does, and what it remembers: bounds of 2, which tell counting from remembering
-   that something was. *)
+(* Events and memory of the environment. Bounds of 2 distinguish a counter from a flag. *)
 
 open Dolphin_semantics
 open Dolphin_environment
@@ -73,7 +72,8 @@ let latecomers =
 
 (* {2 Against the definition}
 
-   What docs/explorer.md says of a pick with uncertain vehicles: some of them come after all others, in any order, some
+   The definition in docs/explorer.md of a pick with uncertain vehicles: some of them come after all others, in any
+   order, some
    are missing, and no more than the bound allows. The ways in which too few come are one. *)
 
 let definition (options : Environment.options) most program world (c : Configuration.t) =
@@ -119,7 +119,7 @@ let waiting program world =
   in
   from (Configuration.initial program)
 
-(* What a program with [else] remembers of who was late, once it goes on without: each way with as few as can be. *)
+(* The late vehicles that a program with [else] remembers once it goes on without them: each minimal set. *)
 let late_without ?(who = fun v -> v <> "c") join text =
   let options = { plain with may_be_late = who; faults = { Faults.none with join } } in
   let program = Pure_run.compile_exn text in

@@ -102,7 +102,8 @@ let test_watched_fleet n () =
   Alcotest.(check int) "states" (fleet_states n) o.states
 
 (* The time may be over in each of them, when any of the posts has been made and not been taken: 2^N sets of tuples are
-   left over where the script goes on, and where it ends. Without any, these are the states after what was not cut. *)
+   left over where the script goes on, and where it ends. Without any, these are the states after tasks that were not
+   cut. *)
 let test_timed_fleet n () =
   let timed task = Printf.sprintf "(during 1.hours run (%s))" task in
   let o = search ~vehicles:n (fleet ~around:timed n) in

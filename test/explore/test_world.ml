@@ -9,7 +9,7 @@ module Pure_run = Test_support.Pure_run
 
 let pick = "v = pick { id 'a' }\n"
 
-(* All labels of the graph, and the messages of its ends; or the reason why there is no graph. *)
+(* All labels of the graph, and the messages of its ends; or the reason why a graph is missing. *)
 let labels ?(environment = Environment.default) ?(world = Generate.open_world) source =
   match Reference.explore environment (Pure_run.compile_exn source) world with
   | None -> Alcotest.fail "too many states"

@@ -1,6 +1,6 @@
 type t = { name : string; file : string; find : string; replace : string; noticed_by : string }
 
-(* The mistakes in [file] that [noticed_by] must notice, each with what it replaces by what. *)
+(* The mistakes in [file] that [noticed_by] must notice, each with the text that it replaces and the replacement. *)
 let in_file file ~noticed_by mistakes =
   List.map (fun (name, find, replace) -> { name; file; find; replace; noticed_by }) mistakes
 

@@ -1,4 +1,4 @@
-(** A mistake in the code: what it replaces, and the test that must notice it. *)
+(** A mistake in the code: the text that it replaces, and the test that must notice it. *)
 
 type t = {
   name : string;

@@ -2,7 +2,7 @@
 
    The exit status is 0 if each is noticed by the test that must notice it.
 
-   mutants.exe --check only looks whether each can be made: what it replaces is there, and once. *)
+   mutants.exe --check only checks that each can be made: the text that it replaces occurs once. *)
 
 open Mistake
 
@@ -40,8 +40,8 @@ let shell format = Printf.ksprintf (fun command -> Sys.command command = 0) form
 
 let build tree target = shell "dune build --root %s %s >%s/build.log 2>&1" tree target tree
 
-(* A mistake may make a test run for ever, wait for ever, or take all memory. What a test may run is counted in seconds
-   of CPU, so that other load makes no test fail. Random tests take their usual inputs, which are known to notice it. *)
+(* A mistake may make a test run or wait without end, or take all memory. The limit is in seconds of CPU, so that
+   other load makes no test fail. Random tests take their usual inputs, which are known to notice it. *)
 let run tree target =
   let within = "unset SEED DOLPHIN_SEED; ulimit -v 4000000; ulimit -t 100; timeout 1000" in
   shell "cd %s/%s && (%s %s/_build/default/%s >%s/run.log 2>&1)" tree (Filename.dirname target) within tree target tree

@@ -1,1 +1,1 @@
-(** Makes mistakes in lib/, one at a time, in a copy of the tree, and tells whether the tests notice them. *)
+(** Makes mistakes in lib/, one at a time, in a copy of the tree, and reports whether the tests notice them. *)

@@ -1,5 +1,5 @@
 (* Each function of the prelude: its example runs, its law holds as strong bisimilarity and its weak one as weak
-   bisimilarity, and what it says of itself holds in all runs. *)
+   bisimilarity, and its documented property holds in all runs. *)
 
 open Dolphin_semantics
 open Dolphin_syntax
@@ -67,7 +67,7 @@ let weak_law (e : Prelude.entry) =
     Alcotest.(check bool) "weakly bisimilar" true (Bisimulation.weakly_equivalent (graph a) (graph b)) in
   Option.map (fun law -> Alcotest.test_case (e.name ^ ": the weak law") `Quick (check law)) e.weak_law
 
-(* What is weakly bisimilar is no matter of course. *)
+(* Weak bisimilarity is not trivial. *)
 let no_weak_law (a, b) =
   let check () =
     let graph task = graph ("execute " ^ task) in
@@ -91,7 +91,7 @@ let told () =
   Alcotest.(check (list string)) "each function has its comment" functions
     (List.map (fun (e : Prelude.entry) -> e.name) (Prelude.entries ()))
 
-(* {1 What they say of themselves} *)
+(* {1 Documented properties} *)
 
 let holds ?(ends = [ "completed" ]) ?(failures = false) title body =
   Alcotest.test_case title `Quick (fun () -> Alcotest.(check (list string)) "ends" ends (outcomes ~failures body))

@@ -47,7 +47,7 @@ let code =
     [ (5, "post x: 1"); (3, "post y: 1"); (1, "consume x: 1"); (2, "g = g + 1"); (1, "if (poll(x: 1)) { halt 'h' }");
       (1, "message 'm'"); (1, "if (g > 0) { post y: 1 }"); (1, "1 / g") ]
 
-(* Of nobody's vehicle in particular. *)
+(* Of no vehicle in particular. *)
 let free = oneof [ map (f "action { %s }") code; map (f "condition { %s }") guard; return "idle(1.seconds)" ]
 
 let branches part =
@@ -56,7 +56,7 @@ let branches part =
 
 let handler = frequencyl [ (4, "ignore()"); (2, "post x: 1 ; ignore()"); (2, "retry()"); (1, "halt 'w'"); (1, "") ]
 
-(* What is done with the vehicle [u], if it is not whoever comes; all in it runs side by side with others'. *)
+(* The work of the vehicle [u], if it is not an arbitrary recruit; it runs side by side with that of others. *)
 let rec work depth u =
   let own = if u = "" then map (f "task('%s')") plan else map (fun p -> f "task('%s')[%s]" p u) plan in
   if depth = 0 then frequency [ (3, own); (1, free) ]
@@ -128,7 +128,7 @@ let test_agreement () =
   Printf.printf "%d refused, %d skipped, of more than %d states; %d states, %d after reduction\n" !refused tally.skipped
     limit tally.whole tally.reduced
 
-(* Where nothing is reduced, agreement says little. *)
+(* Where nothing is reduced, agreement proves little. *)
 let test_variety () =
   let tried = programs * List.length (Test_support.Property.seeds ~usual) in
   if 2 * (!refused + tally.skipped) > tried then Alcotest.fail "few programs are tried";

@@ -34,7 +34,7 @@ let case =
 
 let print (program, (name, _)) = Printf.sprintf "%s:\n%s" name (Generate.print program)
 
-(* Vehicles may have changed places. Nobody knows where these plans lead, so all pairs are told. *)
+(* Vehicles may have changed places. The destinations of these plans are unknown, so all pairs are reported. *)
 let names (pairs : Side_by_side.pair list) =
   let key ((_, p) : _ * Core.platform_task) = (p.task_site, p.name) in
   let pair (p : Side_by_side.pair) = List.sort compare [ key p.one; key p.other ] in

@@ -48,7 +48,7 @@ let test_agreement () =
     tally.skipped limit tally.reduced tally.whole tally.smaller;
   Tally.print_broken tally
 
-(* Where nothing is broken, or nothing reduced, agreement says little. *)
+(* Where nothing is broken, or nothing reduced, agreement proves little. *)
 let test_variety () =
   Tally.check_broken ~but:[ Termination; Vehicles; Allocation ] tally;
   let tried = (programs * List.length (Test_support.Property.seeds ~usual)) - tally.skipped in

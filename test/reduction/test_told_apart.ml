@@ -25,7 +25,7 @@ let finds name ?(environment = plain) ?(world = three) ~exchanged expected text 
 let tells name ?environment ?world expected text =
   Alcotest.test_case name `Quick (finds name ?environment ?world ~exchanged:false expected text)
 
-(* Some vehicles are told apart, and others not; or in what they do, but not in who they are. *)
+(* The program distinguishes some vehicles and not others, or their tasks but not their names. *)
 let keeps name ?environment ?world expected text =
   Alcotest.test_case name `Quick (finds name ?environment ?world ~exchanged:true expected text)
 
@@ -306,7 +306,7 @@ let by_order =
         release v
         w = pick { count 1; type 'UUV' }
         if (first() == w) { halt 'h' }|};
-    (* No more states than there are: what nothing reads is forgotten where a task begins, too. *)
+    (* No superfluous states: variables that nothing reads are forgotten where a task begins, too. *)
     keeps "who was picked, before a loop in which nothing reads it" [ Termination ]
       "vs = pick { count _ }\nwhile (true) { execute action { message 'm' }\npause 1 }";
     keeps "who was picked, before a loop of symmetric tasks in which nothing reads it" [ No_halt ]
@@ -376,7 +376,7 @@ let test_run () =
     ignore (List.fold_left step (Configuration.initial program, Environment.initial) steps)
   | Holds | By_design _ | Unreached _ | Inconclusive _ -> Alcotest.fail "it halts"
 
-(* Two side by side, in any round whoever is there. *)
+(* Two side by side; each round takes any vehicle that is present. *)
 let recruits =
   {|for (i in 1..4) { post cell: i }
     def searching(c) {

@@ -1,4 +1,5 @@
-(* Programs that a reduction too bold would get wrong, each with what it must find; and programs that it must reduce. *)
+(* Programs that an unsound reduction would get wrong, each with its expected verdict; and programs that must be
+   reduced. *)
 
 open Dolphin_environment
 module Pure_run = Test_support.Pure_run
@@ -392,7 +393,7 @@ let traps =
   ]
 
 (* Copies that are not interchangeable, or not all the way. *)
-(* Rounds: what is not in a set with a step that closes one must not be put off for ever. *)
+(* Rounds: steps outside of a set whose steps close a round must not be postponed without end. *)
 let rounds =
   let terminates ?(environment = plain) name expected text =
     let test () =

@@ -25,7 +25,7 @@ let die () =
   Unix.kill (Unix.getpid ()) Sys.sigkill;
   assert false
 
-(* Writes straight to the file: what is written is there, whoever dies. *)
+(* Writes straight to the file, so that the death of a process loses nothing. *)
 let write_all fd text = ignore (Unix.write_substring fd text 0 (String.length text))
 
 let writer ?(notes = 0) fd death ~from =
@@ -107,7 +107,7 @@ let go_on ~port ~journal fd death =
       (Some { configuration = Replay.configuration past.replay; world; news; pending = past.pending;
               time = Replay.time past.replay })
 
-(* All that the library tells of datagrams, vehicles and timers. *)
+(* The library's debug log of datagrams, vehicles and timers. *)
 let log_to path =
   let fd = Unix.openfile path [ O_WRONLY; O_CREAT; O_APPEND ] 0o644 in
   let report _ _ ~over k message =

@@ -18,7 +18,7 @@ let sample n trials =
 
 let at_once = 10
 
-(* A process for each, so many at once; the numbers of those that are wrong. *)
+(* A process for each, a limited number at once; returns the numbers of those that fail. *)
 let run_all ~ports trials =
   let failed = ref [] and running = Hashtbl.create 16 in
   let wait () =

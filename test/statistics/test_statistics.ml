@@ -1,4 +1,4 @@
-(* Intervals are right as often as they say: by the exact probabilities of all samples. Quantiles and bars are those of
+(* Intervals have their stated coverage: by the exact probabilities of all samples. Quantiles and bars are those of
    the definition. *)
 
 open Dolphin_statistics
@@ -30,7 +30,7 @@ let probability n p k =
 let sum f from until =
   List.fold_left (fun s k -> s +. f k) 0. (List.init (max 0 (until - from + 1)) (fun i -> from + i))
 
-(* Each end is where the tail of the binomial distribution has half of what is left. *)
+(* Each end is where the tail of the binomial distribution has half of the rest. *)
 let interval_by_the_definition =
   let generator = QCheck2.Gen.(int_range 1 150 >>= fun n -> pair (return n) (int_range 0 n)) in
   Test_support.Property.case "the ends are those of the definition" generator

@@ -1,4 +1,4 @@
-(* Prints what is told of each snippet of a file; [---] stands between them. *)
+(* Prints the diagnostics of each snippet of a file; [---] separates them. *)
 
 let () =
   let rec split snippet = function

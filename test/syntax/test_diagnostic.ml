@@ -1,4 +1,4 @@
-(* How faults are shown, and what is suggested. *)
+(* The rendering of diagnostics and their suggestions. *)
 
 open Dolphin_syntax
 
@@ -27,7 +27,7 @@ let pp =
       (Printf.sprintf "f.dol:1:201: error: wrong\n  1 | ...%s!!%s...\n    | %s^^\n    hint: right" (String.make 50 'a')
          (String.make 58 'b') (String.make 53 ' ')) ]
 
-(* A text that is not UTF-8 and commands terminals, in the program and in what is said of it. *)
+(* A text that is not UTF-8 and commands terminals, in the program and in its diagnostic. *)
 let printed =
   Alcotest.test_case "nothing but printable characters" `Quick (fun () ->
       let source = "a\xE1\xD5\xF4\x1b[2J\xC2\x9b\xE2\x82\xACz" in

@@ -1,4 +1,4 @@
-(* Formatting keeps programs and comments, and what is formatted stays as it is. *)
+(* Formatting keeps programs and comments, and is idempotent. *)
 
 open Dolphin_syntax
 
@@ -24,7 +24,7 @@ let erased text =
   | Ok program -> Some (Erase.program program)
   | Error _ -> None
 
-(* Everything that holds of formatting the program [source]; a text that is no program is passed over. *)
+(* Everything that holds of formatting the program [source]; texts that are not programs are skipped. *)
 let holds source =
   match erased source with
   | None -> true
@@ -35,7 +35,7 @@ let holds source =
     && Formatting.program ~file source = Ok text
     && List.for_all (fun c -> count c source = count c text) comments
 
-(* A program as somebody in a hurry would lay it out: with breaks, blanks, semicolons and comments anywhere. *)
+(* A program in a careless layout: with breaks, blanks, semicolons and comments anywhere. *)
 let disarranged =
   let open QCheck2.Gen in
   let insertion = pair (int_bound 1_000_000) (oneofl ([ "\n"; "\n"; "\n\n\n"; "  "; "\t"; ";"; "; "; "\r\n"; "//c\n" ] @ comments)) in

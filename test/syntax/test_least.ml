@@ -44,7 +44,7 @@ let row = function Parallel -> 1 | Intersect -> 2 | _ -> 3
 let symbol = function Parallel -> " | " | Intersect -> " & " | _ -> " >> "
 let limited = 4
 
-(* [last]: nothing but the end of what encloses it follows. [in_rounds]: an [until] behind it would be that of a
+(* [last]: nothing but the end of the enclosing construct follows. [in_rounds]: an [until] behind it would be that of a
    [repeat]. [until_follows]: one does. *)
 type place = { level : int; last : bool; in_rounds : bool; until_follows : bool }
 

@@ -1,4 +1,4 @@
-(* What a text means, told by another text that means the same beyond doubt. *)
+(* The meaning of a text, given as another text whose meaning is beyond doubt. *)
 
 open Dolphin_syntax
 

@@ -99,7 +99,7 @@ let is_dated (o : Timing.outcome) (run : Timing.run) later =
   in_order run.dates && last = 1000 * expected
   && (run.chain = [] || (not later) || List.fold_left (fun n (l : Schedule.link) -> n + l.lasts) 0 run.chain >= last)
 
-(* If code does more with the date than compare it with constants, there is no result. *)
+(* If code does more with the date than compare it with constants, the result is missing. *)
 let enumerated ?batteries ?seen (options : Timed.options) =
   if Result.is_ok options.dates then Enumeration.all ?batteries ?seen options else None
 

@@ -135,7 +135,7 @@ let read path =
   let channel = open_in_bin path in
   Fun.protect ~finally:(fun () -> close_in channel) (fun () -> really_input_string channel (in_channel_length channel))
 
-(* Each rule is what some model is about. *)
+(* Some model is about each rule. *)
 let rules_have_models () =
   let text = read "../../spec/README.md" in
   let has rule =
@@ -154,8 +154,8 @@ let models =
 let configurations =
   List.filter (fun name -> Filename.check_suffix name ".cfg") (Array.to_list (Sys.readdir "../../spec/models"))
 
-(* [f run] where [run arguments] is the status of Java with TLC's classes in a directory with all models, and what it
-   says. *)
+(* [f run] where [run arguments] is the status and the output of Java with TLC's classes in a directory with all
+   models. *)
 let with_tlc f ({ java; jar } : Dolphin_tlc.Installation.t) =
   let directory = Filename.temp_file "dolphin" ".tla" in
   Sys.remove directory;

@@ -1,1 +1,1 @@
-(** Programs as models in TLA+: what is written, and what is refused. *)
+(** Programs as models in TLA+: the written texts, and the refused programs. *)

@@ -1,4 +1,4 @@
-(* What TLC prints is read as what it means; and finding and starting programs fails with what is wrong. *)
+(* The output of TLC is understood; failures to find or start programs are reported with their reason. *)
 
 open Dolphin_tlc
 open Dolphin_lts
@@ -120,7 +120,7 @@ let verdicts () =
   check "gave up: x is \"open\""
     (version ^ "@!@!@STARTMSG 2111:1 @!@!@\nEvaluating invariant NoDeadlock failed.\n" ^ message_text 2132 0 assertion
      ^ "\n@!@!@ENDMSG 2111 @!@!@\n" ^ message_text 2121 1 "The behavior up to this point is:" ^ failure);
-  (* While TLC looked for what follows a state. *)
+  (* While TLC computed the successors of a state. *)
   check "gave up: x is \"open\""
     (version ^ message_text 2132 1 assertion ^ message_text 2121 1 "The behavior up to this point is:"
      ^ message_text 2217 4 "1: <Initial predicate>\n/\\ x = 0\n");

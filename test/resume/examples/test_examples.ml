@@ -1,8 +1,8 @@
 (* Each example is resumed at each line of its journal. A console dies in the middle of that line, and another one goes
    on: the two write what one console writes that lives, on the same times. Time is virtual.
 
-   Of a long journal only so many lines are taken, at even distances. Missions that adapt to what happens have all of
-   theirs taken, and with DOLPHIN_RESUME=all, all programs. *)
+   Of a long journal a sample of lines is taken, at even distances. Of missions that adapt to events all lines are
+   taken, and with DOLPHIN_RESUME=all, all programs. *)
 
 open Dolphin_app
 
@@ -50,7 +50,8 @@ let some ~most lines is =
   let wanted = min many (max 4 (most / Array.length lines)) in
   List.filteri (fun i _ -> (i + 1) * wanted / many > i * wanted / many) is
 
-(* The lines, from 0, that a console dies in. Telemetry is no part of a state: that of a long journal is left out. *)
+(* The lines, from 0, that a console dies in. Telemetry does not belong to the state: that of a long journal is left
+   out. *)
 let deaths ~most lines =
   let n = Array.length lines in
   some ~most lines (List.filter (fun i -> n <= few || not (is_kind "vehicle" lines.(i))) (List.init (n - 1) succ))

@@ -4,7 +4,8 @@ import { type Alarm, type Run, clock } from "./model";
 import { $, h } from "./dom";
 import { mark } from "./title";
 
-const most = 4;
+const most = 4;  // lines
+const grouped = 4;  // alarms with one text, from here on
 
 export class Alarms {
   private run = "";
@@ -30,9 +31,21 @@ export class Alarms {
       h("button", { class: "link", click: () => this.select(alarm.vehicle) }, h("b", {}, alarm.vehicle), ` ${alarm.text} `,
         h("small", {}, `at ${clock(alarm.time)}${alarm.until === null ? "" : `, until ${clock(alarm.until)}`}`)),
       h("button", { "aria-label": `seen: ${alarm.vehicle} ${alarm.text}`, click: () => { this.see([i]); redraw(); } }, "Seen"));
+    // Alarms with one text are one line: "40 vehicles: no link".
+    const groups = new Map<string, typeof open>();
+    for (const o of open) groups.set(o.alarm.text, [...(groups.get(o.alarm.text) ?? []), o]);
+    const group = (all: typeof open) => {
+      if (all.length < grouped) return all.slice().reverse().map(item);
+      const ids = new Set(all.map(({ alarm }) => alarm.vehicle)), last = all[all.length - 1].alarm, go = all.filter(({ alarm }) => alarm.until === null).length;
+      return [h("li", {}, h("span", { title: [...ids].join(", ") }, h("b", {}, `${ids.size} vehicles`), `: ${last.text} `,
+        h("small", {}, `last at ${clock(last.time)}, ${go ? `${go} still` : "none any more"}`)),
+        h("button", { "aria-label": `seen: ${ids.size} vehicles ${last.text}`, click: () => { this.see(all.map(({ i }) => i)); redraw(); } }, "Seen"))];
+    };
+    const latest = (all: typeof open) => all[all.length - 1].i;
     // The latest first.
-    this.el.replaceChildren(h("ul", {}, ...open.slice(-most).reverse().map(item)),
-      open.length > most ? h("span", {}, `and ${open.length - most} more`) : "",
+    const lines = [...groups.values()].sort((a, b) => latest(b) - latest(a)).flatMap(group);
+    this.el.replaceChildren(h("ul", {}, ...lines.slice(0, most)),
+      lines.length > most ? h("span", {}, `and ${lines.length - most} more`) : "",
       open.length > 1 ? h("button", { click: () => { this.see(open.map(({ i }) => i)); redraw(); } }, "All seen") : "");
   }
 

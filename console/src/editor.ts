@@ -3,7 +3,7 @@
 
 import { EditorState, StateEffect, StateField } from "@codemirror/state";
 import { Decoration, type DecorationSet, EditorView, type Tooltip, hoverTooltip, keymap, showTooltip, lineNumbers, highlightActiveLine, drawSelection } from "@codemirror/view";
-import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirror/commands";
+import { defaultKeymap, history, historyKeymap } from "@codemirror/commands";
 import { StreamLanguage, HighlightStyle, syntaxHighlighting, bracketMatching, indentUnit } from "@codemirror/language";
 import { linter, lintGutter, lintKeymap } from "@codemirror/lint";
 import { autocompletion, completionKeymap, type CompletionContext } from "@codemirror/autocomplete";
@@ -150,13 +150,13 @@ export class Editor {
     return EditorState.create({ doc: text, extensions: [
       lineNumbers(), history(), drawSelection(), highlightActiveLine(), bracketMatching(), highlightSelectionMatches(), search({ top: true }),
       indentUnit.of("    "), language, syntaxHighlighting(colours), look, here, lintGutter(),
-      EditorView.contentAttributes.of({ "aria-label": "source of the program", tabindex: "0" }),
+      EditorView.contentAttributes.of({ "aria-label": "source of the program: Tab leaves it, Control and ] indents", tabindex: "0" }),
       linter((view) => this.check(view), { delay: 300 }),
       autocompletion({ override: [(c) => this.complete(c)] }),
       hoverTooltip((view, at) => this.hover(view, at)), signature((path, text, at) => post("signature", { path, text, at }), () => this.path),
       keymap.of([{ key: "Mod-s", preventDefault: true, run: () => { this.events.save(); return true; } },
         { key: "F12", run: (view) => { void this.define(view); return true; } },
-        ...completionKeymap, ...searchKeymap, ...lintKeymap, ...historyKeymap, ...defaultKeymap, indentWithTab]),
+        ...completionKeymap, ...searchKeymap, ...lintKeymap, ...historyKeymap, ...defaultKeymap]),
       EditorView.updateListener.of((u) => { if (u.docChanged) this.events.changed(); }),
     ] });
   }

@@ -15,7 +15,7 @@ import { type Picked, happenings, timeline } from "./timeline";
 import { Plans } from "./plans";
 import { Alarms } from "./alarms";
 import { Dialog } from "./question";
-import { mark as markTitle } from "./title";
+import { mark as markTitle, setTitle } from "./title";
 import { Verdicts } from "./verdicts";
 
 // A run that was, or one that explore found: gone through by steps.
@@ -70,10 +70,11 @@ const alarms = new Alarms((id) => { map.focus(id); $<HTMLSelectElement>("about")
 
 const program = () => $<HTMLSelectElement>("program").value;
 
-async function loadFiles() {
+// [wanted] is opened, or else the one that was open.
+async function loadFiles(wanted: string | null) {
   const files = await get("files");
   const option = (path: string) => h("option", { value: path }, path);
-  const before = program() || location.hash.slice(1);
+  const before = wanted ?? (program() || decodeURIComponent(location.hash.slice(1)));
   $("program").replaceChildren(...files.programs.map(option));
   $("fleet").replaceChildren(h("option", { value: "" }, "the one beside it"), ...files.fleets.map(option));
   layers.offer(files.layers);
@@ -118,7 +119,9 @@ async function loadWorld() {
   const fleet = $<HTMLSelectElement>("fleet").value;
   try {
     const world = await get(`world?program=${encodeURIComponent(program())}` + (fleet ? `&fleet=${encodeURIComponent(fleet)}` : ""));
-    map.setPlaces(world.plans.filter((p: Json) => p.latitude !== undefined));
+    // Real vehicles are those that are heard, wherever the fleet file has them.
+    const simulated = status?.simulated !== false;
+    map.setPlaces(simulated ? world.plans.filter((p: Json) => p.latitude !== undefined) : []);
     parameters = world.parameters ?? [];
     suggested = world.suggested ?? {};
     settings.clear();
@@ -127,7 +130,7 @@ async function loadWorld() {
       live = shown = new Run();
       map.reset();
       live.fences = world.fences ?? [];
-      for (const v of world.vehicles) live.add({ kind: "journal", line: { kind: "vehicle", time: 0, connected: true, ...v } });
+      for (const v of simulated ? world.vehicles : []) live.add({ kind: "journal", line: { kind: "vehicle", time: 0, connected: true, ...v } });
     }
   } catch { parameters = []; suggested = {}; map.setPlaces([]); }
   renderNow();
@@ -177,8 +180,18 @@ function showFaults(found: Diagnostic[]) {
 
 // {1 Runs and explorations}
 
-async function startRun() {
+// The text as it is on the screen: saved, once its author has agreed.
+async function saved(what: string): Promise<boolean> {
+  if (dirty && !(await choose(`The text of ${editor.path} is not saved. Save it and ${what}?`, `Save and ${what}`))) return false;
   await save();
+  return !dirty;
+}
+
+const commandsReal = () => choose(`${program()} commands REAL vehicles: each that its picks choose among those that are heard.`, "Command real vehicles", "Cancel", "danger");
+
+async function startRun() {
+  if (!(await saved("run"))) return;
+  if (status?.simulated === false && !(await commandsReal())) return;
   const speed = $<HTMLSelectElement>("speed").value, fleet = $<HTMLSelectElement>("fleet").value;
   leavePast();
   plans.undraw();
@@ -196,7 +209,7 @@ async function enact(of: "exploration" | "timing") {
 const subjects = ["exploration", "timing", "graph"] as const;
 
 async function analyse(subject: (typeof subjects)[number]) {
-  await save();
+  if (!(await saved("analyse"))) return;
   showTab("verdicts");
   const fleet = $<HTMLSelectElement>("fleet").value, faults = $<HTMLInputElement>("faults-allowed").value.trim();
   const deadline = $<HTMLInputElement>("deadline").value.trim();
@@ -254,7 +267,7 @@ async function renderRuns() {
   const row = (r: Json) => h("tr", {}, h("td", {}, r.program), h("td", {}, r.started.replace("T", " ").slice(0, 16)),
     h("td", { class: "number" }, clock(r.time)), h("td", { class: r.state === "completed" ? "" : "trouble" }, r.state),
     h("td", {}, h("button", { click: attempt(() => replayRun(r.run, r.program)) }, "Replay"),
-      r.state === "broken off" ? h("button", { class: "main", click: attempt(() => resume(r)) }, "Resume") : null));
+      r.state === "broken off" && !goesOn() ? h("button", { class: "main", click: attempt(() => resume(r)) }, "Resume") : null));
   $("runs").replaceChildren(runs.length
     ? h("table", {}, h("thead", {}, h("tr", {}, ...["program", "started (UTC)", "time", "end", ""].map((t) => h("th", { scope: "col" }, t)))),
         h("tbody", {}, ...runs.map(row)))
@@ -268,11 +281,14 @@ async function renderRuns() {
 async function resume(r: Json) {
   leavePast();
   await post("run/resume", { run: r.run, people: $<HTMLInputElement>("people").checked });
+  await renderRuns();
 }
+
+const goesOn = () => status?.run?.state === "running" || status?.run?.state === "stopping";
 
 // A server that died in a run says so to whoever comes.
 async function offerToResume() {
-  if (status?.run?.state === "running" || status?.run?.state === "stopping") return;
+  if (goesOn()) return;
   const broken = (await renderRuns()).find((r: Json) => r.state === "broken off");
   if (broken) { showTab("runs"); tell(`The console died in a run of ${broken.program}: it can be resumed.`); }
 }
@@ -510,9 +526,14 @@ function renderHead() {
   $<HTMLButtonElement>("explore").disabled = watches || !linked || status?.exploration?.state === "running" || !program();
   $<HTMLButtonElement>("time").disabled = watches || !linked || status?.timing?.state === "running" || !program();
   $<HTMLSelectElement>("speed").disabled = status !== null && !status.simulated;
-  $("link").textContent = !linked ? "no server" : going ? `${run.counterexample !== null ? "counterexample of " : ""}${run.program ?? "a program"} ${clock(live.time)}` : "";
+  document.body.classList.toggle("dead", status !== null && !linked);
+  const world = status === null ? "" : (going ? run.simulated : status.simulated) ? "SIMULATED" : "REAL";
+  if ($("world").textContent !== world) $("world").textContent = world;
+  $("world").className = world.toLowerCase();
+  setTitle(world ? `${world} – ${going ? run.program ?? "a program" : "Dolphin console"}` : "Dolphin console");
+  $("link").textContent = !linked ? "no server: this is what was known last" : going ? `${run.counterexample !== null ? "counterexample of " : ""}${run.program ?? "a program"} ${clock(live.time)}` : "";
   $("link").className = linked ? "" : "trouble";
-  helm.show(status?.helm ?? null, me, watches);
+  helm.show(linked ? status?.helm ?? null : null, me, watches);
 }
 
 // What happens within a tenth of a second is drawn at once.
@@ -568,8 +589,7 @@ listen({
     if (first || other) {
       first = false;
       attempt(async () => {
-        if (s.run?.program && !location.hash) location.hash = s.run.program;
-        await loadFiles();
+        await loadFiles(goesOn() ? s.run!.program : location.hash ? null : s.run?.program ?? null);
         await offerToResume();
       })();
     }
@@ -592,9 +612,22 @@ listen({
     document.body.classList.toggle("watches", watches);
     renderHead();
   },
-  beat() { helm.alive(); },
-  link(up, why) { linked = up; if (why) tell(why); renderHead(); },
+  beat() {
+    heard = Date.now();
+    helm.alive();
+    if (!linked) { linked = true; renderHead(); }
+  },
+  link(up, why) { heard = Date.now(); linked = up; if (why) tell(why); renderHead(); },
 });
+
+// The server sends a beat each second: without one, what is shown is old.
+let heard = Date.now();
+const mostSilent = 2500;
+setInterval(() => {
+  if (!linked || Date.now() - heard <= mostSilent) return;
+  linked = false;
+  renderHead();
+}, 250);
 
 $("program").addEventListener("change", attempt(async () => {
   const wanted = program();

@@ -155,7 +155,7 @@ export class Run {
 export function trouble(run: Run, v: Vehicle): { rank: number; text: string } {
   const last = v.tasks[v.tasks.length - 1];
   const battery = v.samples[v.samples.length - 1]?.battery;
-  if (!v.connected) return { rank: 4, text: "no link since " + clock(v.silent[v.silent.length - 1]?.from ?? 0) };
+  if (!v.connected) return { rank: 4, text: v.samples.length ? "no link since " + clock(v.heard) : "no link yet" };
   if (last?.how === "failed") return { rank: 3, text: `${last.plan} failed${last.why ? ": " + last.why : ""}` };
   if (v.unready) return { rank: 2, text: v.unready };
   if (typeof battery === "number" && battery < lowBattery) return { rank: 1, text: "battery low" };

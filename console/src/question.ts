@@ -7,6 +7,7 @@ export interface Answer { question: number; text: string }
 
 export class Dialog {
   private question: Question | null = null;
+  private given = "";  // the answer that was given last
   private key = "";  // of the question that was opened last: put off, it stays closed
   private el = $<HTMLDialogElement>("question");
   private field = $<HTMLInputElement>("answer");
@@ -37,11 +38,14 @@ export class Dialog {
     $("choices").hidden = !truth;
     $("choices").replaceChildren(...(truth ? [["Yes", "true"], ["No", "false"]] : []).map(([name, text]) =>
       h("button", { type: "button", class: "main", click: () => this.answer(text) }, name)));
-    this.field.value = "";
+    this.field.value = q.refused ? this.given : "";  // to be mended
     if (!this.el.open) this.el.show();  // not modal: Stop works while it is open
     // Neither yes nor no is what Enter gives by chance.
     (truth ? $("later") : this.field).focus();
   }
 
-  private answer(text: string) { if (this.question && text) this.give({ question: this.question.number, text }); }
+  private answer(text: string) {
+    this.given = text;
+    if (this.question && text) this.give({ question: this.question.number, text });
+  }
 }

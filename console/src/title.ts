@@ -1,13 +1,22 @@
 // Marks of the page's title: what waits for somebody who looks elsewhere. The page sounds once for each new one.
 
-const title = document.title;
+let title = document.title;
 const marks = new Map<string, string>();
+
+const draw = () => { document.title = [...marks.values(), title].join("  "); };
+
+// What the title says when nothing waits, and after the marks.
+export function setTitle(text: string) {
+  if (title === text) return;
+  title = text;
+  draw();
+}
 
 export function mark(name: string, text: string) {
   const before = marks.get(name) ?? "";
   if (before === text) return;
   if (text) marks.set(name, text); else marks.delete(name);
-  document.title = marks.size ? [...marks.values()].join("  ") : title;
+  draw();
   if (text && document.hidden) ring();
 }
 

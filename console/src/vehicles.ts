@@ -4,8 +4,11 @@ import { h } from "./dom";
 import { colour } from "./map";
 import { type Run, type Vehicle, clock, trouble } from "./model";
 
-const columns = ["vehicle", "type", "task", "for", "battery", "position"];
-const numbers = new Set([3, 4, 5]);
+const columns = ["vehicle", "type", "task", "for", "battery", "last heard", "position"];
+const numbers = new Set([3, 4, 5, 6]);
+
+// Of a vehicle that is heard all the time nobody reads seconds that change all the time.
+const ago = (seconds: number) => (seconds < 2 ? "now" : seconds < 120 ? `${Math.floor(seconds)} s ago` : `${clock(seconds)} ago`);
 
 interface Row { el: HTMLElement; cells: HTMLElement[] }
 
@@ -53,6 +56,7 @@ export class VehicleTable {
     const says = [null, v.kind, t.rank > 0 ? t.text : runs ? task.plan : run.bound.has(v.id) ? "–" : "not bound",
       runs && !steps ? clock(run.time - task.from) : "",
       typeof s?.battery === "number" ? Math.round(s.battery * 100) + " %" : "",
+      s && run.moves && !steps ? ago(run.time - v.heard) : "",
       s ? `${s.latitude.toFixed(5)}, ${s.longitude.toFixed(5)}` : ""];
     says.forEach((text, c) => { if (text !== null && row!.cells[c].textContent !== text) row!.cells[c].textContent = text; });
     const kind = t.rank > 0 ? "bad" : t.rank < 0 ? "idle" : "";

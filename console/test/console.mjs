@@ -16,6 +16,7 @@ import places from "./places.mjs";
 import people from "./people.mjs";
 import plans from "./plans.mjs";
 import stop from "./stop.mjs";
+import truth from "./truth.mjs";
 
 const [dolphin, built, examples, pictures] = process.argv.slice(2);
 const home = mkdtempSync(join(tmpdir(), "console-"));
@@ -273,8 +274,8 @@ async function phone(name) {
 }
 
 const all = { folder, page, test, same, text, choose, over, picture, phone };
-const more = { ...all, home, dolphin, environment, browser, complaints, open, pictures };
-for (const f of [helm, people, analyses, maps, plans, places, accessibility, stop, listen, imc]) {
+const more = { ...all, home, dolphin, environment, browser, complaints, open, pictures, server: () => server };
+for (const f of [helm, truth, people, analyses, maps, plans, places, accessibility, stop, listen, imc]) {
   part = f.name;
   if (wanted(part)) await f(more);
 }

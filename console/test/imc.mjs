@@ -12,7 +12,7 @@ async function until(process, wanted) {
   throw new Error("it ended, and said only: " + said);
 }
 
-export default async function imc({ home, dolphin, environment, browser, test, same, over, complaints }) {
+export default async function imc({ home, dolphin, environment, browser, test, same, text, over, complaints }) {
   const folder = join(home, "real"), children = [];
   mkdirSync(folder);
   writeFileSync(join(folder, "lost.dol"), `input 'over'
@@ -38,7 +38,12 @@ execute until { poll over: true } run (watch task('survey')[v] onError { ignore(
     await page.goto(`http://127.0.0.1:${port}/`);
     await page.waitForFunction(() => location.hash === "#lost.dol");
     same(await page.locator("#speed").isDisabled(), true, "vehicles of a network have no speed to choose");
+    same(await text(page, "#world"), "REAL", "said in the head");
+    same((await page.title()).startsWith("REAL"), true, "and in the title");
+    same(await page.locator("#vehicles tbody tr").count(), 0, "vehicles of the fleet file");
     await page.click("#run");
+    await page.waitForSelector("#choice >> text=lost.dol commands REAL vehicles");
+    await page.click("#choice button >> text=Command real vehicles");
     await page.waitForSelector("#log pre >> text=starts survey");
     // Nothing is heard of it.
     vehicles.kill("SIGSTOP");

@@ -4,6 +4,7 @@ open Lwt.Infix
 module Certificate = Dolphin_console.Certificate
 module Console = Dolphin_console.Console
 module Folder = Dolphin_console.Folder
+module Operators = Dolphin_console.Operators
 module Page = Dolphin_console.Page
 
 let ( let* ) = Result.bind
@@ -30,7 +31,9 @@ let serve settings ~port ~browser =
   let root = Folder.root settings.folder in
   let tell (role, link) =
     if role = "" then Printf.printf "The console of %s is at %s\n" root link
-    else Printf.printf "The console of %s, for whoever %s: %s\n" root role link
+    else
+      let whom = if String.contains role ' ' then role else "whoever " ^ role in
+      Printf.printf "The console of %s, for %s: %s\n" root whom link
   in
   (* Before the address is printed: a reader of it may interrupt at once. *)
   let interruption = Interruption.make () in
@@ -60,8 +63,8 @@ let certificate_of listen files no_tls =
   | Some _, None, false -> Result.map Option.some (Certificate.own ~name:(Console.name listen))
   | Some _, Some (certificate, key), false -> Result.map Option.some (Certificate.load ~certificate ~key)
 
-let run () folder sim fleet network adapters definition supplier supplier_timeout tiles (listen, files, no_tls) port
-    no_browser =
+let run () folder sim fleet network adapters definition supplier supplier_timeout tiles
+    (listen, files, no_tls, operators) port no_browser =
   let fleet = match fleet, sim with Some _, _ -> fleet | None, sim -> sim in
   Report.result
     (let* folder = trouble (Folder.make folder) in
@@ -75,9 +78,15 @@ let run () folder sim fleet network adapters definition supplier supplier_timeou
        else check_fleet fleet
      in
      let* certificate = certificate_of listen files no_tls in
+     let* operators =
+       match listen, operators with
+       | None, Some _ -> Error (Error.Bad_input "--operators goes with --listen: on 127.0.0.1 every client steers")
+       | _, Some path -> Operators.load path
+       | _, None -> Ok (Operators.anonymous ())
+     in
      let settings =
        { Console.folder; run; fleet; dolphin = Sys.executable_name; page = Page.load (Page.folder ()); tiles; listen;
-         certificate; version = Version.number; workers = Dolphin_console.Worker_pool.limits }
+         certificate; operators; version = Version.number; workers = Dolphin_console.Worker_pool.limits }
      in
      serve settings ~port ~browser:(not no_browser))
 
@@ -134,9 +143,17 @@ let no_tls =
   in
   Arg.(value & flag & info [ "no-tls" ] ~doc)
 
+let operators =
+  let doc =
+    "With $(b,--listen): print a link for each operator of $(docv), which has lines of a name, a role ($(b,watch), \
+     $(b,answer), $(b,steer)) and perhaps a token of at least 16 characters that stays the same. Only its owner may be \
+     able to read it. Names are shown with the helm, and with actions of clients that do not have it."
+  in
+  Arg.(value & opt (some file) None & info [ "operators" ] ~docv:"FILE" ~doc)
+
 let listening =
-  let together listen certificate no_tls = (listen, certificate, no_tls) in
-  Term.(const together $ listen $ certificate $ no_tls)
+  let together listen certificate no_tls operators = (listen, certificate, no_tls, operators) in
+  Term.(const together $ listen $ certificate $ no_tls $ operators)
 
 let no_browser =
   let doc = "Open no browser." in

@@ -74,7 +74,7 @@ export interface Listener {
   places(p: { time: number; places: Place[] }): void;
   way(w: { time: number; way: Way }): void;
   clock(time: number): void;
-  role(role: "steers" | "watches", me: string): void;
+  role(role: "steers" | "answers" | "watches", me: string): void;
   beat(): void;  // something came
   link(up: boolean, why?: string): void;
 }

@@ -28,13 +28,13 @@ export class HelmView {
     void post("helm", { want: "keep" }, AbortSignal.timeout(5000)).catch(() => {});
   }
 
-  show(helm: Status["helm"] | null, me: string, watches: boolean) {
+  show(helm: Status["helm"] | null, me: string, role: string) {
     const before = this.helm, knew = this.me === me;
     const had = before !== null && knew && before.holder === me;
     this.helm = helm;
     this.me = me;
     if (before && helm && knew) this.notice(before, helm, had);
-    this.draw(watches);
+    this.draw(role);
   }
 
   private notice(before: Status["helm"], now: Status["helm"], had: boolean) {
@@ -67,11 +67,11 @@ export class HelmView {
   }
 
   // Buttons that somebody is about to press stay as they are until something changes.
-  private draw(watches: boolean) {
-    const helm = this.helm, key = JSON.stringify([helm, this.me, watches]);
+  private draw(role: string) {
+    const helm = this.helm, key = JSON.stringify([helm, this.me, role]);
     if (key === this.key) return;
     this.key = key;
-    if (watches) return $("helm").replaceChildren("this link is for watching");
+    if (role !== "steers") return $("helm").replaceChildren(role === "answers" ? "this link is for answers" : "this link is for watching");
     const mine = this.mine(), asking = helm?.asking.includes(this.me);
     $("helm").replaceChildren(
       !helm || helm.holder === null ? "" : mine ? "you have the helm" : "another page has the helm",

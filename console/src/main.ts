@@ -31,7 +31,8 @@ let shown = live;
 let hash: string | null = null;
 let dirty = false;
 let linked = false;
-let watches = false;  // this page's link is for watching
+let watches = false;  // this page's link commands nothing
+let answers = false;  // but it answers questions and posts inputs
 let me = "";  // the name that others know this page by
 
 const map = new ChartMap($("map"), (id) => { $<HTMLSelectElement>("about").value = id; renderLog(true); });
@@ -533,7 +534,7 @@ function renderHead() {
   setTitle(world ? `${world} – ${going ? run.program ?? "a program" : "Dolphin console"}` : "Dolphin console");
   $("link").textContent = !linked ? "no server: this is what was known last" : going ? `${run.counterexample !== null ? "counterexample of " : ""}${run.program ?? "a program"} ${clock(live.time)}` : "";
   $("link").className = linked ? "" : "trouble";
-  helm.show(linked ? status?.helm ?? null : null, me, watches);
+  helm.show(linked ? status?.helm ?? null : null, me, answers ? "answers" : watches ? "watches" : "steers");
 }
 
 // What happens within a tenth of a second is drawn at once.
@@ -581,7 +582,7 @@ listen({
     linked = true;
     layers.tiles(s.tiles);
     renderHead();
-    if (!watches) dialog.show(s.run?.id ?? "", s.run?.question ?? null);
+    if (!watches || answers) dialog.show(s.run?.id ?? "", s.run?.question ?? null);
     markTitle("question", s.run?.question ? "● " + s.run.question.prompt : "");
     renderNow();
     verdicts.status(s);
@@ -607,9 +608,10 @@ listen({
   way({ way }) { live.add({ kind: "way", way }); if (!past) changed(); },
   clock(time) { live.time = Math.max(live.time, time); if (!past) changed(); },
   role(is, name) {
-    watches = is === "watches";
+    watches = is !== "steers";
+    answers = is === "answers";
     me = name;
-    document.body.classList.toggle("watches", watches);
+    document.body.classList.toggle("watches", is === "watches");
     renderHead();
   },
   beat() {

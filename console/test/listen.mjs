@@ -64,6 +64,31 @@ export default async function listen({ dolphin, home, folder, environment, brows
     await watches.waitForSelector(".outcome.interrupted");
   });
 
+  await test("an operator with a name and the role answer sees the question, answers it, and commands nothing else", async () => {
+    const crew = join(home, "crew");
+    writeFileSync(crew, "ana steer\nrui answer\n", { mode: 0o600 });
+    const manned = spawn(dolphin, ["console", folder, "--port", "0", "--listen", "127.0.0.1", "--operators", crew, "--no-browser"],
+      { env: environment, stdio: ["ignore", "pipe", "inherit"] });
+    let printed = "";
+    for await (const text of manned.stdout) { printed += text; if (/rui, who answers: (\S+)/.test(printed)) break; }
+    const ana = await open("ana", /ana, who steers: (\S+)/.exec(printed)[1]);
+    const rui = await open("rui", /rui, who answers: (\S+)/.exec(printed)[1]);
+    await ana.waitForSelector("#program option >> nth=1", { state: "attached" });
+    await ana.selectOption("#program", "rendezvous.dol");
+    await ana.waitForSelector(".cm-line >> text=Radius");
+    await ana.click("#run");
+    await rui.waitForSelector("#helm >> text=this link is for answers");
+    await rui.waitForSelector("dialog[open] >> text=Radius");
+    same(await rui.locator("#run").isDisabled() && await rui.locator("#stop").isDisabled(), true, "disabled");
+    await rui.fill("#answer", "2");
+    await rui.click("#give");
+    await ana.waitForSelector("#log pre >> text=/rui-.* answers, without the helm/");
+    await ana.click("#stop");
+    await rui.waitForSelector(".outcome.interrupted");
+    manned.kill("SIGINT");
+    await new Promise((done) => manned.on("exit", done));
+  });
+
   for (const page of Object.values(pages)) await page.context().close();
   server.kill("SIGINT");
   await new Promise((done) => server.on("exit", done));

@@ -1,23 +1,15 @@
 module Request = Dolphin_http.Request
 
-type role = Steers | Watches
-type tokens = { steer : string; watch : string }
-type t = { port : int; tls : bool; tokens : tokens option }
+type role = Operators.role = Watches | Answers | Steers
+type t = { port : int; tls : bool; operators : Operators.operator list }
 
 (* {1 Tokens} *)
 
-let token () =
-  let channel = open_in_bin "/dev/urandom" in
-  let bytes = Fun.protect ~finally:(fun () -> close_in channel) (fun () -> really_input_string channel 16) in
-  String.concat "" (List.map (fun c -> Printf.sprintf "%02x" (Char.code c)) (List.of_seq (String.to_seq bytes)))
-
-let fresh () = { steer = token (); watch = token () }
-
-(* Not letter by letter: how long it takes tells nothing of the token. *)
+(* Not letter by letter: the time that it takes must not depend on the token. *)
 let same a b = Digest.string a = Digest.string b
-
-let role_of tokens text =
-  if same text tokens.steer then Some Steers else if same text tokens.watch then Some Watches else None
+let operator_of a text = List.find_opt (fun (o : Operators.operator) -> same text o.token) a.operators
+let role_of a text = Option.map (fun (o : Operators.operator) -> o.role) (operator_of a text)
+let has_tokens a = a.operators <> []
 
 let cookie port = Printf.sprintf "dolphin-%d" port
 
@@ -56,7 +48,7 @@ let is_host a text =
   let name, port = split_port a (String.lowercase_ascii text) in
   let loopback = List.mem name [ "127.0.0.1"; "localhost"; "[::1]" ] in
   let named () = is_address name || name = String.lowercase_ascii (Unix.gethostname ()) in
-  port = Some a.port && (loopback || (a.tokens <> None && named ()))
+  port = Some a.port && (loopback || (has_tokens a && named ()))
 
 let is_origin a ~host text = String.lowercase_ascii text = scheme a ^ "://" ^ String.lowercase_ascii host
 
@@ -98,34 +90,37 @@ let told a r =
   | (`None | `Many), _ -> None
 
 let role a (r : Request.t) =
-  match a.tokens with
-  | None -> Ok Steers
-  | Some _ when not (is_api r) -> Ok Watches
-  | Some tokens ->
+  if not (has_tokens a) then Ok Steers
+  else if not (is_api r) then Ok Watches
+  else
     Option.to_result ~none:(401, "this console is opened by the link that it printed when it began")
-      (Option.bind (told a r) (role_of tokens))
+      (Option.bind (told a r) (role_of a))
 
 let check a r = Result.bind (meant a r) (fun () -> role a r)
 
+let operator a r =
+  let found = Option.bind (told a r) (operator_of a) in
+  Option.bind found (fun (o : Operators.operator) -> o.name)
+
 let rank a (r : Request.t) : Dolphin_http.Server.rank =
-  let shown tokens =
+  let shown () =
     match told a r, Request.parameter r "token", r.path with
-    | None, Some text, [] -> role_of tokens text
-    | found, _, _ -> Option.bind found (role_of tokens)
+    | None, Some text, [] -> role_of a text
+    | found, _, _ -> Option.bind found (role_of a)
   in
-  match meant a r, a.tokens with
-  | Error _, _ -> Unknown
-  | Ok (), None -> Trusted
-  | Ok (), Some tokens -> (
-      match shown tokens with Some Steers -> Trusted | Some Watches -> Guest | None -> Unknown)
+  match meant a r with
+  | Error _ -> Unknown
+  | Ok () when not (has_tokens a) -> Trusted
+  | Ok () -> (
+      match shown () with Some (Steers | Answers) -> Trusted | Some Watches -> Guest | None -> Unknown)
 
 let enter a (r : Request.t) =
-  match a.tokens, r.path, Request.parameter r "token" with
-  | Some tokens, [], Some text when role_of tokens text <> None ->
+  match r.path, Request.parameter r "token" with
+  | [], Some text when role_of a text <> None ->
     let secure = if a.tls then "; Secure" else "" in
     Some [ ("Location", "/");
            ("Set-Cookie", Printf.sprintf "%s=%s; Path=/; HttpOnly; SameSite=Strict%s" (cookie a.port) text secure) ]
-  | (Some _ | None), _, _ -> None
+  | _, _ -> None
 
 (* {1 Replies} *)
 

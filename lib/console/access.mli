@@ -1,32 +1,30 @@
-(** Who may ask a console: its own pages, and programs of this machine, or who has a token; no page of anybody else. *)
+(** Checks of requests: a console answers its own pages, programs of this machine, and clients with a token; never a
+    page of another server. *)
 
-(** Whoever watches may not command. *)
-type role = Steers | Watches
-
-type tokens = { steer : string; watch : string }
+type role = Operators.role = Watches | Answers | Steers
 
 type t = {
   port : int;
   tls : bool;  (** its addresses begin with [https] *)
-  tokens : tokens option;  (** [None]: on the loopback address, where all who can connect may steer *)
+  operators : Operators.operator list;  (** none on the loopback address: every client there steers *)
 }
 
 val scheme : t -> string
 (** [http] or [https]. *)
 
-val fresh : unit -> tokens
-(** Tokens that nobody guesses: 128 bits each. *)
-
 val check : t -> Dolphin_http.Request.t -> (role, int * string) result
-(** [check a r] is what whoever sends [r] may do. It refuses, with a status and a sentence, what was not meant for this
-    console or comes from the page of another: a [Host] that is not its own (names that were bound to the loopback
-    address lead here otherwise), a foreign [Origin], and changes that are not sent as JSON, which no page can send
-    elsewhere unasked. Where there are tokens, requests of the interface need one, as a [Bearer] or in the cookie that
-    {!enter} sets. *)
+(** [check a r] is the role of the client that sent [r]. It refuses, with a status and a sentence, requests that were
+    not meant for this console or come from the page of another: a [Host] that is not its own (names that were bound to
+    the loopback address lead here otherwise), a foreign [Origin], and changes that are not sent as JSON, which no page can
+    send elsewhere unasked. Where there are tokens, requests of the interface need one, as a [Bearer] or in the cookie
+    that {!enter} sets. *)
+
+val operator : t -> Dolphin_http.Request.t -> string option
+(** [operator a r] is the name of the operator whose token [r] has, if there is one. *)
 
 val rank : t -> Dolphin_http.Request.t -> Dolphin_http.Server.rank
-(** [rank a r] is [Trusted] for a request of a client that may steer, [Guest] for one that may watch, [Unknown] for one
-    without a token or that {!check} refuses. *)
+(** [rank a r] is [Trusted] for a request of a client that may steer or answer, [Guest] for one that may watch,
+    [Unknown] for one without a token or that {!check} refuses. *)
 
 val enter : t -> Dolphin_http.Request.t -> (string * string) list option
 (** [enter a r] is the headers of the reply to [r] if it is of a link with a token, [/?token=...]: a cookie that scripts

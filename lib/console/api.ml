@@ -8,12 +8,13 @@ module Response = Dolphin_http.Response
 (* {1 The helm} *)
 
 let client h role (r : Request.t) =
+  let operator = Access.operator (Hall.access h) r in
   let key =
     match Request.header r "x-dolphin-client", Request.parameter r "client" with
     | Some key, _ | None, Some key -> key
     | None, None -> "api"
   in
-  if Visitors.is_key key then Ok (Hall.name h role key)
+  if Visitors.is_key key then Ok (Hall.name h ?operator role key)
   else bad "a client's key has 1 to 64 letters, digits, points, dashes and underscores"
 
 let take h client by =
@@ -52,6 +53,7 @@ type route =
   | Save of string  (* likewise, of the client that has the helm *)
   | Told of (Hall.t -> Access.role -> Request.t -> (Response.t, refusal) result Lwt.t)
   | Command of (Hall.t -> Field.members -> (json, refusal) result)
+  | Answer of (Hall.t -> string -> Field.members -> (json, refusal) result Lwt.t)  (* of clients that answer, too *)
   | Later of (Hall.t -> client:string -> Request.t -> Field.members -> (json, Response.t) result Lwt.t)
   | Steer of (Hall.t -> string -> Field.members -> (json, refusal) result)
 
@@ -60,13 +62,13 @@ let most_steerers = 40
 let most_of_one = 6
 
 let role_event (role : Access.role) client =
-  let name = match role with Steers -> "steers" | Watches -> "watches" in
+  let name = Operators.role_name role in
   let data = Dolphin_json.Canonical.to_string (`Assoc [ ("role", `String name); ("client", `String client) ]) in
   Printf.sprintf "event: role\ndata: %s\n\n" data
 
 let events h (role : Access.role) r =
   let* client = client h role r in
-  let most = match role with Steers -> most_steerers | Watches -> most_watchers in
+  let most = match role with Steers | Answers -> most_steerers | Watches -> most_watchers in
   if Hall.watchers h role >= most then refuse 503 "too-many" "too many look on"
   else if Hall.streams_of h client >= most_of_one then refuse 503 "too-many" "this client looks on often enough"
   else
@@ -140,8 +142,9 @@ let table =
     (("POST", "signature"), Beside "signature"); (("POST", "definition"), Beside "definition");
     (("POST", "format"), Beside "format"); (("GET", "world"), Beside "world"); (("POST", "plans"), Told plans);
     (("POST", "run"), Later Run_commands.start); (("POST", "run/counterexample"), Command Run_commands.enact);
-    (("POST", "run/stop"), Steer Run_commands.stop); (("POST", "run/answer"), Command Run_commands.answer);
-    (("POST", "run/post"), Later (fun h ~client:_ _ found -> Run_commands.post h found));
+    (("POST", "run/stop"), Steer Run_commands.stop);
+    (("POST", "run/answer"), Answer (fun h client found -> Lwt.return (Run_commands.answer h client found)));
+    (("POST", "run/post"), Answer Run_commands.post);
     (("POST", "run/resume"), Later Run_commands.resume);
     (("GET", "runs"), Beside "runs"); (("GET", "replay"), Told replay); (("POST", "helm"), Steer helm) ]
   @ of_subject "exploration" Exploration @ of_subject "timing" Timing @ of_subject "graph" Graph
@@ -149,6 +152,8 @@ let table =
 let routes = List.map (fun ((verb, path), _) -> (verb, "/api/" ^ path)) table
 
 let watcher = refusal 403 "watches" "this link is for watching: it commands nothing"
+
+let answerer = refusal 403 "answers" "this link is for answers and inputs: it commands nothing else"
 
 (* Commands are read in this process: they are short. *)
 let longest_command = 64 * 1024
@@ -166,6 +171,11 @@ let command h r =
   let* client = helmsman h r in
   Ok (client, found)
 
+(* Without the helm. *)
+let answering h role r =
+  let* found = command_body r in
+  Result.map (fun client -> (client, found)) (client h role r)
+
 let perform h (role : Access.role) (r : Request.t) route =
   let refused r = Lwt.return (of_refusal r) in
   match route, role with
@@ -173,7 +183,12 @@ let perform h (role : Access.role) (r : Request.t) route =
   | Told f, _ -> f h role r >|= (function Ok response -> response | Error r -> of_refusal r)
   | Beside task, _ -> (
       match client h role r with Ok client -> beside h role ~client task r | Error r -> refused r)
-  | (Save _ | Command _ | Later _ | Steer _), Watches -> refused watcher
+  | Answer f, (Steers | Answers) -> (
+      match if role = Steers then command h r else answering h role r with
+      | Error r -> refused r
+      | Ok (client, found) -> f h client found >|= of_result)
+  | (Save _ | Command _ | Later _ | Steer _ | Answer _), Watches -> refused watcher
+  | (Save _ | Command _ | Later _ | Steer _), Answers -> refused answerer
   | Save task, Steers -> (
       match helmsman h r with Ok client -> beside h Steers ~client task r | Error r -> refused r)
   | Command f, Steers -> Lwt.return (of_result (Result.bind (command h r) (fun (_, found) -> f h found)))

@@ -10,6 +10,7 @@ type settings = Hall.settings = {
   tiles : string option;
   listen : Unix.inet_addr option;
   certificate : Certificate.t option;
+  operators : Operators.operator list;
   version : string;
   workers : Worker_pool.limits;
 }
@@ -42,9 +43,12 @@ let links c =
     let plain = Printf.sprintf "%s://%s:%d/%s" (Access.scheme access) name (port c) token in
     Option.fold settings.certificate ~none:plain ~some:(fun c -> Certificate.with_fingerprint c plain)
   in
-  match access.tokens with
-  | None -> [ ("", link "") ]
-  | Some { steer; watch } -> [ ("steers", link ("?token=" ^ steer)); ("watches", link ("?token=" ^ watch)) ]
+  let of_operator (o : Operators.operator) =
+    let role = Operators.role_name o.role in
+    let whom = Option.fold o.name ~none:role ~some:(fun name -> Printf.sprintf "%s, who %s" name role) in
+    (whom, link ("?token=" ^ o.token))
+  in
+  match access.operators with [] -> [ ("", link "") ] | operators -> List.map of_operator operators
 
 let busy c = Hall.busy c.hall
 

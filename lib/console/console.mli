@@ -13,6 +13,7 @@ type settings = {
   tiles : string option;  (** where the map has tiles from, {!Access.check_tiles}; [None]: it has none *)
   listen : Unix.inet_addr option;  (** the address that is served, with tokens; [None]: 127.0.0.1, without *)
   certificate : Certificate.t option;  (** connections are encrypted *)
+  operators : Operators.operator list;  (** who may use it if it listens for other machines *)
   version : string;  (** of Dolphin *)
   workers : Worker_pool.limits;  (** of the processes that compute for requests *)
 }
@@ -28,7 +29,7 @@ val name : Unix.inet_addr option -> string
 (** [name listen] is the host name or address in the links of a console that listens there. *)
 
 val links : t -> (string * string) list
-(** Where pages find it: the address, or with tokens one that ["steers"] and one that ["watches"]. *)
+(** Where pages find it: the address; or one for each operator, with ["steers"], ["watches"], or ["ana, who steers"]. *)
 
 val busy : t -> bool
 (** Whether a run goes on. *)

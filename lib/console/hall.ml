@@ -11,6 +11,7 @@ type settings = {
   tiles : string option;
   listen : Unix.inet_addr option;
   certificate : Certificate.t option;
+  operators : Operators.operator list;
   version : string;
   workers : Worker_pool.limits;
 }
@@ -54,9 +55,9 @@ type t = {
 let make settings =
   let instance =
     Digest.to_hex (Digest.string (Printf.sprintf "%d %f" (Unix.getpid ()) (Unix.gettimeofday ()))) in
-  let tokens = Option.map (fun _ -> Access.fresh ()) settings.listen in
+  let operators = if settings.listen = None then [] else settings.operators in
   { settings; instance = String.sub instance 0 8; grown = Lwt_condition.create ();
-    access = { port = 0; tls = settings.certificate <> None; tokens }; run = None;
+    access = { port = 0; tls = settings.certificate <> None; operators }; run = None;
     run_path = None; pools = pools settings; runs = 0;
     analyses = []; begun = 0; visitors = Visitors.make (); helm = Helm.free; alive = []; watching = [] }
 
@@ -82,10 +83,11 @@ let worker_pids h =
   let { steerers; watchers; replays_of_steerers; replays_of_watchers; own } = h.pools in
   List.concat_map Worker_pool.pids [ steerers; watchers; replays_of_steerers; replays_of_watchers; own ]
 
-let workers h (role : Access.role) = match role with Steers -> h.pools.steerers | Watches -> h.pools.watchers
+let workers h (role : Access.role) =
+  match role with Steers | Answers -> h.pools.steerers | Watches -> h.pools.watchers
 
 let replays h (role : Access.role) =
-  match role with Steers -> h.pools.replays_of_steerers | Watches -> h.pools.replays_of_watchers
+  match role with Steers | Answers -> h.pools.replays_of_steerers | Watches -> h.pools.replays_of_watchers
 
 let own_workers h = h.pools.own
 

@@ -11,6 +11,7 @@ type settings = {
   tiles : string option;
   listen : Unix.inet_addr option;
   certificate : Certificate.t option;
+  operators : Operators.operator list;
   version : string;
   workers : Worker_pool.limits;
 }
@@ -66,7 +67,7 @@ val close : t -> unit
 
 (** {1 The helm} *)
 
-val name : t -> Access.role -> string -> string
+val name : t -> ?operator:string -> Access.role -> string -> string
 (** {!Visitors.name}: clients are known by it here. *)
 
 val helm : t -> Helm.t

@@ -118,6 +118,11 @@ let going_on h =
   | Some run when Live_run.goes_on run -> Ok run
   | Some _ | None -> refuse 409 "no-run" "no run goes on"
 
+(* All clients see who did it. *)
+let without_helm h run client what =
+  if Helm.holder (Hall.helm h) <> Some client then
+    Live_run.remark run (Printf.sprintf "%s %s, without the helm" client what)
+
 (* Without [all], each Stop goes one step further: two people who press it at once would end what the first one has
    begun, the vehicles' way home perhaps. *)
 let stop h client found =
@@ -125,14 +130,15 @@ let stop h client found =
   let* run = going_on h in
   let stopping : Live_run.stopping = match all with None -> Next | Some false -> Program | Some true -> All in
   Live_run.stop run stopping;
-  if Helm.holder (Hall.helm h) <> Some client then Live_run.remark run (client ^ " stops it, without the helm");
+  without_helm h run client "stops it";
   Ok (`Assoc [])
 
-let answer h found =
+let answer h client found =
   let* run = going_on h in
   let* number = get whole "question" found in
   let* text = get Field.text "text" found in
   let* () = Result.map_error (refusal 409 "answered") (Live_run.answer run number text) in
+  without_helm h run client "answers";
   Ok (`Assoc [])
 
 (* A pair, or pairs as people type them. *)
@@ -146,10 +152,12 @@ let pairs found =
     let* value = needed (Host_value.data_of_json value) in
     Ok [ (key, value) ]
 
-let post h found =
+let post h client found =
   match Result.bind (going_on h) (fun run -> Result.map (fun pairs -> (run, pairs)) (pairs found)) with
-  | Error r -> Lwt.return (Error (of_refusal r))
+  | Error r -> Lwt.return (Error r)
   | Ok (run, pairs) ->
     Live_run.post run pairs >|= function
-    | Ok time -> Ok (`Assoc [ ("time", Canonical.number time) ])
-    | Error why -> of_refused (refuse 422 "not-posted" why)
+    | Ok time ->
+      without_helm h run client ("posts " ^ String.concat ", " (List.map fst pairs));
+      Ok (`Assoc [ ("time", Canonical.number time) ])
+    | Error why -> refuse 422 "not-posted" why

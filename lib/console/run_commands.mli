@@ -26,8 +26,8 @@ val enact : Hall.t -> Field.members -> (json, refusal) result
 val stop : Hall.t -> string -> Field.members -> (json, refusal) result
 (** [stop h client found]: [POST run/stop]. *)
 
-val answer : Hall.t -> Field.members -> (json, refusal) result
-(** [POST run/answer]. *)
+val answer : Hall.t -> string -> Field.members -> (json, refusal) result
+(** [answer h client found]: [POST run/answer]. *)
 
-val post : Hall.t -> Field.members -> (json, Response.t) result Lwt.t
-(** [POST run/post]. *)
+val post : Hall.t -> string -> Field.members -> (json, refusal) result Lwt.t
+(** [post h client found]: [POST run/post]. *)

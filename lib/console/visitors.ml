@@ -1,6 +1,6 @@
 type t = { salt : string }
 
-let make () = { salt = (Access.fresh ()).steer }
+let make () = { salt = Operators.secret () }
 
 let is_key text =
   let is_good c =
@@ -8,6 +8,7 @@ let is_key text =
   let n = String.length text in
   n > 0 && n <= 64 && String.for_all is_good text
 
-let name v (role : Access.role) key =
-  let kind = match role with Steers -> "steers" | Watches -> "watches" in
-  kind ^ "-" ^ String.sub (Digest.to_hex (Digest.string (String.concat "/" [ v.salt; kind; key ]))) 0 12
+let name v ?operator role key =
+  let kind = Operators.role_name role in
+  let who = Option.value operator ~default:kind in
+  who ^ "-" ^ String.sub (Digest.to_hex (Digest.string (String.concat "/" [ v.salt; kind; who; key ]))) 0 12

@@ -37,7 +37,8 @@ let in_folder f =
 
 let settings folder : Console.settings =
   { folder = Result.get_ok (Folder.make folder); run = Dolphin_app.Run.simulated; fleet = None;
-    dolphin = Sys.executable_name; page = Page.load None; tiles = None; listen = None; certificate = None; version = "test";
+    dolphin = Sys.executable_name; page = Page.load None; tiles = None; listen = None; certificate = None;
+    operators = Operators.anonymous (); version = "test";
     workers = Worker_pool.limits }
 
 let served settings f () =
@@ -415,6 +416,69 @@ let journals root port =
 
 let question (m : Client.message) =
   m.event = "status" && member [ "run"; "question" ] (Yojson.Safe.from_string m.data) <> `Null
+
+(* {1 Operators} *)
+
+let operators_file () =
+  let read text =
+    match Operators.read text with
+    | Error why -> why
+    | Ok found ->
+      let one (o : Operators.operator) = Option.get o.name ^ " " ^ Operators.role_name o.role in
+      String.concat ", " (List.map one found)
+  in
+  let check what expected found = text what expected (read found) in
+  check "two" "ana steers, rui answers" "# the crew\nana steer\n\nrui\tanswer 0123456789abcdef # stays\r\n";
+  check "none" "there are no operators" "# nobody yet\n";
+  check "twice" "the name ana is there twice" "ana steer\nana watch\n";
+  check "one token" "two operators have the same token" "a steer 0123456789abcdef\nb watch 0123456789abcdef\n";
+  check "a role" "line 2: 'captain' is not a role: watch, answer or steer" "a steer\nb captain\n";
+  check "a short token" "line 1: a token has 16 to 128 letters, digits, dashes and underscores" "a steer 0123\n";
+  check "a name" "line 1: '<b>' is not a name: 1 to 32 letters, digits, dashes and underscores" "<b> steer\n";
+  check "too much" "line 1: a line has a name, a role, and perhaps a token" "a steer 0123456789abcdef more\n";
+  in_folder (fun folder ->
+      let path = Filename.concat folder "crew" in
+      write path "ana steer\n";
+      Unix.chmod path 0o644;
+      holds "others can read it" true (Result.is_error (Operators.load path));
+      Unix.chmod path 0o600;
+      holds "its owner alone" true (Result.is_ok (Operators.load path)))
+
+let crew = Result.get_ok (Operators.read "ana steer\nrui answer\neva watch\n")
+
+(* Each does what the role allows; names are seen by all. *)
+let named_operators _ console =
+  let port = Console.port console in
+  let by name =
+    let operator = List.find (fun (o : Operators.operator) -> o.name = Some name) crew in
+    [ ("Authorization", "Bearer " ^ operator.token) ] in
+  Alcotest.(check (list string)) "links" [ "ana, who steers"; "rui, who answers"; "eva, who watches" ]
+    (List.map fst (Console.links console));
+  let ask name ?body path = Client.ask ?body ~headers:(by name) ~port ("/api/" ^ path) in
+  let start = {|{"program": "mission.dol", "speed": 10}|} in
+  Lwt_list.iter_s
+    (fun (name, code) -> ask name ~body:start "run" >|= refused name (403, code))
+    [ ("rui", "answers"); ("eva", "watches") ]
+  >>= fun () ->
+  Client.events ~headers:(by "ana") ~port "/api/events?client=a" >>= fun ana ->
+  Client.until ana (fun m -> m.event = "role") >>= fun seen ->
+  holds "her name" true (has_text {|"ana-|} (List.hd (List.rev seen)).data);
+  Client.ask ~headers:(("X-Dolphin-Client", "a") :: by "ana") ~body:start ~port "/api/run" >>= fun r ->
+  status "she starts it" 200 r.status;
+  Client.until ana question >>= fun _ ->
+  ask "eva" ~body:{|{"question": 1, "text": "3"}|} "run/answer" >>= fun r ->
+  refused "who watches does not answer" (403, "watches") r;
+  ask "rui" ~body:{|{"question": 1, "text": "3"}|} "run/answer" >>= fun r ->
+  status "he answers" 200 r.status;
+  Client.until ana (fun m -> m.event = "log" && has_text "answers, without the helm" m.data) >>= fun seen ->
+  holds "by his name" true (has_text "rui-" (List.hd (List.rev seen)).data);
+  Lwt_list.iter_s
+    (fun (path, body) -> ask "rui" ~body path >|= refused path (403, "answers"))
+    [ ("run/stop", "{}"); ("helm", {|{"want": "force"}|}); ("exploration", {|{"program": "short.dol"}|}) ]
+  >>= fun () ->
+  ask "rui" ~body:{|{"pairs": "go: 1"}|} "run/post" >>= fun r ->
+  status "and posts" 200 r.status;
+  Client.until ana is_over >>= fun _ -> Client.leave ana
 
 let answers_and_posts _ port =
   let command ?(client = "first") path body =
@@ -1111,6 +1175,10 @@ let () =
          slow "malformed requests" (console malformed); slow "tiles" tiles;
          slow "hostile watchers"
            (served (fun folder -> { (settings folder) with listen = Some Unix.inet_addr_loopback }) hostile_watchers);
+         slow "the operators' file" operators_file;
+         slow "named operators"
+           (served (fun folder ->
+                { (settings folder) with listen = Some Unix.inet_addr_loopback; operators = crew }) named_operators);
          slow "streams of one client" (console streams_of_one_client) ]);
       ("workers",
        [ slow "killed" (with_limits Fun.id worker_killed);

@@ -15,9 +15,9 @@ val scheme : t -> string
 val check : t -> Dolphin_http.Request.t -> (role, int * string) result
 (** [check a r] is the role of the client that sent [r]. It refuses, with a status and a sentence, requests that were
     not meant for this console or come from the page of another: a [Host] that is not its own (names that were bound to
-    the loopback address lead here otherwise), a foreign [Origin], and changes that are not sent as JSON, which no page can
-    send elsewhere unasked. Where there are tokens, requests of the interface need one, as a [Bearer] or in the cookie
-    that {!enter} sets. *)
+    the loopback address lead here otherwise), a foreign [Origin], and changes that are not sent as JSON, which no page
+    can send elsewhere unasked. Where there are tokens, requests of the interface need one, as a [Bearer] or in the
+    cookie that {!enter} sets. *)
 
 val operator : t -> Dolphin_http.Request.t -> string option
 (** [operator a r] is the name of the operator whose token [r] has, if there is one. *)

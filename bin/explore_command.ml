@@ -119,12 +119,20 @@ let all_runs settings path set named ~strict ~json ~period ~files ~cache =
   | One program -> of_program settings program fleet ~from:None ~strict ~json ~period ~files ~cache
   | Several sweep -> of_values settings sweep fleet ~strict ~json ~period ~files ~cache
 
-let run path set fleet from answers faults strict json period files cache reduction compress spill walks bitstate
-    workers
-    invariants formulas fairness max_states max_depth max_memory timeout =
-  let settings : Exploration.settings =
-    { answers; faults; reduction; compress; spill; walks; bitstate; workers; max_states; max_depth; max_memory; timeout;
-      invariants; formulas; fairness } in
+(* What is asked, and how it is shown. *)
+type asked = {
+  path : string;
+  set : (string * string) list;
+  fleet : string option;
+  from : string option;
+  strict : bool;
+  json : bool;
+  period : float option;
+  files : files;
+  cache : bool;
+}
+
+let run { path; set; fleet; from; strict; json; period; files; cache } settings =
   Nursery.make_room ();
   Report.result
     (let* () = check_search settings in
@@ -383,13 +391,43 @@ let man =
          \  $(mname) $(tname) mission.dol --max-memory 2G --spill /var/tmp" ]
   @ Options.see_also
 
+let asked =
+  let open Options.Syntax in
+  let+ path = Options.program
+  and+ set = Options.set_range
+  and+ fleet = Options.fleet
+  and+ from = from
+  and+ strict = strict
+  and+ json = json
+  and+ period = period
+  and+ files = files
+  and+ cache = cache in
+  { path; set; fleet; from; strict; json; period; files; cache }
+
+let settings =
+  let open Options.Syntax in
+  let+ answers = answers
+  and+ faults = faults
+  and+ reduction = reduction
+  and+ compress = compress
+  and+ spill = spill
+  and+ walks = walks
+  and+ bitstate = bitstate
+  and+ workers = workers
+  and+ invariants = invariants
+  and+ formulas = formulas
+  and+ fairness = fairness
+  and+ max_states = max_states
+  and+ max_depth = max_depth
+  and+ max_memory = max_memory
+  and+ timeout = timeout in
+  { Exploration.answers; faults; reduction; compress; spill; walks; bitstate; workers; max_states; max_depth;
+    max_memory; timeout; invariants; formulas; fairness }
+
 let command =
   let info =
     Cmd.info "explore" ~docs:Options.s_prove ~doc:"check every run of a program" ~man
       ~exits:(Options.exits [ Done; Violated; Bad_input; Inconclusive; Platform_trouble; Bug ])
   in
   Cmd.v info
-    Term.(
-      const run $ Options.program $ Options.set_range $ Options.fleet $ from $ answers $ faults $ strict $ json $ period
-      $ files $ cache $ reduction $ compress $ spill $ walks $ bitstate $ workers $ invariants $ formulas $ fairness
-      $ max_states $ max_depth $ max_memory $ timeout)
+    Term.(const run $ asked $ settings)

@@ -1,5 +1,10 @@
 open Cmdliner
 
+module Syntax = struct
+  let ( let+ ) term f = Term.(const f $ term)
+  let ( and+ ) a b = Term.(const (fun a b -> (a, b)) $ a $ b)
+end
+
 let program =
   let doc = "The program, a file such as $(i,mission.dol)." in
   Arg.(required & pos 0 (some string) None & info [] ~docv:"PROG" ~doc)

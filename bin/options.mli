@@ -2,6 +2,17 @@
 
 open Cmdliner
 
+(** Terms of several options, as one record:
+
+    {[
+      let+ path = program and+ fleet = fleet in
+      { path; fleet }
+    ]} *)
+module Syntax : sig
+  val ( let+ ) : 'a Term.t -> ('a -> 'b) -> 'b Term.t
+  val ( and+ ) : 'a Term.t -> 'b Term.t -> ('a * 'b) Term.t
+end
+
 val program : string Term.t
 (** The file of the program, the first argument. *)
 

@@ -65,10 +65,20 @@ let rest_of_run (settings : Time_analysis.settings) path set fleet ~journal ~sla
     List.iter Report.complain (Present.remarks from program fleet @ Left_out.sentences settings.faults fleet);
     of_program ~from settings program fleet ~slack ~json ~trace ~drawing
 
-let run path set fleet from answers faults deadline slack fewest json trace drawing workers max_states max_depth
-    max_memory timeout =
-  let settings : Time_analysis.settings =
-    { answers; faults; deadline; workers; max_states; max_depth; max_memory; timeout } in
+(* What is asked, and how it is shown. *)
+type asked = {
+  path : string;
+  set : (string * string) list;
+  fleet : string option;
+  from : string option;
+  slack : bool;
+  fewest : bool;
+  json : bool;
+  trace : string option;
+  drawing : Drawing.t option;
+}
+
+let run { path; set; fleet; from; slack; fewest; json; trace; drawing } (settings : Time_analysis.settings) =
   Report.result
     (let* () = Option.fold trace ~none:(Ok ()) ~some:Text_file.check in
      let* () = Option.fold drawing ~none:(Ok ()) ~some:Drawing.check in
@@ -79,7 +89,7 @@ let run path set fleet from answers faults deadline slack fewest json trace draw
        let* fleet = Fleet_file.load_for ~program:path fleet in
        let* question = Sweep.within fleet question in
        let left_out = if fewest then Left_out.sentences else Left_out.of_time in
-       List.iter Report.complain (left_out faults fleet);
+       List.iter Report.complain (left_out settings.faults fleet);
        match question with
        | Several _ when slack -> Error no_slack
        | One _ when slack && fewest -> Error no_slack
@@ -186,14 +196,37 @@ let man =
          \  $(mname) $(tname) mission.dol --fewest --deadline 40.min" ]
   @ Options.see_also
 
+let json = Arg.(value & flag & info [ "json" ] ~doc:"Print the result as one JSON object.")
+
+let asked =
+  let open Options.Syntax in
+  let+ path = Options.program
+  and+ set = Options.set_range
+  and+ fleet = Options.fleet
+  and+ from = from
+  and+ slack = slack
+  and+ fewest = fewest
+  and+ json = json
+  and+ trace = trace
+  and+ drawing = drawing in
+  { path; set; fleet; from; slack; fewest; json; trace; drawing }
+
+let settings =
+  let open Options.Syntax in
+  let+ answers = Explore_command.answers
+  and+ faults = Explore_command.faults
+  and+ deadline = deadline
+  and+ workers = workers
+  and+ max_states = Explore_command.max_states
+  and+ max_depth = Explore_command.max_depth
+  and+ max_memory = Explore_command.max_memory
+  and+ timeout = Explore_command.timeout in
+  { Time_analysis.answers; faults; deadline; workers; max_states; max_depth; max_memory; timeout }
+
 let command =
   let info =
     Cmd.info "time" ~docs:Options.s_prove ~doc:"know how long a program takes, at most and at least" ~man
       ~exits:(Options.exits [ Done; Violated; Bad_input; Inconclusive; Platform_trouble; Bug ])
   in
-  let json = Arg.(value & flag & info [ "json" ] ~doc:"Print the result as one JSON object.") in
   Cmd.v info
-    Term.(
-      const run $ Options.program $ Options.set_range $ Options.fleet $ from $ Explore_command.answers
-      $ Explore_command.faults $ deadline $ slack $ fewest $ json $ trace $ drawing $ workers
-      $ Explore_command.max_states $ Explore_command.max_depth $ Explore_command.max_memory $ Explore_command.timeout)
+    Term.(const run $ asked $ settings)

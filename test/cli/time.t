@@ -637,3 +637,24 @@ What nobody can tell of the very first state is said, too.
   0 states, depth 0
   $ dolphin time first.dol > /dev/null 2>&1
   [3]
+
+A plan may charge, and so may rest, if the fleet says so only near a charger: the bound is that of rest which never
+charges, and of a run the place counts.
+
+  $ least() { grep '^noptilus'; }
+  $ dolphin time ../../examples/charging.dol | least
+  noptilus-1  55 % or more
+  noptilus-2  47.4 % or more
+  $ dolphin exec ../../examples/charging.dol | grep says
+  2:11:32  program     says: the dock: 100 %, the pier: 100 %
+  $ sed '/charger/d' ../../examples/charging.fleet > anywhere.fleet
+  $ dolphin time ../../examples/charging.dol --fleet anywhere.fleet | least
+  noptilus-1  55 % or more
+  noptilus-2  56.1 % or more
+  $ sed 's/charger .*/charger 41.2, -8.7, 30.m/' ../../examples/charging.fleet > elsewhere.fleet
+  $ dolphin exec ../../examples/charging.dol --fleet elsewhere.fleet | grep says
+  2:11:32  program     says: the dock: 100 %, the pier: 48 %
+  $ sed 's/; charges.*/ }/' ../../examples/charging.fleet > undocked.fleet
+  $ dolphin time ../../examples/charging.dol --fleet undocked.fleet | least
+  noptilus-1  36.6 % or more
+  noptilus-2  47.4 % or more

@@ -51,7 +51,7 @@ def main():
     parser.add_argument("--first", type=int, default=1, metavar="NUMBER", help="the first one's system number")
     parser.add_argument("--began", metavar="FILE", help="a line for each mission begun: how many items it has")
     parser.add_argument("--key", metavar="PHRASE", help="messages are signed by this pass phrase")
-    parser.add_argument("vehicles", nargs="+", metavar="KIND[:px4]", help="copter, plane, rover, boat or sub")
+    parser.add_argument("vehicles", nargs="+", metavar="KIND[:px4]", help="copter, plane, vtol, rover, boat or sub")
     given = parser.parse_args()
     host, _, port = given.to.rpartition(":")
     place = tuple(float(c) for c in given.place.split(","))

@@ -1,4 +1,4 @@
-// Alarms of the run: what went wrong with a vehicle stays until somebody has seen it, also when it has passed.
+// Alarms of the run: trouble of a vehicle stays on the page until it is marked as seen, also when it has passed.
 
 import { type Alarm, type Run, clock } from "./model";
 import { $, h } from "./dom";

@@ -22,7 +22,7 @@ export interface LogLine { time: number; severity: string; about: string[]; text
 export interface Waiting { time: number; for: { what: string; at?: string; lacking?: string }[] }
 
 export type Pair = [number, number];
-// What the program's variables are on the map.
+// Values of the program's variables on the map.
 export interface Place { name: string; position?: Pair; centre?: Pair; radius?: number; rings?: Pair[][] }
 export interface Fence {
   fence: string; rule: "inside" | "outside" | "depth" | "height" | "distance"; margin?: number; metres?: number;
@@ -30,7 +30,7 @@ export interface Fence {
 }
 export interface Way { vehicle: string; plan: string; path: Pair[] }
 
-// A page keeps its key when it is loaded again, and so its helm. It is a secret: the server tells others a name for it.
+// A page keeps its key when it is loaded again, and so its helm. It is a secret: other clients see a name made from it.
 const fresh = () => "page-" + [...crypto.getRandomValues(new Uint8Array(16))].map((b) => b.toString(16).padStart(2, "0")).join("");
 const client: string = sessionStorage.getItem("client") ?? fresh();
 sessionStorage.setItem("client", client);
@@ -39,7 +39,7 @@ export class Refusal extends Error {
   constructor(public code: string, message: string, public diagnostics: Diagnostic[]) { super(message); }
 }
 
-// What only computes is given up where a command needs a connection: browsers have six to a server.
+// Requests that only compute are aborted where a command needs a connection: browsers have six to a server.
 let computing = new AbortController();
 const computes = /^(check|complete|hover|signature|definition|format|plans|world|runs|files|layer|exploration|timing|graph)\b/;
 

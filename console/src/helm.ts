@@ -1,4 +1,4 @@
-// Who has the helm, as this page sees it: asking, taking, handing over. What changes hands rings and marks the title.
+// Who has the helm, as this page sees it: asking, taking, handing over. A change rings and marks the title.
 
 import { post, type Status } from "./api";
 import { choose } from "./choice";
@@ -21,7 +21,7 @@ export class HelmView {
 
   mine() { return this.helm !== null && this.helm.holder === this.me; }
 
-  // Something came from the server: the holder tells that it is there.
+  // Something came from the server: the holder answers that it is alive.
   alive() {
     if (!this.mine() || Date.now() - this.kept < keepEvery) return;
     this.kept = Date.now();
@@ -66,7 +66,7 @@ export class HelmView {
       await post("helm", { want: "force" });
   }
 
-  // Buttons that somebody is about to press stay as they are until something changes.
+  // Buttons stay the same elements until something changes: a press is not lost.
   private draw(role: string) {
     const helm = this.helm, key = JSON.stringify([helm, this.me, role]);
     if (key === this.key) return;

@@ -47,7 +47,7 @@ export class Layers {
     } catch (e) { this.tell((e as Error).message); }
   }
 
-  // Whom its pictures are from, beside its box.
+  // The source of its pictures, beside its box.
   private credit(path: string, whom: string) {
     const label = $("layer-list").querySelector(`[data-path="${CSS.escape(path)}"]`);
     label?.querySelector("small")?.remove();

@@ -1,4 +1,4 @@
-// The page: what the server tells is shown, and what a person wants is sent.
+// The page: it shows the messages of the server and sends a person's commands.
 
 import { type Diagnostic, type Json, type LogLine, type Status, Refusal, ask, get, listen, post, replay } from "./api";
 import { choose } from "./choice";
@@ -41,7 +41,7 @@ const layers = new Layers(map, tell);
 const editor = new Editor($("editor"), { changed: () => setDirty(true), checked: showFaults, save,
   elsewhere: (path, from, to) => attempt(async () => { if (await openOther(path)) editor.select(from, to); })() });
 
-// What cannot be done is said, and goes by itself.
+// A notice about a failure, which disappears by itself.
 let notice = 0;
 function tell(text: string, bad = true) {
   const banner = $("banner");
@@ -206,7 +206,7 @@ async function enact(of: "exploration" | "timing") {
   await post("run/counterexample", { of, speed: speed ? Number(speed) : null });
 }
 
-// What is asked about the program, beside running it.
+// Analyses of the program.
 const subjects = ["exploration", "timing", "graph"] as const;
 
 async function analyse(subject: (typeof subjects)[number]) {
@@ -287,14 +287,14 @@ async function resume(r: Json) {
 
 const goesOn = () => status?.run?.state === "running" || status?.run?.state === "stopping";
 
-// A server that died in a run says so to whoever comes.
+// After a server died in a run, pages offer to resume it.
 async function offerToResume() {
   if (goesOn()) return;
   const broken = (await renderRuns()).find((r: Json) => r.state === "broken off");
   if (broken) { showTab("runs"); tell(`The console died in a run of ${broken.program}: it can be resumed.`); }
 }
 
-// {1 What was}
+// {1 Replays}
 
 function openPast(p: Past) {
   past?.reading?.abort();
@@ -361,13 +361,13 @@ function step(by: number) {
   seek(i);
 }
 
-// {1 What is shown}
+// {1 The view}
 
 function list(name: string, items: (Node | string)[], empty: string) {
   return h("div", { class: "fact" }, h("h3", {}, name), items.length ? h("ul", {}, ...items.map((i) => h("li", {}, i))) : h("p", { class: "empty" }, empty));
 }
 
-// Which program the places of what is shown are in.
+// The program of the run on the screen.
 const shownProgram = () => (past ? past.program : status?.run?.program ?? null);
 
 // The line of [at] if its file is in the editor; else none.
@@ -389,7 +389,7 @@ function goTo(at: string | undefined, of: string | null) {
   })();
 }
 
-// {2 What was picked on the timeline}
+// {2 The selection on the timeline}
 
 let picked: Picked | null = null;
 
@@ -441,7 +441,7 @@ function renderNow() {
   parts.push(list("Tuple space N", shown.tuples, "empty"));
   parts.push(list("Allocated A", [...shown.allocation].map(([v, p]) => `${v}: ${p}`), "none"));
   parts.push(list("Bound B", shown.bound.size ? [[...shown.bound].join(", ")] : [], "none"));
-  // What somebody is about to type stays, wherever else something has changed.
+  // Text under way stays in its field.
   const focused = document.activeElement?.id, typed = [...$("now").querySelectorAll("input")]
     .map(({ id, value, selectionStart, selectionEnd }) => ({ id, value, from: selectionStart, to: selectionEnd }));
   $("now").replaceChildren(...parts);
@@ -453,7 +453,7 @@ function renderNow() {
   }
 }
 
-// What the fleet says may come is a button; anything else is typed.
+// Values of the fleet file have buttons; others are typed.
 let suggested: Record<string, string[]> = {};
 
 function inputs(keys: string[]) {
@@ -537,7 +537,7 @@ function renderHead() {
   helm.show(linked ? status?.helm ?? null : null, me, answers ? "answers" : watches ? "watches" : "steers");
 }
 
-// What happens within a tenth of a second is drawn at once.
+// Changes within a tenth of a second are drawn together.
 let due = false;
 function changed() {
   if (due) return;
@@ -622,7 +622,7 @@ listen({
   link(up, why) { heard = Date.now(); linked = up; if (why) tell(why); renderHead(); },
 });
 
-// The server sends a beat each second: without one, what is shown is old.
+// The server sends a beat each second: without it, the page is out of date.
 let heard = Date.now();
 const mostSilent = 2500;
 setInterval(() => {

@@ -1,4 +1,4 @@
-// A run as its messages tell of it: what happened is added up, nothing is decided.
+// A run, added up from its messages. It decides nothing.
 
 import type { Fence, Json, LogLine, Place, Waiting, Way } from "./api";
 
@@ -9,7 +9,7 @@ export interface Vehicle {
   heard: number; samples: Sample[]; tasks: Task[]; silent: { from: number; until: number | null }[]; low: boolean;
 }
 export interface Mark { time: number; kind: "posted" | "consumed" | "said" | "asked" | "failed" | "input"; text: string; at?: string; step: number }
-// What somebody has to look at, also when it has passed.
+// Trouble that needs a look, also when it has passed.
 export interface Alarm { kind: "link" | "battery" | "failed"; time: number; vehicle: string; text: string; until: number | null }
 export const lowBattery = 0.2;
 export type Message =
@@ -30,7 +30,7 @@ export class Run {
   places: Place[] = [];
   fences: Fence[] = [];  // that the program or the fleet has
   ways = new Map<string, Way>();  // of each vehicle, that of the plan described for it last
-  moves = true;  // of a run that was found nobody knows where its vehicles are
+  moves = true;  // false for a run that was found: the places of its vehicles are unknown
   time = 0;
   at: string | null = null;
   label = "";
@@ -98,7 +98,7 @@ export class Run {
     for (const a of this.alarms) if (a.kind === kind && a.vehicle === vehicle && a.until === null) a.until = this.time;
   }
 
-  // A battery about the limit is told of once.
+  // A battery near the limit gives one alarm.
   private charge(v: Vehicle, battery: number | null) {
     if (typeof battery !== "number") return;
     if (!v.low && battery < lowBattery) { v.low = true; this.alarm("battery", v.id, `battery at ${Math.round(battery * 100)} %`); }
@@ -123,7 +123,7 @@ export class Run {
       this.end(cause.vehicle, "failed", cause.why);
       this.mark("failed", `${cause.vehicle}: ${cause.why}`, line.at);
     }
-    // A run that was found has no events: its labels say what ended.
+    // A run that was found has no events: its labels name the ends.
     if (!cause) {
       const ended = /^(done|failed)\(([^,)]*)/.exec(line.label);
       if (ended) this.end(ended[2], ended[1] === "done" ? "done" : "failed");
@@ -151,7 +151,7 @@ export class Run {
   }
 }
 
-// Who needs a look: the more, the higher.
+// Rank of a vehicle's need for a look.
 export function trouble(run: Run, v: Vehicle): { rank: number; text: string } {
   const last = v.tasks[v.tasks.length - 1];
   const battery = v.samples[v.samples.length - 1]?.battery;

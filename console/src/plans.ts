@@ -27,7 +27,7 @@ export class Plans {
 
   say(text: string) { this.found = null; this.note = text; this.choose(""); }
 
-  // Another program: what was found is not of it.
+  // Another program: the plans are not of it.
   forget() { this.say(""); }
 
   // A run shows where vehicles go.

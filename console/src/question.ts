@@ -1,4 +1,4 @@
-// The dialog of the question that the program asks. Yes and No where that is what it takes.
+// The dialog of the question that the program asks. Yes and No for confirm.
 
 import type { Question } from "./api";
 import { $, h } from "./dom";
@@ -40,7 +40,7 @@ export class Dialog {
       h("button", { type: "button", class: "main", click: () => this.answer(text) }, name)));
     this.field.value = q.refused ? this.given : "";  // to be mended
     if (!this.el.open) this.el.show();  // not modal: Stop works while it is open
-    // Neither yes nor no is what Enter gives by chance.
+    // Enter by chance gives neither yes nor no.
     (truth ? $("later") : this.field).focus();
   }
 

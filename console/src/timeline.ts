@@ -1,4 +1,4 @@
-// Who ran what when: a row for each vehicle, and one for what the program did. What happened can be picked, by pressing
+// Tasks over time: a row for each vehicle, and one for the program. Events can be picked, by pressing
 // it or by the arrow keys: then it is told in words, with its place in the program and on the map.
 
 import { type Mark, type Run, type Task, type Vehicle, clock } from "./model";

@@ -1,11 +1,11 @@
-// Marks of the page's title: what waits for somebody who looks elsewhere. The page sounds once for each new one.
+// Marks of the page's title, for people who look elsewhere. The page sounds once for each new one.
 
 let title = document.title;
 const marks = new Map<string, string>();
 
 const draw = () => { document.title = [...marks.values(), title].join("  "); };
 
-// What the title says when nothing waits, and after the marks.
+// The title without marks; it also stands after them.
 export function setTitle(text: string) {
   if (title === text) return;
   title = text;
@@ -28,5 +28,5 @@ export function ring() {
     tone.onended = () => void audio.close();
     tone.start();
     tone.stop(audio.currentTime + 0.25);
-  } catch { /* a browser that nobody has touched yet is silent */ }
+  } catch { /* browsers are silent before the first click */ }
 }

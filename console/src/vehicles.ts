@@ -1,4 +1,4 @@
-// The table of vehicles, trouble first. Rows stay the same elements while what they say changes: they can be pressed.
+// The table of vehicles, trouble first. Rows stay the same elements while their texts change: they can be pressed.
 
 import { h } from "./dom";
 import { colour } from "./map";
@@ -7,7 +7,7 @@ import { type Run, type Vehicle, clock, trouble } from "./model";
 const columns = ["vehicle", "type", "task", "for", "battery", "last heard", "position"];
 const numbers = new Set([3, 4, 5, 6]);
 
-// Of a vehicle that is heard all the time nobody reads seconds that change all the time.
+// Ages below two seconds would only flicker.
 const ago = (seconds: number) => (seconds < 2 ? "now" : seconds < 120 ? `${Math.floor(seconds)} s ago` : `${clock(seconds)} ago`);
 
 interface Row { el: HTMLElement; cells: HTMLElement[] }

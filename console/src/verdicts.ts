@@ -23,7 +23,7 @@ export class Verdicts {
   private results = new Map<Subject, Json>();
   private now: Partial<Record<Subject, { state: string; progress: string } | null>> = {};
   private picture = new StateGraph();
-  private drawn = new Map<Subject, { key: string; found: Json }>();  // what is shown is drawn anew if it has changed
+  private drawn = new Map<Subject, { key: string; found: Json }>();  // drawn again only if it has changed
 
   constructor(private events: Events) {
     $("graph").addEventListener("click", () => { this.wanted = true; events.graph(); });

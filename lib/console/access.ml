@@ -52,7 +52,7 @@ let is_host a text =
 
 let is_origin a ~host text = String.lowercase_ascii text = scheme a ^ "://" ^ String.lowercase_ascii host
 
-(* Of every header at most one counts: with two, nobody knows which. *)
+(* Two headers of one name are ambiguous. *)
 let header (r : Request.t) name =
   match List.filter (fun (known, _) -> known = name) r.headers with
   | [] -> `None

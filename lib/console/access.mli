@@ -34,5 +34,5 @@ val check_tiles : string -> (string, string) result
 (** [check_tiles url] is [url] if it is an address of tiles of a map: [https://tile.example/{z}/{x}/{y}.png]. *)
 
 val headers : tiles:string option -> (string * string) list
-(** What all replies have: nothing but the console's own files is loaded into its page, and the tiles of the map if
-    [tiles] says from where; nobody may frame it. *)
+(** Headers of all replies: a page loads only the console's own files, and tiles of the map from [tiles]; other pages
+    may not frame it. *)

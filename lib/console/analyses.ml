@@ -8,7 +8,7 @@ let not_busy subject h =
   | Some a when Analysis.goes_on a -> refuse 409 "busy" "this goes on: one at a time"
   | Some _ | None -> Ok ()
 
-(* An object in JSON, made by a worker of what the command has printed. *)
+(* An object in JSON, made by a worker from the output of the command. *)
 let conclude h order ~text ~witness =
   let query = [ ("order", Canonical.to_string (Analysis.json_of_order order)) ] in
   let query = query @ Option.fold witness ~none:[] ~some:(fun path -> [ ("witness", path) ]) in

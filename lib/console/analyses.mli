@@ -1,4 +1,4 @@
-(** Requests for what can be found out about programs without running them. *)
+(** Requests for analyses of programs. *)
 
 open Dolphin_json
 open Exchange
@@ -13,7 +13,7 @@ val start : Analysis.subject -> Hall.t -> Field.members -> (json, refusal) resul
     of the one before; refused as ["busy"] while that goes on. *)
 
 val result : Analysis.subject -> Hall.t -> Dolphin_http.Response.t
-(** How it goes, or what was found; [null] if nothing was asked. *)
+(** The progress or the result of the analysis; [null] if there was no request. *)
 
 val cancel : Analysis.subject -> Hall.t -> (json, refusal) result
 (** Ends it, if it goes on. *)

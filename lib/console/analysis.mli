@@ -5,7 +5,7 @@ open Dolphin_app
 open Dolphin_json
 open Exchange
 
-(** What is asked: [dolphin explore], [dolphin time], [dolphin lts]. *)
+(** The commands [dolphin explore], [dolphin time], [dolphin lts]. *)
 type subject = Exploration | Timing | Graph
 
 val subject_name : subject -> string

@@ -22,7 +22,7 @@ let take h client by =
     refuse 409 "not-watching" "a client that has the helm looks on: GET /api/events?client=KEY"
   else Ok (Hall.set_helm h (by (Hall.helm h) client))
 
-(* All who look on see in the log that it was taken. *)
+(* The log shows it to all clients. *)
 let force h client =
   let before = Helm.holder (Hall.helm h) in
   let* () = take h client Helm.force in

@@ -1,7 +1,7 @@
 (** The requests of pages and programs, as [docs/api.md] and [docs/openapi.json] describe them. *)
 
 val reply : Hall.t -> Dolphin_http.Request.t -> Dolphin_http.Response.t Lwt.t
-(** [reply h r] checks who asks ({!Access}), and does what is asked. *)
+(** [reply h r] is the reply to [r], if {!Access} permits it. *)
 
 val routes : (string * string) list
 (** All methods and paths, for the test of the description: [("GET", "/api/status")]. *)

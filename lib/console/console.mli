@@ -6,9 +6,9 @@ open Dolphin_app
 
 type settings = {
   folder : Folder.t;
-  run : Run.settings;  (** what all runs have: the platforms, the supplier *)
+  run : Run.settings;  (** of all runs: the platforms, the supplier *)
   fleet : string option;  (** a path; [None]: of each program the one beside it *)
-  dolphin : string;  (** the command, for what is done in a process of its own *)
+  dolphin : string;  (** the command of worker processes *)
   page : Page.t;
   tiles : string option;  (** where the map has tiles from, {!Access.check_tiles}; [None]: it has none *)
   listen : Unix.inet_addr option;  (** the address that is served, with tokens; [None]: 127.0.0.1, without *)

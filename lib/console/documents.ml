@@ -17,7 +17,7 @@ let units text =
   done;
   fun n -> before.(max 0 (min n length))
 
-(* The byte at which so many code units of [text] have passed. *)
+(* The byte after this number of code units of [text]. *)
 let byte text wanted =
   let length = String.length text in
   let rec from i count =

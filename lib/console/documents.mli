@@ -18,6 +18,6 @@ val hover : Service.t -> int -> Yojson.Safe.t
 val signature : Service.t -> int -> Yojson.Safe.t
 
 val definition : path:(string -> Yojson.Safe.t) -> Service.t -> int -> Yojson.Safe.t
-(** [path] is what a file is called on the wire. *)
+(** [path] is the name of a file in requests and replies. *)
 
 val format : Service.t -> (Yojson.Safe.t, string) result

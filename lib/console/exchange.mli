@@ -1,4 +1,4 @@
-(** What all requests have in common: replies, refusals, arguments. *)
+(** Replies, refusals and arguments of requests. *)
 
 open Dolphin_json
 
@@ -13,7 +13,7 @@ val refusal : ?more:Field.members -> int -> string -> string -> refusal
 (** [refusal ~more status code message]. *)
 
 val refuse : ?more:Field.members -> int -> string -> string -> ('a, refusal) result
-(** Likewise, as an error. *)
+(** {!refusal}, as an error. *)
 
 val bad : string -> ('a, refusal) result
 (** [bad message] is [refuse 400 "bad-request" message]. *)
@@ -38,7 +38,7 @@ val get : (json -> ('a, string) result) -> string -> Field.members -> ('a, refus
 (** [get read name found] is the member [name], as [read] has it. *)
 
 val optional : (json -> ('a, string) result) -> string -> Field.members -> ('a option, refusal) result
-(** Likewise; [None] if it is missing or [null]. *)
+(** {!get}; [None] if the member is missing or [null]. *)
 
 val parameter : Dolphin_http.Request.t -> string -> (string, refusal) result
 (** [parameter r name] is the value of [name] in the query. *)

@@ -31,7 +31,7 @@ let short text =
   if String.length text <= longest_text then Ok text
   else refuse 413 "too-large" (Printf.sprintf "a text has at most %d bytes here" longest_text)
 
-(* A client sends the hash of the text that it read: what others changed meanwhile is not lost. *)
+(* A client sends the hash of the text that it read: changes by others meanwhile are not lost. *)
 let save (w : Workspace.t) found =
   let* path = get Field.text "path" found in
   let* text = Result.bind (get Field.text "text" found) short in

@@ -20,8 +20,8 @@ val list : t -> (kind * string) list
     hard ones too, and names that begin with [.], [_] or [-] or have control characters are passed over. *)
 
 val find : t -> string -> (string, string) result
-(** [find f path] is the real path of the file [path] of [f]. The error says why it is not shown: it is elsewhere,
-    hidden, of no {!kind}, no regular file, or a hard link. *)
+(** [find f path] is the real path of the file [path] of [f]. The error is the reason why it is not shown: it is
+    elsewhere, hidden, of no {!kind}, no regular file, or a hard link. *)
 
 val place : t -> string -> (string, string) result
 (** [place f path] is likewise where the file [path] is or would be: its folder must be there. *)

@@ -16,13 +16,13 @@ type settings = {
   workers : Worker_pool.limits;
 }
 
-(* Those who steer do not wait for those who watch, nor for replays, whose readers may be slow. *)
+(* Clients that steer wait neither for clients that watch nor for replays, whose readers may be slow. *)
 type pools = {
   steerers : Worker_pool.t;
   watchers : Worker_pool.t;
   replays_of_steerers : Worker_pool.t;
   replays_of_watchers : Worker_pool.t;
-  own : Worker_pool.t;  (* for what the console needs itself *)
+  own : Worker_pool.t;  (* for tasks of the console itself *)
 }
 
 let pools { dolphin; workers = l; _ } =
@@ -48,7 +48,7 @@ type t = {
   mutable begun : int;  (* analyses *)
   visitors : Visitors.t;
   mutable helm : Helm.t;
-  mutable alive : (string * float) list;  (* when each client that tells that it is alive has done so last *)
+  mutable alive : (string * float) list;  (* the time of the latest [keep] of each client *)
   mutable watching : (string * Access.role) list;  (* a client as often as it looks on *)
 }
 
@@ -172,7 +172,7 @@ let status h : Yojson.Safe.t =
 
 let event name json = Printf.sprintf "event: %s\ndata: %s\n\n" name (Canonical.to_string json)
 
-(* The status but for what changes all the time: that is told by the clock. *)
+(* The status without the time: the event [clock] has it. *)
 let without_time : Yojson.Safe.t -> Yojson.Safe.t =
   let without members = `Assoc (List.filter (fun (name, _) -> name <> "time") members) in
   function
@@ -212,12 +212,12 @@ let next_status h reader =
     Some status
   end
 
-(* What is to be written next, if anything. That a run is over is told after all that happened in it. *)
+(* The next message, if there is one. All messages of a run precede the status in which it is over. *)
 let next h reader =
   if reader.told = "" then next_status h reader
   else match next_of_run h reader with Some text -> Some text | None -> next_status h reader
 
-(* What happens within so many seconds is told at once. *)
+(* Changes within this time, in seconds, are sent together. *)
 let collected = 0.01
 
 (* A page that hears nothing for longer shows that its server is gone. *)
@@ -241,7 +241,7 @@ let rec tell h reader write =
     write text >>= fun () -> tell h reader write
   | None -> wait h reader >>= fun () -> tell h reader write
 
-(* {1 Who looks on} *)
+(* {1 Clients that follow events} *)
 
 let rec without_one client = function
   | [] -> []

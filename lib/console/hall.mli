@@ -1,4 +1,4 @@
-(** What a console knows and who looks on: the state that its requests share. *)
+(** The state of a console that its requests share, and the clients that follow its events. *)
 
 open Dolphin_app
 
@@ -27,7 +27,7 @@ val served_at : t -> int -> unit
 (** [served_at h port]: requests come to [port] from now on. *)
 
 val changed : t -> unit
-(** Those who look on are told. *)
+(** All clients that follow events get the new state. *)
 
 (** {1 Runs and analyses} *)
 
@@ -55,10 +55,10 @@ val workers : t -> Access.role -> Worker_pool.t
 (** Those for requests of clients with this role. *)
 
 val replays : t -> Access.role -> Worker_pool.t
-(** Likewise for replays, which last as long as their readers want. *)
+(** The same for replays, which last as long as their readers want. *)
 
 val own_workers : t -> Worker_pool.t
-(** Those for what the console needs itself. *)
+(** Workers for tasks of the console itself. *)
 
 val worker_pids : t -> int list
 
@@ -87,7 +87,7 @@ val command : t -> string -> (unit, string) result
 val watches : t -> string -> bool
 (** Whether this client looks on. *)
 
-(** {1 Who looks on} *)
+(** {1 Clients that follow events} *)
 
 val status : t -> Yojson.Safe.t
 (** All that stands beside the journal. *)

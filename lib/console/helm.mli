@@ -9,7 +9,7 @@ val equal : t -> t -> bool
 
 val holder : t -> string option
 val asking : t -> string list
-(** Those who ask for it, the first one first. *)
+(** The clients that ask for it, the first one first. *)
 
 val taken_from : t -> string option
 (** From whom the holder has taken it by force, if it has. *)
@@ -21,7 +21,7 @@ val ask : t -> string -> t
 (** [ask h client] gives the helm to [client] if it is free, or notes that [client] asks for it: at most ten do. *)
 
 val force : t -> string -> t
-(** [force h client] gives the helm to [client], whoever has it. *)
+(** [force h client] gives the helm to [client], also if another client has it. *)
 
 val give_up : t -> string -> t
 (** [give_up h client]: the first client that asked has the helm if [client] had it; [client] does not ask any more. *)

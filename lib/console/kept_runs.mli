@@ -19,7 +19,7 @@ val broken_off : Workspace.t -> Field.members -> (json, refusal) result
 (** [broken_off w found] is the run that [POST run/resume] names, in JSON. *)
 
 val of_json : Field.members -> (broken_off, refusal) result
-(** What {!broken_off} gives. *)
+(** The result of {!broken_off}. *)
 
 val check : Workspace.t -> Request.t -> (json, refusal) result
 (** [check w r] is the file [journal] of the run that [GET replay] names, if its first line is that of a journal. *)

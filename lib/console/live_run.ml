@@ -33,7 +33,7 @@ type t = {
   mutable questions : int;
   mutable refused : string option;
   mutable state : state;
-  mutable stale : bool;  (* what the program waits for is to be told *)
+  mutable stale : bool;  (* the message [waiting] is due *)
 }
 
 let id r = r.id
@@ -44,7 +44,7 @@ let goes_on r = match r.state with Running | Stopping -> true | Over _ -> false
 let now r = if goes_on r then Float.max r.last (r.view.now ()) else r.last
 let finished r = Lwt.protected r.finished
 
-(* {1 What is told} *)
+(* {1 Messages} *)
 
 let tell_waiting r =
   r.stale <- false;
@@ -155,7 +155,7 @@ let begin_ ~id ~changed ?journal ?enacts order go =
          Lwt.return (Error (Error.Unavailable ("this is a fault of dolphin itself: " ^ Printexc.to_string error))))
     >|= over r
   in
-  (* Whoever asked for it is told before it begins. *)
+  (* The request is answered before the run begins. *)
   Lwt.async (fun () -> Lwt.pause () >>= whole);
   r
 

@@ -1,10 +1,10 @@
-(** The run of a console: it belongs to the server, whoever looks on. *)
+(** The run of a console: it belongs to the server, and does not depend on the clients that follow it. *)
 
 open Dolphin_app
 
 type t
 
-(** What a run is started with. *)
+(** The program, fleet and settings of a run. *)
 type order = { program : Program_file.t; fleet : Fleet_file.t; settings : Run.settings }
 
 val start : id:string -> changed:(unit -> unit) -> journal:string -> order -> t
@@ -12,12 +12,12 @@ val start : id:string -> changed:(unit -> unit) -> journal:string -> order -> t
     whenever {!feed} or {!to_json} has changed. *)
 
 val resume : id:string -> changed:(unit -> unit) -> journal:string -> order -> t
-(** Likewise goes on with the run whose journal is [journal], and whose console died. *)
+(** Resumes the run with the journal [journal], after its console died. *)
 
 val enact :
   id:string -> changed:(unit -> unit) -> speed:float option -> Program_file.t -> Fleet_file.t ->
   Dolphin_trace.Witness.t -> t
-(** Likewise carries out a counterexample on the simulated fleet, [speed] times as fast as the clock; [None]: as fast as
+(** Carries out a counterexample on the simulated fleet, [speed] times as fast as the clock; [None]: as fast as
     it goes. It has no journal. *)
 
 val id : t -> string
@@ -35,11 +35,11 @@ val now : t -> float
 val finished : t -> unit Lwt.t
 (** Resolves when it is over, and its vehicles are released. *)
 
-(** What a Stop ends. *)
+(** The extent of a Stop. *)
 type stopping =
-  | Next  (** as Ctrl-C does: the program, or, if it is being stopped already, what it executes by [onInterrupt] *)
+  | Next  (** as Ctrl-C does: the program, or, if it is being stopped already, its task of [onInterrupt] *)
   | Program  (** the program alone: nothing if it is being stopped already *)
-  | All  (** what it executes by [onInterrupt], too *)
+  | All  (** its task of [onInterrupt], too *)
 
 val stop : t -> stopping -> unit
 
@@ -47,11 +47,11 @@ val remark : t -> string -> unit
 (** A line of its log. *)
 
 val answer : t -> int -> string -> (unit, string) result
-(** [answer r n text] answers the question with the number [n]; or says why not: somebody else did. *)
+(** [answer r n text] answers the question with the number [n]. The error: another client has answered it. *)
 
 val post : t -> (string * Dolphin_semantics.Core.value) list -> (float, string) result Lwt.t
 (** [post r pairs] posts them, one after the other. It resolves when the run has taken them, and the journal has them:
     to the time then. *)
 
 val to_json : t -> Yojson.Safe.t
-(** What stands beside the journal: how it goes on, its question, what may be posted. *)
+(** The state of the run beside its journal: progress, question, inputs. *)

@@ -12,8 +12,8 @@ type t = {
   mutable log : Log.t;
   mutable world : World.t;
   mutable configuration : Configuration.t;
-  mutable places : Yojson.Safe.t;  (* as they were told last *)
-  mutable told : Waiting.t list;  (* what it waited for when that was told last *)
+  mutable places : Yojson.Safe.t;  (* of the latest message *)
+  mutable told : Waiting.t list;  (* of the latest message [waiting] *)
 }
 
 let make (program : Program_file.t) tell_ =
@@ -82,7 +82,7 @@ let news n ~time state =
 let remark n ~time what = line n ~time (Log.remark n.log ~time what)
 let question n ~time prompt = text n.tell_ "said" ~time (Log.question n.log ~time prompt)
 
-(* {1 What it waits for} *)
+(* {1 Waiting} *)
 
 let place n at = Step.text_of_place (Step.place_of n.program.program at)
 

@@ -16,15 +16,15 @@ val entry : t -> Entry.t -> unit
 (** The next line of the journal: the message [journal]. *)
 
 val transition : t -> stuck:bool -> time:float -> Transition.t -> unit
-(** What the log says of it: messages [log], {!Dolphin_display.Log.transition}. *)
+(** Its lines of the log: messages [log], {!Dolphin_display.Log.transition}. *)
 
 val configuration : t -> Configuration.t
-(** After the last transition that was told. *)
+(** The configuration after the latest transition. *)
 
 val news : t -> time:float -> World.vehicle_state -> unit
 
 val remark : t -> time:float -> string -> unit
-(** What is unusual. *)
+(** An unusual event. *)
 
 val remark_on : tell -> time:float -> string -> unit
 (** The same for a run whose program is missing. *)
@@ -41,7 +41,7 @@ val place_of_question : t -> string -> place_of_question
     [confirm]. *)
 
 val waiting : t -> time:float -> unit
-(** What the program waits for now, unless that has been told: the message [waiting]. *)
+(** The message [waiting], with the events that the program waits for, if they have changed. *)
 
 val replayed : t -> Entry.t -> Replay.t -> unit
-(** A line of a journal with what it led to: {!entry}, and what the log says. *)
+(** A line of a journal and its consequences: {!entry}, and lines of the log. *)

@@ -3,8 +3,7 @@
 type t
 
 val load : string option -> t
-(** [load folder] is the files of [folder], or with [None], or where there are none, a page that says how to build
-    it. *)
+(** [load folder] is the files of [folder], or with [None], or if they are missing, a page about building it. *)
 
 val find : t -> Dolphin_http.Request.t -> Dolphin_http.Response.t option
 (** [find p r] is the file that [r] asks for, compressed if [r] accepts gzip, or 304 if the client has it (by its

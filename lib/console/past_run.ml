@@ -29,7 +29,7 @@ let tell_program folder (tell : Narrator.tell) program =
   let json = `Assoc [ ("program", Dolphin_json.Field.of_option (fun path -> `String path) path) ] in
   tell ~event:"program" (Dolphin_json.Canonical.to_string json)
 
-(* That there is no log, and why. *)
+(* The reason why the log is missing. *)
 let lacks_program tell (header : Header.t) =
   let what = Printf.sprintf "%s is not in this folder, or has changed: there is no log" header.program.path in
   Narrator.remark_on tell ~time:0. what

@@ -23,7 +23,7 @@ let speed found =
 
 let of_refused result = Result.map_error of_refusal result
 
-(* What a worker makes of a request. *)
+(* The reply of a worker to a request. *)
 let prepared h role ~client task ?(query = []) body =
   let order = { Worker.task; workspace = Hall.workspace h; query } in
   Worker_pool.whole (Hall.workers h role) ~client order ~body () >|= function
@@ -99,7 +99,7 @@ let subject_of = function
 
 let no_counterexample = refusal 409 "no-counterexample" "no run was found that could be carried out"
 
-(* What an analysis has found, carried out on the simulated fleet. *)
+(* The run that an analysis has found, carried out on the simulated fleet. *)
 let enact h found =
   let* () = not_busy h in
   let* subject = Result.bind (get Field.text "of" found) subject_of in

@@ -1,4 +1,4 @@
-(** What an editor asks about a text under way. *)
+(** Requests of an editor about a text under way. *)
 
 open Dolphin_json
 open Exchange

@@ -1,4 +1,4 @@
-(** What a program runs in. *)
+(** The surroundings of a program: its fleet, inputs and parameters. *)
 
 open Exchange
 

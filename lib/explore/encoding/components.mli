@@ -15,14 +15,14 @@ val program : t -> Core.program
 val world : t -> World.t
 
 val dismisses : t -> bool
-(** Whether some handler may dismiss vehicles: what it does then depends on all that is needed around it. *)
+(** Whether some handler may dismiss vehicles: its effect then depends on all vehicles needed around it. *)
 
 val coverage : t -> Coverage.t
 
 (** {1:components Components} *)
 
 val children : t -> Component.path -> Residual.t -> Component.component Component.tree list
-(** [children t p r] is what [r], at [p], is made of. *)
+(** [children t p r] is the list of parts of [r], at [p]. *)
 
 val goes_round : t -> bool
 (** Whether some step that was worked out begins a round of a [repeat] without a number of rounds: only then may there
@@ -46,7 +46,7 @@ val footprints : t -> makes:bool -> Component.component -> Step_footprints.t
 (** {1:nests Nests} *)
 
 val in_contexts : t -> Component.path -> Residual.context list -> Component.path
-(** [in_contexts t p ks] is where components stand that are in the contexts [ks], the innermost first, at [p]. *)
+(** [in_contexts t p ks] is the place of components inside the contexts [ks], the innermost first, at [p]. *)
 
 val cuts : t -> Component.path -> Component.step array
 (** [cuts t p] is the steps of the contexts of nests whose inside is at [p], which some run reaches. *)
@@ -58,13 +58,13 @@ val escaping : Component.step -> Task_rules.step
 (** [escaping s] is [s] as a step of the whole task, as far as errors go ({!Task_rules.escaping}). *)
 
 val alone : t -> Component.component -> Component.target
-(** [alone t p] is what becomes of the nest around [p] when nothing else is left in it. *)
+(** [alone t p] is the result of the nest around [p] when nothing else is left in it. *)
 
 val around : Component.path -> Residual.t -> Residual.t
 (** [around p r] is [r] in the contexts of the nest whose inside is at [p], which is not the root. *)
 
 val outside : Component.path -> Component.path
-(** [outside p] is where that nest stands. *)
+(** [outside p] is the place of that nest. *)
 
 val landed : t -> Component.step -> int -> Residual.t -> Component.target
 (** [landed t s n r] is the target of step [s] if [r] takes the place of the nest that is [n] levels above what [s]

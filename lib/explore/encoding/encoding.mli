@@ -11,13 +11,13 @@ val create :
   ?find_symmetry:(Residual.t -> Surroundings.t -> Task_group.t option) ->
   ?canonical:(Configuration.t -> Environment.t -> Configuration.t * Environment.t) ->
   Components.t -> Surroundings.Numbers.t -> Core.program -> t
-(** [spare_bits] is as for {!Layouts.create}. [find_symmetry r s] is what can change places in [r], which is about to
-    be executed in shared state [s]: nothing by default. [canonical c e] is the form in which [c] with [e] is kept if
-    it executes nothing, or a task that begins: itself by default. *)
+(** [spare_bits] is as for {!Layouts.create}. [find_symmetry r s] is the symmetry of [r], about to be executed in
+    shared state [s]: none by default. [canonical c e] is the form in which [c] with [e] is kept if it executes
+    nothing, or a task that begins: itself by default. *)
 
 val layouts : t -> Layouts.t
 val outside : t -> int -> Environment.t
-(** [outside t n] is what the environment remembers in what is shared with number [n]. *)
+(** [outside t n] is the environment's memory in the shared part with number [n]. *)
 
 val shareds : t -> Surroundings.Numbers.t
 
@@ -43,10 +43,10 @@ val executing : Layout.t -> int array -> Residual.t * Core.platform_task Vehicle
 (** [executing l key] is the residual of the state [key] with layout [l], and A. *)
 
 val read : t -> int array -> Configuration.t * Environment.t
-(** [read t key] is what [key] encodes. *)
+(** [read t key] is the state encoded by [key]. *)
 
 val residual : Layout.t -> int array -> Layout.place -> Residual.t
-(** [residual l key p] is what stands at [p] in the state [key] of layout [l]. *)
+(** [residual l key p] is the residual at [p] in the state [key] of layout [l]. *)
 
 val component : Layout.t -> int array -> int -> Component.component
 (** [component l key i] is the component at position [i]. *)

@@ -8,10 +8,10 @@ open Dolphin_semantics
 type frame = {
   number : int;  (** from 0 *)
   machine : Machine.t;
-  symmetry : Task_group.t option;  (** if states are kept only up to what can change places *)
+  symmetry : Task_group.t option;  (** if states are stored up to symmetry *)
 }
 
-(** Where a component or a nest stands. *)
+(** The place of a component or a nest. *)
 type place = private {
   index : int;  (** components first, by position *)
   from : int;
@@ -43,13 +43,13 @@ val above : place -> int -> place
 (** [above p n] is the nest that is [n] levels above [p]; [p] itself if [n] is 0. *)
 
 val replaced : t -> place -> Component.family Component.tree list -> Component.family Component.tree list
-(** [replaced l p trees] is the tree of [l] with [trees] for what stands at [p]. *)
+(** [replaced l p trees] is the tree of [l] with [trees] at [p]. *)
 
 val key : frame -> Component.family Component.tree list -> int list
 (** [key f trees] is different for each layout. *)
 
 val residual : t -> place -> (int -> Residual.t) -> Residual.t
-(** [residual l p component] is what stands at [p], with [component i] at position [i]. *)
+(** [residual l p component] is the residual at [p], with [component i] at position [i]. *)
 
 (** {1:words Words}
 
@@ -60,11 +60,11 @@ val residual : t -> place -> (int -> Residual.t) -> Residual.t
 type widths = { reserved : int; layout : int; shared : int }
 
 val lay_out : widths -> t -> int
-(** [lay_out widths l] lays [l] out anew, in the present widths of its families. The result is how many words it
-    needs. *)
+(** [lay_out widths l] computes the fields of [l] again, for the present widths of its families. The result is how
+    many words it needs. *)
 
 val local : t -> int array -> int -> int
 (** [local l key i] is the number of the component at position [i] in its family, in a state of layout [l]. *)
 
 val put : t -> int array -> int -> int -> unit
-(** [put l key i n] makes it [n], where all bits are 0. *)
+(** [put l key i n] writes [n] there; all its bits must be 0. *)

@@ -11,7 +11,7 @@ type t = {
   components : Components.t;
   spare_bits : int;
   by_key : Layout.t Keys.t;
-  mutable layouts : Layout.t array;  (* by number; the first is none *)
+  mutable layouts : Layout.t array;  (* by number; number 0 is unused *)
   mutable count : int;  (* and one *)
   mutable widths : Layout.widths;
   mutable layout_mask : int;
@@ -108,7 +108,8 @@ let lay_out_all t (widths : Layout.widths) =
   let lay_out words l = max words (Layout.lay_out widths l) in
   Array.fold_left lay_out t.words (if t.count = 1 then [||] else Array.sub t.layouts 1 (t.count - 1))
 
-(* Wider fields than there must be, if no state takes more words for them: to widen them is to write all states anew. *)
+(* Fields are wider than necessary if states take no more words for it: widening a field means writing all states
+   again. *)
 let rec with_spare_bits t (needed : Layout.widths) words spare =
   let widths = { needed with layout = needed.layout + spare; shared = needed.shared + spare } in
   if lay_out_all t widths <= words || spare = 0 then widths else with_spare_bits t needed words (spare / 2)

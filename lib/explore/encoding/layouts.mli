@@ -6,8 +6,8 @@ exception Outgrown
 type t
 
 val create : ?spare_bits:int -> Components.t -> t
-(** [create ?spare_bits c] is none. Fields that all have are so many bits wider than they need be, 8 by default, or
-    fewer: as long as no state takes more words for that. *)
+(** [create ?spare_bits c] is empty. [spare_bits], 8 by default, are added to the fields that all layouts have, or
+    fewer: only as many as fit without more words per state. *)
 
 val words : t -> int
 (** Words of a state. *)
@@ -15,7 +15,7 @@ val words : t -> int
 (** {1:reading First words} *)
 
 val number : t -> int -> int
-(** [number t w] is the number of the layout of a state with first word [w]; 0 is none. *)
+(** [number t w] is the number of the layout of a state with first word [w]; no layout has number 0. *)
 
 val shared : t -> int -> int
 (** [shared t w] is the number in the next field: of the shared state, or of a configuration that executes nothing. *)
@@ -36,8 +36,7 @@ val without : t -> Layout.t -> Layout.place -> Layout.t
 (** [without t l p] is [l] without what stands at [p]. *)
 
 val becoming : t -> Layout.t -> Layout.place -> int -> Component.component Component.tree list -> Layout.t
-(** [becoming t l p serial children] is [l] with [children], those of the target with this serial number, for what
-    stands at [p]. *)
+(** [becoming t l p serial children] is [l] with [children], those of the target with this serial number, at [p]. *)
 
 val with_children : t -> Layout.t -> Layout.place -> Component.component Component.tree list -> Layout.t
 (** As {!becoming}, with any children. *)

@@ -1,13 +1,12 @@
-(** States as strings that are the same in every process, and tell all there is of a state: vectors of words have
-    numbers, which each process gives out as it meets things. Parts, of which a program has few, are written by a codec,
-    each once in a process; a state has their names, which are digests of their texts. docs/successors.md has the
-    format. *)
+(** States as strings that are the same in every process and complete: vectors of words contain numbers that each
+    process assigns in the order of its search. Parts, of which a program has few, are written by a codec, each once
+    in a process; a state has their names, which are digests of their texts. docs/successors.md has the format. *)
 
 open Dolphin_semantics
 open Dolphin_environment
 
 exception Wrong of string
-(** What is wrong, in a sentence without a full stop. *)
+(** The error, in a sentence without a full stop. *)
 
 exception Ambiguous
 (** Two parts have the same name. *)
@@ -28,8 +27,8 @@ type codec = {
 type t
 
 val create : ?digest:(string -> string) -> codec -> Encoding.t -> Components.t -> t
-(** [create codec e components] knows no part. There must be no symmetry. [digest] is of 8 bytes at least, by default
-    [Digest.string]. *)
+(** [create codec e components] knows no part. The space must have no symmetry. [digest] is of 8 bytes at least, by
+    default [Digest.string]. *)
 
 (** {1:parts Parts} *)
 
@@ -44,7 +43,7 @@ val news : t -> string list
 (** {1:states States} *)
 
 val write : t -> int array -> string
-(** [write t key] is the state [key]. What [codec] raises is raised, by {!read} too.
+(** [write t key] is the state [key]. Exceptions of [codec] pass through, in {!read} too.
     @raise Ambiguous *)
 
 val read : t -> int array -> string -> (Configuration.t * Environment.t) option

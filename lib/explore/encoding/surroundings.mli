@@ -1,5 +1,5 @@
-(** What surrounds the components of an executing task: the shared part of the configuration, and what the environment
-    remembers. A is left out, for the components say what they run: it is empty here. *)
+(** The surroundings of the components of an executing task: the shared part of the configuration, and the
+    environment's memory. A is empty here, since the components contain the running tasks. *)
 
 open Dolphin_semantics
 open Dolphin_environment

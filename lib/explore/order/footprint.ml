@@ -151,7 +151,7 @@ type code = { program : program; known : t Closures.t }
 
 let code program = { program; known = Closures.create 64 }
 
-(* What is known of locals: the values that were captured. Nothing can assign those. *)
+(* Knowledge about locals: the captured values. Nothing can assign those. *)
 type scope = (int * value) list
 
 let rec holds_code = function
@@ -331,7 +331,7 @@ let of_guard code c =
 
 (* {1 Code that makes tasks} *)
 
-(* Code and locals that are looked at already, or will be: what is composed of itself has nothing else in it. *)
+(* Code and locals already visited, or queued: a recursive composition adds nothing. *)
 type looked = { mutable lambdas : lambda list; mutable locals : (lambda * int) list }
 
 (* Whether the value of an expression in the place of a task is composed of parts that the program's text shows. *)
@@ -340,7 +340,7 @@ let rec is_composed looked (lambda : lambda) e =
   match e.node with
   | Apply (Builtin (Platform_task | Make_action | Make_condition | Make_idle | Make_confirm), _)
   | Apply (Build ((Imc_plan | Mission), _), _) -> true
-  (* Values that are no tasks: of handlers. *)
+  (* Values other than tasks: of handlers. *)
   | Constant Null
   | Apply
       (Builtin (Ignore | Propagate | Retry | Dismiss | Fail | Halt | Message | Post _ | Consume _ | Poll _), _) -> true

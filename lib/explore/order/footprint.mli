@@ -1,5 +1,5 @@
-(** Footprints: what code, and steps, may read and write of what the components of a task share. An upper bound, found
-    without running them. Two steps whose footprints do not conflict commute. *)
+(** Footprints: reads and writes of code and steps on the part that the components of a task share. An upper bound,
+    found without running them. Two steps whose footprints do not conflict commute. *)
 
 open Dolphin_semantics
 
@@ -32,7 +32,7 @@ type t = {
   anything : bool;  (** nothing is known: code that cannot be seen may be called *)
   claims : vehicles;  (** that it may come to hold, or looks whether they are held, or run a task *)
   frees : vehicles;  (** that may be held no longer after it; if code asks who runs, whose task may start or end too *)
-  looks : bool;  (** what its code does may depend on what is held, or runs *)
+  looks : bool;  (** its code may depend on held vehicles or running tasks *)
   remembered : bool;  (** the outside may remember it, for a later [pick] *)
   breaks : bool;  (** it may be faulty, or fail *)
   halts : bool;  (** it may end the run, by [halt] or an assertion that fails *)
@@ -53,14 +53,14 @@ val leaves_no_trace : t -> bool
     taken before. *)
 
 val reads_nothing : t -> bool
-(** [reads_nothing f] is whether the step does not depend on what is shared. *)
+(** [reads_nothing f] is whether the step is independent of the shared part. *)
 
 val conflict : possible:bool -> t -> t -> bool
 (** [conflict ~possible f f'] is [false] only if a step with footprint [f], [possible] now or not, is as possible after
     steps with footprint [f'], with the same effect, and these steps are possible, with the same effect, after it. *)
 
 val of_posts : Core.program -> (string * Core.value) list -> t
-(** [of_posts p pairs] is that of who posts [pairs]. *)
+(** [of_posts p pairs] is the footprint of posting [pairs]. *)
 
 (** {1:code Code} *)
 
@@ -81,7 +81,7 @@ val claims : t -> bool
 (** [claims f] is whether it depends on which vehicles are held. *)
 
 val asks_held : Core.program -> bool
-(** [asks_held p] is whether what some code of [p] does may depend on what is held: [idle(V)], [dismiss V], and
+(** [asks_held p] is whether the effect of some code of [p] may depend on held vehicles: [idle(V)], [dismiss V], and
     [running(v)]. *)
 
 val dismisses : Core.program -> bool

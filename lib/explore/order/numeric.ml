@@ -6,8 +6,8 @@ type placed = { within : lambda; e : expression }
 
 type text = {
   program : program;
-  globals : (int, placed) Hashtbl.t;  (* what is assigned to each *)
-  locals : (int * int, placed option) Hashtbl.t;  (* likewise, by code and slot; [None]: by a loop *)
+  globals : (int, placed) Hashtbl.t;  (* the expressions assigned to each *)
+  locals : (int * int, placed option) Hashtbl.t;  (* the same, by code and slot; [None]: by a loop *)
   calls : (int, lambda * string option list * expression list) Hashtbl.t;  (* of functions by their names *)
   mentions : (int, unit) Hashtbl.t;  (* of functions, in calls and elsewhere *)
 }
@@ -29,8 +29,8 @@ let text program =
   Code_walk.iter_within note (Code_walk.pieces program);
   t
 
-(* What the parameter in [slot] may be, if all calls of [lambda] are there to be seen: it is a function, and is nowhere
-   but where it is called. *)
+(* The possible values of the parameter in [slot], if all calls of [lambda] are visible: it is a function, and used
+   only in calls. *)
 let given t lambda slot =
   let calls = Hashtbl.find_all t.calls lambda.id in
   let is_function = List.exists (fun (_, l) -> l == lambda) t.program.functions in
@@ -52,7 +52,7 @@ let is_literal e = match e.node with Constant (Integer _ | Number _) -> true | _
 let is_number program =
   let t = text program in
   fun within e ->
-    (* Variables that are looked at already, or will be: what is computed from numbers alone is one. *)
+    (* Variables already visited, or queued: one computed from numeric ones alone is numeric. *)
     let seen = Hashtbl.create 8 in
     let is_new x = not (Hashtbl.mem seen x) && (Hashtbl.add seen x (); true) in
     let rec go within e =

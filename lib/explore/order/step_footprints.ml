@@ -33,13 +33,13 @@ let breaking = { Footprint.empty with breaks = true }
 
 (* {1 Futures} *)
 
-(* Of a guard that is looked at, and fails where it is not true: what its code does is undone. *)
+(* Of a guard that is evaluated and fails where it is not true: the effects of its code are undone. *)
 let of_refuted c g =
   let f = Footprint.of_code c.code g in
   let none = Footprint.empty in
   union { f with posts = none.posts; queues = none.queues; takes = none.takes; writes = none.writes } breaking
 
-(* What is free matters only where tasks are made, or asked for who is idle. *)
+(* Free vehicles matter only where tasks are made, or asked for idle vehicles. *)
 let freed c vs = if c.makes || c.asks_held then Footprint.these vs else Footprint.these []
 
 (* Of the start or the end of a task of [v]: code that asks [running(v)] depends on it. *)
@@ -58,17 +58,17 @@ let handling c (handler : Residual.handler) =
   let f = Footprint.of_code c.code handler.code in
   if handler.anew = None then f else { f with ignores = true }
 
-(* What a task that is made may claim is free after it. *)
+(* Vehicles that a task made here may claim are free after it. *)
 let claiming (request : Residual.request) =
   let vehicles = Option.fold ~none:Footprint.all_vehicles ~some:Footprint.these request.allowed in
   { breaking with claims = vehicles; frees = vehicles }
 
-(* Of what a handler that may recover has run, but for the watched task itself. *)
+(* The plans and code run by a handler that may recover, except for the watched task itself. *)
 let recovering c (code : closure) request =
   let given = if Recovery.may_give code.lambda then Footprint.of_maker c.code code else Footprint.empty in
   all [ claiming request; given; { Footprint.empty with ignores = true } ]
 
-(* Of who waits for a vehicle: whoever is recruited may be recruited by nobody else, and is free after it. *)
+(* Of a wait for a vehicle: a recruited vehicle cannot be recruited elsewhere, and is free afterwards. *)
 let recruiting c code =
   let any = { breaking with claims = Footprint.all_vehicles; frees = Footprint.all_vehicles } in
   union any (Footprint.of_maker c.code code)
@@ -90,7 +90,7 @@ let rec future c (r : Residual.t) =
   | During { on_cut = Fails _; duration = Seconds _; body; _ } -> union breaking (future c body)
   | During { duration = Given_by d; body; _ } -> all [ breaking; Footprint.of_code c.code d; future c body ]
   | Watch (r, handler) -> handled c (future c r) handler
-  | Repeat { again; _ } -> rounds c again (* what is left of the round that runs is in each round *)
+  | Repeat { again; _ } -> rounds c again (* the rest of the current round of each *)
   | Made { code; request; _ } -> union (Footprint.of_maker c.code code) (claiming request)
   | Unallocated { task; request } -> union (claiming request) (of_term c task)
   | Hold (vs, r) -> union { Footprint.empty with frees = freed c vs } (future c r)
@@ -156,7 +156,7 @@ let handlers source =
   in
   Option.fold ~none:[] ~some:of_change (Task_rules.broken source error)
 
-(* [own] is whom the component has recruited: nobody else may have, or look for, one of them. *)
+(* [own] is the vehicles recruited by the component: no other component may have, or look for, one of them. *)
 let footprint ?(own = []) c { source = Step { offer; continue; _ } as source; event; _ } =
   let is_own (request : Residual.request) =
     match request.allowed with Some vs -> List.for_all (fun v -> List.mem v own) vs | None -> false
@@ -237,7 +237,7 @@ let rec is_settled c (r : Residual.t) =
 let only_takes (f : Footprint.t) =
   Footprint.(Pairs.is_empty f.posts && Pairs.is_empty f.tests && Globals.is_empty f.writes && not f.anything)
 
-(* By branch: its footprint, if it may run first. [around] is what handlers of its errors touch. *)
+(* By branch: its footprint, if it may run first. [around] is the footprint of the handlers of its errors. *)
 let branches_first c around (bs : Residual.branch list) =
   let whole = List.map (of_branch c) bs in
   let rec each before (whole : Footprint.t list) (bs : Residual.branch list) =
@@ -254,8 +254,8 @@ let branches_first c around (bs : Residual.branch list) =
   in
   each [] whole bs
 
-(* Those of an [allOf] that waits, where errors cannot be ignored; [around] as above. What holds vehicles until the
-   [allOf] is over would hold them no longer if another branch came last. *)
+(* The footprints of an [allOf] that waits, where errors cannot be ignored; [around] as above. Tasks that hold
+   vehicles until the [allOf] is over would release them if another branch came last. *)
 let rec first_branches c around (r : Residual.t) =
   match r with
   | Sequence (r, _) | All_of (Some r, _) -> first_branches c around r
@@ -266,7 +266,7 @@ let rec first_branches c around (r : Residual.t) =
 
 (* {1 Components} *)
 
-(* What handlers among the contexts touch, and what starts when all in them is over. *)
+(* The footprint of handlers among the contexts, and of the tasks that start when everything in them is over. *)
 let handlers_of c contexts =
   let handler = function
     | Residual.Watched_by handler -> Some (of_handler c handler)
@@ -285,7 +285,7 @@ let following c contexts =
   in
   all (List.map following contexts)
 
-(* Who is asked for may stay away for ever. *)
+(* The requested vehicles may never come. *)
 let may_be_put_off c { source = Step { offer; _ }; _ } =
   let { Environment.faults; _ } = c.options in
   match offer with

@@ -1,6 +1,6 @@
-(** What the components of an executing task may do. Here a nest counts as a component too: its steps are those of its
-    contexts, the cuts. The surroundings of a component are the contexts of its nests, the innermost nest first, and in
-    each the innermost context first. *)
+(** The possible reads and writes of the components of an executing task. Here a nest counts as a component too: its
+    steps are those of its contexts, the cuts. The surroundings of a component are the contexts of its nests, the
+    innermost nest first, and in each the innermost context first. *)
 
 open Dolphin_semantics
 open Dolphin_environment
@@ -8,12 +8,13 @@ open Dolphin_environment
 type t = {
   footprints : Footprint.t array;  (** of each step *)
   ends : bool array;  (** by step: whether it may end the run *)
-  put_off : bool array;  (** by step: whether it need not come, though it is possible for ever *)
+  put_off : bool array;  (** by step: whether it may never come, though it stays possible *)
   futures : Footprint.t array;
-  (** by level: all that the component may do until it is over, with what follows it inside of so many nests *)
+  (** by level: everything that the component may do until it is over, with the tasks that follow it inside that many
+      nests *)
   cut_by_error : bool array;
-  (** by level, from 1: whether the nest so many levels above may ignore an error of the component, so that all in it is
-      cut off *)
+  (** by level, from 1: whether the nest that many levels above may ignore an error of the component, so that
+      everything in it is cut off *)
   runs_first : Footprint.t option array;
   (** by step: the footprint of the whole branch of an [allOf] that the step starts, if the branch may run first. Its
       guard takes and needs what no other branch touches; the steps of its body are always possible, touch nothing, and
@@ -29,14 +30,14 @@ type context
 val context : Environment.options -> Core.program -> context
 
 val with_holding : context -> context
-(** [with_holding c] is [c] for tasks in which tasks are made at their turn: footprints say what is held and freed. In
+(** [with_holding c] is [c] for tasks that make tasks at their turn: footprints include held and freed vehicles. In
     others nothing depends on that, unless code asks who is idle. *)
 
 val looks : context -> Task_rules.step -> bool
 (** [looks c step] is whether [step] may depend on which vehicles are held around it. *)
 
 val of_residual : context -> Residual.t -> Footprint.t
-(** [of_residual c r] is of all that steps of [r] and of what becomes of it may do. *)
+(** [of_residual c r] covers all steps of [r] and of its successors. *)
 
 val of_component : context -> Residual.context list list -> Residual.t -> step array -> t
 (** [of_component c nests r steps] is for [steps], all the steps of [r]. *)

@@ -32,7 +32,7 @@ let apart y x =
   in
   count 0 y
 
-(* All that [y] may do before [x] takes a step, and what follows then as far as that does not wait for [x]. *)
+(* All that [y] may do before [x] takes a step, and the steps after that which do not wait for [x]. *)
 let future t y x =
   let c = t.components.(y) in
   c.analysis.futures.(apart c.place t.components.(x).place)
@@ -95,8 +95,8 @@ let is_in_the_way t x k y =
   || ((not (Footprint.leaves_no_trace f)) && may_cut_off t y x)
   || (List.exists ends_nest moves && not (Array.for_all is_idle_cut other.analysis.footprints))
 
-(* The key of [x] with the fewest components in its way, as these. Failures elsewhere may use up those that a failure
-   needs; but the success of the same task comes before it, and is no worse. *)
+(* The key of [x] with the fewest components in its way, as these. Failures elsewhere may use up the number of
+   failures that this one needs; but the success of the same task comes before it, and is no worse. *)
 let key t x =
   let best = ref None in
   let others k =
@@ -118,8 +118,8 @@ let exists_taken p taken =
   let rec from x = x < Array.length taken && ((taken.(x) && p x) || from (x + 1)) in
   from 0
 
-(* The smallest set that has a key of [seed] and all that it depends on, if [seed] has a key. There is none if it would
-   depend on inputs. *)
+(* The smallest set that has a key of [seed] and all that it depends on, if [seed] has a key. It is [None] if it
+   would depend on inputs. *)
 let closure t seed =
   let along others =
     let n = Array.length t.components in
@@ -156,7 +156,7 @@ let some_end_depends t =
 (* Whether some step of [x] may close a cycle here. *)
 let may_close t x = exists_step t x (fun k -> List.exists (fun { closes; _ } -> closes) (moves_of t x k))
 
-(* Whether rounds without end begin what stands at [place] anew, also by what others do. *)
+(* Whether endless rounds start the part at [place] again, also through other components' steps. *)
 let rec is_renewed (place : Layout.place) =
   match place.around with
   | Some ({ inside = Some { renews; _ }; _ } as nest) -> renews || is_renewed nest
@@ -171,7 +171,7 @@ let hides_spin t taken =
   exists_taken (fun x -> is_renewed t.components.(x).place && moves_on_event t x) taken
   && exists_taken (moves_by_itself t) (Array.map (fun _ -> true) taken)
 
-(* A set that may close a cycle is not enough: what is not in it could be put off for ever. *)
+(* A set that may close a cycle is not enough: steps outside it could be put off without end. *)
 let is_open t taken = not (exists_taken (may_close t) taken || hides_spin t taken)
 
 (* Such a component depends on no other, unless it is cut off. *)

@@ -1,12 +1,12 @@
 (** Which steps of an executing configuration are enough: a stubborn set, for components that may be cut off.
     docs/explorer.md proves it. *)
 
-(** What a step changes: the component itself (level 0), or the nest so many levels above. That is replaced, or is
-    [over]. If a round of a [repeat] without a number of rounds begins, the step [closes] a cycle, perhaps. It is taken
-    by itself, or [on_event]. *)
+(** The part that a step changes: the component itself (level 0), or the nest that many levels above. That is
+    replaced, or is [over]. If a round of a [repeat] without a number of rounds begins, the step [closes] a cycle,
+    perhaps. It is taken by itself, or [on_event]. *)
 type move = { level : int; over : bool; closes : bool; on_event : bool }
 
-(** What a step does where it stands. *)
+(** The effect of a step at its place. *)
 type status =
   | Impossible
   | Moves of move
@@ -14,7 +14,7 @@ type status =
   | Depends of { moves : move list; ends : bool }
   (** on open sensors: how it may move, whether it may end the run *)
 
-(** A component, or a nest with its cuts: where it stands, and what its steps may do. *)
+(** A component, or a nest with its cuts: its place, and the footprints of its steps. *)
 type component = { place : Layout.place; analysis : Step_footprints.t }
 
 val choose : component array -> posts:Footprint.t -> (int -> int -> status) -> (int -> int -> bool) option

@@ -116,7 +116,7 @@ let visit_over x action shared =
 
 let no_components : component array = [||]
 
-(* [components] take the place of what stands at [place]; that makes [layout']. *)
+(* [components] replace the part at [place]; that makes [layout']. *)
 let replace x (layout' : Layout.t) (place : Layout.place) (components : component array) action shared =
   let t = x.expansion and layout = x.layout in
   Encoding.check_fit t.encoding;
@@ -145,7 +145,7 @@ let rec go x (place : Layout.place) target action shared =
     replace x (Layouts.becoming t.layouts layout place serial children) place components action shared
   | (Stays _ | Ends _), _ -> invalid_arg "Expansion.go: a target of the same layout, or none"
 
-(* Only [other] is left in a nest, which is none then. *)
+(* Only [other] is left in a nest, which dissolves then. *)
 and leave_alone x nest (other : Layout.place) action shared =
   let t = x.expansion in
   match nest.inside, other.inside with
@@ -179,15 +179,15 @@ let share x ~action shared =
   visit x.expansion x.visitor x.layout key action;
   key.(0) <- key.(0) - moved
 
-(* {1 Steps that depend on what is shared} *)
+(* {1 Steps that depend on the shared part} *)
 
-(* What stands in [place], from left to right. *)
+(* The components in [place], from left to right. *)
 let rec standing x (place : Layout.place) =
   match place.inside with
   | None -> [ (Encoding.component x.layout x.key place.index).residual ]
   | Some inside -> Residual.plug inside.contexts Residual.hole :: List.concat_map (standing x) place.children
 
-(* What is around [place], as far as vehicles are held there and timers are numbered. *)
+(* The contexts around [place], as far as vehicles are held there and timers are numbered. *)
 let rec around x (place : Layout.place) =
   let beside children =
     Residual.Beside (List.concat_map (fun child -> if child == place then [] else standing x child) children)
@@ -297,7 +297,7 @@ let interrupt x =
       | Some known -> known
       | None ->
         let found = interruption x in
-        (* It depends on who was recruited, too. *)
+        (* It depends on the recruited vehicles, too. *)
         if not (program t).recruits then By_number.add t.interrupted x.shared found;
         found
     in

@@ -1,4 +1,4 @@
-(** Transitions of states in which a task executes, as vectors of words. {!Space} says which steps are taken. *)
+(** Transitions of states in which a task executes, as vectors of words. {!Space} selects the steps to take. *)
 
 open Dolphin_semantics
 open Dolphin_environment
@@ -14,7 +14,7 @@ val follows : t -> int -> int -> unit
     {!Encoding.write}. *)
 
 val edges : t -> (int * int) list
-(** What {!follows} has noted, by whoever called it. *)
+(** The notes of {!follows}, for any caller. *)
 
 val may_cycle : t -> bool
 (** Whether some place of the script may come after itself. *)
@@ -35,19 +35,19 @@ type source = {
     @raise Layouts.Outgrown *)
 
 val go_to : source -> Layout.place -> Component.target -> action:int -> int -> unit
-(** [go_to x p target ~action s] visits [x] with [target] for what stands at [p], in shared state [s]. *)
+(** [go_to x p target ~action s] visits [x] with [target] at [p], in shared state [s]. *)
 
 val outcome : source -> Layout.place -> Component.step -> Component.outcome
-(** [outcome x p step] is what [step] of what stands at [p] does. *)
+(** [outcome x p step] is the outcome of [step] at [p]. *)
 
 val take_dependent : source -> Layout.place -> Component.step -> int
-(** [take_dependent x p step] takes [step] of what stands at [p]. The result is how many transitions that makes. *)
+(** [take_dependent x p step] takes [step] at [p]. The result is how many transitions that makes. *)
 
 val take_outcome : source -> Layout.place -> Component.outcome -> unit
-(** [take_outcome x p o] visits what the possible outcome [o] of a step of what stands at [p] leads to. *)
+(** [take_outcome x p o] visits the successors for the possible outcome [o] of a step at [p]. *)
 
 val take_ends : source -> Layout.place -> Component.step -> int
-(** Likewise, but only as far as the step ends the run. *)
+(** The same, restricted to outcomes that end the run. *)
 
 val inputs : source -> int
 (** [inputs x] takes each input that may come. The result is how many transitions that makes. *)
@@ -56,9 +56,9 @@ val upcoming : t -> int -> Footprint.t
 (** [upcoming t s] is the footprint of all inputs that may come in shared state [s], or later. *)
 
 val interrupt : source -> int
-(** [interrupt x] takes the interruption, if there is one. If nothing follows it, it breaks nothing: whatever states are
-    explored, verdicts are the same with it. If the program says what it executes, all states are explored. The result
-    is how many transitions that makes. *)
+(** [interrupt x] takes the interruption, if there is one. If nothing follows it, it breaks nothing: whatever states
+    are explored, verdicts are the same with it. If the program prints the tasks that it executes, all states are
+    explored. The result is how many transitions that makes. *)
 
 val visit_script : t -> Task_group.permutation option System.visitor -> int -> action:int -> unit
 (** [visit_script t v n ~action] visits configuration [n], which executes nothing. *)

@@ -32,7 +32,7 @@ let level (local : Local_step.t) = List.length (List.filter (( = ) Rule.Par_err)
 let program t = Components.program t.components
 let world t = Components.world t.components
 
-(* What the environment remembers after the event, if it can happen. *)
+(* The environment's memory after the event, if the event can happen. *)
 let outside_after t (Task_rules.Step { offer; _ }) event outside =
   match offer with
   | End_of (task, v) ->
@@ -45,7 +45,7 @@ let outside_after t (Task_rules.Step { offer; _ }) event outside =
 
 type taken = { local : Local_step.t; level : int; certain : bool; assumed : World.assumption list list }
 
-(* What [step] does, and at which level: several things, if it depends on sensors that may show this or that. *)
+(* The effect of [step], and its level: several results, if it depends on sensor readings. *)
 let taken ?(around = []) t step s =
   let { Surroundings.shared; outside } = Surroundings.Numbers.value (Encoding.shareds t.encoding) s in
   let shared =
@@ -132,7 +132,7 @@ let find ?around t step s =
   | [] -> { unknown_outcome with possible = false }
   | first :: rest -> outcome (List.map (outcome []) rest) first
 
-(* If code asks who runs: that, and what runs in each [watch]. *)
+(* For code that asks for running tasks: the answer, and the running tasks in each [watch]. *)
 let running t around =
   if (program t).asks_running then
     let all = List.map fst (Vehicle_map.bindings (Residual.allocation_around around)) in

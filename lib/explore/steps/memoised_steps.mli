@@ -1,5 +1,5 @@
-(** What steps of components and of nests do: per shared state, memoised, by the transition function. Shared states are
-    given by their numbers. *)
+(** Effects of steps of components and nests: computed by the transition function, memoised per shared state. Shared
+    states are given by their numbers. *)
 
 open Dolphin_semantics
 
@@ -28,9 +28,10 @@ val action : t -> Component.step -> int -> int
 (** [action t step s] is the number of the action of [step], which is [Free], and possible in shared state [s]. *)
 
 val outcome : t -> Component.step -> int -> Component.outcome
-(** [outcome t step s] is what [step] does in shared state [s]. *)
+(** [outcome t step s] is the effect of [step] in shared state [s]. *)
 
 val look : t -> Component.step -> around:Residual.surrounding list -> int -> Component.outcome
-(** [look t step ~around s] is what [step], which looks at what is held around, does in shared state [s]. *)
+(** [look t step ~around s] is the effect of [step], which depends on the vehicles held [around], in shared state
+    [s]. *)
 
 val ends_run : Component.outcome -> bool

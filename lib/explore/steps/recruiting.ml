@@ -8,7 +8,8 @@ type t = {
   in_contexts : (int, Vehicle_set.t) Hashtbl.t;  (* of a nest, by its path *)
   numbering : Dolphin_checker.Numbering.t;
   turns : (Residual.timer, int) Hashtbl.t;
-  mutable last : (Expansion.source * Vehicle_set.t) option;  (* whom the state that is being expanded knows *)
+  mutable last : (Expansion.source * Vehicle_set.t) option;  (* the vehicles named in the state that is being
+                                                                expanded *)
 }
 
 let create vehicles encoding numbering =
@@ -23,7 +24,7 @@ let memoised table key find =
     Hashtbl.add table key found;
     found
 
-(* What is not part of the task: the machine, the store, B, N, and what the outside remembers. *)
+(* Everything outside the task: the machine, the store, B, N, and the environment's memory. *)
 let outside_of_task t (x : Expansion.source) =
   let known () =
     let { Surroundings.shared; outside } = Surroundings.Numbers.value (Encoding.shareds t.encoding) x.shared in

@@ -1,4 +1,4 @@
-(** Which vehicles are recruited in a state, where some are alike: docs/explorer.md, Symmetry of vehicles. *)
+(** The vehicles recruited in a state, where some are interchangeable: docs/explorer.md, Symmetry of vehicles. *)
 
 type t
 

@@ -9,8 +9,7 @@ let follows t place place' =
     t.edges <- (place, place') :: t.edges
   end
 
-(* Places that nothing follows are taken away again and again: what remains if anything does lies on cycles, or leads
-   to them. *)
+(* Places without successors are removed repeatedly: any remaining places lie on cycles, or lead to them. *)
 let may_cycle t =
   let before = Hashtbl.create 64 and following = Hashtbl.create 64 in
   let edge (place, place') =

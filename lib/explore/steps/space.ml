@@ -23,7 +23,7 @@ type t = {
   observer : Observer.t option;
   task_groups : Task_groups.t option;
   vehicles : Canonical_vehicles.t option;
-  recruiting : Recruiting.t option;  (* where tasks recruit vehicles of which some are alike *)
+  recruiting : Recruiting.t option;  (* for tasks that recruit interchangeable vehicles *)
   mutable unclear : Fault.t option;  (* why it cannot be listed what follows a state *)
   tick : (unit -> unit) ref;  (* while a state of the script is expanded, from which tasks begin: the visitor's *)
 }
@@ -173,7 +173,7 @@ let take_step t (x : Expansion.source) place step =
     if result >= 0 then go result else Expansion.take_dependent x place step
   | Dependent -> Expansion.take_dependent x place step
 
-(* From so many components on, what is done for one state takes so long that bounds are looked at before. *)
+(* From this many components on, the work for one state takes so long that bounds are checked before it. *)
 let many_components = 64
 
 (* Components and nests, with their steps. *)
@@ -239,7 +239,7 @@ type layers = (int list * Residual.again) list
 
 let inside = -1
 
-(* The contexts, innermost first, of what stands at [at]: each with its place, and the place inside of all. *)
+(* The contexts of the part at [at], innermost first: each with its place, and the innermost place. *)
 let layers_of at contexts =
   let layer (at, layers) context = (at @ [ inside ], (at, context) :: layers) in
   List.fold_left layer (at, []) (List.rev contexts)
@@ -258,7 +258,7 @@ let rec place_of (layout : Layout.t) (place : Layout.place) =
     let at, more = layers_of at contexts in
     (at @ [ among nest.children ], more @ layers)
 
-(* Code of an action, and what ends a task, is never waited for in vain; a guard may be. *)
+(* Code of an action, and the ends of tasks, are never waited for in vain; a guard may be. *)
 let stays (Task_rules.Step { offer; _ }) =
   match offer with
   | Start _ | Perform _ | Decide _ | Measure _ | Make _ | End_of _ | Expiry_of _ | Answer_to _ -> true
@@ -272,7 +272,7 @@ let repeats layers =
   let repeat (at, context) = match context with Residual.Round_of again -> Some (at, again) | _ -> None in
   List.filter_map repeat layers
 
-(* The steps of what stands at [place], by index: where each of them is, and its name there; and the repeats around. *)
+(* The steps of the part at [place], by index: the place and name of each; and the repeats around. *)
 let positions (layout : Layout.t) key (place : Layout.place) =
   let at, around = place_of layout place in
   let cuts layers = List.filter_map (fun (at, context) -> if may_cut context then Some at else None) layers in
@@ -459,7 +459,7 @@ let view t key =
       | None -> exact ()
       | Some g -> Up_to (g, Quotient.state t.quotient g layout key (Layouts.shared t.layouts key.(0))))
 
-(* What is shared is compared first: it takes less than to find the classes. *)
+(* The shared part is compared first: that is cheaper than finding the classes. *)
 let is_in_class t g (state : Task_group.state) (c : Configuration.t) outside =
   match c.control with
   | Executing (_, r) ->

@@ -1,5 +1,5 @@
 (** The state space of a program, as a system to be searched ({!Dolphin_checker.System}). A state is a configuration
-    with what the environment remembers, encoded in a few words (see {!Layout}). Steps of executing configurations are
+    with the environment's memory, encoded in a few words (see {!Layout}). Steps of executing configurations are
     found in the components ({!Components}): nothing is computed twice, and the transition function computes all of
     it. *)
 
@@ -8,9 +8,9 @@ open Dolphin_environment
 
 include
   Dolphin_checker.System.S with type via = Task_group.permutation option and type property = Property.t
-(** [via] is the permutation from what a transition leads to, to what represents it: of states of the task or, when the
-    task is over, of what was shared before. [None] where nothing was permuted. The anchors of cycles are the states in
-    which no task executes. *)
+(** [via] is the permutation from the successor of a transition to its representative: of states of the task or, when
+    the task is over, of the shared part before. [None] where nothing was permuted. The anchors of cycles are the
+    states in which no task executes. *)
 
 val create :
   ?reduction:Reduction.t -> ?symmetry:Symmetry.t -> ?asked:Condition.t list -> ?observer:Observer.t ->
@@ -26,7 +26,7 @@ val create :
 val state : t -> int array -> Configuration.t * Environment.t
 (** [state t key] is the state [key], if it is {!view-type.Exact}. *)
 
-(** What a state stands for. *)
+(** The content of a state. *)
 type view =
   | Exact of Configuration.t * Environment.t  (** itself *)
   | Up_to of Task_group.t * Task_group.state  (** all states that become this one by symmetry *)
@@ -45,8 +45,8 @@ val breadth : t -> int array -> int
 val program : t -> Core.program
 
 val unsettled : Core.program -> Fault.t -> Dolphin_checker.Limits.bound
-(** [unsettled p fault] is that nobody can list what follows some state of [p], because of [fault]: more than a
-    comparison depends on what a sensor shows. *)
+(** [unsettled p fault] reports that the successors of some state of [p] cannot be listed, because of [fault]: more
+    than a comparison depends on a sensor reading. *)
 
 val unclear : t -> Fault.t option
 (** Why it cannot be listed what follows some state that was to be expanded: then [expand] raised that it is
@@ -77,11 +77,11 @@ val executes : t -> int -> bool
 val may_cycle_in_script : t -> bool
 (** As {!may_cycle}, of cycles that go through the script. *)
 
-(** A step that is possible in a state of a task. [at] is where in the task: from the outside in, the place among those
-    side by side, or {!inside} for what is inside of a context. With its [name] this is no other step of the state, and
-    the same in all states until it is taken or cut off, or the part of the task that it belongs to is over. Until then
-    it [stays] possible, whatever others do, unless it is a guard. It [depends] if sensors may show something with which
-    it is not possible, or does something else. *)
+(** A step that is possible in a state of a task. [at] is the place in the task: from the outside in, positions among
+    parallel parts, or {!inside} for the inside of a context. Together with its [name] it is unique in the state, and
+    it stays the same in all states until the step is taken or cut off, or its part of the task is over. Until then
+    it [stays] possible, whatever others do, unless it is a guard. It [depends] if sensors may show something with
+    which it is not possible, or does something else. *)
 type possible = { at : int list; name : int list; stays : bool; depends : bool; step : Component.step }
 
 val may_all_stay_away : t -> int array -> Dolphin_semantics.Core.vehicle list -> bool
@@ -96,10 +96,10 @@ val examine :
   t -> int array -> possible:(possible -> unit) -> 
   taken:(possible -> Dolphin_semantics.Task_rules.round list -> layers -> World.assumption list list -> unit) ->
   via Dolphin_checker.System.visitor -> unit
-(** [examine t key ~possible ~taken v] is [expand t key v] for a state in which a task executes, where [possible] is
-    called for each step that is possible in it, and [taken] before what a step that is followed leads to is visited,
-    with the rounds that begin, the repeats around, and its assumptions: any of these lists. Interruptions and inputs
-    are left out: neither is on a cycle. *)
+(** [examine t key ~possible ~taken v] is [expand t key v] for a state in which a task executes. It calls [possible]
+    for each step that is possible in it and, before it visits the successor of a followed step, [taken] with any of
+    these lists: the rounds that begin, the repeats around, and its assumptions. Interruptions and inputs are left
+    out: neither is on a cycle. *)
 
 val examine_script : t -> int array -> taken:(Transition.t -> unit) -> via Dolphin_checker.System.visitor -> unit
 (** [examine_script t key ~taken v] is [expand t key v] for a state in which no task executes; [taken] is called before
@@ -124,17 +124,17 @@ val news : portable -> string list
 (** As {!Portable.give} and {!Portable.news}: the parts that states name. *)
 
 val to_string : portable -> int array -> string
-(** [to_string p key] is the state [key]. What the codec raises is raised, by {!of_string} too.
+(** [to_string p key] is the state [key]. Exceptions of the codec pass through, in {!of_string} too.
     @raise Portable.Ambiguous *)
 
-(** What a text stands for. *)
+(** The state read from a text. *)
 type source =
   | State of int array  (** a new vector *)
   | End of Configuration.t * Environment.t
-  (** Which property an end breaks is known from what leads to it, so it gets no number here. *)
+  (** The property violated by an end follows from the transition, so it gets no number here. *)
 
 val of_string : portable -> string -> source
-(** [of_string p text] is what [text] stands for.
+(** [of_string p text] is the state written as [text].
     @raise Portable.Wrong if it is not what {!to_string} gives for some state, or names a part that is not known
     @raise Outgrown *)
 

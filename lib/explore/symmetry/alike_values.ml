@@ -8,13 +8,13 @@ module Keys = Set.Make (String)
 
 (* {1 What becomes of a value}
 
-   What an expression gives, as far as it depends on the value: nothing, the value itself, a text with it, or a task (or
-   its code). *)
+   The result of an expression, as far as it depends on the value: nothing, the value itself, a text with it, or a
+   task (or its code). *)
 
 type given = Other | Value | Text | Task
 
-(* What the parameters of a handler are: the error's text, the vehicle that failed, which is the same whatever the value
-   is, and the name of what it ran. *)
+(* The parameters of a handler: the error's text, the vehicle that failed, which does not depend on the value, and
+   the name of the failed task. *)
 let of_error = function 1 -> Other | _ -> Text
 
 let bound (lambda : lambda) arguments = List.init lambda.parameters (fun slot -> (slot, arguments slot))
@@ -25,7 +25,7 @@ type code = {
   mutable returned : given;
   mutable posted : Keys.t;  (* keys that the value is posted with *)
   plans : string list;  (* plans that do not end as all others do *)
-  inside : lambda list;  (* what is being looked at *)
+  inside : lambda list;  (* the value being traced *)
 }
 
 (* Whether a name of this form may be that of one of the plans. *)
@@ -82,7 +82,7 @@ and task given =
   if List.for_all (fun g -> g = Other || g = Task) given then List.fold_left both Other given else raise Looked_at
 
 
-(* Code with what it captures; it is run for what it does, or gives a task. *)
+(* Code with its captured values; it is run for its effects, or gives a task. *)
 and made code lambda captured ~arguments =
   let captured = List.map (fun slot -> Option.value (List.assoc_opt slot code.slots) ~default:Other) captured in
   let parameters = bound lambda arguments in
@@ -132,7 +132,7 @@ and applied code operation arguments given =
       body code lambda (List.mapi (fun slot g -> (slot, g)) given)
     | _, _, _ -> raise Looked_at
 
-(* What [lambda] posts, of values that it gets. *)
+(* The tuples that [lambda] posts, of the values it gets. *)
 let posted_by plans lambda arguments =
   let code = { slots = []; returned = Other; posted = Keys.empty; plans; inside = [] } in
   match body code lambda (bound lambda arguments) with
@@ -184,7 +184,7 @@ let values_looked_into all =
   in
   List.filter_map key all
 
-(* What a guard takes: keys; code that is called may take any. *)
+(* The keys taken by a guard; code that it calls may take any. *)
 let taken_by (guard : expression) =
   match guard.node with
   | Make_closure (lambda, _) ->
@@ -199,8 +199,8 @@ let taken_by (guard : expression) =
     !found
   | _ -> raise Looked_at
 
-(* By guards with what runs behind them: the keys that are taken, and those that the values are posted with; [None] if
-   more is done with them. *)
+(* By guards with their branches: the keys that are taken, and the keys that the values are posted with; [None] for
+   any other use. *)
 let makers plans program =
   let maker guard body =
     let taken = taken_by guard in
@@ -220,7 +220,7 @@ let makers plans program =
   in
   List.filter_map of_expression (expressions program)
 
-(* The text of an error names the plan: handlers may only say it. *)
+(* The text of an error names the plan: handlers may only print it. *)
 let check_handlers plans program =
   let check e =
     match e.node with
@@ -248,7 +248,7 @@ let keys (options : Environment.options) program =
     let next = List.fold_left more looked makers in
     if Keys.equal next looked then looked else closed next
   in
-  (* Inputs bring values of their own: what the program posts may be equal to them. *)
+  (* Inputs add values of their own: the program may post equal ones. *)
   let brought = Keys.of_list (List.map (fun (i : Environment.input) -> i.key) options.inputs) in
   let looked = closed (Keys.union looked_into brought) in
   let given = List.fold_left (fun found (taken, _) -> Keys.union taken found) Keys.empty makers in
@@ -258,7 +258,7 @@ let keys (options : Environment.options) program =
 
 let one = String "any"
 
-(* [_] is no value to be posted, and stays the fault that it is. *)
+(* [_] is not a value to be posted: it remains a fault. *)
 let unified_value (lambda : lambda) e =
   let slot = lambda.slots in
   lambda.slots <- slot + 1;

@@ -1,6 +1,6 @@
-(** Values of N that no step depends on: those of keys whose pairs are only taken by [_], and given to code that makes a
-    task, which does no more with them than say them, name plans by them, and post them under such keys again. It makes
-    no difference to any step which of them there are, so all of them may as well be one. docs/explorer.md has the
+(** Values of N that no step depends on: their keys' pairs are only taken by [_], and given to code that makes a
+    task. This code may only print them, use them in names of plans, and post them under such keys again. It makes no
+    difference to any step which of them there are, so all of them may as well be one. docs/explorer.md has the
     proof. *)
 
 open Dolphin_semantics

@@ -11,7 +11,7 @@ type t = {
 
 (* {1 Renaming pairs} *)
 
-(* Only pairs of one key are exchanged: what asks for any pair of a key sees the same. *)
+(* Only pairs of one key are exchanged: a request for any pair of a key gets the same. *)
 let renamed skeletons rename tuples =
   let again before (k, xs) =
     List.fold_left
@@ -104,8 +104,8 @@ let exchange is_movable a b : exchange option =
   in
   from 0
 
-(* If the task is the same after the exchange, there is an automorphism that makes [a] and [b] each other, and maps the
-   other subtasks as [matched] says. *)
+(* If the task is the same after the exchange, there is an automorphism that swaps [a] and [b], and maps the other
+   subtasks according to [matched]. *)
 let checked context is_movable r ns a b =
   let fixes map = List.for_all (is_fixed (Task_isomorphism.skeletons context) map) ns in
   match exchange is_movable a.pairs b.pairs with

@@ -13,13 +13,13 @@ type orbit = int array array
 type t = {
   orbits : orbit list;  (** disjoint *)
   labels : (Task_isomorphism.label * Task_isomorphism.label) list;
-  (** each with its image under some automorphism that was checked, where they differ *)
+  (** each with its image under some verified automorphism, where they differ *)
   exchanges : exchange list;  (** all that were checked *)
 }
 
 val find : tick:(unit -> unit) -> Task_isomorphism.context -> Residual.t -> Tuples.t list -> t option
-(** [find ~tick c r ns] is the automorphisms of [r] that fix each of [ns]; [None] if there is none but the identity.
-    [tick] is called before each candidate is checked. *)
+(** [find ~tick c r ns] is the automorphisms of [r] that fix each of [ns]; [None] if only the identity does. [tick]
+    is called before each candidate is checked. *)
 
 val fixes : Skeleton.context -> t -> Tuples.t -> bool
 (** [fixes c a n] is whether each of [a.exchanges] leaves [n] as it is. *)

@@ -78,8 +78,8 @@ let renamed r f ~unordered (c : Configuration.t) outside =
   in
   ({ Configuration.control; shared = { store; allocation; bound; tuples } }, outside)
 
-(* What pairs of N with unordered keys say of each vehicle that has no name yet: the pairs with vehicles by their new
-   names, itself without one. Two such vehicles in one pair break the symmetry. *)
+(* For each unnamed vehicle, the pairs of N with unordered keys that contain it: with the new names of other
+   vehicles, and without its own. Two such vehicles in one pair break the symmetry. *)
 let sayings r name (c : Configuration.t) =
   let said = Hashtbl.create 8 in
   let add k x =
@@ -97,8 +97,8 @@ let sayings r name (c : Configuration.t) =
   List.iter add_all (Tuples.bindings c.shared.tuples);
   said
 
-(* The vehicles that only such pairs name, sorted by what these say: an order that does not depend on names. Those of
-   which the same is said can be exchanged. *)
+(* The vehicles that occur only in such pairs, sorted by them: an order that does not depend on names. Vehicles with
+   equal pairs can be exchanged. *)
 let named_by_pairs r name c outside =
   let compare_pair (k, x) (k', x') = match String.compare k k' with 0 -> Value.compare x x' | order -> order in
   let compare (_, remembered, pairs) (_, remembered', pairs') =
@@ -157,7 +157,7 @@ let check_order r accepted =
   let last, _, runs = List.fold_left number (0, None, []) accepted in
   if last > List.length (by_orbit r accepted) then split r (fun v -> List.assoc_opt v runs)
 
-(* The id of one that can be exchanged is no text of the program: it was computed. *)
+(* An exchangeable id is not a text of the program: it was computed. *)
 let check_id r (asked : Vehicle_filter.t) = Option.iter (fun id -> if is_movable r id then fix r [ id ]) asked.id
 
 let picking r outside (c : Configuration.t) (pick : Settings.pick) =
@@ -206,7 +206,8 @@ let known_in_task r t =
   | (_ : Residual.t) -> Vehicle_set.elements !found
   | exception Renaming.Too_large -> fix_all r
 
-(* Those of an orbit that nobody knows fit if one of them does: who is named by the task, or bound, is known. *)
+(* Vehicles of an orbit that no part of the state mentions all fit if one of them does: the task or the bindings
+   mention the others. *)
 let follows_recruit r (asked : Vehicle_filter.t) ~turn ~is_known v =
   check_id r asked;
   let orbit = orbit r v in

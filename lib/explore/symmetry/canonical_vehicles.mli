@@ -12,9 +12,9 @@ val create : Environment.options -> Core.program -> asked:Condition.t list -> Wo
     ones. *)
 
 val canonical : t -> Configuration.t -> Environment.t -> Configuration.t * Environment.t
-(** [canonical r c e] is one of the configurations that differ from [c] in which vehicles of an orbit they name, and in
-    what variables hold that nothing reads any more; mostly the same one for all of these. The conditions that are asked
-    have the same answer in all.
+(** [canonical r c e] is one of the configurations that differ from [c] only in the choice of vehicles of an orbit, and
+    in the values of dead variables; mostly the same one for all of these. The conditions that are asked have the same
+    answer in all.
     @raise Symmetry.Broken *)
 
 val choices : t -> Environment.t -> Configuration.t -> (Transition.t * Environment.t) Seq.t
@@ -26,7 +26,7 @@ val choices : t -> Environment.t -> Configuration.t -> (Transition.t * Environme
     Of the vehicles of an orbit that a configuration does not know, a [recruit] may have any: one is enough. *)
 
 val known : t -> Configuration.t -> Environment.t -> Core.vehicle list
-(** [known r c e] is the vehicles with others in their orbits that [c] or [e] names, but for what is forgotten.
+(** [known r c e] is the vehicles with others in their orbits that [c] or [e] mentions, except in the forgotten parts.
     @raise Symmetry.Broken *)
 
 val known_in_task : t -> Residual.t -> Core.vehicle list

@@ -7,7 +7,7 @@ type exits = { next : bool; break : bool; continue : bool; return : bool }
 
 let over = { next = false; break = false; continue = false; return = false }
 
-(* What code that others call has in it, wherever it is called. *)
+(* The picks in code that others call, wherever it is called. *)
 type called = { mutable picks : bool; mutable executes : bool }
 
 let is_execute = function Builtin (Execute | Execute_for _) -> true | _ -> false
@@ -69,6 +69,6 @@ let may_follow (program : program) =
   ignore (before (called_code program) (fun () -> found := true) program.main.code over : bool);
   !found
 
-(* Who is lost may stay away from a [recruit] for ever. *)
+(* A lost vehicle may stay away from a [recruit] without end. *)
 let forgetting (program : program) options =
   if may_follow program || program.recruits then options else Environment.forgetting_losses options

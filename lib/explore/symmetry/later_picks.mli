@@ -7,4 +7,4 @@ val may_follow : Core.program -> bool
 (** [may_follow p] is whether a [pick] of [p] may be evaluated after an [execute]. *)
 
 val forgetting : Core.program -> Environment.options -> Environment.options
-(** [forgetting p o] is [o] that does not remember who is lost, if no run of [p] can tell. *)
+(** [forgetting p o] is [o] without its memory of lost vehicles, if no run of [p] depends on it. *)

@@ -9,8 +9,8 @@ module Variables = Set.Make (struct
   end)
 
 type t = {
-  called : Variables.t;  (* what code that is called, or executed, may read *)
-  asked : Variables.t;  (* what conditions may read at any time *)
+  called : Variables.t;  (* variables that may be read by code that is called or executed *)
+  asked : Variables.t;  (* variables that conditions may read at any time *)
 }
 
 (* {1 Code that others call} *)

@@ -1,13 +1,13 @@
-(** Dead variables: nothing reads what they hold before they are assigned anew. A configuration that forgets it goes on
-    as before. *)
+(** Dead variables: their values are not read before the next assignment. A configuration that forgets it goes on as
+    before. *)
 
 open Dolphin_semantics
 
 type t
 
 val of_program : Core.program -> asked:Core.closure list -> t
-(** [of_program p ~asked] is the liveness of the variables of [p], where the conditions [asked] may be evaluated at any
-    time. *)
+(** [of_program p ~asked] is the liveness of the variables of [p], where the conditions [asked] may be evaluated at
+    any time. *)
 
 val forget : t -> (Core.value -> bool) -> Configuration.t -> Configuration.t
 (** [forget l is_sought c] is [c] with [Null] in place of each value with [is_sought] that a dead variable or local

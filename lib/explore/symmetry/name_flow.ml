@@ -14,7 +14,7 @@ type t = {
 
 (* {1 Contents}
 
-   What a value may contain: a set of these, as bits. Of tasks, only vehicles count. *)
+   The possible contents of a value: a set of these, as bits. Of tasks, only vehicles count. *)
 
 let vehicles = 1
 let text = 2
@@ -83,14 +83,14 @@ let put_into_text w at k =
   if has vehicles k then uses_name w at;
   if has reading k then uses_reading w at
 
-(* The content of what a call returns, [given slot] being that of the argument for [slot]. *)
+(* The content of a call's result, [given slot] being that of the argument for [slot]. *)
 let call w (lambda : lambda) given =
   for slot = 0 to lambda.parameters - 1 do add w (Slot (lambda.id, slot)) (given slot) done;
   content w (Result lambda.id)
 
 let call_any w given = Hashtbl.fold (fun _ lambda results -> results lor call w lambda given) w.lambdas nothing
 
-(* Likewise for a call of the value of [e], with content [k], if it may be code. *)
+(* The same for a call of the value of [e], with content [k], if it may be code. *)
 let call_value w e k given =
   match e.node with
   | Make_closure (lambda, _) | Constant (Closure { lambda; _ }) -> call w lambda given
@@ -336,7 +336,7 @@ and built w builder k =
   | Pos -> nothing
   | All_of | One_of | Recruit -> k land (vehicles lor key)
 
-(* Texts for people may say names. *)
+(* Texts for people may contain names. *)
 and said w lambda e =
   let say = said w lambda in
   match e.node with

@@ -5,14 +5,15 @@ open Dolphin_semantics
 
 type t = {
   names : Core.site option;
-  (** where code uses a vehicle's name, or the order of names, for more than printing it in a [message], [halt] or
-      [assert]: in a text, a key of a map or a question, for sorting, by comparing it, by looking at an error's text *)
+  (** code that uses a vehicle's name, or the order of names, for more than printing it in a [message], [halt] or
+      [assert]: in a text, as a key of a map or in a question, for sorting, in a comparison, or through an error's
+      text *)
   readings : Core.site option;
-  (** where code puts a sensor's reading into a text, but to print it, or compares it with a vehicle *)
+  (** code that puts a sensor's reading into a text, except for printing, or compares it with a vehicle *)
   places : bool;
-  (** whether steps depend on where vehicles are: [position], a [region] to pick in, allocation of inline plans *)
-  sensors : bool;  (** whether they depend on what other sensors show: batteries, speeds, links, measurements *)
-  abilities : bool;  (** whether they depend on how fast vehicles are and what that takes of their batteries *)
+  (** whether steps depend on positions of vehicles: [position], a [region] to pick in, allocation of inline plans *)
+  sensors : bool;  (** whether they depend on other sensor readings: batteries, speeds, links, measurements *)
+  abilities : bool;  (** whether they depend on the speeds of vehicles and on their battery consumption *)
   picks : bool;  (** whether there is a [pick] or a [recruit] *)
   leaks : bool;  (** whether a key of some [fresh] may be posted as a value, or assigned to a variable *)
   texts : string list;  (** all texts in the program *)

@@ -21,7 +21,7 @@ let cover coverage = function
   | Task_isomorphism.Task site -> Coverage.reach coverage site
   | Code id -> Coverage.reach_code coverage id
 
-(* What [r] starts in a state, its images start in others of the orbit. *)
+(* The images of a task started by [r] in a state start in other states of the orbit. *)
 let reach_orbit t g r =
   let reach label = List.iter (cover (Components.coverage t.components)) (Task_group.equivalent g label) in
   let step (Task_rules.Step { offer; _ }) =

@@ -11,14 +11,14 @@ val value : (Core.vehicle -> Core.vehicle) -> Core.value -> Core.value
     @raise Too_large *)
 
 val residual : (Core.vehicle -> Core.vehicle) -> Residual.t -> Residual.t
-(** Likewise.
+(** The same.
     @raise Too_large *)
 
 val control : (Core.vehicle -> Core.vehicle) -> Configuration.control -> Configuration.control
-(** Likewise.
+(** The same.
     @raise Too_large *)
 
 val tuples : Core.program -> (Core.vehicle -> Core.vehicle) -> unordered:(unit -> unit) -> Tuples.t -> Tuples.t
-(** [tuples p f ~unordered n] is likewise for the pairs of ordered keys; then [unordered ()] is called, and then [f] for
-    the other pairs, in an order that depends on names.
+(** [tuples p f ~unordered n] does the same for the pairs of ordered keys; then it calls [unordered ()], and then [f]
+    for the other pairs, in an order that depends on names.
     @raise Too_large *)

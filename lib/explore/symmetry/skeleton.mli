@@ -1,5 +1,5 @@
-(** Skeletons of code: code without the pairs of N that it names one by one, and without texts for people. Found in the
-    code, with what it has captured, without running it. *)
+(** Skeletons of code: code without the pairs of N that it names one by one, and without texts for people. Found in
+    the code with its captured values, without running it. *)
 
 open Dolphin_semantics
 

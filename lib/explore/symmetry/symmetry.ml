@@ -8,7 +8,8 @@ exception Broken of t
 
 let none = { vehicles = Vehicle_orbits.none; tasks = None }
 
-(* A state of a task up to symmetry does not say which vehicle runs what: a [recruit] may have who runs nothing. *)
+(* A state of a task up to symmetry does not determine the running task of each vehicle: a [recruit] may take an idle
+   one. *)
 let find options program ~asked world =
   if Environment.may_leave options program then none
   else

@@ -22,8 +22,8 @@ module Images = Hashtbl.Make (struct
     let hash (x, xs) = List.fold_left (fun h x -> (h * 65599) + x) x xs land max_int
   end)
 
-(* The blocks whose pairs are in a component class, or in what is shared; and a key for the role of each block there,
-   which is the same after a permutation. *)
+(* The blocks with pairs in a component class, or in the shared part; and a key for the role of each block there,
+   which a permutation does not change. *)
 type signature = { blocks : int array; roles : int array }
 
 type component_class = { representative : Residual.t; signature : signature }
@@ -46,7 +46,7 @@ type t = {
   class_of_residual : int Residuals.t;
   roles : Keys.t;
   shared_signatures : (int, signature) Hashtbl.t;
-  class_images : int Images.t;  (* by class, and what its blocks become *)
+  class_images : int Images.t;  (* by class, and the images of its blocks *)
   shared_images : int Images.t;
 }
 

@@ -10,7 +10,7 @@ open Dolphin_semantics
 
 type t
 
-(** The numbers of what is shared. *)
+(** The numbers of shared parts. *)
 type shareds = {
   numbering : Dolphin_checker.Numbering.t;
   number : Surroundings.t -> int;
@@ -36,7 +36,7 @@ val equivalent : t -> Task_isomorphism.label -> Task_isomorphism.label list
 
 (** {1:states States}
 
-    A state is the component classes of what stands side by side at the top, each a number, and what is shared. *)
+    A state is the component classes of the parallel parts at the top, each a number, and the shared part. *)
 
 type state = { classes : int array; shared : int }
 

@@ -9,7 +9,7 @@ module Executions = Hashtbl.Make (struct
     let hash (e : t) = (Residual.hash e.task + (65599 * Shared.hash e.constant)) land max_int
   end)
 
-(* By task, and what its automorphisms fix. *)
+(* By task, and by the parts that its automorphisms fix. *)
 module Starts = Hashtbl.Make (struct
     type t = int * Tuples.t list
 
@@ -111,7 +111,7 @@ let task f r tuples =
   | None ->
     Dolphin_checker.Numbering.give f.shareds.numbering;
     let number = Residuals.length f.tasks in
-    (* Where tasks are made, or code asks who is idle, it matters which vehicle holds what. *)
+    (* Where tasks are made, or code asks for idle vehicles, it matters which task holds each vehicle. *)
     let claims = Footprint.claims (Step_footprints.of_residual f.footprints r) in
     let has tuples = automorphisms f r number tuples <> None in
     let is_symmetric = (not claims) && (has [ tuples ] || has []) in
@@ -121,7 +121,7 @@ let task f r tuples =
     Residuals.add f.tasks r task;
     task
 
-(* What no step with footprint [g] can change of [s]. *)
+(* The part of [s] that no step with footprint [g] can change. *)
 let constant (g : Footprint.t) (s : Shared.t) : Shared.t =
   if g.anything then { s with store = Store.empty; tuples = Tuples.empty No_key }
   else
@@ -180,7 +180,7 @@ let check_fixed f e group tuples =
     Spaces.add group.fixed tuples ()
   end
 
-(* Where a task may go round for ever, whether a run is fair depends on which part of the task does what. *)
+(* Where a task may run without end, the fairness of a run depends on which part of the task makes each step. *)
 let find f r ({ shared; _ } : Surroundings.t) =
   if Residual.may_go_round r then None else
     let { number; footprint } = task f r shared.tuples in

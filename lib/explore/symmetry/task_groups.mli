@@ -8,8 +8,8 @@ open Dolphin_environment
 type t
 
 val create : tick:(unit -> unit) -> Environment.options -> Core.program -> Symmetry.t -> Task_group.shareds -> t option
-(** [create ~tick o p s n] is [None] if [s] exchanges no subtasks. [tick] is called again and again where {!find} takes
-    long; what it raises, [find] raises. *)
+(** [create ~tick o p s n] is [None] if [s] exchanges no subtasks. [tick] is called repeatedly where {!find} takes
+    long; its exceptions pass through [find]. *)
 
 val find : t -> Residual.t -> Surroundings.t -> Task_group.t option
 (** [find f r s] is the group of [r], about to be executed with shared [s]; [None] if it is trivial. Groups are numbered

@@ -1,6 +1,6 @@
-(** Conditions on states, asked from outside of the program: expressions of the language over its global variables and
-    functions, in which also [running('plan')], [running('plan', 'vehicle')] and [bound('vehicle')] stand for what is in
-    A and B; and [poll(key: value)] for what is in N, as everywhere. A name of the program hides these two. *)
+(** Conditions on states, evaluated from outside of the program: expressions of the language over its global
+    variables and functions. In addition, [running('plan')], [running('plan', 'vehicle')] and [bound('vehicle')]
+    query A and B, and [poll(key: value)] queries N, as everywhere. A name of the program hides these two. *)
 
 open Dolphin_semantics
 
@@ -10,7 +10,7 @@ val of_string : Core.program -> string -> (t, string) result
 (** [of_string p text] is the condition that [text] spells, or what is wrong with it in one sentence. *)
 
 val closure : t -> Core.closure
-(** Its code. Beyond the program's global variables are some that stand for what it asks of A and B. *)
+(** Its code. Extra variables beyond the program's global ones stand for its queries of A and B. *)
 
 val vehicles : t -> Core.vehicle list
 (** Those that it asks for by name. *)

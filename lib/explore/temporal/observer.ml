@@ -11,7 +11,7 @@ let of_transition observer transition =
 
 let of_event observer ?ending label = seen observer { label; effects = []; ending }
 
-(* What is done when a run ends is the same whatever waits for the task. *)
+(* The effects of the end of a run do not depend on the contexts of the task. *)
 let of_local_step t ({ outcome; named; asked; _ } : Local_step.t) =
   let ending = match outcome with Ends ending -> Some ending | Goes_on _ | Over -> None in
   t.action { label = named; effects = asked; ending }

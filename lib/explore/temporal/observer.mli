@@ -1,16 +1,16 @@
-(** Who watches the transitions of a search, and gives each a number: its action. *)
+(** An observer watches the transitions of a search, and gives each a number: its action. *)
 
 open Dolphin_semantics
 
 type t = {
-  action : Proposition.observed -> int;  (** of what can be seen of a transition *)
+  action : Proposition.observed -> int;  (** of the observable part of a transition *)
   valuation : Encoding.t -> int -> int array -> int;
   (** [valuation e action key]: which valuation it makes that [action] leads to the state [key]; 0 if no formula is
       checked *)
 }
 
 val nothing : int
-(** The action where there is no transition, or nobody watches: 0. *)
+(** The action if there is no transition or no observer: 0. *)
 
 val of_transition : t option -> Transition.t -> int
 (** The action of a transition. *)

@@ -5,11 +5,12 @@ open Dolphin_semantics
 type t
 
 val of_string : Core.program -> string -> (t, string) result
-(** [of_string p text] is the proposition that [text] spells. Of transitions: [start], [done] and [fail], of a plan and
-    a vehicle if they are given: [start(survey1)], [done(survey1, noptilus-1)]; [bind(vehicle)]; [message('text')];
-    [post(key: value)], [post(key)], likewise [consume]; [timeout], [execute], [pick], [ask], [answer], [pause],
-    [end], [halt], [error] (the end by an error or a failed assertion). Of states: [running] and [bound], where names
-    need no quotes, [poll(key: value)], [ended], and any {!Condition} in braces. *)
+(** [of_string p text] is the proposition that [text] spells. Of transitions: [start], [done] and [fail], of a plan
+    and a vehicle if they are given: [start(survey1)], [done(survey1, noptilus-1)]; [bind(vehicle)];
+    [message('text')]; [post(key: value)], [post(key)], and [consume] in the same form; [timeout], [execute], [pick],
+    [ask], [answer], [pause], [end], [halt], [error] (the end by an error or a failed assertion). Of states:
+    [running] and [bound], with names that need no quotes, [poll(key: value)], [ended], and any {!Condition} in
+    braces. *)
 
 val needs_action : t -> bool
 (** Whether it is about transitions: then it is false in the first state, and after the end. *)
@@ -17,7 +18,7 @@ val needs_action : t -> bool
 val running : t -> (string * string option) list
 (** As {!Condition.running}. *)
 
-(** What propositions see of a transition. *)
+(** The part of a transition that propositions observe. *)
 type observed = {
   label : Label.t;
   effects : Effect.t list;

@@ -6,7 +6,7 @@ let to_string f = f.text
 let formula f = f.formula
 let propositions f = f.propositions
 
-(* Bits of a number say which of them hold: see [Product]. *)
+(* The bits of a number are the propositions that hold: see [Product]. *)
 let most_running = 62
 
 let running propositions =

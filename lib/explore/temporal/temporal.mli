@@ -1,5 +1,5 @@
 (** Formulas of linear temporal logic about the runs of a program. A position of a run is a state together with the
-    transition that led to it. A run that comes to an end, or cannot go on, stays in its last state for ever, without
+    transition that led to it. A run that ends or is stuck is extended by an endless stay in its last state, without
     transitions.
 
     A formula holds of the program if it holds of every path of its state graph that is fair (docs/explorer.md), or of

@@ -22,7 +22,7 @@ type t = {
 }
 
 let create program world propositions =
-  (* What these numbers stand for need not be the same in several processes: no state has them. *)
+  (* These numbers may differ between processes: no state contains them. *)
   let numbering = Dolphin_checker.Numbering.create () in
   let valuations () =
     let valuations = Valuations.create numbering in

@@ -56,7 +56,7 @@ module States = Hashtbl.Make (struct
     let hash (c, e) = (Configuration.hash c + Environment.hash e) land max_int
   end)
 
-(* The run goes on by the first of the choices, to its end, or to where it has been. *)
+(* The run continues with the first of the choices, to its end, or to a visited state. *)
 let onwards tick x states =
   let seen = States.create 100 in
   let rec go state taken =

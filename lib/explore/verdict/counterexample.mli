@@ -3,8 +3,8 @@
 open Dolphin_semantics
 open Dolphin_environment
 
-(** A run from the initial configuration; [cycle] goes on for ever after [steps], and is empty if they come to an
-    end. If the violation is known before, or by resting there, it is so after [decided] steps. *)
+(** A run from the initial configuration; [cycle] repeats without end after [steps], and is empty if the run is
+    finite. If the violation is known before, or by resting there, it is so after [decided] steps. *)
 type run = { steps : Transition.t list; cycle : Transition.t list; decided : int option }
 
 val of_violation :

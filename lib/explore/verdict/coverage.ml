@@ -41,7 +41,7 @@ let of_builtin = function
   | Is_there
   | Math _ | Geometry _ -> None
 
-(* What the code in an argument of this operation is for. *)
+(* The purpose of the code in an argument of this operation. *)
 let code_of = function
   | Builtin Make_action -> Some "action"
   | Builtin Make_condition -> Some "condition"

@@ -33,6 +33,6 @@ val transition : t -> Configuration.t -> Transition.t -> unit
 type piece = { site : Core.site; what : string  (** ["action"], ["task"] *) }
 
 val unreached : t -> Core.program -> piece list
-(** The pieces that no run has reached, in the order of the text. They are platform tasks that no vehicle starts; code
-    of actions, conditions, guards, [until], [during] and [onError] that is not run; and what the script does visibly
-    outside of functions and closures ([execute], [post], [message], ...). *)
+(** The pieces that no run has reached, in the order of the text. The pieces are platform tasks that no vehicle
+    starts; code of actions, conditions, guards, [until], [during] and [onError] that is not run; and visible
+    operations of the script outside of functions and closures ([execute], [post], [message], ...). *)

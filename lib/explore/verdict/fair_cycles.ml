@@ -27,8 +27,8 @@ type edge = {
   chooses : bool;
 }
 
-(* The steps that are possible and that nobody may prevent by staying away, and where those lead that are followed. At a
-   node that [waits] time may pass: each step that needs no event may be impossible there. *)
+(* The steps that are possible and that no vehicle or person may prevent by staying away, and the successors of the
+   followed ones. At a node that [waits] time may pass: each step that needs no event may be impossible there. *)
 type node = { possible : int list; waits : bool; edges : edge list }
 
 type t = {
@@ -40,7 +40,7 @@ type t = {
   automaton : Monitor.t option;  (* then what is searched is pairs: see {!Formulas} below *)
   is_open : bool;  (* whether sensors, or the date, may show several things *)
   whole : bool;  (* whether no steps are left out *)
-  mutable unsure : bool;  (* whether steps that were left out may matter to what was looked at *)
+  mutable unsure : bool;  (* whether omitted steps may matter to the property *)
 }
 
 let create ?automaton ?(whole = true) program graph =
@@ -59,7 +59,7 @@ let number t (p : Space.possible) =
     Hashtbl.add t.steps n p;
     n
 
-(* Where the rounds that begin are, among the [layers]: no two of these are equal. *)
+(* The places, among the [layers], of the rounds that begin: no two of these are equal. *)
 let places_of rounds layers =
   let place (again : Residual.again) =
     let is_it (_, (again' : Residual.again)) =
@@ -67,15 +67,15 @@ let places_of rounds layers =
     in
     Option.map fst (List.find_opt is_it layers)
   in
-  (* Where a task runs anew, it waits for vehicles in between: none of its steps is possible all along. *)
+  (* A task that restarts waits for vehicles in between: none of its steps stays possible. *)
   let of_round = function Task_rules.Endless again | Asked again -> place again | Retried _ -> None in
   List.filter_map of_round rounds
 
-(* Who is recruited was there before. *)
+(* The recruited vehicle was present before. *)
 let is_event (p : Space.possible) =
   match p.step.event with Some (Recruited _) | None -> false | Some _ -> true
 
-(* To recruit is one step, whoever comes. It need not be taken where all who may come may stay away. *)
+(* Recruiting is one step, whichever vehicle comes. It need not be taken where all who may come may stay away. *)
 let certain t key found =
   let system = State_graph.system t.graph and recruits = Hashtbl.create 4 in
   let note (k, (p : Space.possible)) =
@@ -176,7 +176,7 @@ let node t i =
 
 let executes t i = state_executes t (fst (split t i))
 
-(* What a cycle has to meet. *)
+(* The requirements on a cycle. *)
 let acceptance t =
   match t.automaton with
   | None -> []
@@ -196,7 +196,7 @@ let of_tasks t keeps = { within = executes t; keeps }
 
 type place = { mutable low : int; at : int; mutable rest : edge list }
 
-(* The strongly connected components that have a cycle, of what can be reached in a part of the graph (Tarjan). *)
+(* The strongly connected components with a cycle, in the reachable part of a subgraph (Tarjan). *)
 let components t ~tick part states =
   let places = Hashtbl.create 1_000 and on_path = Hashtbl.create 100 in
   let path = Stack.create () and frames = Stack.create () and found = ref [] in

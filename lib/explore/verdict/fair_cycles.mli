@@ -1,22 +1,22 @@
-(** Runs that go round for ever, where a [repeat] without a number of rounds is executed: which of them are fair, and
-    which of those are meant. docs/explorer.md defines and proves it. *)
+(** Endless runs of a [repeat] without a number of rounds: which of them are fair, and which of those are intended.
+    docs/explorer.md defines and proves it. *)
 
 (** A cycle to be shown: states, from the initial one, and from the last of these around to it. *)
 type lasso = { stem : int list; around : int list }
 
 type verdict =
   | Ends  (** every fair run ends *)
-  | Goes_on of lasso  (** a fair run goes on for ever and begins no round of an endless [repeat] again and
-                          again, nor runs a task anew *)
-  | Spins of lasso  (** a run goes on for ever without any event *)
+  | Goes_on of lasso  (** a fair run is endless but neither begins rounds of an endless [repeat] again and again, nor
+                          restarts a task *)
+  | Spins of lasso  (** an endless run without any event *)
   | By_design of {
       repeats : Dolphin_semantics.Core.site list;
       retries : Dolphin_semantics.Core.site list;
       left_by : string list;
     }
-  (** fair runs go on for ever, all by rounds of the endless [repeats] or by [retry()] of handlers, which may be
-      [left_by] these *)
-  | Unsure  (** a search of all states has to tell: steps were left out by partial order *)
+  (** all endless fair runs are rounds of the endless [repeats], or use [retry()] of handlers; they may be [left_by]
+      these events *)
+  | Unsure  (** only a search of all states decides: partial order reduction omitted steps *)
 
 val judge : Dolphin_semantics.Core.program -> State_graph.t -> all:bool -> verdict
 (** [judge p g ~all] is about all runs of [p], [g] being searched; [all] is whether no steps were left out in it. Then

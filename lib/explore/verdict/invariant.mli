@@ -1,5 +1,5 @@
-(** A condition that every state must meet. Where it does not ask what runs, it is evaluated once per shared state;
-    otherwise in each state. *)
+(** A condition that every state must meet. If it does not ask for running tasks, it is evaluated once per shared
+    state; otherwise in each state. *)
 
 open Dolphin_semantics
 
@@ -19,4 +19,4 @@ val hear : t -> first:(int -> int -> int) -> string -> unit
 (** As of a {!Dolphin_checker.Watcher.t}. *)
 
 val trouble : t -> string option
-(** What was wrong in the first state in which it could not be evaluated. *)
+(** The error in the first state in which it could not be evaluated. *)

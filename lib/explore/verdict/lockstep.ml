@@ -9,7 +9,7 @@ exception Out_of_step
 
 let equal (c, e) (c', e') = Environment.compare e e' = 0 && Configuration.equal c c'
 
-(* Transitions may differ in what the outside remembers alone, so there may be several ways; almost always it is one. *)
+(* Transitions may differ only in the environment's memory, so there may be several ways; almost always there is one. *)
 let step options world program ~image (t : Transition.t) pair =
   let choices program (c, e) = List.of_seq (Environment.choices options program world e c) in
   let images = choices image pair.image and reals = choices program pair.real in

@@ -10,4 +10,4 @@ val follow :
   Environment.options -> World.t -> Core.program -> image:Core.program ->
   ends_alike:(Transition.t -> Transition.t -> bool) -> run -> run option
 (** [follow o w p ~image ~ends_alike run] is the run of [p] that goes in step with [run], one of [image], and ends
-    alike. A cycle is followed around until it comes back to where it was in [p]. [None]: they do not go in step. *)
+    alike. A cycle is followed around until it returns to the same place in [p]. [None]: they do not go in step. *)

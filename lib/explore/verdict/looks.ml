@@ -88,7 +88,7 @@ type concerns = World.assumption -> bool
 let is_letter c = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c = '_'
 let is_digit c = c >= '0' && c <= '9'
 
-(* The names in a text; what begins with a digit is a number. *)
+(* The names in a text; a name does not begin with a digit. *)
 let names text =
   let length = String.length text in
   let rec after is_part i = if i < length && is_part text.[i] then after is_part (i + 1) else i in

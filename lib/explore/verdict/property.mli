@@ -1,12 +1,12 @@
-(** What is asked of every run of a program. *)
+(** Requirements on all runs of a program. *)
 
 open Dolphin_semantics
 
 type t =
   | No_deadlock  (** some transition is possible until the program ends *)
   | Termination
-  (** every fair run ends: each task that runs ends at some time, each timer expires, and no step of the program that
-      stays possible is put off for ever *)
+  (** every fair run ends: each running task ends at some time, each timer expires, and no step of the program that
+      stays possible is put off without end *)
   | No_error  (** no fault, and no error of a task, is left to end the program *)
   | Assertions  (** no assertion fails *)
   | Vehicles  (** every [pick] gets its vehicles *)
@@ -26,10 +26,10 @@ val name : t -> string
 (** A short phrase: ["no deadlock"]. *)
 
 val question : t -> string
-(** What a violation means, in a sentence without a full stop. *)
+(** The meaning of a violation, in a sentence without a full stop. *)
 
 val pp : Format.formatter -> t -> unit
 
 val broken_by_end : Core.program -> Rule.t list -> Configuration.t -> t option
-(** [broken_by_end program rules c] is what a run of [program] breaks that reaches [c] by a transition with these rules,
-    if [c] is an end. *)
+(** [broken_by_end program rules c] is the property of [program] violated by a run that reaches [c] by a transition
+    with these rules, if [c] is an end. *)

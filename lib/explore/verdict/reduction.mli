@@ -1,4 +1,5 @@
-(** Which part of a state space is explored. docs/explorer.md says what each reduction preserves, and why. *)
+(** The explored part of a state space. docs/explorer.md defines and justifies the properties that each reduction
+    preserves. *)
 
 type t =
   | Whole  (** every state *)

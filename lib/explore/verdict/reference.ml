@@ -88,8 +88,7 @@ let shortest_lasso g =
   in
   List.fold_left better None (List.init (Array.length g.states) Fun.id)
 
-(* Removing states without successors, or only such as are removed, leaves nothing if there is no cycle of states with
-   [within]. *)
+(* Removing states without successors, repeatedly, leaves nothing if there is no cycle of states with [within]. *)
 let is_cyclic ?(within = fun _ -> true) g =
   let n = Array.length g.states in
   let edge i (_, j) = within g.states.(i) && within g.states.(j) in

@@ -23,8 +23,8 @@ val transitions : t -> int
 val depth : t -> int
 
 val goes_round : t -> bool
-(** Whether some cycle stays within a task, which a [repeat] without a number of rounds makes: fairness says whether it
-    breaks termination. *)
+(** Whether some cycle stays within a task, made by a [repeat] without a number of rounds: fairness decides whether
+    it violates termination. *)
 
 val broken : t -> (Property.t * int) list
 (** The properties of {!Property.all} that are broken, except [All_reached]: each with the fewest transitions after

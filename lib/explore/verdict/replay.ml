@@ -85,7 +85,7 @@ let leads_to graph i state =
     | Some choice -> Some choice
     | None -> Environment.find (ends_in_same_way graph (State_graph.broken_by graph i)) found
 
-(* Transitions from state to state, each from where the one before led to, or from its representative. The result is
+(* Transitions from state to state, each from the target of the one before, or from its representative. The result is
    latest first. *)
 let in_names_of graph states =
   let rec go state from found = function

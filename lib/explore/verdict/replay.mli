@@ -1,6 +1,6 @@
 (** Runs that lead to states of a {!State_graph}, transition by transition. Each transition is one that the semantics
-    offers between the two configurations. All of this raises [Invalid_argument] if there is none, which would be an
-    error of {!State_graph}. *)
+    offers between the two configurations. All of these functions raise [Invalid_argument] if there is none, which
+    would be an error of {!State_graph}. *)
 
 open Dolphin_semantics
 
@@ -8,6 +8,6 @@ val through : State_graph.t -> int list -> Transition.t list
 (** [through g states] is transitions from the initial configuration that lead through [states], in this order. *)
 
 val around : State_graph.t -> stem:int list -> int list -> Transition.t list * Transition.t list
-(** [around g ~stem states], where [states] lead from the last one of [stem] back to it, is transitions through [stem],
-    and transitions that go on through [states] and come back to where they started. Where states are representatives,
-    both may go around [states] several times. *)
+(** [around g ~stem states], where [states] lead from the last one of [stem] back to it, is transitions through
+    [stem], and transitions that continue through [states] and return to their start. Where states are
+    representatives, both may traverse [states] several times. *)

@@ -3,6 +3,6 @@
 
 val closed :
   ?most:int -> equal:('s -> 's -> bool) -> ('s -> ('s * 'step list) option) -> 's -> ('step list * 'step list) option
-(** [closed ~equal round s] is the steps from [s], round after round, until one ends where an earlier one began: those
-    before that one, and those of the cycle. [round s] is where the round from [s] ends, with its steps. [None] if there
-    is no further round, or after [most], by default as many as it takes. *)
+(** [closed ~equal round s] is the steps from [s], round after round, until one ends where an earlier one began:
+    those before that one, and those of the cycle. [round s] is the end of the round from [s], with its steps. [None]
+    if there is no further round, or after [most], unbounded by default. *)

@@ -10,24 +10,24 @@ type walks = { number : int; seed : int }
 
 (** Of which runs formulas are asked. *)
 type fairness =
-  | Weak  (** those that are fair as for {!Property.Termination}, and those that go on for ever without any event *)
+  | Weak  (** runs that are fair as for {!Property.Termination}, and endless runs without any event *)
   | No_fairness  (** all *)
 
 type options = {
   environment : Environment.options;
   reduction : Reduction.t;
-  (** where there are invariants, only the symmetry of vehicles is used; where it matters which vehicle is lost
-      ({!Later_picks}), no symmetry of tasks: states that it identifies may differ in that *)
+  (** with invariants, only the symmetry of vehicles is used; where it matters which vehicle is lost
+      ({!Later_picks}), no symmetry of tasks, since it identifies states that may differ in that *)
   compress : bool;  (** keep states in less memory, in more time *)
   spill : string option;
   (** the directory where states go once they take three quarters of [limits.max_memory]; neither with [compress] nor
       with [walks] or [bitstate] *)
   walks : walks option;  (** random walks in place of all states; formulas are not judged by walks *)
   bitstate : int option;
-  (** bytes of an array of bits by which states are told apart in place of their set, without [walks]: states are
-      explored depth first, and some may be left out; formulas are judged as always *)
+  (** bytes of an array of bits that represents states in place of a set, without [walks]: states are explored depth
+      first, and some may be missed; formulas are judged as always *)
   search_again : int;
-  (** so many of all states are visited for a shortest run, if a reduced search found a violation *)
+  (** number of states visited without reduction for a shortest run, if a reduced search found a violation *)
   workers : int;
   (** processes, 1 by default, that search from [fork_from] states on, 100,000 by default, as for
       {!Breadth_first.Make.create} *)
@@ -35,7 +35,7 @@ type options = {
   spare_bits : int option;  (** as for {!Layouts.create} *)
   limits : Limits.t;
   invariants : Condition.t list;
-  formulas : Temporal.t list;  (** for each, states are explored anew, after all others are forgotten *)
+  formulas : Temporal.t list;  (** for each, states are explored again, after all others are forgotten *)
   fairness : fairness;  (** [Weak] by default *)
 }
 
@@ -53,7 +53,7 @@ val space : options -> Core.program -> World.t -> Space.t
 (** A run from the initial configuration, or from the [start] of {!run}. *)
 type run = {
   steps : Transition.t list;
-  cycle : Transition.t list;  (** goes on from there for ever, if there is any *)
+  cycle : Transition.t list;  (** repeats without end after that, unless empty *)
   shortest : bool;  (** no run shows it in fewer steps; with a cycle, none comes to it in fewer *)
   decided : int option;
   (** after how many steps a formula is known not to hold, whatever follows, or if the run rests there; then
@@ -62,10 +62,10 @@ type run = {
 
 type verdict =
   | Holds
-  | Violated of run  (** without reduction, or if [search_again] states show it, by a shortest run; for cycles, without
-                          reduction, one with a shortest way to where it comes around *)
+  | Violated of run  (** without reduction, or if [search_again] states suffice, by a shortest run; for cycles,
+                          without reduction, one with a shortest way to the cycle *)
   | By_design of { repeats : Core.site list; retries : Core.site list; left_by : string list }
-  (** of termination: fair runs go on for ever only in rounds of these, each a [repeat] without end, or by [retry()] of
+  (** of termination: fair runs are endless only by rounds of these, each a [repeat] without end, or by [retry()] of
       these handlers, which may be [left_by] these events *)
   | Unreached of Coverage.piece list
   | Inconclusive of Limits.bound
@@ -84,9 +84,9 @@ type outcome = {
   (** the one that was used in tasks: weaker than requested where the requested one would be unsound *)
   vehicle_symmetry : bool;  (** whether vehicle symmetry merged states of the script *)
   alike_values : bool;  (** whether values of N that no step depends on were taken for one ({!Alike_values}) *)
-  sample : Sample.summary option;  (** what random walks came to *)
+  sample : Sample.summary option;  (** the result of random walks *)
   bitstate : Bitstate.summary option;
-  beside : Side_by_side.pair list;  (** plans that may run side by side, near each other, or nobody knows how near *)
+  beside : Side_by_side.pair list;  (** plans that may run side by side, near each other or at an unknown distance *)
   verdicts : (Property.t * verdict) list;
   (** for each of {!Property.all}, but for [All_reached] if there is a [start], then for each invariant and formula, and
       for the least distance between vehicles if the program has one *)

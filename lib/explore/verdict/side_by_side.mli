@@ -1,14 +1,14 @@
-(** Plans that run at the same time, on different vehicles, and what is known of how near their ways come to each other
+(** Plans that run at the same time, on different vehicles, and the known distance between their ways
     ({!Dolphin_semantics.Fences.near}). Ways to plans are left aside: they begin wherever vehicles are.
 
-    docs/explorer.md says how they are found. *)
+    docs/explorer.md describes how they are found. *)
 
 open Dolphin_semantics
 
 (** How near two plans come. *)
 type nearness =
   | Near of Fences.near  (** nearer than the least distance *)
-  | Unknown  (** the way of one of them is not known: vehicles know it by name, or it depends on where they are *)
+  | Unknown  (** the way of one of them is unknown: vehicles know it by name, or it depends on their positions *)
 
 type pair = {
   one : Core.vehicle * Core.platform_task;
@@ -22,7 +22,7 @@ val name : Core.platform_task -> string
 (** {1 Watching states} *)
 
 type t
-(** What has been seen so far. *)
+(** The pairs seen so far. *)
 
 val create : Fences.t -> t
 val fence : t -> Fences.fence option
@@ -44,4 +44,4 @@ val candidates : t -> int
 (** How many {!pairs} there would be if all that were seen ran at the same time. *)
 
 val seen_all : candidates:int -> t -> bool
-(** Whether {!pairs} are so many. *)
+(** Whether {!pairs} has this many members. *)

@@ -8,8 +8,7 @@ module Labels = Interner.Make (struct
     let hash = Hashtbl.hash
   end)
 
-(* The actions of transitions are their labels. What these numbers stand for need not be the same in several processes:
-   no state has them. *)
+(* The actions of transitions are their labels. These numbers may differ between processes: no state contains them. *)
 let labels () =
   let labels = Labels.create (Numbering.create ()) in
   let nothing = Labels.number labels "" in

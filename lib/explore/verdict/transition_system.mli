@@ -7,21 +7,22 @@ open Dolphin_checker
 
 type t
 
-(** Why there is none. *)
+(** The reason why there is none. *)
 type problem =
   | Stopped of Limits.bound
-  | Unclear of Fault.t  (** nobody can list what follows some state: more than a comparison depends on something open *)
+  | Unclear of Fault.t  (** the successors of some state cannot be listed: more than a comparison depends on
+                            something open *)
 
 val explore :
   ?workers:int -> ?fork_from:int -> Limits.t -> Environment.options -> Core.program -> World.t ->
   (int -> string -> int -> unit) -> (t, problem) result
-(** [explore limits o p w each] is that of [p], after [each i l j] for each transition: from state [i], with label [l],
-    to state [j]. The initial state is 0, and states are numbered in the order in which transitions come to them. Two
-    steps with one label that lead from one state to one state are two transitions. [workers] and [fork_from] are as in
-    {!Search.options}; whatever they are, the result is the same. What it takes in memory that processes share is given
-    back when the process ends. *)
+(** [explore limits o p w each] is that of [p], after [each i l j] for each transition: from state [i], with label
+    [l], to state [j]. The initial state is 0, and states are numbered in the order in which transitions come to
+    them. Two steps with one label that lead from one state to one state are two transitions. [workers] and
+    [fork_from] are as in {!Search.options}; whatever they are, the result is the same. Its memory shared by
+    processes is returned when the process ends. *)
 
 val states : t -> int
 
 val state : t -> int -> Configuration.t * Environment.t
-(** [state t i] is the configuration that state [i] is, with what the environment remembers. *)
+(** [state t i] is the configuration of state [i], with the environment's memory. *)

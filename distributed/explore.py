@@ -1,5 +1,5 @@
-"""Explores a program on Apache Spark, breadth first: dolphin explore for what one machine does not hold. docs/scale.md
-tells when, and how."""
+"""Explores a program on Apache Spark, breadth first: dolphin explore for state spaces too large for one machine.
+docs/scale.md describes its use."""
 
 import argparse
 import os
@@ -119,7 +119,7 @@ def report(a, command, greeting, found, began):
         if verdict is None:
             verdict = "holds" if known is None else "violated after %d step%s" % (known[0], "s" * (known[0] != 1))
             if known is None and name.startswith("invariant") and facts.trouble:
-                verdict = "inconclusive: the condition cannot be told: " + facts.trouble
+                verdict = "inconclusive: the condition cannot be evaluated: " + facts.trouble
         if name in NOTES:
             if verdict == "holds":
                 continue

@@ -1,5 +1,5 @@
-"""Makes many simulated runs of a program on Apache Spark, and says what became of all of them, as dolphin exec --runs
-does on one machine. docs/scale.md tells when, and how."""
+"""Makes many simulated runs of a program on Apache Spark, and summarises them, as dolphin exec --runs does on one
+machine. docs/scale.md describes its use."""
 
 import argparse
 import subprocess

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""What a console stands: watchers, floods of nonsense, idle connections, while a run goes on.
+"""The load that a console withstands during a run: watchers, floods of nonsense, idle connections.
 
 Usage: console.py DOLPHIN [WATCHERS [POSTS [NONSENSE]]]
 
-A run waits for inputs. So many watchers follow it; inputs are posted one after the other, and for each the time is
+A run waits for inputs. WATCHERS watchers follow it; inputs are posted one after the other, and for each the time is
 taken until the first watcher reads it in the journal. Then nonsense is sent, and 1,000 connections stay idle; the
 figures are taken once more. Everything is on the loopback address, and bounded."""
 

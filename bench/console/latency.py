@@ -5,11 +5,11 @@ Usage: latency.py DOLPHIN [PAGES [ROUNDS]]
 
 20 simulated vehicles speak IMC in another process, over the loopback address, and run ten short plans each. For each
 plan but the first the time is taken from the end of the one before to the START of this one, as the vehicles see it.
-The same mission is run by `dolphin exec`, by a console that nobody looks on, and by one whose events so many pages
-follow (5), in turn, so many times (4), each time beginning with another one. The last column compares medians with that
-of `dolphin exec`, and the last line the console with pages and without: they have the same figures if the median is
-within a quarter and 1 ms, and the 99th percentile within a half and 5 ms. It ends with 1 if they do not, which on a
-machine with other work says little: where processes wait for a processor, those that compute more wait longer."""
+The same mission is run by `dolphin exec`, by a console without pages, and by one with PAGES pages (5), in turn, ROUNDS
+times (4), each round beginning with another of the three. The last column compares medians with that of `dolphin exec`,
+and the last line the console with pages and without: they have the same figures if the median is within a quarter and 1
+ms, and the 99th percentile within a half and 5 ms. The exit status is 1 if they do not. On a machine with other work
+this means little: processes that compute more wait longer for a processor."""
 
 import json
 import os

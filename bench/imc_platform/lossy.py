@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
-"""Missions over a bad network: what the vehicles did, held against what the console said of it.
+"""Missions over a bad network: the vehicles' logs, compared with the console's.
 
 Usage: bench/imc_platform/lossy.py [--runs N] [--first SEED] [--at-once N] [--speed X] [--keep FOLDER] [DOLPHIN]
 
 The mission of the paper runs N times (100), on simulated vehicles in another process that lose 30% of all datagrams,
 double 10% and reorder 20%, both ways. Of each run, with a seed of its own, the log of the vehicles is compared with
-that of the console: did the mission complete, was each plan started once, and where a vehicle began one anew, was that
-said?
+that of the console: did the mission complete, was each plan started once, and was every restart of a plan reported?
 
 The status is 1 if a mission did not complete, or if a request was sent again to a vehicle that had taken it.
 """

@@ -4,7 +4,7 @@
 inputs.py [DOLPHIN [SECONDS [RATE]]] (without DOLPHIN it is built first): in a simulated run in real time, and on a
 vehicle that speaks IMC over loopback, while the vehicle runs a plan:
 - of 300 inputs, one after the other, the time from sending each to reading in the journal the step that took it;
-- of RATE inputs a second (1,000) for so many SECONDS (60), how many were taken;
+- of RATE inputs a second (1,000) for SECONDS seconds (60), how many were taken;
 - both again with 20 followers, one of which never reads, for a sixth of the time;
 - 10,000 malformed lines: each is answered by an error, and moves nothing.
 Nothing may be lost, order must be kept, and each follower that reads must see the whole journal. Each figure stands

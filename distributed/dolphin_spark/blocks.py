@@ -44,7 +44,7 @@ class Columns:
                                                    for name in self.__slots__[1:] if self.count])
 
     def offsets(self):
-        """Where each text begins."""
+        """The start of each text."""
         ends = numpy.cumsum(self.lengths, dtype=numpy.int64)
         return ends - self.lengths
 
@@ -96,7 +96,7 @@ def windows(array, length):
 
 
 def partition_of(columns, partitions):
-    """The partition of each state, as the filter tells them."""
+    """The partition of each state, as given by the filter."""
     return (columns.seconds >> numpy.uint64(32)) % numpy.uint64(partitions)
 
 
@@ -107,7 +107,7 @@ def by_partition(columns, partitions):
 
 
 def distinct(firsts, seconds):
-    """An order of digests, and the places in it where others begin."""
+    """An order of digests, and the places where groups of equal ones begin."""
     order = numpy.argsort(firsts)
 
     def compared():

@@ -1,11 +1,11 @@
-"""What a search has found, and what parts of it have found put together. Nothing here needs Spark."""
+"""The results of a search, combined from those of its parts. Nothing here needs Spark."""
 
 import json
 
 
 class Facts:
     """`stopped` is why the search goes no further, or "". `first` has, by property, the least (depth, digest) of a
-    state that breaks it: one that is reached by so many transitions. `parts` are what states name."""
+    state that violates it: one that this many transitions reach. `parts` are the parts named by states."""
 
     def __init__(self):
         self.transitions = 0
@@ -62,8 +62,8 @@ class Facts:
 
 
 def prune(following):
-    """What is left of the nodes of a graph once those that nothing follows are taken away, again and again: nothing
-    if and only if it has no cycle. `following` has what follows each node."""
+    """The rest of a graph's nodes after nodes without successors are removed repeatedly: empty if and only if the graph
+    has no cycle. `following` has the successors of each node."""
     count = {node: len(nodes) for node, nodes in following.items()}
     before = {}
     for node, nodes in following.items():

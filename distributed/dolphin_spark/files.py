@@ -1,4 +1,4 @@
-"""The files of a job: where they are here, and on the machines that they are sent to."""
+"""The files of a job: their paths here, and on the machines that receive them."""
 
 import os
 import shutil
@@ -18,7 +18,7 @@ def beside(program):
 
 
 def job(dolphin, program, fleet, options):
-    """What the machines need to know to run `dolphin COMMAND program` with these options."""
+    """The settings with which machines run `dolphin COMMAND program` with these options."""
     return {"dolphin": os.path.basename(dolphin), "program": os.path.basename(program),
             "fleet": os.path.basename(fleet) if fleet else None, "options": options}
 

@@ -36,8 +36,8 @@ def batches(columns):
 
 
 def expand(successors, block, depth, conditions, partitions=1):
-    """What follows the states of `block`, which are `depth` transitions deep: for each partition blocks, each of which
-    has a state once; and facts."""
+    """The successors of the states of `block`, which are `depth` transitions deep: for each partition blocks, each
+    without duplicates; and facts."""
     facts, led_to = Facts(), [[] for _ in range(partitions)]
     for _, columns in batches(blocks.Columns.of(block)):
         try:
@@ -60,7 +60,7 @@ def expand(successors, block, depth, conditions, partitions=1):
 
 
 def edges(successors, block):
-    """(digest, digests of what follows it) for the states of a block."""
+    """(digest, digests of its successors) for the states of a block."""
     columns, found = blocks.Columns.of(block), []
     for start, asked in batches(columns):
         answer = successors.ask(*asked, targets=True)

@@ -1,4 +1,4 @@
-"""The search on one machine, in one process: what is narrow is searched here. Nothing here needs Spark."""
+"""The search on one machine, in one process, for narrow levels. Nothing here needs Spark."""
 
 from . import blocks
 from .facts import Facts, prune
@@ -57,7 +57,7 @@ class Local:
 
 
 class Runs:
-    """The digests of what is seen: few runs, as those of like size are joined."""
+    """The digests of visited states: few runs, since runs of similar size are merged."""
 
     def __init__(self):
         self.runs = []

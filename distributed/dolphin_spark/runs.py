@@ -11,7 +11,7 @@ def parts(seed, runs, size):
 
 
 def made(command, part):
-    """The lines of the runs of a part: what `dolphin exec --each` prints."""
+    """The lines of the runs of a part, as `dolphin exec --each` prints them."""
     seed, runs = part
     options = ["--runs=%d" % runs, "--seed=%d" % seed, "--jobs=1", "--each"]
     return subprocess.run(command + options, stdout=subprocess.PIPE, check=True).stdout

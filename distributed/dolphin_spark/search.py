@@ -1,7 +1,7 @@
-"""The search on Spark: a level at a time. What is new of a level, with what it was reached from, and the parts that its
-states name, are in the folder of the search before the next level begins: so a search goes on where it was when the
-driver was killed, a lost worker costs what it was doing, and runs are read from these files. The digests of what is
-seen stay where they are, by hash."""
+"""The search on Spark: a level at a time. The new states of a level, with their predecessors, and the parts named in
+them, are written to the folder of the search before the next level begins. So a search continues after the driver was
+killed, a lost worker costs only its current work, and runs are read from these files. The digests of visited states
+stay on their partitions, by hash."""
 
 import json
 import struct
@@ -18,7 +18,7 @@ KEPT = StorageLevel.MEMORY_AND_DISK
 
 
 class Store:
-    """The folder of a search, on whatever file system Hadoop knows."""
+    """The folder of a search, on any file system known to Hadoop."""
 
     def __init__(self, spark, folder):
         self.spark, self.folder = spark, folder.rstrip("/")
@@ -57,8 +57,8 @@ class Store:
 
 
 class Told(AccumulatorParam):
-    """What tasks tell, by what they do and their place. A task that is done again, for what it did was lost, tells the
-    same again."""
+    """The reports of tasks, by kind and place. A task that is repeated, because its result was lost, reports the same
+    again."""
 
     def zero(self, value):
         return {}
@@ -69,8 +69,8 @@ class Told(AccumulatorParam):
 
 
 class Search:
-    """`job` says what is searched; it goes to the machines. `successors` is a filter here. A level is pairs of a
-    partition and ("new", block)."""
+    """`job` is the subject of the search; it is sent to the machines. `successors` is a filter here. A level is pairs
+    of a partition and ("new", block)."""
 
     def __init__(self, spark, job, store, tell, successors):
         self.spark, self.job, self.store, self.tell, self.successors = spark, job, store, tell, successors
@@ -88,7 +88,7 @@ class Search:
     # Beginning, and going on
 
     def begin(self, local):
-        """Takes over what was searched locally."""
+        """Takes over the levels searched locally."""
         self.narrow = local.levels[:-1]
         self.depth, self.facts, self.states, self.frontier = local.depth, local.facts, local.states, local.frontier
         self.store.write_all("narrow", self.narrow)
@@ -221,7 +221,7 @@ class Search:
         return self.load(self.files[depth - len(self.narrow)]).mapPartitions(look).first()
 
     def may_cycle(self):
-        """Whether the state graph has a cycle, by taking away what leads nowhere, again and again."""
+        """Whether the state graph has a cycle, by repeatedly removing states without successors."""
         partitions = self.job["partitions"]
         narrow = self.spark.parallelize([(0, ("new", block)) for block in self.narrow])
         levels = self.spark.union([narrow] + [self.load(path) for path in self.files])

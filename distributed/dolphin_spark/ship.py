@@ -1,4 +1,4 @@
-"""Spark, with what the machines need: the command, the program and its fleet, and this package."""
+"""Spark, with the files for the machines: the command, the program and its fleet, and this package."""
 
 import os
 import sys

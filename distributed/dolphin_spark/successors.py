@@ -1,4 +1,4 @@
-"""A client of `dolphin successors`, whose protocol docs/successors.md has. Nothing here needs Spark."""
+"""A client of `dolphin successors`; docs/successors.md describes the protocol. Nothing here needs Spark."""
 
 import hashlib
 import struct
@@ -9,7 +9,7 @@ LONG = struct.Struct("<Q")
 
 
 class Inconclusive(Exception):
-    """Nobody can list what follows some state."""
+    """The successors of some state cannot be listed."""
 
 
 def digest(state):
@@ -35,16 +35,16 @@ def run(states, parts):
 
 
 class Answer:
-    """What follows the states of one batch. `broken` has (number, digest); `blocks` a block of states for each
-    partition; `targets`, if asked for, how many transitions each state has, and where they lead."""
+    """The successors of one batch of states. `broken` has (number, digest); `blocks` a block of states for each
+    partition; `targets`, if requested, the number of transitions of each state, and their targets."""
 
     __slots__ = ("transitions", "rounds", "broken", "places", "unreached", "trouble", "blocks", "targets")
 
 
 class Successors:
-    """The process that tells what follows states: `dolphin successors` with a program, and options. `greeting`, where
-    given, is what it must say; `shown` is the path of the program as others see it. `told` has the parts that it has
-    told and was not given since: others may not know them."""
+    """The process that computes successors: `dolphin successors` with a program, and options. `greeting`, if given, is
+    the greeting that it must send; `shown` is the path of the program as others see it. `told` has the parts that it
+    has sent and was not given since: others may not know them."""
 
     def __init__(self, command, greeting=None, shown=None):
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=1 << 20)
@@ -89,7 +89,7 @@ class Successors:
         return self.shown + place[len(self.path):] if place.startswith(self.path + ":") else place
 
     def ask(self, lengths=b"", kinds=b"", texts=b"", partitions=1, targets=False):
-        """What follows the states of these columns."""
+        """The successors of the states of these columns."""
         count = len(lengths) // 4
         self.process.stdin.write(batch(lengths, kinds, texts, self.waiting, partitions, targets))
         self.process.stdin.flush()

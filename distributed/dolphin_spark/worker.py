@@ -1,4 +1,4 @@
-"""What runs on the machines of a cluster: one filter for each process of Python, which lives from task to task."""
+"""The code on the machines of a cluster: one filter for each process of Python, which lives from task to task."""
 
 import atexit
 
@@ -25,8 +25,8 @@ def filter_of(job, parts):
 
 def expander(job, depth, parts, told):
     """A function for the partitions of a frontier: blocks for the partitions, and facts into `told`, by place. The
-    facts have all parts that states in the blocks may name and that are not among `parts`, whichever of them this
-    process has told before: what some task told may be lost with its answer."""
+    facts have all parts that states in the blocks may name and that are not among `parts`, including those that this
+    process has sent before: they may be lost with the answer of a task."""
 
     def go(index, items):
         known, together = filter_of(job, parts), Facts()
@@ -43,8 +43,8 @@ def expander(job, depth, parts, told):
 
 
 def merger(told):
-    """A function for a partition of what is seen, and of what the frontier leads to: what is new, and how many these
-    are into `told`, by partition."""
+    """A function for a partition of visited states, and of successors of the frontier: it yields the new ones, and
+    writes their number into `told`, by partition."""
 
     def go(index, items):
         runs, found = [], []
@@ -65,13 +65,13 @@ def run_of(item):
 
 
 def runs_of(index, items):
-    """The digests of what is in a partition, states or digests, as one run."""
+    """The digests in a partition, from states or digests, as one run."""
     runs = [value if kind == "run" else blocks.digests(value) for _, (kind, value) in items]
     return [(index, ("run", blocks.joined(runs)))] if runs else []
 
 
 def edges_of(job, parts):
-    """(digest, digests of what follows it) for the states of a level."""
+    """(digest, digests of its successors) for the states of a level."""
 
     def go(items):
         known = filter_of(job, parts)

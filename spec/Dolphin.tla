@@ -751,7 +751,7 @@ Unallocated(r, t) ==
 
 OnlyComputes(code) ==
   "{ " \o LambdaNames[code[2]] \o " }"
-  \o " makes a task, so it may only compute: it may not post, consume, assign or say anything"
+  \o " makes a task, so it may only compute: it must not post, consume, assign or print"
 
 (* Why the code of r made no task, though it ran: << >>, if it did. *)
 WhyNotMade(S, r, run) ==
@@ -764,7 +764,7 @@ WhyNotMade(S, r, run) ==
                \o (IF n = 0 THEN "none" ELSE many(n)) >>
        [] r.depth >= Deepest ->
             << "closures in tasks that closures give nest more than " \o ToString(Deepest)
-               \o " deep: what goes on and on is a repeat" >>
+               \o " deep: write an endless loop as repeat" >>
        [] run.deeds # << >> \/ run.S.store # S.store ->
             << OnlyComputes(r.code) >>
        [] ~IsTask(run.value) -> << text \o ": " \o Sentence(Expected("a task", run.value)) >>

@@ -269,9 +269,9 @@ Faulty(m, message) == Stop(m, << "faulted", Fault(message, m.at) >>)
 NoTelling(m, x) == Stop(m, << "unsettled", x[3] >>)
 
 OpenHere(text, at) ==
-  SiteOf(at) \o ": what " \o text
-  \o " is, is open, and more than a comparison depends on it: a fleet may list what batteries, positions and "
-  \o "measurements show"
+  SiteOf(at) \o ": the value of " \o text
+  \o " is open, and more than a comparison depends on it: a fleet may list the values of batteries, positions and "
+  \o "measurements"
 
 Result(m, x) == [ m EXCEPT !.focus = Give(x) ]
 Settle(m, result) == [ m EXCEPT !.focus = << "result", result >> ]
@@ -761,7 +761,7 @@ MakeRepeat(op, at, xs) ==
         TaskValue([ op |-> "repeat", rounds |-> rounds, until |-> until, body |-> TaskOf(t), at |-> at ])
   IN CASE ~IsTask(t) -> Expected("a task to repeat", t)
        [] ~op.counted /\ ~op.asked /\ NeverWaits(TaskOf(t)) ->
-            Bad("a round of this repeat never waits: it would go round for ever, and nothing else would happen")
+            Bad("a round of this repeat never waits: it would loop endlessly, and nothing else would happen")
        [] ~op.counted -> Ok(repeat(<< >>))
        [] ~IsNumber(n) -> Expected("how many rounds there are, as in repeat 3, T", n)
        [] ~Is(n, "integer") \/ Less(n, Integer(1)) ->

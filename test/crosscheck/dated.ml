@@ -102,7 +102,7 @@ let texts =
       two ^ "c = pick { id 'c' }; setConnectionTimeout 5\n\
              execute (task('p')[a] >> action { post x: 1 }) | (((watch task('q')[b] onError { ignore() })\n\
              >> idle(0) >> task('r')[c]) until { poll x: 1 })" );
-    ( "one who comes late", (", with latecomers", { Faults.none with join = Any_number }),
+    ( "a latecomer", (", with latecomers", { Faults.none with join = Any_number }),
       "vs = pick { count 2; type 'UUV'; timeout 3 }\nexecute task('r')[vs[0]] >> task('q')[vs[1]]" );
     ( "at any time somebody leaves", (", with interruptions", { Faults.none with interrupt = true }),
       "onInterrupt { v -> task('q')[v] }\n" ^ two ^ "execute task('p')[a]" ) ]

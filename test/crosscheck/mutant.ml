@@ -21,19 +21,19 @@ let all =
       file = rules;
       pattern = {|    [] IsErr(s) -> PAR_ERR(s, rs, j)|};
       replacement = {|    [] IsErr(s) -> PAR_2(s, rs, j)|} };
-    { name = "who is dismissed stays bound";
+    { name = "a dismissed vehicle stays bound";
       file = machine;
       pattern = {|Did([ m EXCEPT !.B = SelectSeq(@, LAMBDA v : v \notin Range(V)) ],|};
       replacement = {|Did(m,|} };
-    { name = "whom a task beside is to run on is dismissed";
+    { name = "the vehicle of a parallel task is dismissed";
       file = rules;
       pattern = {|, !.around = S.beside \o S.around ]|};
       replacement = {|, !.around = S.around ]|} };
-    { name = "whom a task to come is to run on is dismissed";
+    { name = "the vehicle of a later task is dismissed";
       file = rules;
       pattern = {|In(Steps(Amid(S, r.rest), r.first, E)|};
       replacement = {|In(Steps(S, r.first, E)|} };
-    { name = "who is needed within a watch is not dismissed";
+    { name = "a vehicle needed within a watch is not dismissed";
       file = rules;
       pattern = {|, !.around = S.beside \o S.around ]|};
       replacement = {|, !.around = @ \o s.S.beside ]|} };
@@ -49,11 +49,11 @@ let all =
       file = rules;
       pattern = {|Expired(r.timer), S, Done_, << >>), << r.body >>)|};
       replacement = {|Expired(r.timer), S, Done_, << >>), << >>)|} };
-    { name = "a handler that breaks leaves what it did before";
+    { name = "a faulty handler keeps its earlier effects";
       file = rules;
       pattern = {|result(m, "fault", m.stop[2], Knowing(S, m.sees), Said(m.deeds))|};
       replacement = {|result(m, "fault", m.stop[2], After(S, m), Said(m.deeds))|} };
-    { name = "what faulty code said is lost";
+    { name = "messages of faulty code are lost";
       file = rules;
       pattern = {|result(m, "fault", m.stop[2], Knowing(S, m.sees), Said(m.deeds))|};
       replacement = {|result(m, "fault", m.stop[2], Knowing(S, m.sees), << >>)|} };
@@ -95,7 +95,7 @@ let all =
       file = rules;
       pattern = {|          [] run.verdict = "ignore" -> WATCH_IGNORE(after(run))|};
       replacement = {|          [] TRUE -> WATCH_IGNORE(after(run))|} };
-    { name = "what a handler posts is lost";
+    { name = "posts of a handler are lost";
       file = rules;
       pattern = {|        Asking([ s EXCEPT !.S = run.S, !.deeds = @ \o run.deeds ], EffectsOf(run.deeds))|};
       replacement = {|        s|} };
@@ -115,11 +115,11 @@ let all =
       file = rules;
       pattern = {|    [] r.op = "until" -> << UNTIL_CUT(run, r) >>|};
       replacement = {|    [] r.op = "until" -> IF r.body.op = "ready" THEN << >> ELSE << UNTIL_CUT(run, r) >>|} };
-    { name = "what is not assured ends as done";
+    { name = "a violated assure ends as done";
       file = rules;
       pattern = {|Step("ASSURE-CUT", "cut", Program, S, Err(NotAssured(r)), << >>)|};
       replacement = {|Step("ASSURE-CUT", "cut", Program, S, Done_, << >>)|} };
-    { name = "what is not done within its time ends as done";
+    { name = "an expired within ends as done";
       file = rules;
       pattern = {|[] r.fails = << >> -> DURING_CUT(S, r)|};
       replacement = {|[] TRUE -> DURING_CUT(S, r)|} };
@@ -127,19 +127,19 @@ let all =
       file = rules;
       pattern = {|Err(NotAssured(r)), << >>), << r.body >>)|};
       replacement = {|Err(NotAssured(r)), << >>), << >>)|} };
-    { name = "what a condition that is not assured did stays";
+    { name = "effects of a violated assure condition stay";
       file = rules;
       pattern = {|ASSURE_CUT(Knowing(S, run.S.sees), r)|};
       replacement = {|ASSURE_CUT(run.S, r)|} };
-    { name = "what holds a vehicle is not seen beside it";
+    { name = "a holding task is invisible beside it";
       file = rules;
       pattern = {|Steps([ S EXCEPT !.beside = @ \o Without(r.branches, j) ], r.branches[j], E)|};
       replacement = {|Steps(S, r.branches[j], E)|} };
-    { name = "only what runs is held";
+    { name = "only running tasks hold vehicles";
       file = machine;
       pattern = {|CASE r.op \in { "ready", "running", "recruited" } -> { r.v }|};
       replacement = {|CASE r.op \in { "running", "recruited" } -> { r.v }|} };
-    { name = "who is recruited is not held";
+    { name = "a recruited vehicle is not held";
       file = machine;
       pattern = {|CASE r.op \in { "ready", "running", "recruited" } -> { r.v }|};
       replacement = {|CASE r.op \in { "ready", "running" } -> { r.v }|} };
@@ -147,15 +147,15 @@ let all =
       file = rules;
       pattern = {|By(s, "RECRUIT-1", Next_([ r EXCEPT !.body = s.out[2] ]))|};
       replacement = {|By(s, "RECRUIT-1", Next_(s.out[2]))|} };
-    { name = "what a recruit makes may run on any vehicle";
+    { name = "the task of a recruit may run on any vehicle";
       file = rules;
       pattern = {|allowed |-> << << e[3] >> >>,|};
       replacement = {|allowed |-> << >>,|} };
-    { name = "who is recruited is in no allocation";
+    { name = "a recruited vehicle is in no allocation";
       file = rules;
       pattern = {|[ S EXCEPT !.recruits = Append(@, r.v) ]|};
       replacement = {|S|} };
-    { name = "what was given to a task that was made is not held";
+    { name = "the vehicles of a made task are not held";
       file = machine;
       pattern = {|[] r.op = "hold" -> Range(r.vehicles)|};
       replacement = {|[] r.op = "hold" -> { }|} };
@@ -167,7 +167,7 @@ let all =
       file = rules;
       pattern = {|[] IsOk(any) -> << >>|};
       replacement = {|[] IsOk(any) -> << ALLOCATE(S2, any[2]) >>|} };
-    { name = "timers of what is made do not start";
+    { name = "timers of a made task do not start";
       file = rules;
       pattern = {|LET r == Act(found.r)|};
       replacement = {|LET r == found.r|} };
@@ -179,7 +179,7 @@ let all =
       file = rules;
       pattern = {|[] run.deeds # << >> \/ run.S.store # S.store ->|};
       replacement = {|[] FALSE ->|} };
-    { name = "HOLD-1 forgets what is held";
+    { name = "HOLD-1 forgets the held vehicles";
       file = rules;
       pattern = {|By(s, "HOLD-1", Next_([ r EXCEPT !.body = s.out[2] ]))|};
       replacement = {|By(s, "HOLD-1", Next_(s.out[2]))|} };
@@ -195,7 +195,7 @@ let all =
       file = rules;
       pattern = {|[ op |-> "unallocated", task |-> t, allowed |-> q.allowed, place |-> q.place, depth|};
       replacement = {|[ op |-> "unallocated", task |-> t, allowed |-> << >>, place |-> q.place, depth|} };
-    { name = "handlers are not told which vehicle failed";
+    { name = "handlers do not get the failed vehicle";
       file = rules;
       pattern = {|      ELSE << Vehicles(<< fault.failed[1] >>), String(fault.failed[2]) >>)|};
       replacement = {|      ELSE << Null, String(fault.failed[2]) >>)|} };
@@ -211,7 +211,7 @@ let all =
       file = rules;
       pattern = {|             left == IF t.rounds = << >> THEN << >> ELSE << t.rounds[1] - 1 >>|};
       replacement = {|             left == t.rounds|} };
-    { name = "what the condition of a repeat did stays though it does not hold";
+    { name = "effects of a false repeat condition stay";
       file = rules;
       pattern = {|ELSE REPEAT_AGAIN(Knowing(S, run.S.sees), r) >>|};
       replacement = {|ELSE REPEAT_AGAIN(run.S, r) >>|} };
@@ -232,7 +232,7 @@ let all =
       pattern = {|DURING_2(s, r) == Asking(By(s, "DURING-2", Done_), |};
       replacement =
         {|DURING_2(s, r) == Asking(By(s, "DURING-2", Next_([ op |-> "idle", timer |-> 0, time |-> Integer(1) ])), |} };
-    { name = "what the code of a during does is lost";
+    { name = "effects of the code of a during are lost";
       file = rules;
       pattern = {|"set-time(" \o ShortText(n) \o ")", run, Next_(started))|};
       replacement = {|"set-time(" \o ShortText(n) \o ")", [ run EXCEPT !.S = Shared ], Next_(started))|} };
@@ -244,7 +244,7 @@ let all =
       file = rules;
       pattern = {|    [] IsErr(s) -> SEQ_ERR(s)|};
       replacement = {|    [] IsErr(s) -> SEQ_2(s, ts)|} };
-    { name = "whoever is picked runs";
+    { name = "every picked vehicle runs";
       file = machine;
       pattern = {|vehicle.id \in DOMAIN m.A|};
       replacement = {|vehicle.id \in Range(m.B)|} };
@@ -260,15 +260,15 @@ let all =
       file = rules;
       pattern = {|       [] OTHER -> Each(Choices(q.count, V), LAMBDA chosen : PICK_BIND(M, chosen, Program))|};
       replacement = {|       [] OTHER -> << PICK_BIND(M, Choices(q.count, V)[1], Program) >>|} };
-    { name = "the program ends though it says what to do without";
+    { name = "the program ends instead of running its else branch";
       file = rules;
       pattern = {|IF q.otherwise THEN PICK_ELSE(M, q, w) ELSE|};
       replacement = {|IF FALSE THEN PICK_ELSE(M, q, w) ELSE|} };
-    { name = "of those that may be missing the first ones are";
+    { name = "of vehicles that may be missing the first ones are";
       file = environment;
       pattern = {|     ELSE Each(Choices(more, unknown), LAMBDA others : first \o others)|};
       replacement = {|     ELSE << first \o SubSeq(unknown, 1, more) >>|} };
-    { name = "ways to go on without differ in the text";
+    { name = "else branches differ in the text";
       file = environment;
       pattern = {|IF areBoth("PICK-ELSE", t, u) THEN t.outside.late \subseteq u.outside.late|};
       replacement = {|IF areBoth("PICK-ELSE", t, u) THEN FALSE|} };
@@ -292,7 +292,7 @@ let all =
       file = environment;
       pattern = {|MayBeLost(v) == v \in outside.lost \/ |};
       replacement = {|MayBeLost(v) == |} };
-    { name = "a lost vehicle stays lost whatever it does";
+    { name = "a lost vehicle stays lost in spite of its reports";
       file = environment;
       pattern = {|heard == [ outside EXCEPT !.lost = @ \ { v } ]|};
       replacement = {|heard == outside|} };
@@ -304,7 +304,7 @@ let all =
       file = environment;
       pattern = {|!.lost = @ \ (Range(t.S.B) \ Range(B))|};
       replacement = {|!.lost = @ \ Range(t.S.B)|} };
-    { name = "who was late is not remembered";
+    { name = "latecomers are not remembered";
       file = environment;
       pattern = {|IF Latecomers = -1 THEN @ ELSE @ \cup LateIn(a) ]|};
       replacement = {|@ ]|} };
@@ -312,7 +312,7 @@ let all =
       file = environment;
       pattern = {|Each(moved, VehicleOf)|};
       replacement = {|SelectSeq(Fleet, LAMBDA vehicle : vehicle.id \in Range(moved))|} };
-    { name = "what was seen is forgotten within the step";
+    { name = "readings are forgotten within the step";
       file = machine;
       pattern = {|Result(m, xs[m.sees[question]])|};
       replacement = {|Result([ m EXCEPT !.sees = NothingSeen ], xs[m.sees[question]])|} };
@@ -341,23 +341,23 @@ let all =
       file = values;
       pattern = {|HoldsNot(text) == Depends(<< "claim", text >>, << False, True >>)|};
       replacement = {|HoldsNot(text) == Depends(<< "claim", "not " \o text >>, << False, True >>)|} };
-    { name = "what was shown is what is shown later";
+    { name = "earlier readings are later readings";
       file = machine;
       pattern = {|KeptBy(keeper, x) == IF IsReading(x) THEN Reading(x[2], keeper) ELSE x|};
       replacement = {|KeptBy(keeper, x) == x|} };
-    { name = "a handler does not see what the code saw";
+    { name = "a handler does not see the readings of the code";
       file = rules;
       pattern = {|  IN Each(RunCode(seen, "handler", r.handler,|};
       replacement = {|  IN Each(RunCode(Knowing(seen, NothingSeen), "handler", r.handler,|} };
-    { name = "a step is another one by what sensors show, even if nothing depends on it";
+    { name = "steps differ by readings that nothing depends on";
       file = rules;
       pattern = {|IF Len(ts) < 2 THEN ts ELSE|};
       replacement = {|IF TRUE THEN ts ELSE|} };
-    { name = "a vehicle is picked and allocated from where it was first";
+    { name = "a vehicle is picked and allocated from its first place";
       file = machine;
       pattern = {|  vehicle.places[IF Len(vehicle.places) = 1 THEN 1 ELSE sees[<< "position", vehicle.id >>]]|};
       replacement = {|  vehicle.places[1]|} };
-    { name = "a vehicle is allocated from elsewhere than it was seen in the step";
+    { name = "a vehicle is allocated from another place than it was seen in the step";
       file = rules;
       pattern = {|Placings(o.S.sees, IF DependsOnPlaces(o.t) THEN B ELSE << >>)|};
       replacement = {|Placings(NothingSeen, IF DependsOnPlaces(o.t) THEN B ELSE << >>)|} };
@@ -393,7 +393,7 @@ let all =
       file = environment;
       pattern = {|IF outside.sent[i] = input.times THEN|};
       replacement = {|IF outside.sent[i] > input.times THEN|} };
-    { name = "nobody posts while the script runs";
+    { name = "no input comes while the script runs";
       file = environment;
       pattern = {|IF kappa.at = "end" THEN << >> ELSE InputTransitions|};
       replacement = {|IF kappa.at \in { "end", "script" } THEN << >> ELSE InputTransitions|} };
@@ -415,11 +415,11 @@ let all =
       file = rules;
       pattern = {|Interruption, Shared, Ends(Interrupted)|};
       replacement = {|Interruption, Shared, Ends(Completed)|} };
-    { name = "what has ended may be interrupted";
+    { name = "an ended program may be interrupted";
       file = environment;
       pattern = {|Interruptions /\ kappa.at # "end" /\ ~IsLeaving(kappa.M)|};
       replacement = {|Interruptions /\ (kappa.at = "end" \/ ~IsLeaving(kappa.M))|} };
-    { name = "who waits cannot be interrupted";
+    { name = "a waiting program cannot be interrupted";
       file = environment;
       pattern = {|Interruptions /\ kappa.at # "end" /\|};
       replacement = {|Interruptions /\ kappa.at \in { "script", "exec" } /\|} };
@@ -427,11 +427,11 @@ let all =
       file = environment;
       pattern = {|kappa.at # "end" /\ ~IsLeaving(kappa.M)|};
       replacement = {|kappa.at # "end"|} };
-    { name = "a way home is executed though nobody is bound";
+    { name = "a way home is executed without bound vehicles";
       file = rules;
       pattern = {|OnInterrupt # << >> /\ B \o RecruitsOf(kappa) # << >>|};
       replacement = {|OnInterrupt # << >>|} };
-    { name = "what runs goes on when a way home begins";
+    { name = "running tasks continue when a way home begins";
       file = rules;
       pattern = {|[ Shared EXCEPT !.A = << >>, !.B = bound ], CancelTimers(TimersOf(kappa))|};
       replacement = {|Shared, CancelTimers(TimersOf(kappa))|} };
@@ -487,11 +487,11 @@ let all =
       file = rules;
       pattern = {|<< "set timer", timer.i, timer.time >>|};
       replacement = {|<< "set timer", timer.i, Integer(0) >>|} };
-    { name = "what is cut off leaves its timers running";
+    { name = "a cut-off task leaves its timers running";
       file = rules;
       pattern = {|  CancelTimers(Flatten(Each(rs, Timers))) \o Each|};
       replacement = {|  Each|} };
-    { name = "what is cut off leaves its vehicles running";
+    { name = "a cut-off task leaves its vehicles running";
       file = rules;
       pattern = {|\o Each(Flatten(Each(rs, Running)), LAMBDA v : << "stop", v >>)|};
       replacement = {|\o << >>|} };
@@ -507,7 +507,7 @@ let all =
       file = rules;
       pattern = {|IF r.started THEN << << "cancel timer", r.timer >> >> ELSE << >>)|};
       replacement = {|<< >>)|} };
-    { name = "messages are said to nobody";
+    { name = "messages are not printed";
       file = rules;
       pattern = {|  CASE d.did = "message" -> << << "say", d.text >> >>|};
       replacement = {|  CASE d.did = "message" -> << >>|} };
@@ -515,7 +515,7 @@ let all =
       file = rules;
       pattern = {|<< << "connection timeout", d.vehicles, d.time >> >>|};
       replacement = {|<< << "connection timeout", << >>, d.time >> >>|} };
-    { name = "what a handler says is said before what it handles";
+    { name = "a handler's message precedes the failed code's";
       file = rules;
       pattern = {|Asking([ s EXCEPT !.S = run.S, !.deeds = @ \o run.deeds ], EffectsOf(run.deeds))|};
       replacement = {|[ s EXCEPT !.S = run.S, !.deeds = @ \o run.deeds, !.effects = EffectsOf(run.deeds) \o @ ]|} };
@@ -531,11 +531,11 @@ let all =
       file = rules;
       pattern = {|(IF event = Program THEN << << "cancel timer", ScriptTimer >> >> ELSE << >>) \o|};
       replacement = {|<< << "cancel timer", ScriptTimer >> >> \o|} };
-    { name = "nobody is looked for";
+    { name = "no vehicle is looked for";
       file = rules;
       pattern = {|m, S, << << "look for", q >> >>)|};
       replacement = {|m, S, << >>)|} };
-    { name = "nobody is asked";
+    { name = "no question is asked";
       file = rules;
       pattern = {|m, S, << << "ask", x >> >>)|};
       replacement = {|m, S, << >>)|} };
@@ -543,7 +543,7 @@ let all =
       file = rules;
       pattern = {|m, S, << << "set timer", ScriptTimer, n >> >>)|};
       replacement = {|m, S, << >>)|} };
-    { name = "nobody is called";
+    { name = "no call is made";
       file = rules;
       pattern = {|m, S, << << "call", call, arguments >> >>)|};
       replacement = {|m, S, << >>)|} };
@@ -567,7 +567,7 @@ let all =
       file = rules;
       pattern = {|SelectSeq(bound, LAMBDA v : v \in DOMAIN s.S.A)|};
       replacement = {|bound|} };
-    { name = "the end tells of no release";
+    { name = "the end reports no release";
       file = rules;
       pattern = {|Releasing(bound)|};
       replacement = {|<< >>|} };
@@ -587,7 +587,7 @@ let all =
       file = rules;
       pattern = {|LAMBDA e : e = Expired(r.timer),|};
       replacement = {|LAMBDA e : e[1] = "expired",|} };
-    { name = "a refused answer is no answer";
+    { name = "a refused answer does not count as an answer";
       file = environment;
       pattern = {|        IF times + 1 < Len(rounds) THEN AnswerTransitions(M, prompt, times + 1)
         ELSE |};
@@ -596,15 +596,15 @@ let all =
       file = environment;
       pattern = {|[ outside EXCEPT !.asked[prompt] = n ]|};
       replacement = {|outside|} };
-    { name = "what must fail may be done";
+    { name = "a task that must fail may succeed";
       file = environment;
       pattern = {|IF fails THEN << >> ELSE << Done(v) >>|};
       replacement = {|<< Done(v) >>|} };
-    { name = "there is no end to the failures";
+    { name = "the number of failures is unlimited";
       file = environment;
       pattern = {|mayFail == MayFail(v) /\ (Failures = -1 \/ outside.failed < Failures)|};
       replacement = {|mayFail == MayFail(v)|} };
-    { name = "who is released is not told";
+    { name = "releases are not reported";
       file = rules;
       pattern = {|<< << "release", d.vehicles >> >>|};
       replacement = {|<< >>|} };
@@ -616,7 +616,7 @@ let all =
       file = checking;
       pattern = {|control.at = "exec" /\ GoesRound(control.r)|};
       replacement = {|FALSE|} };
-    { name = "a transition that changes nothing is no step";
+    { name = "a transition without changes is not a step";
       file = checking;
       pattern = {|again' = (vars' = vars /\ ~again)|};
       replacement = {|again' = FALSE|} };
@@ -629,7 +629,7 @@ let all =
       pattern = {|  /\ Fair(IsOwed)
 |};
       replacement = "" };
-    { name = "abstract: what is not bound starts";
+    { name = "abstract: a task starts on an unbound vehicle";
       file = abstract;
       pattern = {|Start(v, p) == ~over /\ v \in Idle|};
       replacement = {|Start(v, p) == ~over /\ v \notin DOMAIN A|} };
@@ -637,7 +637,7 @@ let all =
       file = abstract;
       pattern = {|Start(v, p) == ~over /\ v \in Idle /\ A' = A @@ (v :> p)|};
       replacement = {|Start(v, p) == ~over /\ v \in B /\ A' = (v :> p) @@ A|} };
-    { name = "abstract: what runs is released";
+    { name = "abstract: a running vehicle is released";
       file = abstract;
       pattern = {|Release(v) == ~over /\ v \in Idle|};
       replacement = {|Release(v) == ~over /\ v \in B|} };
@@ -653,7 +653,7 @@ let all =
       file = abstract;
       pattern = {|N' = N (-) SetToBag({ x }) /\|};
       replacement = {|N' = N (-) (SetToBag({ x }) (+) SetToBag({ x })) /\|} };
-    { name = "refinement: what stops is not told";
+    { name = "refinement: stops are not reported";
       file = refinement;
       pattern = {|CASE e[1] \in { "start", "stop" } -> << e >>|};
       replacement = {|CASE e[1] = "start" -> << e >>|} };
@@ -661,7 +661,7 @@ let all =
       file = refinement;
       pattern = {|e[1] \in { "bind", "release" } -> Each(e[2], LAMBDA v : << e[1], v >>)|};
       replacement = {|e[1] \in { "bind", "release" } -> << << e[1], e[2][1] >> >>|} };
-    { name = "refinement: what is consumed is not told";
+    { name = "refinement: consumed pairs are not reported";
       file = refinement;
       pattern = {|CASE d.did \in { "post", "consume" }|};
       replacement = {|CASE d.did = "post"|} };
@@ -677,7 +677,7 @@ let all =
       file = time;
       pattern = {|/\ ~timely.urgent|};
       replacement = {|/\ TRUE|} };
-    { name = "what is overdue ends no run";
+    { name = "an overdue event ends no run";
       file = time;
       pattern = {|IF ~timely.urgent /\ ~NoneIsOver(timely, 0) THEN { } ELSE|};
       replacement = {|IF FALSE THEN { } ELSE|} };
@@ -689,7 +689,7 @@ let all =
       file = time;
       pattern = {|<< PatienceWith(v), most + PatienceWith(v) >>|};
       replacement = {|<< 0, most + PatienceWith(v) >>|} };
-    { name = "what the program says of silent links is not heard";
+    { name = "the program's connection timeout is ignored";
       file = time;
       pattern = {|[] patience.others = Unlimited -> InTicks(Silence, 1)|};
       replacement = {|[] TRUE -> InTicks(Silence, 1)|} };
@@ -697,7 +697,7 @@ let all =
       file = time;
       pattern = {|[] OTHER -> << 0, most >>|};
       replacement = {|[] OTHER -> done|} };
-    { name = "who comes late comes at once";
+    { name = "a latecomer comes at once";
       file = time;
       pattern = {|[] ComesLate(t) -> << 0, PickTimeout(q) >>|};
       replacement = {|[] ComesLate(t) -> AtOnce|} };
@@ -709,11 +709,11 @@ let all =
       file = time;
       pattern = {|[] item[1] = "silence" -> Precisely(PatienceWith(item[2]))|};
       replacement = {|[] item[1] = "silence" -> AnyTime|} };
-    { name = "who is silent is heard of";
+    { name = "a silent vehicle is heard";
       file = environment;
       pattern = {|IF v \in Range(outside.silent) THEN << LostConnection(v) >> ELSE|};
       replacement = {|IF FALSE THEN << LostConnection(v) >> ELSE|} };
-    { name = "what is awaited anew has its old time";
+    { name = "an event awaited again has its old time";
       file = time;
       pattern = {|CASE latest # << >> -> ClockOf(Last(latest)[2], waits)|};
       replacement = {|CASE latest # << >> /\ item \notin DOMAIN awaited -> ClockOf(Last(latest)[2], waits)|} };
@@ -735,7 +735,7 @@ let occurrences part text =
 let is_of_checking m = m.file = checking || m.name = "each input is certain"  (* only verdicts depend on owed events *)
 let is_of_abstract m = m.file = abstract
 let is_of_refinement m = m.file = refinement || m.name = types
-let is_of_time m = m.file = time || m.name = "who is silent is heard of"  (* links change with time *)
+let is_of_time m = m.file = time || m.name = "a silent vehicle is heard"  (* links change with time *)
 let about part = if part = "" then all else List.filter (fun m -> occurrences part m.name <> []) all
 
 let apply m files =

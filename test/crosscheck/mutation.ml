@@ -37,7 +37,7 @@ let rec by_verdicts installation specification = function
       match Judged.verdicts ~specification installation c with
       | Error why -> of_failure why
       | Ok (Judged { agree = false; tlc; explorer }) ->
-        Noticed_by (Printf.sprintf "%s, of which TLC says: %s, and the explorer: %s" c.name tlc explorer)
+        Noticed_by (Printf.sprintf "%s; TLC: %s, the explorer: %s" c.name tlc explorer)
       | Ok (Judged { agree = true; _ } | Not_translated _) -> by_verdicts installation specification rest)
 
 let by_refinement installation specification batches =

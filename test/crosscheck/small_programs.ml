@@ -19,13 +19,13 @@ let tasks =
        two ^ "execute watch (until { 1 / 0 > 1 } run task('p')[a]) onError { ignore() }");
       ("a guard does not take a part",
        "post x: 1\nexecute condition { consume x: 1, y: 1 } | action { post y: 1 } >> condition { consume x: 1 }");
-      ("code that breaks leaves nothing",
+      ("faulty code leaves nothing",
        "x = 0\nexecute watch (action { post k: 1; x = 1; y = 1 / 0 }) onError { ignore() }\n\
         if (poll(k: 1) || x == 1) { message 'left' }");
       ("a handler that breaks leaves nothing",
        two ^ "execute watch (watch task('p')[a] onError { post k: 1; 1 / 0 }) onError { ignore() }\n\
               if (poll(k: 1)) { message 'left' }");
-      ("code that breaks has said what it said",
+      ("faulty code keeps its messages",
        "execute watch (action { message 'a'; post k: 1; 1 / 0 }) onError { message 'b'; ignore() }");
       ("a guard that is false did nothing",
        "post k: 1\nexecute condition { consume k: 1; false } | condition { poll k: 1 }");
@@ -57,7 +57,7 @@ let tasks =
       ("assure stops what runs, or what did not start, and fails",
        two ^ "execute watch ((assure { !poll(x: 1) } run (task('p')[a] >> task('q')[a])) | action { post x: 1 })\n\
               onError { why -> message why; ignore() }");
-      ("what a condition that is not assured did is undone",
+      ("effects of a violated assure condition are undone",
        "post x: 1\nexecute watch (assure { consume x: 1; false } run idle(1.seconds)) onError { ignore() }\n\
         if (poll(x: 1)) { message 'there' }");
       ("code makes tasks of what was taken, and they compete for two vehicles",
@@ -72,11 +72,11 @@ let tasks =
        two ^ "execute watch ((task('p')[a] >> idle(1.seconds) >> task('p')[a]) | (condition { running(a) } \
               >> condition { !running(a) } >> task('q')[b])) onError { message \"${running(a)} ${running(b)}\"; ignore() }\n\
               message running(a)");
-      ("a condition that is not assured stops who runs, before handlers ask",
+      ("a violated assure stops running vehicles before handlers ask",
        two ^ "execute watch (assure { !running(b) } run (task('p')[a] | task('q')[b])) onError { \
               if (!running(a) && !running(b)) { message 'stopped' }\nignore() }\n\
               execute watch action { running(a + b) } onError { e -> message e; ignore() }");
-      ("no vehicle can ever run what is made", two ^ "execute watch ({ task('p') | task('q') }[b]) onError { ignore() }");
+      ("no vehicle can ever run the made task", two ^ "execute watch ({ task('p') | task('q') }[b]) onError { ignore() }");
       ("code that makes a task does something",
        "def f() { post x: 1; idle(1.seconds) }\nexecute watch { f() } onError { why -> message why; ignore() }");
       ("timers of tasks that are made", two ^ "execute (idle(1.seconds) within 5.seconds) | { idle(2.seconds) | ({ idle(3.seconds) } within 4.seconds) }");
@@ -89,13 +89,13 @@ let tasks =
       ("two rounds of whoever comes, beside a task that waits for a vehicle",
        "a = pick { id 'a' }\n\
         execute repeat 2, watch recruit { type 'UUV' } then { v -> task('p')[v] } onError { ignore() } | { task('q') }");
-      ("nobody is recruited twice, and what cuts a task off releases whom it has",
+      ("no vehicle is recruited twice, and a cut-off releases the recruited one",
        "execute (recruit { } then { task('p') } | recruit { type 'UUV' } then { idle(2.seconds) }) within 5.seconds");
       ("what is made runs on its own vehicle only, its timers and recruits are new",
        "a = pick { id 'a' }\n\
         execute watch { recruit { id 'b' } then { (task('p') >> idle(1.seconds)) | task('q') } } onError { why -> message why; ignore() }\n\
         | { recruit { type 'UAV' } then { idle(1.seconds) } }");
-      ("only whom a task recruited is stopped, and what is done on an interruption has it",
+      ("only a recruited vehicle is stopped, and the task of an interruption has it",
        "onInterrupt task('q')\na = pick { id 'a' }\nexecute task('p')[a] >> recruit { id 'b' } then { task('q') }");
       ("whom a task recruited is free for the next one",
        "a = pick { id 'a' }\nexecute (recruit { id 'b' } then { task('p') }) >> recruit { id 'b' } then { task('q') }\nrelease a");
@@ -122,7 +122,7 @@ let tasks =
       ("rounds until a condition holds, which takes what it asks for",
        "execute repeat (action { post k: 1 } >> idle(1.seconds)) until { consume k: 1, k: 1 }\n\
         if (poll(k: 1)) { message 'left' }");
-      ("rounds at most so many, and a condition that nobody asks after the last",
+      ("a limited number of rounds, and a condition not evaluated after the last",
        "execute repeat 2, (idle(1.seconds) >> action { post k: 1 }) until { consume k: 1, k: 1 }\n\
         if (poll(k: 1)) { message 'left' }");
       ("rounds at most so many, and a condition that breaks",
@@ -138,14 +138,14 @@ let tasks =
       ("a task that is tried again takes what is free",
        two ^ "execute (watch { task('p') } onError { e -> post lost: e.vehicle; retry() })[a + b] | task('q')[b] \n\
               if (poll(lost: a)) { message 'a failed' }");
-      ("who fails is dismissed, and another one takes over",
+      ("a failed vehicle is dismissed, and another one takes over",
        two ^ "execute watch { task('p') } onError { e -> dismiss e.vehicle; retry() }");
-      ("who is needed elsewhere is not dismissed",
+      ("a vehicle needed elsewhere is not dismissed",
        two ^ "execute watch (task('p')[a] | task('q')[b] >> watch { task('r') } onError { e -> dismiss a; retry() })\n\
               onError { e -> dismiss e.vehicle; if (e.vehicle == a) dismiss b; ignore() }\n\
               execute watch (repeat 2, watch task('p')[a] onError { e -> dismiss e.vehicle; ignore() })\n\
               onError { e -> message e; ignore() }\nrelease a");
-      ("who is needed later is not dismissed",
+      ("a vehicle needed later is not dismissed",
        two ^ "execute watch ((watch task('p')[a] onError { dismiss a; ignore() }) >> task('q')[a]) onError { e ->\n\
               message e; ignore() }");
       ("a task that was made dismisses whom it holds",
@@ -158,7 +158,7 @@ let tasks =
        two ^ "def deep(n) { watch (task('p') within 5.seconds) onError { n > 0 ? deep(n - 1) : idle(1.seconds) } }\n\
               execute deep(2) | idle(3.seconds)");
       ("within a time given by code", "execute idle(1.seconds) within { post asked: 1; consume asked: 1; 3 }");
-      ("an error leaves out what would follow",
+      ("an error skips the rest",
        two ^ "execute watch (task('p')[a] >> task('q')[b] >> task('q')[a]) onError { ignore() }");
       ("a handler that does nothing propagates", two ^ "execute watch task('p')[a] onError { post k: 1 }");
       ("a condition that breaks", "execute watch condition { 1 / 0 } onError { ignore() }");
@@ -181,18 +181,18 @@ let tasks =
       ("a handler's deeds",
        two ^ "execute watch task('p')[a] onError { post failed: 1; ignore() }\n\
               if (consume(failed: 1)) { message 'seen' }");
-      ("what a condition that does not hold took is there again",
+      ("pairs taken by a false condition are there again",
        "post k: 1\nexecute repeat idle(1.seconds) until { consume(k: 1) && poll(y: 1) }");
       ("a handler's halt", two ^ "execute (watch task('p')[a] onError { halt 'enough' }) | task('q')[b]");
       ("three branches, one at a time",
        two ^ "execute allOf { when { true } then task('p')[a] \n when { true } then task('q')[b] \n\
              \ when { poll x: 1 } then action { post y: 1 } } | action { post x: 1 }");
       ("a timer that is not needed any more", two ^ "execute (during 10.seconds run task('p')[a]) >> idle(5.seconds)");
-      ("code that says how long", "execute during { post asked: 1; 3 } run condition { consume asked: 1 }");
+      ("code that computes the time", "execute during { post asked: 1; 3 } run condition { consume asked: 1 }");
       ("released, and picked again", two ^ "release a\nc = pick { id 'a' }\nexecute task('p')[c] | task('q')[b]");
       ("a handler tells of it, and what stops has been told to",
        two ^ "execute watch (task('p')[a] | task('q')[b] | idle(5.seconds)) onError { message 'x'; ignore() }");
-      ("a handler says something, and so does another one",
+      ("a handler prints something, and so does another one",
        two ^ "execute watch (watch task('p')[a] onError { message 'x' }) onError { message 'y'; ignore() }");
       ("a handler's halt, and timers that run or are cancelled",
        two ^ "execute (watch (during 5.seconds run task('p')[a]) onError { halt 'x' }) | idle(5.seconds)");
@@ -314,7 +314,7 @@ let calls =
       ("replies of two objects", "t = s.self\nx = s.level + t.level\nt = s.self\nx = t.level");
       ("what a host object is", "t = s.self\nif (s == t) { post same: t } else { post other: t }\nm = [a: s, b: [t]]\n\
                                  if (s && s in m.b) { message \"${m} ${s}\" }\nconsume other: t\nmessage s[0]");
-      ("what a host object is not", "x = s + 1");
+      ("wrong uses of a host object", "x = s + 1");
       ("methods of an object with names of the language", "s.add(1)\nmessage s\ns.ready()\nmessage s.size()");
       ("calls that differ in their arguments", "x = s.level(ask 'how many?', [s])");
       ("calls in code of tasks",
@@ -339,7 +339,7 @@ let interruptions =
        ^ "t = until { poll x: 1 } run (task('p')[a] | during 2.seconds run task('q')[b])\n\
           execute watch t onError { post x: 1; ignore() }");
       ("interrupted again and again", "while (true) { post k: 1; consume k: 1 }");
-      ("interrupted, and what is picked goes home",
+      ("interrupted, and the picked vehicles go home",
        "onInterrupt { vs -> def t = task('p')[vs[0]] within 1.seconds; if (vs.size() > 1) { t = t | task('q')[vs[1]] }; t }\n"
        ^ two ^ "execute during 2.seconds run (task('q')[a] | idle(5.seconds))");
       ("interrupted before there is a way home", "onInterrupt home[a]\n" ^ two ^ "pause 1.seconds\nhome = task('p')");
@@ -361,8 +361,8 @@ let inputs =
        "input 'x', 'y'\n" ^ two ^ "execute until { poll x: 3 } run (task('p')[a] | waitFor { consume y: 1 } then task('q')[b])");
       ("posted, the oldest first",
        "input 'x'\npost x: 9\nexecute condition { consume x: _ } >> condition { consume x: 2 } >> condition { consume x: _ }");
-      ("nobody need post", "input 'x'\nexecute condition { consume x: 1 }");
-      ("what is not declared is not posted", "input 'y'\nexecute condition { consume x: 1 }") ]
+      ("inputs need not come", "input 'x'\nexecute condition { consume x: 1 }");
+      ("undeclared keys are not posted", "input 'y'\nexecute condition { consume x: 1 }") ]
   in
   let one (name, source) = { (program name source) with environment = posting } in
   List.map one programs
@@ -372,13 +372,13 @@ let inputs =
 let failing =
   let always name text = of_text name (two ^ text) Generate.world { answering with endings = (fun _ _ -> Fails) } in
   [ always "a plan that always fails" "execute watch (task('p')[a] | task('q')[b]) onError { ignore() }";
-    always "who failed in what"
+    always "the failed vehicle and task"
       "execute watch task('p')[b] onError { e -> post who: e.vehicle, what: e.task; ignore() }";
     always "another task for the vehicles that were given" "execute (watch action { 1 / 0 } onError { task('q') })[b]" ]
 
 let questions =
   let asking name answers source = { (program name source) with environment = { answering with answers } } in
-  [ asking "a question that nobody answers" (fun _ -> []) "x = ask 'how many?'";
+  [ asking "a question without an answer" (fun _ -> []) "x = ask 'how many?'";
     asking "answers that are refused" (fun _ -> [ [ "y"; "1 / 0" ]; [ "2"; "post(k: 1)" ] ]) "x = ask 'how many?'" ]
 
 (* Some of the transitions of these leave all as it is. *)
@@ -405,7 +405,7 @@ let verdicts =
   let is_stuck (c : Case.t) = c.name = "interrupted where it is stuck" in
   let once = { answering with inputs = Test_support.Posts.once } in
   let source = "input 'x'\nexecute condition { consume x: 1 }" in
-  let nobody_posts = of_text "nobody need post, nor can anybody twice" source Generate.world once in
+  let nobody_posts = of_text "inputs need not come, nor can they come twice" source Generate.world once in
   let stuck = nobody_posts :: List.filter is_stuck interruptions in
   List.hd loops :: stuck @ ends @ List.tl loops
 
@@ -426,14 +426,14 @@ let faults =
        two ^ "execute watch (task('p')[a] | task('q')[b]) onError { ignore() }\nexecute task('q')[b] >> task('p')[a]");
       ("a lost vehicle is missing, or is there",
        lost_once ^ "release v\nw = pick { id 'a'; timeout 1.seconds }\nexecute t");
-      ("all, less who is lost", lost_once ^ "release v\nw = pick { count _ }");
+      ("all but the lost one", lost_once ^ "release v\nw = pick { count _ }");
       ("two, less who is lost", lost_once ^ "release v\nw = pick { count 2 }");
       ("late for two picks", "v = pick { count 2; type 'UUV' }\nrelease v\nw = pick { count _ }");
       ("late, or else another one", lost_once ^ "release v\nw = pick { count 2; type 'UUV' } else { pick { count 1 } }\n\
                                                  x = pick { count 2 } else { post k: w; w }\nx = pick { count _ } else { null }\npost k: x\nrelease w\nx = pick { count _ }");
-      ("two, or else whoever comes then",
+      ("two, or else those that come then",
        "v = pick { count 2; type 'UUV' } else { null }\nw = pick { type 'UUV' } else { null }");
-      ("late in a place, or else nobody",
+      ("late in a place, or else none",
        "v = pick { region Location.APDL, 150 } else { post k: 1 }\n\
         w = pick { count _; region Location.APDL, 150; timeout 0.seconds } else { post k: 2 }");
       ("late in a place",

@@ -644,7 +644,7 @@ let task_rules =
         {|Rule.Assure_cut (Failed (Fault.make site (not_assured condition))))|},
         {|Rule.Assure_cut (if site < 0 then Failed (Fault.make site (not_assured condition)) else Finished))|}
       );
-      ( "HOLD-1 forgets what is held",
+      ( "HOLD-1 forgets the held vehicles",
         {|around ~next:(within (Holding vs))|}, {|around ~next:(fun r -> ignore vs; r)|} );
       ( "a guard's values do not reach the code",
         {|(Made { made with given = taken deeds })|}, {|(Made { made with given = List.filteri (fun i _ -> i > 0) (taken deeds) })|}
@@ -695,7 +695,7 @@ let run_code =
         {|    | Faulted fault ->
         if fault.message = "" then Faulty (fault, []) else Halts (fault.message, after context s, deeds)
 |} );
-      ( "what faulty code said is lost",
+      ( "messages of faulty code are lost",
         {|    | Faulted fault -> Faulty (fault, said deeds)|},
         {|    | Faulted fault -> Faulty (fault, List.filter (fun _ -> false) (said deeds))|} );
       ( "code changes no variables",
@@ -969,7 +969,7 @@ let unknown =
     [ ("handlers see those run who were stopped beside", {|else without_tasks (Lazy.force inside) s in|},
        {|else (ignore inside; s) in|}) ]
   @ in_file "lib/semantics/language/procedures.ml" ~noticed_by:"semantics/test_language"
-    [ ("whoever is picked runs", {|Boolean (Vehicle_map.mem v.id context.allocation) in|},
+    [ ("every picked vehicle runs", {|Boolean (Vehicle_map.mem v.id context.allocation) in|},
        {|Boolean (List.mem v.id context.bound) in|}) ]
   @ in_file "lib/time/timed.ml" ~noticed_by:"time/test_exact"
     [ ("tasks start first where code asks who runs", {|&& not o.program.asks_running|},
@@ -1032,7 +1032,7 @@ let unknown =
 let on_interrupt =
   in_file "lib/semantics/rules/script_rules.ml" ~noticed_by:"semantics/test_rules"
     [
-      ( "a way home is executed though nobody is bound",
+      ( "a way home is executed without bound vehicles",
         {|when bound <> [] && not|},
         {|when not|} );
     ]

@@ -66,7 +66,7 @@ let man =
 
 let command =
   let info =
-    Cmd.info "check" ~docs:Options.s_write ~doc:"find what is wrong with a program, without running it" ~man
+    Cmd.info "check" ~docs:Options.s_write ~doc:"find the faults of a program without running it" ~man
       ~exits:(Options.exits [ Done; Bad_input; Bug; Interrupted ])
   in
   Cmd.v info Term.(const run $ Options.program $ Options.set $ Options.fleet $ Platform_options.checking)

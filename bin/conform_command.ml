@@ -69,8 +69,8 @@ let timeout =
 
 let matrix =
   let doc =
-    "Print a line for each rule of the semantics: how many of the cases take it, and which ones are about it. A rule \
-     that no case is about is a failure."
+    "Print a line for each rule of the semantics: the number of cases that use it, and the cases about it. A rule \
+     without a case about it is a failure."
   in
   Arg.(value & flag & info [ "matrix" ] ~doc)
 
@@ -81,10 +81,10 @@ let verbose =
 let man =
   [ `S Manpage.s_description;
     `P "$(tname) judges an implementation of Dolphin's semantics by the cases of a corpus. A case is a small program \
-        with its world, and says what must hold: that the program is rejected, which run it has, which outcomes all \
-        of its runs have, what it may and may not do, and when at the earliest and at the latest. Cases in \
-        $(i,must-fail/) say what does not hold: they pass if that is noticed.";
-    `P "For each case that fails it says what was expected and what was seen; the last line counts. \
+        with its world and its expectations: that the program is rejected, one of its runs, the outcomes of all its \
+        runs, possible and impossible steps, earliest and latest dates. The expectations in $(i,must-fail/) are \
+        wrong: these cases pass if that is noticed.";
+    `P "For each case that fails, the expected and the actual result are printed; the last line counts the cases. \
         $(i,conformance/INTERPRETING.md) describes cases and the step protocol.";
     `S Manpage.s_examples;
     `Pre "  $(mname) $(tname)\n  $(mname) $(tname) conformance/cases/until --verbose\n\

@@ -20,7 +20,7 @@ let open_browser address =
       Unix.close null
     with Unix.Unix_error _ -> ()
 
-let last_words = "interrupted twice: ended at once; vehicles that were not told to stop yet run on"
+let last_words = "interrupted twice: ended at once; vehicles not yet ordered to stop keep running"
 
 let serve settings ~port ~browser =
   let* console =
@@ -91,7 +91,7 @@ let run () folder sim fleet network adapters definition supplier supplier_timeou
      serve settings ~port ~browser:(not no_browser))
 
 let folder =
-  let doc = "The folder whose programs, fleets and journals are shown, by default the one that you are in." in
+  let doc = "The folder whose programs, fleets and journals are shown, by default the current one." in
   Arg.(value & pos 0 string "." & info [] ~docv:"DIR" ~doc)
 
 let sim =
@@ -125,7 +125,7 @@ let listen =
   let parse text =
     match Unix.inet_addr_of_string text with
     | address -> Ok address
-    | exception Failure _ -> Error (`Msg (Printf.sprintf "'%s' is no address such as 192.168.1.5" text)) in
+    | exception Failure _ -> Error (`Msg (Printf.sprintf "'%s' is not an address such as 192.168.1.5" text)) in
   let print ppf address = Format.pp_print_string ppf (Unix.string_of_inet_addr address) in
   Arg.(value & opt (some (conv ~docv:"ADDRESS" (parse, print))) None & info [ "listen" ] ~docv:"ADDRESS" ~doc)
 
@@ -170,16 +170,17 @@ let supplier_timeout =
 let man =
   [ `S Manpage.s_description;
     `P "$(tname) shows the programs, fleets and runs of the folder $(i,DIR) in a browser: a map, a timeline, the log, \
-        what the program waits for, an editor, the verdicts of $(mname) $(b,explore). Programs are run from there, on \
-        the simulated fleet, or with $(b,--imc) and $(b,--platform) on vehicles, and their questions answered.";
-    `P "A run belongs to the server: a page that is closed or loaded again changes nothing, and several pages see the \
-        same. One of them has the helm and commands. Every run has a journal, among those that $(mname) $(b,runs) \
-        lists; one whose console died is offered to be resumed.";
-    `P "Only this machine can connect, unless $(b,--listen) says otherwise. Pages of others in the same browser are \
-        refused, and so is whatever lies outside of $(i,DIR). Ctrl-C stops the run and ends the server when all \
+        the events that the program waits for, an editor, the verdicts of $(mname) $(b,explore). Programs are started \
+        there, on the simulated fleet, or with $(b,--imc) and $(b,--platform) on vehicles, and their questions are \
+        answered there.";
+    `P "A run belongs to the server: closing or reloading a page does not affect it, and several pages see the same. \
+        One of them has the helm and commands. Every run has a journal, among those that $(mname) $(b,runs) lists; a \
+        run whose console died can be resumed.";
+    `P "Only this machine can connect, unless $(b,--listen) is given. Requests from other sites' pages in the same \
+        browser are refused, and so are files outside $(i,DIR). Ctrl-C stops the run and ends the server when all \
         vehicles are released.";
-    `P "The page is built apart from the command, by $(b,scripts/console); without it the programming interface is \
-        there all the same. The pages $(i,docs/console.md) and $(i,docs/api.md) tell more.";
+    `P "The page is built separately, by $(b,scripts/console); the programming interface works without it. See \
+        $(i,docs/console.md) and $(i,docs/api.md).";
     `S Manpage.s_arguments;
     `S Manpage.s_options;
     `S Imc_options.s_network;

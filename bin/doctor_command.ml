@@ -16,14 +16,14 @@ let run () =
 
 let man =
   [ `S Manpage.s_description;
-    `P "$(tname) prints the version of $(mname), and what it can use on this machine: clocks, sockets, ports \
-        and addresses for hearing vehicles, the folder of runs, the page of the console, TLC. Each missing item comes \
-        with its consequence and the remedy. $(tname) sends nothing." ]
+    `P "$(tname) prints the version of $(mname), and the resources that it finds on this machine: clocks, sockets, \
+        ports and addresses for hearing vehicles, the folder of runs, the page of the console, TLC. Each missing item \
+        comes with its consequence and the remedy. $(tname) sends nothing." ]
   @ Options.see_also
 
 let command =
   let info =
-    Cmd.info "doctor" ~docs:Options.s_setup ~doc:"tell what is missing on this machine" ~man
+    Cmd.info "doctor" ~docs:Options.s_setup ~doc:"report missing requirements of this machine" ~man
       ~exits:(Options.exits [ Done; Platform_trouble; Bug ])
   in
   Cmd.v info Term.(const run $ const ())

@@ -3,18 +3,18 @@ open Cmdliner
 let man =
   [ `S Manpage.s_description;
     `P "Dolphin is a task orchestration language for networks of autonomous vehicles. One program picks vehicles, \
-        hands them tasks, and composes those tasks: one after another, at once, when a condition holds, for so long, \
+        gives them tasks, and composes those tasks: in sequence, in parallel, when a condition holds, for a time, \
         until an error.";
-    `P "$(mname) $(b,exec) runs a program, $(mname) $(b,explore) checks every run that it can have, $(mname) \
-        $(b,check) finds its faults without running it. Each command has a manual: $(mname) $(i,COMMAND) $(b,--help).";
+    `P "$(mname) $(b,exec) runs a program, $(mname) $(b,explore) checks its every run, $(mname) $(b,check) finds its \
+        faults without running it. Each command has a manual: $(mname) $(i,COMMAND) $(b,--help).";
     `S Options.s_setup; `S Options.s_write; `S Options.s_prove; `S Options.s_run; `S Options.s_runs;
     `S Options.s_others;
     `S Manpage.s_examples;
     `Pre "  $(mname) exec examples/rendezvous.dol\n  $(mname) explore examples/rendezvous.dol\n\
          \  $(mname) check mission.dol";
     `S Manpage.s_files;
-    `I ("$(i,*.dol)", "Programs. $(i,*.dolphin) is as good.");
-    `I ("$(i,*.fleet)", "Fleets: vehicles, how plans end on them, and what people answer.") ]
+    `I ("$(i,*.dol)", "Programs. $(i,*.dolphin) works too.");
+    `I ("$(i,*.fleet)", "Fleets: vehicles, outcomes of plans, and people's answers.") ]
   @ Options.see_also
 
 let command =

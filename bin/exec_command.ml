@@ -19,13 +19,13 @@ let contradiction (s : Run.settings) ~sim ~follow ~resumed ~changed =
     follow <> None
     && (on_network || s.speed <> None || s.answers <> [] || s.supplier <> None || journal <> None
         || resumed <> None)
-  then Some "a recorded run (--follow) goes with its program, a fleet, --draw and --layer, and with no other options"
+  then Some "a recorded run (--follow) takes a program, a fleet, --draw and --layer, and no other options"
   else if changed && resumed = None then Some "--force-prefix goes with --resume"
   else if journal = Some "-" then
-    Some "standard output has the log, and no journal beside it: name a file (./- for one that is called so)"
+    Some "standard output has the log, so the journal needs a file: name one (./- for a file called -)"
   else None
 
-let last_words = "interrupted twice: ended at once; vehicles that were not told to stop yet run on"
+let last_words = "interrupted twice: ended at once; vehicles not yet ordered to stop keep running"
 
 let on_terminal show (s : Run.settings) program run : Exit_status.t =
   let again () =
@@ -67,7 +67,7 @@ let check_only (s : Run.settings) (fleet : Fleet_file.t) only =
 (* The place of the journal. Vehicles that move have one: their run can then be resumed. *)
 let journal_of ~path ~is_simulated ~keep ~follow ~resumed journal =
   if journal <> None || resumed <> None || follow <> None then
-    if keep then Error (Error.Bad_input "--keep goes with none of --journal, --resume and --follow") else Ok journal
+    if keep then Error (Error.Bad_input "--keep excludes --journal, --resume and --follow") else Ok journal
   else if keep then Result.map Option.some (Run_folder.fresh ~program:path)
   else if is_simulated then Ok None
   else
@@ -94,8 +94,8 @@ let check_sampling (s : Run.settings) show ~follow ~resumed ~keep =
     || Recording.is_wanted { s.recording with drawing = None }
     || show.Terminal_run.quiet || show.only <> [] || show.colour <> None
   then
-    Error (Error.Bad_input "of many runs (--runs, --until) there is one answer: of the other options only --fleet, \
-                            --sim, --set, --seed, --answer and --draw go with them")
+    Error (Error.Bad_input "many runs (--runs, --until) have one answer: of the other options only --fleet, --sim, \
+                            --set, --seed, --answer and --draw are allowed")
   else Ok ()
 
 let sample (s : Run.settings) program fleet (sampling : Sampling_options.t) =
@@ -107,9 +107,9 @@ let sample (s : Run.settings) program fleet (sampling : Sampling_options.t) =
 let drawing_over ~sampling layers drawing =
   match layers, drawing with
   | [], _ -> Ok drawing
-  | _ :: _, None -> Error (Error.Bad_input "--layer goes with --draw: it is a map below the ways of the run")
+  | _ :: _, None -> Error (Error.Bad_input "--layer needs --draw: it is a map below the ways of the run")
   | _ :: _, Some _ when sampling <> None ->
-    Error (Error.Bad_input "--layer does not go with --runs or --until: they draw when runs are over, and no ways")
+    Error (Error.Bad_input "--layer excludes --runs and --until: these draw the ends of runs, and no ways")
   | layers, Some drawing ->
     let* layers = Dolphin_results.Results.map Layer_file.read layers in
     Ok (Some (Drawing.over layers drawing))
@@ -182,82 +182,82 @@ let seed =
 let answers =
   let doc =
     "Answer a question of the program ($(b,ask)) with $(docv), an expression. May be repeated: the first one answers \
-     the first question. Further questions are answered by the fleet, or else on standard input. What begins with a \
-     minus sign is written $(b,--answer=-1)."
+     the first question. Further questions are answered by the fleet, or else on standard input. An answer that \
+     begins with a minus sign is written $(b,--answer=-1)."
   in
   Arg.(value & opt_all string [] & info [ "answer" ] ~docv:"TEXT" ~doc)
 
 let supplier =
   let doc =
-    "The command that starts the supplier, the process that $(b,getSupplier()) speaks to. It is given to $(b,/bin/sh). \
-     Without it, calls get the replies that the fleet gives."
+    "The command that starts the supplier, the process behind $(b,getSupplier()). It is given to $(b,/bin/sh). \
+     Without it, calls get the replies of the fleet."
   in
   Arg.(value & opt (some string) None & info [ "supplier" ] ~docv:"CMD" ~doc)
 
 let supplier_timeout =
-  let doc = "Give the supplier $(docv) seconds for each reply. By default it may take as long as it likes." in
+  let doc = "Give the supplier $(docv) seconds for each reply. By default without a limit." in
   Arg.(value & opt (some positive) None & info [ "supplier-timeout" ] ~docv:"SECONDS" ~doc)
 
 let journal =
   let doc =
-    "Keep a journal of the run in the file $(docv): every transition, what caused it, where the vehicles were. \
+    "Keep a journal of the run in the file $(docv): every transition, its cause, the positions of the vehicles. \
      $(mname) $(b,trace) checks, shows and draws journals."
   in
   Arg.(value & opt (some string) None & info [ "o"; "journal" ] ~docv:"FILE" ~doc)
 
 let keep =
   let doc =
-    "Keep a journal of the run among those that $(mname) $(b,runs) lists. Runs on vehicles of a network are kept there \
-     without being asked, unless $(b,--journal) names a file."
+    "Keep a journal of the run among those that $(mname) $(b,runs) lists. Runs on vehicles of a network are always \
+     kept there, unless $(b,--journal) names a file."
   in
   Arg.(value & flag & info [ "keep" ] ~doc)
 
 let drawing =
   let doc =
-    "Draw the run in the file $(docv), $(i,*.svg) or $(i,*.html), when it is over: who did what when, the ways of the \
-     vehicles, their batteries. With $(b,--runs): how many runs are over when."
+    "Draw the run in the file $(docv), $(i,*.svg) or $(i,*.html), when it is over: a timeline of the vehicles' tasks, \
+     their ways, their batteries. With $(b,--runs): the number of ended runs over time."
   in
   Arg.(value & opt (some Options.drawing) None & info [ "draw" ] ~docv:"FILE" ~doc)
 
 let follow =
   let doc =
-    "Take the steps of the run in the file $(docv), which $(mname) $(b,explore --trace) has written, and no others. \
-     The log has the numbers of steps where times would be, and so has the picture of $(b,--draw)."
+    "Take only the steps of the run in the file $(docv), written by $(mname) $(b,explore --trace). The log, and the \
+     picture of $(b,--draw), have step numbers in place of times."
   in
   Arg.(value & opt (some string) None & info [ "follow" ] ~docv:"FILE" ~doc)
 
 let resumed =
   let doc =
-    "Resume the run whose journal is the file $(docv), and whose console died. What it has done is not done again: \
-     vehicles are asked what they run; plans that run are waited for, those that ended meanwhile count as ended, and \
-     those that were never started are started. The journal continues in the same file, or with $(b,--journal) in \
-     another one. $(i,docs/trace.md) tells more."
+    "Resume the run whose journal is the file $(docv), and whose console died. Nothing done is done again: vehicles \
+     report the plans that they run; running plans are waited for, plans that ended meanwhile count as ended, and \
+     plans that were never started are started. The journal continues in the same file, or with $(b,--journal) in \
+     another one. See $(i,docs/trace.md)."
   in
   Arg.(value & opt (some string) None & info [ "resume" ] ~docv:"RUN" ~doc)
 
 let no_socket =
   let doc =
-    "Have no socket beside the journal: nobody can post to the run, follow or stop it from outside. Only runs whose \
-     time passes by itself, on vehicles of a network or with $(b,--speed), have one."
+    "Have no socket beside the journal: the run cannot be followed, stopped or posted to from outside. Only runs in \
+     real time, on vehicles of a network or with $(b,--speed), have one."
   in
   Arg.(value & flag & info [ "no-socket" ] ~doc)
 
 let changed =
   let doc =
-    "With $(b,--resume): resume although the program has changed since, if what happened so far is also the beginning \
-     of a run of the changed program."
+    "With $(b,--resume): resume although the program has changed since, if the run so far is also the beginning of a \
+     run of the changed program."
   in
   Arg.(value & flag & info [ "force-prefix" ] ~doc)
 
 let show =
   let quiet =
     let doc =
-      "Print only what went wrong, what the program says and asks, and at the end a summary of the run."
+      "Print only failures, messages and questions of the program, and at the end a summary of the run."
     in
     Arg.(value & flag & info [ "q"; "quiet" ] ~doc)
   in
   let only =
-    let doc = "Print only lines about the vehicle $(docv), and what went wrong. May be repeated." in
+    let doc = "Print only lines about the vehicle $(docv), and failures. May be repeated." in
     Arg.(value & opt_all string [] & info [ "only" ] ~docv:"VEHICLE" ~doc)
   in
   let colour =
@@ -273,48 +273,49 @@ let show =
 let man =
   [ `S Manpage.s_description;
     `P "$(tname) checks the program $(i,PROG) as $(mname) $(b,check) does and runs it on a fleet of simulated \
-        vehicles. The vehicles move, their batteries drain, their plans take the time that the fleet file says and \
-        may fail. Unless $(b,--speed) is given the run takes no longer than it takes to compute: a mission of an \
-        hour is over at once.";
-    `P "The log on standard output has a line for whatever happens: the time since the start, who, what. On a terminal \
-        a board below it shows what the program waits for, and each vehicle: its task, for how long it has been \
-        running, its battery and position; vehicles in trouble come first. At the end stands how the run ended, what \
-        became of its tasks, and where its journal is.";
+        vehicles. The vehicles move, their batteries drain, their plans take the time given in the fleet file and may \
+        fail. Unless $(b,--speed) is given the run takes no longer than its computation: a mission of an hour is over \
+        at once.";
+    `P "The log on standard output has a line for each event: the time since the start, the vehicle or the program, \
+        the event. On a terminal, a board below it shows the events that the program waits for, and each vehicle: its \
+        task, the time since the start of the task, its battery and position; vehicles in trouble come first. The \
+        last lines are the end of the run, the outcome of its tasks, and the path of its journal.";
     `P "Ctrl-C interrupts the program: running tasks are stopped, vehicles are released. A second Ctrl-C ends \
-        $(mname) at once. If the program says by $(b,onInterrupt) what is executed then, as a way home, the second one \
-        stops that, and a third one ends $(mname).";
-    `P "With $(b,-vv) every event, transition and effect of the run, and on a network every datagram, is told on \
+        $(mname) at once. If the program has a task for this case ($(b,onInterrupt)), such as a way home, the second \
+        Ctrl-C stops that task, and a third one ends $(mname).";
+    `P "With $(b,-vv) every event, transition and effect of the run, and on a network every datagram, is logged on \
         standard error: $(mname) $(tname) mission.dol -vv 2> debug.log.";
     `S Manpage.s_arguments;
     `S Manpage.s_options;
     `S Imc_options.s_network;
-    `P "With $(b,--imc) the program runs on real vehicles, or on whatever speaks IMC as they do. The page \
-        $(i,docs/imc.md) tells what it takes. Of a fleet that $(b,--fleet) names, only the answers, the \
-        replies, the fences and the place of plans are used then.";
+    `P "With $(b,--imc) the program runs on real vehicles, or on any system that speaks IMC as they do; see \
+        $(i,docs/imc.md). Of a fleet that $(b,--fleet) names, only the answers, the replies, the fences and the place \
+        of plans are used then.";
     `S Platform_options.s_platforms;
     `P "With $(b,--platform) the program runs on vehicles of any kind, through adapters; with several of these \
-        options, and $(b,--imc), on all of them at once. $(mname) $(b,sim --platform) is an adapter of the \
-        simulated fleet.";
+        options, and $(b,--imc), on all of them at once. $(mname) $(b,sim --platform) is an adapter of the simulated \
+        fleet.";
     `S Sampling_options.s_many;
-    `P "With $(b,--runs) there is no log: $(mname) $(tname) makes many simulated runs, with the seeds that follow each \
-        other from $(b,--seed) on, in as many processes as the machine has processors. It prints how many ended how, \
-        when those that completed were over, and how often each task began, ended, failed and was stopped and each \
-        handler of errors ran. Shares stand with an interval (Clopper and Pearson) and its confidence. $(mname) \
-        $(tname) --seed shows a single one of them. $(mname) $(b,time) says what is so in all runs.";
-    `P "Ctrl-C ends it with what is known by then. How runs end makes no difference to the exit status.";
+    `P "With $(b,--runs) there is no log: $(mname) $(tname) makes many simulated runs, with consecutive seeds from \
+        $(b,--seed) on, in as many processes as the machine has processors. It prints the number of runs for each \
+        ending, the end times of completed runs, and how often each task began, ended, failed and was stopped and \
+        each error handler ran. Shares have an interval (Clopper and Pearson) and its confidence. $(mname) $(tname) \
+        --seed shows a single run. $(mname) $(b,time) computes the bounds of all runs.";
+    `P "Ctrl-C ends it with the results so far. The endings of the runs do not affect the exit status.";
     `S Manpage.s_exit_status;
     `S Manpage.s_files;
     `I ("$(i,PROG) with the ending $(b,.fleet)", "The fleet, unless $(b,--sim) or $(b,--fleet) names another.");
     `S Manpage.s_examples;
-    `P "The mission of the paper, as fast as it goes; then at sixty times the speed of reality, which shows the board:";
+    `P "The mission of the paper, as fast as possible; then at sixty times the speed of reality, which shows the \
+        board:";
     `Pre "  $(mname) $(tname) examples/rendezvous.dol\n  $(mname) $(tname) examples/rendezvous.dol --speed 60";
-    `P "On another fleet, with other luck, and answering the program's question:";
+    `P "On another fleet, with another seed, and with an answer to the program's question:";
     `Pre "  $(mname) $(tname) mission.dol --fleet harbour.fleet --seed 7 --answer 2";
     `P "With tasks from a script, which has ten seconds for each reply:";
     `Pre "  $(mname) $(tname) examples/supplier.dol \\\\\n    --supplier examples/supplier.py --supplier-timeout 10";
     `P "With a journal of the run, and a picture of it:";
     `Pre "  $(mname) $(tname) mission.dol --journal mission.run --draw mission.svg --layer coast.geojson";
-    `P "How long ten thousand runs take; and as many as it takes to know how often one completes:";
+    `P "How long ten thousand runs take; then as many runs as needed to know the share that completes:";
     `Pre "  $(mname) $(tname) examples/rendezvous.dol --runs 10000\n  $(mname) $(tname) mission.dol --until 0.01";
     `P "Resuming it after the console was killed:";
     `Pre "  $(mname) $(tname) mission.dol --resume mission.run" ]

@@ -17,13 +17,13 @@ let exit_interrupted () = Unix._exit (code Interrupted)
 
 let meaning = function
   | Done -> "all is well."
-  | Failed -> "the program halted or failed, or got stuck; what went wrong is told on standard error."
-  | Violated -> "a run breaks what was asked of all runs; a shortest one is shown."
-  | Inconclusive -> "a bound was met, or Ctrl-C: what was explored breaks nothing, but there is more."
+  | Failed -> "the program halted or failed, or got stuck; the reason is on standard error."
+  | Violated -> "a run violates a property; a shortest such run is shown."
+  | Inconclusive -> "a bound was met, or Ctrl-C: no violation in the explored part, but there is more to explore."
   | Bad_input -> "the program, the fleet or the command line is not right; nothing was started."
-  | Platform_trouble -> "not the program is in trouble but what is around it: the platform, or where the output goes."
+  | Platform_trouble -> "the platform or the output failed, not the program."
   | Bug -> "a fault of $(mname) itself. Please report it."
   | Interrupted ->
-    "the run was interrupted: by Ctrl-C, by a request to terminate, or because nobody reads its log any more."
+    "the run was interrupted by Ctrl-C, by a request to terminate, or because its log has no reader any more."
 
 let info statuses = List.map (fun s -> Cmdliner.Cmd.Exit.info (code s) ~doc:(meaning s)) statuses

@@ -11,7 +11,7 @@ let find_or_explore settings program fleet ~from ~json ~period ~cache =
   let store = if cache then Verdict_store.make settings program fleet else None in
   match Option.bind store Verdict_store.find with
   | Some outcome ->
-    Report.complain "nothing has changed: these are the verdicts that were kept";
+    Report.complain "nothing has changed: these are the stored verdicts";
     Ok outcome
   | None ->
     let explore ~interrupted ~progress = Exploration.explore ?from ~interrupted ~progress settings program fleet in
@@ -48,8 +48,8 @@ let check_spill (s : Exploration.settings) directory =
   else if s.compress then wrong "states on disk are not compressed: give --spill or --compress, not both"
   else if s.walks <> None || s.bitstate <> None then
     wrong "random walks and bitstate hashing keep no states on disk: give --spill without --sample and --bitstate"
-  else if not (Sys.file_exists directory) then wrong "--spill %s: there is no such directory" directory
-  else if not (Sys.is_directory directory) then wrong "--spill %s: this is no directory" directory
+  else if not (Sys.file_exists directory) then wrong "--spill %s: no such directory" directory
+  else if not (Sys.is_directory directory) then wrong "--spill %s: not a directory" directory
   else
     match Unix.access directory [ W_OK; X_OK ] with
     | () -> Ok ()
@@ -60,8 +60,8 @@ let check_search (s : Exploration.settings) =
   let* () = Option.fold ~none:(Ok ()) ~some:(check_spill s) s.spill in
   match s.walks, s.bitstate, s.formulas with
   | Some _, Some _, _ -> not_both "random walks keep their states: give --sample or --bitstate"
-  | Some _, None, _ :: _ -> not_both "random walks say nothing of a formula: give --sample or --ltl"
-  | None, Some _, _ :: _ -> not_both "bitstate hashing says nothing of a formula: give --bitstate or --ltl"
+  | Some _, None, _ :: _ -> not_both "random walks cannot check a formula: give --sample or --ltl"
+  | None, Some _, _ :: _ -> not_both "bitstate hashing cannot check a formula: give --bitstate or --ltl"
   | None, Some _, [] when s.compress ->
     not_both "bitstate hashing keeps no states that could be compressed: give --bitstate or --compress"
   | _, _, _ -> Ok ()
@@ -157,29 +157,28 @@ let size =
     in
     match bytes with
     | Some bytes when bytes > 0 -> Ok bytes
-    | Some _ | None -> Error (`Msg (Printf.sprintf "'%s' is no size such as 512M or 8G" text))
+    | Some _ | None -> Error (`Msg (Printf.sprintf "'%s' is not a size such as 512M or 8G" text))
   in
   Arg.conv ~docv:"SIZE" (parse, Format.pp_print_int)
 
 let faults =
   let parse text = Result.map_error (fun why -> `Msg why) (Faults.of_string text) in
   let doc =
-    "What else may go wrong, separated by commas: $(b,fail), every platform task may fail; $(b,loss), the connection \
-     of a vehicle that runs a task may be lost for longer than its timeout; $(b,join), vehicles may be late or missing \
-     when the program picks them: those that the fleet lets join, leave or drop, or if there are none, all; $(b,all) \
-     of these. $(b,interrupt), which is not among $(b,all): the program may be interrupted at any time, as by Ctrl-C. \
-     With $(b,=)$(i,N) at most $(i,N) times in one run: $(b,fail=1,loss=2). By default only those plans may fail of \
-     which the fleet says so, or any in a program with fences."
+    "Further faults, separated by commas: $(b,fail), every platform task may fail; $(b,loss), the connection of a \
+     vehicle that runs a task may be lost for longer than its timeout; $(b,join), vehicles with $(b,joins), \
+     $(b,leaves) or $(b,drops) in the fleet, or if there are none, all vehicles, may be late or missing when the \
+     program picks them; $(b,all) of these. $(b,interrupt), which is not part of $(b,all): the program may be \
+     interrupted at any time, as by Ctrl-C. With $(b,=)$(i,N) at most $(i,N) times in one run: $(b,fail=1,loss=2). By \
+     default only plans with $(b,mayFail) in the fleet may fail, or any plan in a program with fences."
   in
   Arg.(value & opt (conv ~docv:"FAULTS" (parse, Faults.pp)) Faults.none & info [ "faults" ] ~docv:"FAULTS" ~doc)
 
 let bound kind name docv doc = Arg.(value & opt (some kind) None & info [ name ] ~docv ~doc)
 let max_states = bound Arg.int "max-states" "N" "Stop after $(docv) states."
-let max_depth = bound Arg.int "max-depth" "N" "Follow runs for $(docv) transitions only."
+let max_depth = bound Arg.int "max-depth" "N" "Follow runs for at most $(docv) transitions."
 let max_memory = bound size "max-memory" "SIZE" 
-    "Stop before the process takes more than $(docv) of memory, as in 512M or 8G; it starts with some 20M. Without \
-     it, the search stops before it has \
-     nine tenths of what the machine, and the limits on the process, leave to it."
+    "Stop before the process takes more than $(docv) of memory, as in 512M or 8G; it starts with some 20M. By \
+     default, the limit is nine tenths of the memory left by the machine and by the limits on the process."
 let timeout = bound Arg.float "timeout" "SECONDS" "Stop after $(docv) seconds."
 
 let from =
@@ -189,23 +188,22 @@ let from =
 
 let answers =
   let doc =
-    "What may be answered to the program's questions. If repeated, each of them may be. The default is what the fleet \
-     answers."
+    "A possible answer to the program's questions. May be repeated. The default is the answers of the fleet."
   in
   Arg.(value & opt_all string [] & info [ "answer" ] ~docv:"TEXT" ~doc)
 
 let strict =
   let doc =
-    "Count as violations what otherwise is only noted: $(b,halt), tuples left over (except those with the key of an \
-     $(b,input)), code that no run reaches."
+    "Count as violations what is otherwise only noted: $(b,halt), tuples left over (except those with the key of an \
+     $(b,input)), unreachable code."
   in
   Arg.(value & flag & info [ "strict" ] ~doc)
 
 let invariants =
   let doc =
     "Check that $(docv) holds in every state. It is an expression of the language over the global variables of the \
-     program, in which also $(b,running\\('plan'\\)), $(b,running\\('plan', 'vehicle'\\)), $(b,bound\\('vehicle'\\)) \
-     and $(b,poll\\(key: value\\)) may stand. As long as a variable in it has no value, it holds. May be repeated."
+     program, with $(b,running\\('plan'\\)), $(b,running\\('plan', 'vehicle'\\)), $(b,bound\\('vehicle'\\)) and \
+     $(b,poll\\(key: value\\)) in addition. While a variable in it has no value, it holds. May be repeated."
   in
   Arg.(value & opt_all string [] & info [ "invariant" ] ~docv:"EXPR" ~doc)
 
@@ -220,9 +218,9 @@ let formulas =
 let fairness =
   let kinds = [ ("weak", Dolphin_explore.Search.Weak); ("none", No_fairness) ] in
   let doc =
-    "Of which runs $(b,--ltl) asks: with $(b,weak) of those that are fair, as for termination (tasks that run end some \
-     time, timers expire, no step that stays possible is put off for ever), and of those that go on for ever without \
-     any event; with $(b,none) of all runs."
+    "The runs that $(b,--ltl) is about: with $(b,weak), runs that are fair, as for termination (running tasks end \
+     some time, timers expire, no step that stays possible is put off without end), and endless runs without any \
+     event; with $(b,none), all runs."
   in
   Arg.(value & opt (enum kinds) Weak & info [ "fairness" ] ~docv:"KIND" ~doc)
 
@@ -230,37 +228,37 @@ let run_file =
   let parse path =
     match String.lowercase_ascii (Filename.extension path) with
     | ".svg" | ".html" | ".htm" ->
-      Error (`Msg (Printf.sprintf "'%s' is the name of a picture, and what is written is JSON" path))
+      Error (`Msg (Printf.sprintf "'%s' is the name of a picture, but JSON would be written" path))
     | _ -> Ok path
   in
   Arg.conv ~docv:"FILE" (parse, Format.pp_print_string)
 
 let trace =
   let doc =
-    "Write the first of the runs that are shown into the file $(docv). $(mname) $(b,exec --follow) $(docv) replays it. \
-     If its name ends in $(b,.itf.json), it is written in the Informal Trace Format instead, for the tools of TLA+ and \
-     Quint. Nothing is written if there is none."
+    "Write the first run shown into the file $(docv). $(mname) $(b,exec --follow) $(docv) replays it. If its name \
+     ends in $(b,.itf.json), it is written in the Informal Trace Format instead, for the tools of TLA+ and Quint. \
+     Nothing is written if there is none."
   in
   Arg.(value & opt (some run_file) None & info [ "trace" ] ~docv:"FILE" ~doc)
 
 let file name doc =
-  let parse path = if path = "-" then Error (`Msg "'-' is no name of a file") else Ok path in
+  let parse path = if path = "-" then Error (`Msg "'-' is not a file name") else Ok path in
   let path = Arg.conv ~docv:"FILE" (parse, Format.pp_print_string) in
   Arg.(value & opt (some path) None & info [ name ] ~docv:"FILE" ~doc)
 
 let files =
   let junit =
-    file "junit" "Write the verdicts into $(docv) as JUnit's XML too: a test case for each property, for whatever \
-                  collects test results."
+    file "junit" "Write the verdicts into $(docv) as JUnit's XML too, with a test case for each property, for tools \
+                  that collect test results."
   in
   let sarif =
-    file "sarif" "Write the verdicts into $(docv) as SARIF 2.1.0 too, with the runs that are shown as code flows, for \
-                  code hosts and editors."
+    file "sarif" "Write the verdicts into $(docv) as SARIF 2.1.0 too, with the runs shown as code flows, for code \
+                  hosts and editors."
   in
   let drawing =
     let doc =
-      "Draw the first of the runs that are shown in the file $(docv), $(i,*.svg) or $(i,*.html): the tasks of each \
-       vehicle by steps, since such a run has no times. Nothing is drawn if there is none."
+      "Draw the first run shown in the file $(docv), $(i,*.svg) or $(i,*.html): the tasks of each vehicle by steps, \
+       since such a run has no times. Nothing is drawn if there is none."
     in
     Arg.(value & opt (some Options.drawing) None & info [ "draw" ] ~docv:"FILE" ~doc)
   in
@@ -269,15 +267,15 @@ let files =
 
 let period =
   let doc =
-    "Print how far the search has come on standard error, a line every $(docv) seconds. Without it, a terminal shows \
-     that all the time, and a log has a line every ten seconds, or none with $(b,--json)."
+    "Print the progress of the search on standard error, a line every $(docv) seconds. By default, a terminal always \
+     shows the progress, and a log has a line every ten seconds, or none with $(b,--json)."
   in
   Arg.(value & opt (some (Options.positive ~docv:"SECONDS")) None & info [ "progress" ] ~docv:"SECONDS" ~doc)
 
 let cache =
   let doc =
-    "Keep the verdicts, unless one is inconclusive, and print those that were kept if nothing has changed: neither \
-     $(i,PROG) nor the fleet, the options or $(mname) itself. They are kept below $(b,dolphin/explore) in \
+    "Store the verdicts, unless one is inconclusive, and print the stored ones if nothing has changed: neither \
+     $(i,PROG) nor the fleet, the options or $(mname) itself. They are stored below $(b,dolphin/explore) in \
      $(b,XDG_CACHE_HOME), by default $(b,~/.cache)."
   in
   Arg.(value & flag & info [ "cache" ] ~doc)
@@ -287,45 +285,44 @@ let reduction =
     [ ("none", Dolphin_explore.Reduction.Whole); ("por", Partial_order); ("symmetry", Symmetry); ("all", All) ]
   in
   let doc =
-    "Which states are explored: with $(b,none) every one; with $(b,por) only one of the orders that make no difference \
-     (partial order reduction); with $(b,symmetry) one representative of all states that differ by exchanging \
-     vehicles, plans and tuples that the program treats alike, in tasks and in what $(b,pick) gives; with $(b,all) \
-     both. The verdicts are the same. With an $(b,--invariant) only vehicles are exchanged. The number of states \
-     printed is that of the states explored; the reductions that were used stand behind it."
+    "The explored states: with $(b,none), all of them; with $(b,por), only one order of steps where orders make no \
+     difference (partial order reduction); with $(b,symmetry), one representative of all states that differ by \
+     exchanging vehicles, plans and tuples that the program treats alike, in tasks and in the results of $(b,pick); \
+     with $(b,all), both. The verdicts are the same. With an $(b,--invariant) only vehicles are exchanged. The number \
+     of states printed is that of the explored states, followed by the reductions used."
   in
   Arg.(value & opt (enum kinds) All & info [ "reduction" ] ~docv:"KIND" ~doc)
 
 let compress =
   let doc =
-    "Keep the states in some 12 bytes each instead of 28 (or more, if they are large), which takes about twice the \
-     time."
+    "Store each state in some 12 bytes instead of 28 or more, which takes about twice the time."
   in
   Arg.(value & flag & info [ "compress" ] ~doc)
 
 let spill =
   let doc =
-    "Keep states that would take more memory than $(b,--max-memory) in a file of the directory $(docv), 8 bytes for \
-     each 62 bits of a state, up to what the disk holds. All of it is read at each depth of the search. The file has \
-     no name: nothing is left of it, however the search ends. A disk that is full is a bound that was met. Not with \
-     $(b,--compress), $(b,--sample) or $(b,--bitstate)."
+    "Store states beyond $(b,--max-memory) in a file of the directory $(docv), 8 bytes for each 62 bits of a state, \
+     up to the capacity of the disk. The whole file is read at each depth of the search. It has no name, so nothing \
+     is left of it, however the search ends. A full disk is a bound that was met. Not with $(b,--compress), \
+     $(b,--sample) or $(b,--bitstate)."
   in
   Arg.(value & opt (some string) None & info [ "spill" ] ~docv:"DIR" ~doc)
 
-let positive = Options.whole ~docv:"N" "no number from 1 on"
+let positive = Options.whole ~docv:"N" "not a number from 1 on"
 
 let walks =
   let sample =
     let doc =
-      "Follow $(docv) random walks in place of all runs, where there are too many to be explored. At each state one of \
-       its transitions is taken, any as likely as another, and what the others lead to is looked at, too. A walk ends \
-       with the run, or after $(b,--max-depth) transitions (10,000 by default). A violation that is found is one, with \
-       its run; all else is inconclusive, unless the walks have been everywhere. How much they may have missed is \
-       estimated. Not with $(b,--ltl)."
+      "Follow $(docv) random walks instead of all runs, for programs too large to be explored. Each state's \
+       transitions are equally likely; the successors not taken are checked, too. A walk ends with the run, or after \
+       $(b,--max-depth) transitions (10,000 by default). Violations are real, and shown with their run; otherwise the \
+       result is inconclusive, unless the walks visited every state. The number of missed states is estimated. Not \
+       with $(b,--ltl)."
     in
     Arg.(value & opt (some positive) None & info [ "sample" ] ~docv:"WALKS" ~doc)
   in
   let seed =
-    let doc = "What $(b,--sample) draws depends on it. By default it is another one each time, and shown." in
+    let doc = "The seed of $(b,--sample). By default a new one is drawn, and printed." in
     Arg.(value & opt (some int) None & info [ "seed" ] ~docv:"N" ~doc)
   in
   let by_time () = int_of_float (Unix.gettimeofday () *. 1_000.) mod 1_000_000 in
@@ -337,19 +334,19 @@ let walks =
 
 let bitstate =
   let doc =
-    "Tell states apart by three bits each of an array of $(docv) bytes, as in 256M, in place of keeping them, where \
-     there are too many to be kept (bitstate hashing). States are explored depth first, no deeper than \
-     $(b,--max-depth). A violation that is found is one, with its run; all else is inconclusive, for some states may \
-     be left out: how many are expected to be stands behind the numbers. Cycles of a $(b,repeat) without a number of \
-     rounds are not judged. Not with $(b,--ltl), $(b,--sample) or $(b,--compress)."
+    "Distinguish states by three bits each in an array of $(docv) bytes, as in 256M, instead of storing them, for \
+     programs with too many states (bitstate hashing). States are explored depth first, no deeper than \
+     $(b,--max-depth). Violations are real, and shown with their run; otherwise the result is inconclusive, since \
+     some states may be missed: the expected number of missed states is printed. Cycles of a $(b,repeat) without a \
+     number of rounds are not judged. Not with $(b,--ltl), $(b,--sample) or $(b,--compress)."
   in
   Arg.(value & opt (some size) None & info [ "bitstate" ] ~docv:"SIZE" ~doc)
 
 let workers =
   let doc =
-    "Search with $(docv) processes once there are some 100,000 states. What is found is the same whatever $(docv) is; \
-     of several shortest runs it may be another one that is shown. With symmetry of tasks, the number of states may \
-     differ. There is one process with $(b,--compress), $(b,--spill), $(b,--sample) and $(b,--bitstate)."
+    "Search with $(docv) processes once there are some 100,000 states. The verdicts are the same whatever $(docv) is; \
+     another one of several shortest runs may be shown. With symmetry of tasks, the number of states may differ. \
+     There is one process with $(b,--compress), $(b,--spill), $(b,--sample) and $(b,--bitstate)."
   in
   Options.workers ~doc
 
@@ -357,28 +354,28 @@ let json = Arg.(value & flag & info [ "json" ] ~doc:"Print the result as one JSO
 
 let man =
   [ `S Manpage.s_description;
-    `P "$(tname) follows every run that $(i,PROG) can have: every order in which tasks end and timers expire, every \
-        choice of vehicles, every branch that is ready. It uses the very transition function that $(mname) $(b,exec) \
-        uses. For each of these it says whether it holds, or shows a run that breaks it, a shortest one if it says so, \
-        a column for the program and one for each vehicle:";
+    `P "$(tname) follows every run of $(i,PROG): every order in which tasks end and timers expire, every choice of \
+        vehicles, every branch that is ready. It uses the transition function of $(mname) $(b,exec). For each of \
+        these properties it reports that it holds, or shows a run that violates it (a shortest one where so marked), \
+        with a column for the program and one for each vehicle:";
     `I ("no deadlock", "some transition is possible until the program ends.");
     `I
       ("termination",
-       "every fair run ends: tasks that run end some time, timers expire, no step is put off for ever.");
+       "every fair run ends: tasks that run end some time, timers expire, no step is put off without end.");
     `I ("no unhandled error", "no fault, and no error of a task that nothing handles.");
     `I ("assertions", "no $(b,assert) of the program fails.");
     `I ("vehicles for all picks", "every $(b,pick) gets its vehicles. Printed only if it does not hold.");
     `I ("vehicles for all tasks", "every $(b,execute) gets its vehicles.");
-    `P "If there is a $(b,fence distance), it also says which plans may run side by side whose ways come nearer to \
+    `P "With a $(b,fence distance), it also reports plans that may run side by side and whose ways come nearer to \
         each other.";
     `P "Noted are also runs that call $(b,halt), tuples left over at the end, and code that no run reaches.";
-    `P "What sensors show is open: of a condition such as $(b,battery\\(v\\) < 0.3) both outcomes are possible at each \
-        look, or those for the values that the fleet gives; a run says what it assumes. All vehicles of the fleet are \
-        in reach, unless $(b,--faults) says otherwise. Calls of a supplier get each of the replies that the fleet \
-        gives for them; a call for which it has none fails.";
-    `P "How far it is stands on standard error: on a terminal all the time, in a log as a line every ten seconds.";
-    `P "A bound that is met, or Ctrl-C, makes the answer inconclusive where no violation was found: it is never said \
-        that something holds that was not wholly explored.";
+    `P "Sensor readings are open: both outcomes of a condition such as $(b,battery\\(v\\) < 0.3) are possible at each \
+        look, or the outcomes for the values given in the fleet; a run lists its assumptions. All vehicles of the \
+        fleet are in reach, unless $(b,--faults) is given. Calls of a supplier get each of the replies that the fleet \
+        gives for them; a call without a reply fails.";
+    `P "Progress goes to standard error: on a terminal all the time, in a log as a line every ten seconds.";
+    `P "A bound that is met, or Ctrl-C, makes the verdict inconclusive where no violation was found: a property never \
+        counts as holding when it was not completely explored.";
     `S Manpage.s_arguments;
     `S Manpage.s_options;
     `S Manpage.s_exit_status;

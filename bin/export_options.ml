@@ -9,7 +9,7 @@ let format_conv =
   let parse text =
     match List.assoc_opt (String.lowercase_ascii text) Map_format.all with
     | Some format -> Ok format
-    | None -> Error (`Msg (Printf.sprintf "'%s' is none of the formats %s" text names))
+    | None -> Error (`Msg (Printf.sprintf "'%s' is not one of the formats %s" text names))
   in
   let print ppf format = Format.pp_print_string ppf (fst (List.find (fun (_, f) -> f = format) Map_format.all)) in
   Arg.conv ~docv:"FORMAT" (parse, print)
@@ -17,7 +17,9 @@ let format_conv =
 let term =
   let format =
     let doc =
-      "Write $(docv): $(b,csv), $(b,geojson), $(b,kml), $(b,gpx) or $(b,mcap). By default, what $(i,FILE) ends in." in
+      "Write $(docv): $(b,csv), $(b,geojson), $(b,kml), $(b,gpx) or $(b,mcap). By default, the extension of \
+       $(i,FILE) decides."
+    in
     Arg.(value & opt (some format_conv) None & info [ "to" ] ~docv:"FORMAT" ~doc)
   in
   let path =
@@ -30,9 +32,9 @@ let format { format; path } =
   match format, path with
   | Some format, _ -> Ok format
   | None, Some path ->
-    let why = Printf.sprintf "'%s' ends in none of the formats %s: --to FORMAT says which one" path names in
+    let why = Printf.sprintf "'%s' has no extension of a known format, %s: give --to FORMAT" path names in
     Option.to_result ~none:(Dolphin_app.Error.Bad_input why) (Map_format.of_path path)
-  | None, None -> Error (Bad_input ("--to FORMAT or -o FILE says what to write: " ^ names))
+  | None, None -> Error (Bad_input ("give --to FORMAT or -o FILE; the formats are " ^ names))
 
 let man =
   `P "Positions are degrees and metres above the WGS 84 ellipsoid, times are UTC. $(b,geojson) is RFC 7946, with the \
@@ -40,4 +42,4 @@ let man =
       has points as way points, plans as routes, tracks as tracks. $(b,csv) has a row for each position, as of RFC \
       4180. QGIS, GDAL, Google Earth and spreadsheets read them. $(b,mcap) is a recording for Foxglove: of each \
       vehicle its positions, $(i,foxglove.LocationFix), its battery and task, and its planned ways, \
-      $(i,foxglove.GeoJSON); and what happened, $(i,foxglove.Log)."
+      $(i,foxglove.GeoJSON); and the events, $(i,foxglove.Log)."

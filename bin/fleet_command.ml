@@ -20,34 +20,34 @@ let as_json =
   Arg.(value & flag & info [ "json" ] ~doc)
 
 let once =
-  let doc = "Print who is there once, after $(b,--seconds), as without a terminal." in
+  let doc = "Print the vehicles found once, after $(b,--seconds), as without a terminal." in
   Arg.(value & flag & info [ "once" ] ~doc)
 
 let seconds =
   let positive = Options.number ~docv:"SECONDS" "a number of seconds" (fun x -> x > 0. && x < infinity) in
   let doc =
-    "Look for $(docv) seconds. By default until Ctrl-C, and with $(b,--once) for 16: after so long every vehicle with \
-     the usual settings has announced itself and spoken to us."
+    "Look for $(docv) seconds. By default until Ctrl-C, and with $(b,--once) for 16 seconds: by then every vehicle \
+     with the usual settings has announced itself and spoken to us."
   in
   Arg.(value & opt (some positive) None & info [ "seconds" ] ~docv:"SECONDS" ~doc)
 
 let man =
   [ `S Manpage.s_description;
-    `P "$(tname) listens for systems that speak IMC over UDP and shows them: their names as programs pick them, types, \
-        addresses, positions, modes, batteries, payload, the plan that runs, and for how long nothing was heard of \
-        them. Programs can pick those in mode SERVICE.";
-    `P "It introduces itself to vehicles as a console does, for otherwise they would not speak to it. It asks nothing \
-        of them but their lists of entities.";
-    `P "With $(b,--json) and $(b,--imc-xml) each system has $(b,messages) too: an object for each kind of message that \
-        it sends, with its number ($(b,id)), how many came ($(b,count)) and what the last one said.";
-    `P "With $(b,--platform) it shows the vehicles of adapters instead, which it orders nothing.";
+    `P "$(tname) listens for systems that speak IMC over UDP and shows them: their names as programs pick them, \
+        types, addresses, positions, modes, batteries, payload, the running plan, and the time since they were last \
+        heard. Programs can pick those in mode SERVICE.";
+    `P "It introduces itself to vehicles as a console does, since they would not send to it otherwise. It requests \
+        nothing but their lists of entities.";
+    `P "With $(b,--json) and $(b,--imc-xml) each system has $(b,messages) too: an object for each kind of message \
+        that it sends, with its number ($(b,id)), the number received ($(b,count)) and the content of the last one.";
+    `P "With $(b,--platform) it shows the vehicles of adapters instead, and orders nothing.";
     `S Manpage.s_options;
     `S Imc_options.s_network;
     `S Manpage.s_exit_status;
     `S Manpage.s_examples;
     `Pre "  $(mname) $(tname)\n  $(mname) $(tname) --once --json | jq '.[].id'";
     `S Manpage.s_see_also;
-    `P "$(i,docs/imc.md) tells what to do if nobody is there." ]
+    `P "If no vehicle is found, see $(i,docs/imc.md)." ]
 
 let command =
   let info =

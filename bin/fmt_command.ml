@@ -41,7 +41,7 @@ let run check paths =
 
 let paths =
   let doc =
-    "Programs and fleets, and folders with such. Without any, or for $(b,-), standard input is formatted onto standard \
+    "Programs and fleets, and folders of them. Without any, or for $(b,-), standard input is formatted onto standard \
      output." in
   Arg.(value & pos_all string [] & info [] ~docv:"FILE" ~doc)
 
@@ -51,8 +51,8 @@ let check =
 
 let man =
   [ `S Manpage.s_description;
-    `P "$(tname) lays programs and fleets out in one way: four spaces a level, one blank between words, a statement a \
-        line, at most 120 columns. It rewrites each $(i,FILE) that is laid out otherwise, and prints its name.";
+    `P "$(tname) formats programs and fleets in one way: four spaces a level, one blank between words, a statement a \
+        line, at most 120 columns. It rewrites each $(i,FILE) that has another layout, and prints its name.";
     `P "Comments stay, and so do ends of lines between arguments and before operators; of several empty lines one \
         stays. Braces are on one line as a whole, or have a line for each statement. Only comments and strings may go \
         beyond 120 columns. The program means the same, and formatting it again changes nothing.";
@@ -62,10 +62,10 @@ let man =
   @ Options.see_also
 
 let exits =
-  Cmd.Exit.info (Exit_status.code Failed) ~doc:"with $(b,--check): a file is laid out otherwise."
+  Cmd.Exit.info (Exit_status.code Failed) ~doc:"with $(b,--check): a file has another layout."
   :: Options.exits [ Done; Bad_input; Platform_trouble; Bug ]
 
 let command =
   let info =
-    Cmd.info "fmt" ~docs:Options.s_write ~doc:"lay programs and fleets out in one way" ~man ~exits in
+    Cmd.info "fmt" ~docs:Options.s_write ~doc:"format programs and fleets in one way" ~man ~exits in
   Cmd.v info Term.(const run $ check $ paths)

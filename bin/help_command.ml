@@ -28,9 +28,8 @@ let topic =
 
 let man =
   [ `S Manpage.s_description;
-    `P "$(tname) tells what whoever starts the program $(i,PROG) wants to know: the comment that it begins with; its \
-        parameters, with their values, which $(b,--set) of other commands replaces; the inputs that can be posted to \
-        it.";
+    `P "$(tname) prints how to use the program $(i,PROG): the comment at its beginning; its parameters, with their \
+        values, which $(b,--set) of other commands replaces; the inputs that can be posted to it.";
     `S Manpage.s_examples;
     `Pre "  $(mname) $(tname) examples/parameters.dol\n  $(mname) exec examples/parameters.dol --set rounds=3\n\
          \  $(mname) $(tname) exec" ]
@@ -38,7 +37,7 @@ let man =
 
 let command ~others =
   let info =
-    Cmd.info "help" ~docs:Options.s_run ~doc:"tell what a program's parameters and inputs are" ~man
+    Cmd.info "help" ~docs:Options.s_run ~doc:"show a program's parameters and inputs" ~man
       ~exits:(Options.exits [ Done; Bad_input; Bug ])
   in
   Cmd.v info Term.(ret (const (run ("help" :: others)) $ topic))

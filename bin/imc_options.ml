@@ -12,8 +12,8 @@ let imc =
 
 let definition =
   let doc =
-    "Take names that Dolphin has not got, and messages that it does not know, from the definition of IMC in $(docv), \
-     as vehicles come with it: $(i,IMC.xml). It is an error if Dolphin's messages differ from it."
+    "Take unknown names and messages from the definition of IMC in $(docv), as vehicles come with it: $(i,IMC.xml). \
+     It is an error if Dolphin's messages differ from it."
   in
   Arg.(value & opt (some string) None & info [ "imc-xml" ] ~docs:s_network ~docv:"FILE" ~doc)
 
@@ -38,16 +38,15 @@ let interfaces =
 
 let port =
   let doc =
-    "Have vehicles send to port $(docv) of this machine, for a firewall's sake. By default any free one. Implies \
-     $(b,--imc)."
+    "Have vehicles send to port $(docv) of this machine, for firewalls. By default any free one. Implies $(b,--imc)."
   in
   let ports = Options.between ~docv:"PORT" ~least:1 ~most:65535 "a port" in
   Arg.(value & opt (some ports) None & info [ "imc-port" ] ~docs:s_network ~docv:"PORT" ~doc)
 
 let id =
   let doc =
-    "Be the system $(docv) of the network, for example 0x4001. By default one is drawn for each run, as vehicles \
-     forget a console that comes back on another port only when they restart. Implies $(b,--imc)."
+    "Be the system $(docv) of the network, for example 0x4001. By default an address is drawn for each run, since \
+     vehicles forget a console that returns on another port only when they restart. Implies $(b,--imc)."
   in
   let ids = Options.between ~docv:"ID" ~least:0x4000 ~most:0x5FFF "the IMC address of a console" in
   Arg.(value & opt (some ids) None & info [ "imc-id" ] ~docs:s_network ~docv:"ID" ~doc)
@@ -65,8 +64,8 @@ let devices =
 
 let payload =
   let doc =
-    "What a vehicle carries, as in $(b,--imc-payload noptilus-1=DVL,Sidescan), instead of what it says itself (the \
-     labels of its entities). May be repeated, for one vehicle each. Implies $(b,--imc)."
+    "The payload of a vehicle, as in $(b,--imc-payload noptilus-1=DVL,Sidescan), instead of the one that it reports \
+     (the labels of its entities). May be repeated, for one vehicle each. Implies $(b,--imc)."
   in
   Arg.(value & opt_all devices [] & info [ "imc-payload" ] ~docs:s_network ~docv:"VEHICLE=DEVICES" ~doc)
 
@@ -97,15 +96,14 @@ let ports =
 
 let discovery_ports =
   let doc =
-    "The ports on which systems announce themselves. By default those that vehicles have, 30100-30104. Implies \
-     $(b,--imc)."
+    "The ports on which systems announce themselves. By default those of vehicles, 30100-30104. Implies $(b,--imc)."
   in
   Arg.(value & opt (some ports) None & info [ "imc-discovery-ports" ] ~docs:s_network ~docv:"FIRST-LAST" ~doc)
 
 let abort =
   let doc =
-    "Send an Abort to a vehicle that still reports MANEUVER 3 s after it was told to stop, and once a second from then \
-     on: the last means if its plan engine has lost the plan. An Abort also ends what others run on it. Implies \
+    "Send an Abort to a vehicle that still reports MANEUVER 3 s after an order to stop, and then once a second: the \
+     last resort if its plan engine has lost the plan. An Abort also ends plans that others run on it. Implies \
      $(b,--imc)."
   in
   Arg.(value & flag & info [ "imc-abort" ] ~docs:s_network ~doc)

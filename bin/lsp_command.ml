@@ -58,9 +58,9 @@ let run () =
 let man =
   [ `S Manpage.s_description;
     `P "$(tname) is a language server for editors: it speaks the Language Server Protocol on its standard input and \
-        output. It tells of faults as $(b,check) does, completes names, settings, maneuvers and plans of the fleet, \
-        says what a name is, finds definitions and uses, renames, and formats as $(b,fmt) does.";
-    `P "$(i,docs/editors.md) says how editors are told of it.";
+        output. It reports faults as $(b,check) does, completes names, settings, maneuvers and plans of the fleet, \
+        describes names, finds definitions and uses, renames, and formats as $(b,fmt) does.";
+    `P "$(i,docs/editors.md) describes how to set up editors.";
     `S Manpage.s_files;
     `I ("$(i,PROG) with the ending $(b,.fleet)", "The fleet of a program that is being edited.") ]
   @ Options.see_also
@@ -70,7 +70,7 @@ let exits =
   :: Options.exits [ Done; Bad_input; Platform_trouble; Bug ]
 
 let stdio =
-  let doc = "Taken for clients that pass it: standard input and output are what is used anyhow." in
+  let doc = "Accepted for clients that pass it: standard input and output are used in any case." in
   Arg.(value & flag & info [ "stdio" ] ~doc)
 
 let command =

@@ -45,15 +45,15 @@ let graph =
 
 let compare_with =
   let doc =
-    "Compare with the graph of $(docv), a program or a file as above: say whether they are strongly bisimilar, or else \
-     what only one of them can do."
+    "Compare with the graph of $(docv), a program or a file as above: report whether they are strongly bisimilar, or \
+     else the behaviour that only one of them has."
   in
   Arg.(value & opt (some string) None & info [ "compare" ] ~docv:"OTHER" ~doc)
 
 let format =
   let formats = [ ("aut", State_graph.Aut); ("dot", Dot); ("json", Json) ] in
   let doc =
-    "How to write the graph: $(b,aut), the Aldebaran format of CADP, mCRL2 and LTSmin; $(b,dot), for Graphviz; or \
+    "The format of the graph: $(b,aut), the Aldebaran format of CADP, mCRL2 and LTSmin; $(b,dot), for Graphviz; or \
      $(b,json)."
   in
   Arg.(value & opt (enum formats) State_graph.Aut & info [ "format" ] ~docv:"FORMAT" ~doc)
@@ -82,7 +82,7 @@ let man =
         its transitions are steps, with the labels of $(i,docs/semantics.md): two steps with one label that lead to \
         one state are two transitions, as $(mname) $(b,explore) counts them. The world is that of $(mname) \
         $(b,explore).";
-    `P "With $(b,--compare) it tells two such graphs apart, by a formula that only one of them fulfils and, where \
+    `P "With $(b,--compare) it distinguishes two such graphs by a formula that holds for only one of them and, if \
         there is one, a run that only one of them has.";
     `S Manpage.s_examples;
     `Pre "  $(mname) $(tname) examples/parallel.dol -o parallel.aut\n\

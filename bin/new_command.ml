@@ -3,9 +3,9 @@ open Dolphin_app
 
 let tell folder =
   Printf.printf
-    "%s is a mission to start from: its README.md tells more. Try, there:\n\
+    "%s is a mission to start from; see its README.md. Try there:\n\
     \  dolphin exec mission.dol      runs it on the simulated fleet\n\
-    \  dolphin explore mission.dol   checks every run that it can have\n"
+    \  dolphin explore mission.dol   checks every possible run\n"
     folder
 
 let run folder =
@@ -21,9 +21,9 @@ let folder =
 
 let man =
   [ `S Manpage.s_description;
-    `P "$(tname) makes a folder with a small mission: two vehicles survey, and one that fails is replaced. It has the \
-        program ($(i,mission.dol)), the fleet that it is tried on ($(i,mission.fleet)), $(i,README.md), and \
-        $(i,check.sh), which checks and explores the mission, with a workflow that lets a server of git do so.";
+    `P "$(tname) makes a folder with a small mission: two vehicles survey, and one that fails is replaced. The folder \
+        has the program ($(i,mission.dol)), a fleet to try it on ($(i,mission.fleet)), $(i,README.md), and \
+        $(i,check.sh), which checks and explores the mission, with a workflow that does so on a git server.";
     `S Manpage.s_examples;
     `Pre "  $(mname) $(tname) survey\n  cd survey\n  $(mname) exec mission.dol" ]
   @ Options.see_also

@@ -23,24 +23,22 @@ let set_of doc =
   Arg.(value & opt_all setting [] & info [ "set" ] ~docv:"NAME=VALUE" ~doc)
 
 let set_doc =
-  "Give the program's parameter $(i,NAME) another value. May be repeated. $(mname) $(b,help) $(i,PROG) tells which \
-   parameters there are."
+  "Give the program's parameter $(i,NAME) another value. May be repeated. $(mname) $(b,help) $(i,PROG) lists the \
+   parameters."
 
 let set = set_of set_doc
 
 let set_range =
   set_of
     (set_doc
-     ^ " Of one that is a whole number, $(i,VALUE) may be a range, such as $(b,1..8): then the question is asked for \
-        each of these, and there is a table, the least value for which all holds, and a run that breaks it with one \
-        less.")
+     ^ " For a whole number, $(i,VALUE) may be a range, such as $(b,1..8): then each value is analysed, and the answer \
+        is a table, the least value for which all holds, and a run that violates a property with one less.")
 
 let layers =
   let doc =
     Printf.sprintf
-      "Draw what the map $(docv) has below the ways: a coast, an area of work. As for $(b,map) of programs, it is \
-       GeoJSON, KML, KMZ, GPX, a plan of QGroundControl or a mission of Neptus (%s). The option may be given several \
-       times."
+      "Draw the features of the map $(docv) below the ways: a coast, an area of work. As for $(b,map) of programs, it \
+       is GeoJSON, KML, KMZ, GPX, a plan of QGroundControl or a mission of Neptus (%s). May be repeated."
       (String.concat ", " Dolphin_maps.Map_file.formats)
   in
   Arg.(value & opt_all string [] & info [ "layer" ] ~docv:"FILE" ~doc)
@@ -77,7 +75,7 @@ let positive ~docv = number ~docv "a number greater than 0" (fun x -> x > 0. && 
 
 let workers ~doc =
   let cores = Dolphin_checker.Shared_memory.machine_cores () in
-  let processes = whole ~docv:"N" "no number from 1 on" in
+  let processes = whole ~docv:"N" "not a number from 1 on" in
   Arg.(value & opt processes cores & info [ "workers" ] ~docv:"N" ~absent:"the number of cores" ~doc)
 
 let s_write = "WRITE A PROGRAM"

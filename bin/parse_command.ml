@@ -11,10 +11,9 @@ let run path =
 let man =
   [ `S Manpage.s_description;
     `P "$(tname) reads the program and writes it on standard output as $(mname) has understood it: one statement a \
-        line, four spaces a level, no parentheses but those needed, every operator in its one spelling. What it writes \
-        means the same as what it has read. Comments are left out.";
-    `P "It shows how the program was read where that is in doubt: which operator binds closer, where a command without \
-        parentheses ends.";
+        line, four spaces a level, only the necessary parentheses, every operator in its one spelling. The output \
+        means the same as the input. Comments are left out.";
+    `P "It answers doubts about precedence: which operator binds closer, where a command without parentheses ends.";
     `S Manpage.s_examples;
     `Pre "  $(mname) $(tname) examples/rendezvous.dol" ]
   @ Options.see_also

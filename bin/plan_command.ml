@@ -13,7 +13,7 @@ let tell_end : Driver.outcome -> unit = function
   | Ended Completed -> ()
   | (Ended (Halted _ | Failed _ | Interrupted) | Stuck _ | Spins _) as outcome ->
     let why = Format.asprintf "%a" Driver.pp_outcome outcome in
-    Report.complain ("the run that the plans are taken from did not complete: " ^ why)
+    Report.complain ("the run that determines the plans did not complete:" ^ why)
 
 let print_named definition name found outcome : Exit_status.t =
   let inline = List.filter (fun (f : Inline_plans.found) -> f.plan <> None) found in
@@ -28,7 +28,7 @@ let print_named definition name found outcome : Exit_status.t =
       match List.filter_map (fun (f : Inline_plans.found) -> f.plan) plans with
       | [] ->
         Report.complain
-          (Printf.sprintf "'%s' is a plan that vehicles know by name: the program does not describe it" name);
+          (Printf.sprintf "'%s' is a plan known to vehicles by name: the program does not describe it" name);
         Failed
       | plans -> List.iter (show definition) plans; Done)
 
@@ -73,7 +73,7 @@ let write_map (export : Export_options.t) path name found : (Exit_status.t, Erro
   let by_name = List.filter (fun (f : Inline_plans.found) -> f.plan = None) chosen in
   if by_name <> [] then
     Report.complain
-      (Printf.sprintf "left out, since vehicles know their way and the program does not: %s" (names by_name));
+      (Printf.sprintf "left out, since only vehicles know their way: %s" (names by_name));
   let title = Filename.basename path in
   let* () =
     match name, chosen with
@@ -92,7 +92,7 @@ let run () (is_export, path, name) set fleet seed answers json adapters definiti
      Report.diagnostics ~source:program.source program.warnings;
      let* () =
        if json && (is_export || adapters <> []) then
-         Error (Error.Bad_input "--json prints what plans are in short: it goes with neither export nor --platform")
+         Error (Error.Bad_input "--json prints a summary of plans: it excludes export and --platform")
        else Ok () in
      let found, outcome = Inline_plans.of_run program fleet ~seed ~answers in
      match adapters, name with
@@ -123,7 +123,7 @@ let arguments =
   ret (const arrange $ program $ plan $ further)
 
 let seed =
-  let doc = "What chance depends on in the run that the plans are taken from." in
+  let doc = "The seed of the random numbers of the run that determines the plans." in
   Arg.(value & opt int 0 & info [ "seed" ] ~docv:"N" ~doc)
 
 let answers =
@@ -132,8 +132,8 @@ let answers =
 
 let json =
   let doc =
-    "Print the plans in short as one JSON object: who gets each, and the way of those that the program describes, \
-     maneuver by maneuver; why the run did not complete, if so."
+    "Print a summary of the plans as one JSON object: the vehicle of each, and the way of those that the program \
+     describes, maneuver by maneuver; if the run did not complete, the reason."
   in
   Arg.(value & flag & info [ "json" ] ~doc)
 
@@ -145,15 +145,14 @@ let man =
     `P "$(tname) prints the inline plan $(i,NAME) of the program $(i,PROG) as IMC vehicles get it: a \
         PlanSpecification, in JSON. Angles are in radians there, lengths in metres, times in seconds. A mission of \
         items is printed as adapters of $(b,--platform) get it.";
-    `P "What a plan is depends on what the program computes. So the program is run, on simulated vehicles and in no \
-        time, as $(mname) $(b,exec) does without $(b,--imc), and the plans are those that vehicles are given in that \
+    `P "A plan depends on the values that the program computes. So the program is run on simulated vehicles, without \
+        waiting, as $(mname) $(b,exec) does without $(b,--imc), and the plans are those given to vehicles in that \
         run. A plan that is not started in it is not found: another fleet, seed or answer may lead to it. If vehicles \
         are given different plans of one name, all are printed.";
-    `P "With $(b,--platform) the plans are not printed for IMC: adapters are asked what keeps their vehicles from \
-        running them, and nothing moves.";
+    `P "With $(b,--platform) the plans are not printed for IMC: adapters report the problems that keep their vehicles \
+        from running them, and nothing moves.";
     `P "$(tname) $(b,export), or $(b,--to) $(i,FORMAT), writes the plans for other programs: the way of each plan \
-        through its way points, and where each of its maneuvers ends. A plan that vehicles know by name has no way \
-        that could be written.";
+        through its way points, and the end of each of its maneuvers. A plan known by name has no way to write.";
     Export_options.man;
     `S Manpage.s_arguments;
     `S Manpage.s_options;

@@ -21,7 +21,7 @@ let known only =
   | Some name ->
     let near = Dolphin_syntax.Diagnostic.suggest name (List.map fst Kit.names) in
     let hint = Option.fold near ~none:"" ~some:(Printf.sprintf " (did you mean '%s'?)") in
-    Error (Error.Bad_input (Printf.sprintf "there is no situation '%s'%s" name hint))
+    Error (Error.Bad_input (Printf.sprintf "unknown situation '%s'%s" name hint))
 
 let conclude command junit verdicts =
   let failed = List.filter (fun (v : Kit.verdict) -> v.wrong <> None) verdicts in
@@ -41,7 +41,7 @@ let run command short long vehicle patience only junit =
      match Lwt_main.run judged with
      | Some verdicts -> conclude command junit verdicts
      | None ->
-       print_endline "is interrupted; the adapter is ended";
+       print_endline "interrupted; the adapter is ended";
        Ok Exit_status.Interrupted)
 
 (* {1 The command line} *)
@@ -75,10 +75,10 @@ let junit =
 let man =
   let situation (name, what) = `I ("$(b," ^ name ^ ")", what) in
   [ `S Manpage.s_description;
-    `P "$(tname) puts an adapter, a process that speaks the platform protocol ($(i,docs/platform.md)), into situations \
-        that it must get right: orders that come twice, a slow reader, its own death, the death of the console. Each \
-        begins with a new process. Where it does something wrong, the last lines of the conversation are shown.";
-    `P "The adapter's vehicles move: let them be simulated. They must know two plans by name, a short and a long one.";
+    `P "$(tname) puts an adapter, a process that speaks the platform protocol ($(i,docs/platform.md)), into \
+        situations that it must handle: repeated orders, a slow reader, its own death, the death of the console. Each \
+        begins with a new process. After a failure, the last lines of the conversation are shown.";
+    `P "The adapter's vehicles move: use simulated ones. They must know two plans by name, a short and a long one.";
     `S "SITUATIONS" ]
   @ List.map situation Kit.names
   @ [ `S Manpage.s_arguments;
@@ -90,11 +90,11 @@ let man =
   @ Options.see_also
 
 let exits =
-  Cmd.Exit.info (Exit_status.code Failed) ~doc:"the adapter does something wrong in some situation."
+  Cmd.Exit.info (Exit_status.code Failed) ~doc:"the adapter fails in some situation."
   :: Options.exits [ Done; Bad_input; Platform_trouble; Interrupted; Bug ]
 
 let check =
-  let info = Cmd.info "check" ~doc:"judge an adapter by situations that it must get right" ~man ~exits in
+  let info = Cmd.info "check" ~doc:"judge an adapter by situations that it must handle" ~man ~exits in
   Cmd.v info Term.(const run $ adapter $ short $ long $ vehicle $ patience $ only $ junit)
 
 let command =

@@ -49,7 +49,7 @@ let run () name words ~what =
      Ok Exit_status.Done)
 
 let run_name =
-  let doc = "The run, by its name, how its name begins, $(b,latest), or the path of its journal." in
+  let doc = "The run: its name or a prefix of it, $(b,latest), or the path of its journal." in
   Arg.(required & pos 0 (some string) None & info [] ~docv:"RUN" ~doc)
 
 let words =
@@ -60,15 +60,15 @@ let words =
   Arg.(value & pos_right 0 string [] & info [] ~docv:"KEY: VALUE" ~doc)
 
 let what =
-  let follow = (`Follow, Arg.info [ "follow" ] ~doc:"Print the journal of the run, and go on until it ends.") in
+  let follow = (`Follow, Arg.info [ "follow" ] ~doc:"Print the journal of the run, until it ends.") in
   let stop = (`Stop, Arg.info [ "stop" ] ~doc:"Stop the run, as Ctrl-C does.") in
   Arg.(value & vflag `Post [ follow; stop ])
 
 let command =
   let man =
     [ `S Manpage.s_description;
-      `P "$(tname) posts pairs to a run that goes on, with keys that its program declares by $(b,input). It returns \
-          when the run has taken them. Without pairs it prints what the program declares.";
+      `P "$(tname) posts pairs to a run in progress, with keys that its program declares by $(b,input). It returns \
+          when the run has taken them. Without pairs it prints the program's declarations.";
       `P "It speaks to the socket beside the journal of the run, as other programs may: $(i,docs/socket.md). Runs on \
           vehicles of a network have one, and simulated ones with $(b,--speed) and a journal.";
       `S Manpage.s_examples;
@@ -76,7 +76,7 @@ let command =
     @ Options.see_also
   in
   let info =
-    Cmd.info "post" ~docs:Options.s_run ~doc:"post to a run that goes on, follow it or stop it" ~man
+    Cmd.info "post" ~docs:Options.s_run ~doc:"post to a run in progress, follow it or stop it" ~man
       ~exits:(Options.exits [ Done; Bad_input; Platform_trouble; Bug ])
   in
   let run setup name words what = run setup name words ~what in

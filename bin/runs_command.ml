@@ -38,7 +38,7 @@ let show transitions name =
 
 let show_command =
   let run =
-    let doc = "The run, by its name or how its name begins; by default the $(b,latest)." in
+    let doc = "The run: its name or a prefix of it; by default the $(b,latest)." in
     Arg.(value & pos 0 string "latest" & info [] ~docv:"RUN" ~doc)
   in
   let man =
@@ -60,9 +60,9 @@ let list_command =
 let command =
   let man =
     [ `S Manpage.s_description;
-      `P "$(tname) lists the runs whose journals have been kept for the user, the latest first: those on vehicles of a \
-          network, and those that $(mname) $(b,exec --keep) kept. A run that broke off is resumed by $(mname) \
-          $(b,exec --resume) with the path that $(tname) $(b,show) prints. To forget a run, remove its file.";
+      `P "$(tname) lists the runs whose journals are kept for the user, the latest first: those on vehicles of a \
+          network, and those of $(mname) $(b,exec --keep). A run that broke off is resumed by $(mname) $(b,exec \
+          --resume) with the path that $(tname) $(b,show) prints. To forget a run, remove its file.";
       `S "FILES";
       `I ("$(b,XDG_STATE_HOME)/dolphin/runs", "The journals. By default $(b,XDG_STATE_HOME) is ~/.local/state.");
       `S Manpage.s_examples;

@@ -14,15 +14,15 @@ let s_many = "MANY RUNS"
 let natural = Options.whole ~docv:"N" "not a whole number greater than 0"
 
 let runs =
-  let doc = "Make $(docv) simulated runs with different seeds, and say what became of all of them." in
+  let doc = "Make $(docv) simulated runs with different seeds, and summarise their endings." in
   Arg.(value & opt (some natural) None & info [ "runs" ] ~docs:s_many ~docv:"N" ~doc)
 
 let until =
   let accuracy = Options.number ~docv:"X" "a number between 0 and 0.5" (fun x -> x > 0. && x < 0.5) in
   let doc =
     "Make runs until the share of those that complete is known to within $(docv), such as 0.01, with 95 % confidence; \
-     with $(b,--runs), $(i,N) at most. It looks after 100 runs, and then each time when there are a quarter more; all \
-     looks together have that confidence, so that intervals are a little wider than with $(b,--runs) alone."
+     with $(b,--runs), $(i,N) at most. The share is checked after 100 runs, and then after every further quarter; all \
+     checks together have that confidence, so intervals are a little wider than with $(b,--runs) alone."
   in
   Arg.(value & opt (some accuracy) None & info [ "until" ] ~docs:s_many ~docv:"X" ~doc)
 
@@ -35,15 +35,15 @@ let json =
 
 let each =
   let doc =
-    "With $(b,--runs): print a line of JSON for each run, in the order of seeds, in place of an answer about all of \
-     them. A header stands before them. $(i,docs/time.md) has their members."
+    "With $(b,--runs): print a line of JSON for each run, in the order of seeds, instead of an answer about all of \
+     them. The first line is a header. $(i,docs/time.md) describes the members."
   in
   Arg.(value & flag & info [ "each" ] ~docs:s_many ~doc)
 
 let runs_from =
   let doc =
     "Make no runs, but count those that $(b,--each) printed into the file $(docv), or, if it is $(b,-), on standard \
-     input: the outputs of several machines, put behind each other in the order of their seeds. $(i,PROG), the fleet, \
+     input: the outputs of several machines, concatenated in the order of their seeds. $(i,PROG), the fleet, \
      $(b,--set) and $(b,--answer) are those of the runs."
   in
   Arg.(value & opt (some string) None & info [ "runs-from" ] ~docs:s_many ~docv:"FILE" ~doc)
@@ -52,7 +52,7 @@ let wanted =
   let make runs until jobs json each from =
     match from, runs, until with
     | Some _, _, _ when runs <> None || until <> None || jobs <> None || each ->
-      Error (`Msg "--runs-from makes no runs: --runs, --until, --jobs and --each do not go with it")
+      Error (`Msg "--runs-from makes no runs: it excludes --runs, --until, --jobs and --each")
     | None, None, None when jobs <> None || json || each ->
       Error (`Msg "--jobs, --json and --each go with --runs or --until")
     | None, None, None -> Ok None
@@ -66,11 +66,11 @@ let wanted =
 (* {1 Runs} *)
 
 let progress ~live ~most =
-  let told = ref 0. in
+  let shown = ref 0. in
   fun n ->
     let now = Unix.gettimeofday () in
-    if live && now -. !told > 0.1 then begin
-      told := now;
+    if live && now -. !shown > 0.1 then begin
+      shown := now;
       let most = Option.fold most ~none:"" ~some:(Printf.sprintf " of %d") in
       Printf.eprintf "\r%d%s runs\027[K%!" n most
     end
@@ -88,9 +88,9 @@ let sampled t ~seed ~answers program fleet =
   | Read path -> Sampling.count ~answers (Sample_lines.read ~header path)
   | Made { runs; until; jobs } ->
     let live = Unix.isatty Unix.stderr && t.output = People in
-    let tell line = if t.output = Each then (print_string (line ()); print_char '\n') in
-    let each ~seed sample = tell (fun () -> Sample_lines.of_sample program ~seed sample) in
-    tell (fun () -> header);
+    let print line = if t.output = Each then (print_string (line ()); print_char '\n') in
+    let each ~seed sample = print (fun () -> Sample_lines.of_sample program ~seed sample) in
+    print (fun () -> header);
     let settings : Sampling.settings =
       { seed = Option.value seed ~default:0; runs; until; jobs = Option.value jobs ~default:(Processors.count ());
         answers }
@@ -104,7 +104,7 @@ let check t ~drawing ~seed =
   match t with
   | { source = Read _; _ } when seed <> None -> Error (Error.Bad_input "--runs-from makes no runs: --seed has no use")
   | { output = Each; _ } when drawing <> None ->
-    Error (Error.Bad_input "--each prints runs and draws none: --runs-from draws what was printed")
+    Error (Error.Bad_input "--each prints runs and draws none: use --runs-from to draw them")
   | _ -> Ok ()
 
 let draw program s drawing =

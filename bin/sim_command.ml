@@ -24,8 +24,8 @@ let adapt (settings : Scenario.t -> Network.settings) ~state (fleet : Fleet_file
 let run fleet imc platform state log lasts settings =
   let bad why = Report.error (Error.Bad_input why) in
   match imc, platform with
-  | true, true -> bad "--imc and --platform do not go together: say one of them"
-  | false, false -> bad "say --imc or --platform: which protocol the simulated vehicles are to speak"
+  | true, true -> bad "--imc and --platform exclude each other: give one of them"
+  | false, false -> bad "give --imc or --platform, the protocol of the simulated vehicles"
   | true, false when state <> None -> bad "--state goes with --platform"
   | true, false -> Report.result (Result.bind (Fleet_file.load fleet) (serve settings ~log lasts))
   | false, true when log <> None || lasts <> None -> bad "--log and --for go with --imc"
@@ -47,16 +47,16 @@ let platform =
 
 let state =
   let doc =
-    "With $(b,--platform): keep in the file $(docv) what the fleet was ordered, so that it outlives this process: the \
-     next one with this file finds the vehicles as far on as they would be by now. The fleet file, the seed and the \
+    "With $(b,--platform): store the fleet's orders in the file $(docv), so that the fleet outlives this process: the \
+     next process with this file finds the vehicles where they would be by then. The fleet file, the seed and the \
      speed must be the same."
   in
   Arg.(value & opt (some string) None & info [ "state" ] ~docv:"FILE" ~doc)
 
 let log_file =
   let doc =
-    "Write to the file $(docv) what each vehicle was commanded and did, a JSON object a line: $(b,time), $(b,vehicle), \
-     $(b,did) ($(b,started), $(b,refused), $(b,stopped), $(b,completed), $(b,failed), ...), $(b,plan), \
+    "Write the orders to each vehicle and its reactions to the file $(docv), a JSON object a line: $(b,time), \
+     $(b,vehicle), $(b,did) ($(b,started), $(b,refused), $(b,stopped), $(b,completed), $(b,failed), ...), $(b,plan), \
      $(b,request_id), $(b,by), $(b,sent)."
   in
   Arg.(value & opt (some string) None & info [ "log" ] ~docv:"FILE" ~doc)
@@ -69,20 +69,20 @@ let man =
   [ `S Manpage.s_description;
     `P "$(tname) puts the vehicles of a fleet file on the network. Each is a system that speaks IMC over UDP as a \
         vehicle with DUNE does: it announces itself, sends its state to consoles, takes plans and runs them. The \
-        fleet file says how plans end, and when vehicles join, lose their link and leave.";
+        fleet file defines how plans end, and when vehicles join, lose their link and leave.";
     `P "When all vehicles can be found, a line for each is printed: its name, type, number and port. They go on until \
         Ctrl-C, or for the time given by $(b,--for).";
     `P "With $(b,--platform) the vehicles are not on a network: $(tname) is an adapter, and standard input and output \
-        are its streams. $(i,docs/platform.md) tells more.";
+        are its streams. See $(i,docs/platform.md).";
     `S Manpage.s_arguments;
     `S Manpage.s_options;
     `S Sim_options.faults_section;
-    `P "What is wrong with links concerns each datagram by itself. The same seed gives the same faults, as far as the \
+    `P "Faults of links affect each datagram independently. The same seed gives the same faults, as far as the \
         datagrams are the same.";
     `S Sim_options.network_section;
     `S Manpage.s_exit_status;
     `S Manpage.s_examples;
-    `P "A fleet whose missions take a tenth of their time, on a bad link:";
+    `P "A fleet at ten times its speed, on a bad link:";
     `Pre "  $(mname) $(tname) examples/rendezvous.fleet --imc --speed 10 --loss 0.3 --duplication 0.1 \
           --reordering 0.2";
     `P "A program on a fleet behind the platform protocol:";

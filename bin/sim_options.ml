@@ -91,7 +91,7 @@ let option ?(section = Manpage.s_options) name kind default ~docv doc =
 let speed =
   option "speed" positive usual.speed ~docv:"X" "Let missions run $(docv) times as fast as in reality."
 
-let seed = option "seed" Arg.int usual.seed ~docv:"N" "What chance depends on, of plans and of links."
+let seed = option "seed" Arg.int usual.seed ~docv:"N" "Seed of the random numbers for plans and links."
 
 let strict =
   let doc =
@@ -109,15 +109,15 @@ let fault name kind default ~docv doc = option ~section:faults_section name kind
 
 let faults =
   let make loss duplication reordering delay : Dolphin_sim_imc.Faults.t = { loss; duplication; reordering; delay } in
-  let loss = fault "loss" share 0. ~docv:"SHARE" "Lose so many of the datagrams, from 0 to 1, in both directions." in
-  let duplication = fault "duplication" share 0. ~docv:"SHARE" "Let so many datagrams come twice." in
+  let loss = fault "loss" share 0. ~docv:"SHARE" "Lose this share of the datagrams, from 0 to 1, in both directions." in
+  let duplication = fault "duplication" share 0. ~docv:"SHARE" "Deliver this share of the datagrams twice." in
   let reordering =
     fault "reordering" share 0. ~docv:"SHARE"
-      "Hold so many datagrams back for 10 to 100 ms, so that others overtake them."
+      "Hold this share of the datagrams back for 10 to 100 ms, so that others overtake them."
   in
   let delay =
     fault "delay" delay (0., 0.) ~docv:"SECONDS"
-      "Let each datagram be late by $(docv), or by something between $(i,LEAST-MOST)."
+      "Delay each datagram by $(docv), or by a random time between $(i,LEAST-MOST)."
   in
   Term.(const make $ loss $ duplication $ reordering $ delay)
 
@@ -135,8 +135,8 @@ let blocks =
 let stalls =
   let doc =
     "Let the vehicle's computer stall $(i,FROM) seconds after the start, by the mission's clock, for $(i,LASTING) \
-     seconds. Nothing is heard of it meanwhile. Then its plan engine has lost the plan that runs: it is BLOCKED and \
-     answers STOP by $(b,no plan is running), while the vehicle reports MANEUVER and goes on to the end of its \
+     seconds. The vehicle sends nothing meanwhile. Then its plan engine has lost the running plan: it is BLOCKED and \
+     answers STOP by $(b,no plan is running), while the vehicle reports MANEUVER and continues to the end of its \
      maneuver, or until an Abort. May be repeated."
   in
   Arg.(value & opt_all block [] & info [ "stall" ] ~docs:faults_section ~docv:"VEHICLE=FROM,LASTING" ~doc)
@@ -144,7 +144,7 @@ let stalls =
 let vanishes =
   let doc =
     "Let the vehicle vanish from the network $(i,FROM) seconds after the start, by the mission's clock, and return \
-     $(i,LASTING) seconds later, or never. What it runs goes on meanwhile. May be repeated."
+     $(i,LASTING) seconds later, or never. Its plan continues meanwhile. May be repeated."
   in
   Arg.(value & opt_all vanishing [] & info [ "vanish" ] ~docs:faults_section ~docv:"VEHICLE=FROM[,LASTING]" ~doc)
 
@@ -157,7 +157,7 @@ let announce_period =
 
 let contact_period =
   network "contact" natural usual.contact_period ~docv:"SECONDS"
-    "Let vehicles look every $(docv) seconds whether there is a new system to send to; 0: at once."
+    "Let vehicles check every $(docv) seconds for new systems to send to; 0: at once."
 
 let first_port = network "port" port usual.first_port ~docv:"PORT" "Look for free data ports from $(docv) on."
 

@@ -7,11 +7,11 @@ let run () =
 
 let man =
   [ `S Manpage.s_description;
-    `P "$(tname) answers questions about the semantics on its standard input, in lines of JSON: a program and a fleet \
-        in, where its runs begin out; a configuration in, all its transitions out, each with its rules, label, effects \
-        and next configuration. A configuration can be kept, compared, and asked about at any time: nothing is \
-        remembered but the program that was given last.";
-    `P "So another implementation can be held against this one, and tools can walk through a program's runs without \
+    `P "$(tname) answers questions about the semantics on its standard input, in lines of JSON. For a program and a \
+        fleet it returns the initial configuration; for a configuration, all its transitions, each with its rules, \
+        label, effects and next configuration. A configuration can be stored, compared, and sent at any time: only \
+        the program given last is remembered.";
+    `P "So another implementation can be compared with this one, and tools can walk through a program's runs without \
         OCaml. $(i,conformance/INTERPRETING.md) describes the protocol; $(mname) $(b,conform) speaks it to others.";
     `S Manpage.s_examples;
     `Pre "  \\$ $(mname) $(tname)\n\
@@ -23,7 +23,7 @@ let man =
 
 let command =
   let info =
-    Cmd.info "step" ~docs:Options.s_others ~doc:"tell what a configuration can do, for other programs" ~man
+    Cmd.info "step" ~docs:Options.s_others ~doc:"compute the transitions of configurations, for other programs" ~man
       ~exits:(Options.exits [ Done; Platform_trouble; Bug ])
   in
   Cmd.v info Term.(const run $ const ())

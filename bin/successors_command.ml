@@ -18,7 +18,7 @@ let run path set fleet answers faults reduction invariants show_greeting show_ru
      set_binary_mode_in stdin true;
      set_binary_mode_out stdout true;
      match show_greeting, show_run with
-     | true, true -> Error (Error.Bad_input "--greeting asks nothing of a run: give --greeting or --run")
+     | true, true -> Error (Error.Bad_input "--greeting and --run exclude each other: give --greeting or --run")
      | true, false -> print_endline (Successors.greeting successors); Ok Exit_status.Done
      | false, true -> done_ (Successors.print_run successors stdin)
      | false, false -> done_ (Successors.serve successors stdin stdout))
@@ -26,14 +26,14 @@ let run path set fleet answers faults reduction invariants show_greeting show_ru
 let reduction =
   let kinds = [ ("none", Dolphin_explore.Reduction.Whole); ("por", Partial_order) ] in
   let doc =
-    "Which states there are: with $(b,none) all; with $(b,por) those that are left if of the orders in which \
-     independent steps may come one is followed (partial order reduction). $(i,KIND) is one of these. With \
-     $(b,--invariant), as in $(mname) $(b,explore), no order is left out."
+    "The reduction of the state space: with $(b,none), all states; with $(b,por), only those reached by one order of \
+     independent steps (partial order reduction). $(i,KIND) is one of these. With $(b,--invariant), as in $(mname) \
+     $(b,explore), all orders are included."
   in
   Arg.(value & opt (enum kinds) Dolphin_explore.Reduction.Whole & info [ "reduction" ] ~docv:"KIND" ~doc)
 
 let invariants =
-  let doc = "Tell of each state whether the condition $(docv) is false in it. May be repeated." in
+  let doc = "Report for each state whether the condition $(docv) is false in it. May be repeated." in
   Arg.(value & opt_all string [] & info [ "invariant" ] ~docv:"CONDITION" ~doc)
 
 let show_greeting =
@@ -42,28 +42,28 @@ let show_greeting =
 
 let show_run =
   let doc =
-    "Read one batch of states, each of which follows the one before, the first the initial state, and print the run \
-     that leads through them, as $(mname) $(b,explore) prints a counterexample."
+    "Read one batch of states, a run from a successor of the initial state on, and print that run as $(mname) \
+     $(b,explore) prints a counterexample. The initial state is not part of the batch."
   in
   Arg.(value & flag & info [ "run" ] ~doc)
 
 let man =
   [ `S Manpage.s_description;
     `P "$(tname) is for programs that search a state space themselves, on many machines for example \
-        ($(i,docs/scale.md)): batches of states in, on standard input; out, on standard output, what follows each of \
-        them, and what is broken there. It remembers no state. States are the same bytes in every process, so they \
-        can be kept, compared and sent anywhere.";
+        ($(i,docs/scale.md)): it reads batches of states from standard input, and writes their successors and \
+        violations to standard output. It remembers no state. States are the same bytes in every process, so they can \
+        be stored, compared and sent anywhere.";
     `P "It begins with a greeting, a line that names the version and has digests of the program and the fleet. Input \
-        must begin with the same line, so that no states of another program are mixed in. $(i,docs/successors.md) has \
-        the protocol.";
+        must begin with the same line, so that states of another program are rejected. $(i,docs/successors.md) \
+        describes the protocol.";
     `S Manpage.s_examples;
     `Pre "  $(mname) $(tname) examples/rendezvous.dol --greeting" ]
   @ Options.see_also
 
 let command =
   let info =
-    Cmd.info "successors" ~docs:Options.s_others ~doc:"tell what follows states, for searches by other programs" ~man
-      ~exits:(Options.exits [ Done; Bad_input; Inconclusive; Platform_trouble; Bug; Interrupted ])
+    Cmd.info "successors" ~docs:Options.s_others ~doc:"compute successors of states, for searches by other programs"
+      ~man ~exits:(Options.exits [ Done; Bad_input; Inconclusive; Platform_trouble; Bug; Interrupted ])
   in
   Cmd.v info
     Term.(

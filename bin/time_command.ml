@@ -114,23 +114,23 @@ let from =
 
 let fewest =
   let doc =
-    "Look for the least part of the fleet with which all runs end, none fails, every property of $(mname) \
-     $(b,explore) holds, the $(b,--deadline) and each $(b,within) are kept; and show a run that breaks one of these \
-     with a vehicle less. All smaller parts are looked at."
+    "Find the smallest part of the fleet with which all runs end, none fails, every property of $(mname) $(b,explore) \
+     holds, and the $(b,--deadline) and each $(b,within) are met; and show a run that violates one of these with a \
+     vehicle less. All smaller parts are checked."
   in
   Arg.(value & flag & info [ "fewest" ] ~doc)
 
 let slack =
   let doc =
-    "Also say of each task how much longer it may take, at its longest and in all its runs, before the latest end is \
-     later: $(b,any) if that does not depend on it. Each task takes a few more searches."
+    "Also print for each task how much longer it may take, at its longest and in all its runs, without delaying the \
+     latest end: $(b,any) if that end does not depend on it. Each task takes a few more searches."
   in
   Arg.(value & flag & info [ "slack" ] ~doc)
 
 let deadline =
   let doc =
-    "Whether all runs are over $(docv) after the start: a number of seconds, or a time as programs write it, such as \
-     $(b,40.min). If not, a run that breaks it is shown."
+    "Check that all runs are over $(docv) after the start: a number of seconds, or a time as programs write it, such \
+     as $(b,40.min). If not, a run that violates it is shown."
   in
   let parse text =
     match Time_analysis.duration text with Ok ms -> Ok ms | Error why -> Error (`Msg why) in
@@ -139,52 +139,50 @@ let deadline =
 
 let workers =
   let doc =
-    "Look for slacks ($(b,--slack)) with $(docv) processes. What is found is the same whatever $(docv) is. There is \
+    "Search for slacks ($(b,--slack)) with $(docv) processes. The results are the same whatever $(docv) is. There is \
      one process with $(b,--max-memory)."
   in
   Options.workers ~doc
 
 let trace =
   let doc =
-    "Write the run that is shown into the file $(docv), without its times. $(mname) $(b,exec --follow) $(docv) replays \
-     it. If its name ends in $(b,.itf.json), it is written in the Informal Trace Format instead. Nothing is written if \
-     no run is shown."
+    "Write the run shown into the file $(docv), without its times. $(mname) $(b,exec --follow) $(docv) replays it. If \
+     its name ends in $(b,.itf.json), it is written in the Informal Trace Format instead. Nothing is written if no \
+     run is shown."
   in
   Arg.(value & opt (some Explore_command.run_file) None & info [ "trace" ] ~docv:"FILE" ~doc)
 
 let drawing =
   let doc =
-    "Draw in the file $(docv), $(i,*.svg) or $(i,*.html), when tasks may run: for each a bar from its earliest start \
-     to its latest end, dark where it runs in every run in which it runs at all; when runs are over, and the \
+    "Draw the possible times of tasks in the file $(docv), $(i,*.svg) or $(i,*.html): for each task a bar from its \
+     earliest start to its latest end, dark where it runs in every run that has it; the ends of runs, and the \
      $(b,--deadline)."
   in
   Arg.(value & opt (some Options.drawing) None & info [ "draw" ] ~docv:"FILE" ~doc)
 
 let man =
   [ `S Manpage.s_description;
-    `P "$(tname) says how long $(i,PROG) takes with the fleet: when its runs are over, at the earliest and at the \
-        latest, and when each task may start and end. It follows every run, as $(mname) $(b,explore) does, with a \
-        clock for everything that is awaited. Each of the times that it prints is that of some run: it is exact, \
-        however many runs there are.";
-    `P "Tasks take as long as the fleet says: $(b,plan 'survey1', { duration 4.min, 7.min }). Plans that are described \
-        in the program take as long as their way does at the vehicle's speed, ten percent less or more, and their \
-        stays. Timers ($(b,idle), $(b,during), $(b,within), $(b,pause), time-outs of $(b,pick)) take exactly their \
-        time. What the program does by itself, answers and replies take none. Vehicles are there from the \
-        start, or when they join by the fleet.";
-    `P "Of each $(b,within) of the program it says whether it is kept, or when it is missed, with a run in which it \
-        is.";
-    `P "Of each vehicle that runs a task it says how much is left in its battery, at the least, at any time in any \
-        run. How much it takes to be under way, and to rest, is $(b,battery), $(b,drain) and $(b,charge) of the fleet, \
-        and $(b,charges) of its plans. If a battery runs empty in some run, that is shown, and the answer \
-        is violated; if that is not known, it is inconclusive.";
-    `P "If there is a $(b,fence distance), it says which plans may run at the same time whose ways come nearer to each \
-        other: then the answer is violated, and inconclusive if vehicles know such a plan by its name only.";
-    `P "With $(b,--faults), a task fails at any time until it would be done; a vehicle that is not heard of fails its \
-        task when its connection timeout is over; one that is late comes until the time-out of the $(b,pick).";
+    `P "$(tname) computes how long $(i,PROG) takes with the fleet: the earliest and latest end of its runs, and the \
+        earliest and latest start and end of each task. It follows every run, as $(mname) $(b,explore) does, with a \
+        clock for everything that is awaited. Each time printed is exact: some run has it.";
+    `P "Tasks take the time given in the fleet: $(b,plan 'survey1', { duration 4.min, 7.min }). Plans that are \
+        described in the program take the time of their way at the vehicle's speed, ten percent less or more, and of \
+        their stays. Timers ($(b,idle), $(b,during), $(b,within), $(b,pause), time-outs of $(b,pick)) take exactly \
+        their time. The program's own steps, answers and replies take none. Vehicles are present from the start, or \
+        from the time of $(b,joins) in the fleet.";
+    `P "For each $(b,within) of the program it reports whether it is met, or else shows a run that misses it.";
+    `P "For each vehicle that runs a task it prints the least charge of its battery, at any time in any run. The \
+        consumption under way and at rest is given by $(b,battery), $(b,drain) and $(b,charge) of the fleet, and by \
+        $(b,charges) of its plans. If a battery runs empty in some run, that run is shown, and the verdict is \
+        violated; if that is unknown, it is inconclusive.";
+    `P "With a $(b,fence distance), it reports plans that may run at the same time and whose ways come nearer to each \
+        other: the verdict is then violated, or inconclusive if vehicles know such a plan by its name only.";
+    `P "With $(b,--faults), a task may fail at any time before its end; a vehicle without a link fails its task when \
+        its connection timeout is over; a late vehicle comes before the time-out of the $(b,pick).";
     `P "It prints a run that ends last, in columns with times, and the durations that its end depends on. If some run \
-        never ends, it prints that: a run to a place from which it goes round for ever, or in which nothing happens \
-        any more. If nobody knows how long something takes, it says what.";
-    `P "How far it is stands on standard error. A bound that is met, or Ctrl-C, makes the answer inconclusive.";
+        never ends, it prints a run to a place from which it loops without end, or after which nothing more happens. \
+        It lists everything whose duration is unknown.";
+    `P "Progress goes to standard error. A bound that is met, or Ctrl-C, makes the verdict inconclusive.";
     `S Manpage.s_arguments;
     `S Manpage.s_options;
     `S Manpage.s_exit_status;
@@ -225,7 +223,7 @@ let settings =
 
 let command =
   let info =
-    Cmd.info "time" ~docs:Options.s_prove ~doc:"know how long a program takes, at most and at least" ~man
+    Cmd.info "time" ~docs:Options.s_prove ~doc:"compute how long a program takes, at most and at least" ~man
       ~exits:(Options.exits [ Done; Violated; Bad_input; Inconclusive; Platform_trouble; Bug ])
   in
   Cmd.v info

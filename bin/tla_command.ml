@@ -23,11 +23,11 @@ let task directory ~check ~compare ~strict ~limit ~workers ~distributed ~coverag
       [ (strict, "--strict"); (distributed <> None, "--distributed"); (workers <> None, "--workers") ]
   in
   match check, compare, only_with_run, directory, distributed, workers with
-  | _, false, _, _, _, _ when coverage -> wrong "--coverage is about --compare, which is not there"
-  | true, true, _, _, _, _ -> wrong "--run and --compare are two things: ask for one at a time"
-  | false, _, option :: _, _, _, _ -> wrong (option ^ " is about --run, which is not there")
+  | _, false, _, _, _, _ when coverage -> wrong "--coverage needs --compare"
+  | true, true, _, _, _, _ -> wrong "--run and --compare exclude each other: give one of them"
+  | false, _, option :: _, _, _, _ -> wrong (option ^ " needs --run")
   | true, false, _, _, Some _, Some _ ->
-    wrong "--workers is not for --distributed: each worker says itself how many threads it has"
+    wrong "--workers is not for --distributed: each worker has its own number of threads"
   | true, false, _, _, Some (host, port), None ->
     check_by (Server { host; port })
   | true, false, _, _, None, _ ->
@@ -35,7 +35,7 @@ let task directory ~check ~compare ~strict ~limit ~workers ~distributed ~coverag
   | false, true, [], _, _, _ -> Ok (Compare { directory; limit; coverage })
   | false, false, [], Some directory, _, _ -> Ok (Write directory)
   | false, false, [], None, _, _ ->
-    wrong "what is to be done with the model? -o DIR writes it, --run has TLC check it, --compare compares state graphs"
+    wrong "give -o DIR to write the model, --run to check it by TLC, or --compare to compare state graphs"
 
 let perform jar task program ({ files; environment; world } : Tla_model.t) =
   match task with
@@ -59,15 +59,15 @@ let run path set fleet answers faults tick directory check compare strict limit 
 
 let directory =
   let doc =
-    "Write the model into the directory $(docv), which is made if it is not there. With $(b,--run) and $(b,--compare) \
-     it is kept there, and so is what TLC writes."
+    "Write the model into the directory $(docv), which is made if needed. With $(b,--run) and $(b,--compare) the \
+     model and TLC's output are kept there."
   in
   Arg.(value & opt (some string) None & info [ "o"; "output" ] ~docv:"DIR" ~doc)
 
 let tick =
   let doc =
-    "In $(b,MCTimed.tla), time passes by $(docv), such as $(b,1.min) or $(b,30): of that, all times must be whole \
-     numbers. By default it is the longest tick of which the durations of the fleet's plans are."
+    "The tick of time in $(b,MCTimed.tla), such as $(b,1.min) or $(b,30): all times must be multiples of it. By \
+     default it is the longest tick that divides the durations of the fleet's plans."
   in
   let parse text =
     match Time_analysis.duration text with
@@ -94,26 +94,26 @@ let limit =
 
 let man =
   [ `S Manpage.s_description;
-    `P "$(tname) writes a model of a program in its world in TLA+, for the model checker TLC: $(b,MC.tla), which is \
-        the program as a table of expressions and the world as constants, and the modules of the specification of the \
-        language that it extends, of which $(b,Dolphin.tla) is the semantics, rule by rule. The world is that of \
-        $(mname) $(b,explore), with the same $(b,--faults), and what sensors show is open in the same way: TLC finds \
-        the states and transitions of $(mname) $(b,explore --reduction none).";
-    `P "$(b,MC.cfg) checks the properties; $(b,Told.cfg) too, and has TLC show of a run what is seen of each state, \
-        and the label and the rules of each transition (by an $(b,ALIAS), which the TLC that $(b,make tlc) fetches \
-        does not know yet); $(b,Graph.cfg) prints the state graph; $(b,Coverage.cfg) has an action for each rule, for \
+    `P "$(tname) writes a model of a program in its world in TLA+, for the model checker TLC: $(b,MC.tla), the \
+        program as a table of expressions and the world as constants, and the modules of the language's specification \
+        that it extends, of which $(b,Dolphin.tla) is the semantics, rule by rule. The world is that of $(mname) \
+        $(b,explore), with the same $(b,--faults) and with open sensor readings: TLC finds the states and transitions \
+        of $(mname) $(b,explore --reduction none).";
+    `P "$(b,MC.cfg) checks the properties; $(b,Told.cfg) too, and has TLC show the observable part of each state of a \
+        run, and the label and the rules of each transition (by an $(b,ALIAS), which the TLC of $(b,make tlc) does \
+        not support yet); $(b,Graph.cfg) prints the state graph; $(b,Coverage.cfg) has an action for each rule, for \
         TLC to count. In the directory, with TLC's jar:";
     `Pre "  java -Xss64m -cp tla2tools.jar tlc2.TLC -config MC.cfg MC.tla\n\
          \  java -Xss64m -cp tla2tools.jar tlc2.TLC -workers 1 -config Graph.cfg MC.tla\n\
          \  java -Xss64m -cp tla2tools.jar tlc2.TLC -config Coverage.cfg -coverage 1 MC.tla";
     `P "$(b,MCTimed.tla) is the program with the times of the fleet, in ticks ($(b,--tick)). With $(b,Timed.cfg), TLC \
-        prints when runs end, and tasks start, end, fail and are stopped: a line for each date that is earlier or \
-        later than all before. The first and the last are those of $(mname) $(b,time), in ticks:";
+        prints the dates at which runs end, and tasks start, end, fail and are stopped: a line for each date that is \
+        earlier or later than all before. The first and the last are those of $(mname) $(b,time), in ticks:";
     `Pre "  java -Xss64m -cp tla2tools.jar tlc2.TLC -workers 1 -config Timed.cfg MCTimed.tla";
-    `P "What has no meaning in TLA+ is refused, with its place in the program or in the fleet, such as coordinates \
-        that the program computes, or numbers of a reply that TLC has not. What is known only when TLC gets there ends \
-        it, with status 3: numbers that it cannot hold, and more than comparisons that depends on what a sensor \
-        shows.";
+    `P "Programs without a meaning in TLA+ are refused, with the place in the program or in the fleet: coordinates \
+        that the program computes, or numbers in replies that TLC does not have. Other limits show only during the \
+        check, and end it with status 3: numbers too large for TLC, and sensor readings used other than in \
+        comparisons.";
     `S "RUNNING TLC";
   ]
   @ Tlc_options.man

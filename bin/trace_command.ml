@@ -22,7 +22,7 @@ let world_of = function
 let tell_change path (program : Program_file.t) (header : Header.t) =
   if header.program.hash <> (Program_file.header program).hash then
     Report.complain
-      (Printf.sprintf "%s is not the text that this run was of, or has changed since: places are not compared" path)
+      (Printf.sprintf "%s is not the program of this run, or has changed since: places are not compared" path)
 
 let status path : Verdict.t -> (Exit_status.t, Error.t) result = function
   | Run _ | Prefix _ | Possible _ -> Ok Done
@@ -56,14 +56,14 @@ let check program_path set path fleet most timed tolerance =
          status))
 
 let check_exits =
-  [ Cmd.Exit.info 0 ~doc:"the journal is one of a run of the program, or of the beginning of one.";
-    Cmd.Exit.info 1 ~doc:"it is not; with $(b,--timed), also that something took longer or shorter than it may.";
+  [ Cmd.Exit.info 0 ~doc:"the journal belongs to a run of the program, or to the beginning of one.";
+    Cmd.Exit.info 1 ~doc:"it does not; with $(b,--timed), also if a task or timer took longer or shorter than it may.";
     Cmd.Exit.info 3 ~doc:"a partial trace leaves more possibilities open than $(b,--max-states) allows to visit." ]
   @ Options.exits [ Bad_input; Bug ]
 
 let known =
   let doc =
-    "For a partial trace: the vehicles of the file $(docv) are known from the beginning, where it places them."
+    "For a partial trace: the vehicles of the file $(docv) are known from the beginning, at their places."
   in
   Arg.(value & opt (some string) None & info [ "fleet" ] ~docv:"FLEET" ~doc)
 
@@ -73,20 +73,20 @@ let most =
 
 let timed =
   let doc =
-    "Also tell which tasks and timers of the run took longer or shorter than they may, with the fleet $(b,--fleet), by \
-     default the file beside $(i,PROG): the bounds are those of $(mname) $(b,time)."
+    "Also report the tasks and timers of the run that took longer or shorter than they may, with the fleet \
+     $(b,--fleet), by default the file beside $(i,PROG): the bounds are those of $(mname) $(b,time)."
   in
   Arg.(value & flag & info [ "timed" ] ~doc)
 
 let tolerance =
   let doc =
-    "With $(b,--timed), which it implies: $(docv) seconds more or less are nothing. By default 1, for links and clocks \
-     are not exact, and 0 for simulated runs as fast as they go, whose time is, unless they were resumed."
+    "With $(b,--timed), which it implies: tolerate $(docv) seconds more or less. By default 1, since links and clocks \
+     are not exact, and 0 for simulated runs without $(b,--speed), whose times are exact, unless they were resumed."
   in
   let parse text =
     match float_of_string_opt text with
     | Some seconds when seconds >= 0. && seconds <= 1e9 -> Ok (Float.to_int (Float.round (seconds *. 1000.)))
-    | Some _ | None -> Error (`Msg (Printf.sprintf "%s is no number of seconds, 0 or more" text))
+    | Some _ | None -> Error (`Msg (Printf.sprintf "%s is not a number of seconds, 0 or more" text))
   in
   let print ppf ms = Format.fprintf ppf "%g" (float ms /. 1000.) in
   Arg.(value & opt (some (conv ~docv:"SECONDS" (parse, print))) None & info [ "tolerance" ] ~docv:"SECONDS" ~doc)
@@ -94,17 +94,17 @@ let tolerance =
 let check_command =
   let man =
     [ `S Manpage.s_description;
-      `P "$(tname) replays $(i,PROG) as the journal $(i,RUN) says: each transition must be one that the semantics has \
-          at that point, on the event that the journal gives, with exactly these changes and effects. A journal that \
-          breaks off, even in the middle of a line, is that of the beginning of a run.";
-      `P "If the journal is not that of a run, $(tname) shows the first line that does not fit, and what could have \
-          happened there instead.";
-      `P "A trace whose first line says which labels it has, only starts and ends of tasks for example, is one of a \
-          run if there are steps that lead from each of its lines to the next. $(i,docs/trace.md) describes it. \
-          It may say itself which vehicles there are, or $(b,--fleet) does." ]
+      `P "$(tname) replays $(i,PROG) along the journal $(i,RUN): each transition must be one that the semantics \
+          allows at that point, on the event of the journal, with exactly these changes and effects. A journal that \
+          breaks off, even in the middle of a line, is the beginning of a run.";
+      `P "If the journal does not belong to a run, $(tname) shows the first line that does not fit, and the possible \
+          steps there.";
+      `P "A trace whose first line lists its labels, only starts and ends of tasks for example, belongs to a run if \
+          some steps lead from each of its lines to the next. See $(i,docs/trace.md). The vehicles are given in the \
+          trace or by $(b,--fleet)." ]
     @ Options.see_also
   in
-  let info = Cmd.info "check" ~doc:"tell whether a journal is one of a run of a program" ~man ~exits:check_exits in
+  let info = Cmd.info "check" ~doc:"check that a journal belongs to a run of a program" ~man ~exits:check_exits in
   Cmd.v info Term.(const check $ Options.program $ Options.set $ journal 1 $ known $ most $ timed $ tolerance)
 
 (* {1 Show} *)
@@ -168,9 +168,9 @@ let draw_command =
   in
   let man =
     [ `S Manpage.s_description;
-      `P "$(tname) draws the journal $(i,RUN): the tasks of each vehicle over time, with what the program did; the \
-          ways of the vehicles, planned and flown, on the maps that $(b,--layer) names; their batteries. The file \
-          needs nothing but itself, prints well, and follows the reader's choice of light or dark." ]
+      `P "$(tname) draws the journal $(i,RUN): the tasks of each vehicle over time, with the program's steps; the \
+          ways of the vehicles, planned and flown, on the maps of $(b,--layer); their batteries. The file is \
+          self-contained, prints well, and follows the reader's choice of light or dark." ]
     @ Options.see_also
   in
   let exits = Options.exits [ Done; Bad_input; Bug ] in
@@ -190,7 +190,7 @@ let export_command =
   let man =
     [ `S Manpage.s_description;
       `P "$(tname) writes the journal $(i,RUN) for other programs: the track of each vehicle that the program held, \
-          and where it started its tasks. $(b,csv) has each sample, with battery and task.";
+          and the start of each of its tasks. $(b,csv) has each sample, with battery and task.";
       Export_options.man ]
     @ Options.see_also
   in
@@ -201,7 +201,7 @@ let export_command =
 let command =
   let man =
     [ `S Manpage.s_description;
-      `P "A journal tells of one run of a program, transition by transition. $(mname) $(b,exec --journal) $(i,RUN) \
+      `P "A journal records one run of a program, transition by transition. $(mname) $(b,exec --journal) $(i,RUN) \
           writes it, $(i,docs/trace.md) describes it.";
       `S Manpage.s_examples;
       `Pre "  $(mname) exec mission.dol --journal mission.run\n  $(mname) $(tname) check mission.dol mission.run\n\

@@ -18,17 +18,17 @@ let set verbose chosen =
 
 let verbose =
   let doc =
-    "Tell on standard error what is started. Twice, as $(b,-vv), the same as $(b,--verbosity debug): also every event, \
-     transition and effect of the run, and on a network every datagram to and from vehicles, what is thought of their \
-     state, and timers."
+    "Log on standard error what is started. Twice, as $(b,-vv), the same as $(b,--verbosity debug): also every event, \
+     transition and effect of the run, and on a network every datagram to and from vehicles, the assumed states of \
+     vehicles, and timers."
   in
   Arg.(value & flag_all & info [ "v"; "verbose" ] ~doc)
 
 let level =
   let parse text = Logs.level_of_string text in
   let print ppf level = Format.pp_print_string ppf (Logs.level_to_string level) in
-  let doc = "How much to tell on standard error: $(b,quiet), $(b,error), $(b,warning) (the default), $(b,info) or \
-             $(b,debug)." in
+  let doc = "The amount of logging on standard error: $(b,quiet), $(b,error), $(b,warning) (the default), $(b,info) \
+             or $(b,debug)." in
   Arg.(value & opt (some (conv ~docv:"LEVEL" (parse, print))) None & info [ "verbosity" ] ~docv:"LEVEL" ~doc)
 
 let setup = Term.(const set $ verbose $ level)

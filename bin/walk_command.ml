@@ -30,20 +30,19 @@ let run path set fleet answers faults trace =
 
 let trace =
   let doc =
-    "Have the run ahead that $(docv) records, as $(mname) $(b,explore --trace) $(docv) and $(b,write) write it. The \
-     world has to allow it: give the same $(b,--faults)."
+    "Load the run recorded in $(docv), as $(mname) $(b,explore --trace) $(docv) and $(b,write) write it, for stepping \
+     forward. The world has to allow it: give the same $(b,--faults)."
   in
   Arg.(value & opt (some string) None & info [ "trace" ] ~docv:"FILE" ~doc)
 
 let man =
   let typed (what, meaning) = `I ("$(b," ^ what ^ ")", meaning ^ ".") in
   [ `S Manpage.s_description;
-    `P "$(tname) lets you be the outside: it shows the state that $(i,PROG) is in and numbers what may happen next, \
-        by the very transition function of $(mname) $(b,exec), in the world that $(mname) $(b,explore) explores: \
-        each step of the program, each end of a task, each choice of vehicles, each thing that a sensor may show. You \
-        type the number of a choice.";
-    `P "A state has A, the tasks that vehicles run; B, the vehicles that the program holds; N, the pairs of the tuple \
-        space; what is left of the task that is executed; and what the program waits for.";
+    `P "$(tname) lets you play the environment: it shows the state of $(i,PROG) and numbers the possible steps, by \
+        the transition function of $(mname) $(b,exec), in the world of $(mname) $(b,explore): each step of the \
+        program, each end of a task, each choice of vehicles, each sensor reading. You type the number of a choice.";
+    `P "A state consists of A, the tasks that vehicles run; B, the vehicles that the program holds; N, the pairs of \
+        the tuple space; the rest of the task that is executed; and the events that the program waits for.";
     `S "WHAT YOU TYPE" ]
   @ List.map typed Walk_session.help
   @ [ `P "Words may be shortened, to one letter if you like.";

@@ -112,7 +112,7 @@ export class Verdicts {
     for (const b of r.batteries) lines.push(h("li", { class: b.verdict }, h("b", {}, mark(b.verdict)), ` ${b.vehicle}: ${left(b)}`));
     if (r.apart) lines.push(h("li", { class: r.apart.verdict }, h("b", {}, mark(r.apart.verdict)), ` ${r.apart.fence}: ${r.apart.verdict}`),
       ...r.apart.pairs.map((p: Json) => this.pair(found, p)));
-    for (const what of r.unknown) lines.push(h("li", {}, h("b", {}, "–"), ` nobody knows how long it takes: ${what.replace(/^.*\//, "")}`));
+    for (const what of r.unknown) lines.push(h("li", {}, h("b", {}, "–"), ` duration unknown: ${what.replace(/^.*\//, "")}`));
     if (r.bound) lines.push(h("li", {}, h("b", {}, "–"), ` inconclusive: ${r.bound}`));
     const chain = r.shown?.run.chain ?? [];
     return [h("ul", { class: "verdicts" }, ...lines), this.bars(found, span),
@@ -125,7 +125,7 @@ export class Verdicts {
   // Plans that may run side by side.
   private pair(found: Json, p: Json) {
     const called = (x: Json) => `'${x.plan}' on ${x.vehicle}`;
-    const far = p.metres === null ? "nobody knows how near" : `${p.metres.toFixed(1)} m between ${p.one.maneuver} and ${p.other.maneuver}`;
+    const far = p.metres === null ? "distance unknown" : `${p.metres.toFixed(1)} m between ${p.one.maneuver} and ${p.other.maneuver}`;
     return h("li", { class: p.metres === null ? "inconclusive" : "violated" }, this.place(found, p.one.at, ` ${called(p.one)} beside ${called(p.other)}: ${far}`));
   }
 

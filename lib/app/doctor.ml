@@ -28,7 +28,7 @@ let socket () =
   | () -> well "sockets" "UDP can be used"
   | exception Unix.Unix_error (error, _, _) ->
     missing "sockets" (Unix.error_message error)
-      "without UDP there are no vehicles of a network; simulated ones need none"
+      "vehicles of a network need UDP; simulated ones do not"
 
 let discovery_ports = List.init 5 (fun i -> 30100 + i)
 
@@ -68,7 +68,7 @@ let tlc () =
   | Ok { java; jar } -> well "TLC" (Printf.sprintf "%s, by %s" jar java)
   | Error (No_jar _) ->
     missing "TLC" "its archive, tla2tools.jar, was not found"
-      "only dolphin tla --run wants it, where --tlc names the archive, or 'make tlc' fetches it"
+      "only dolphin tla --run needs it: --tlc names the archive, or 'make tlc' fetches it"
   | Error trouble ->
     missing "TLC" (Format.asprintf "@[<h>%a@]" Dolphin_tlc.Installation.pp_trouble trouble)
       "only dolphin tla --run wants it: explore checks programs without"

@@ -64,7 +64,7 @@ let kind = function
 
 let known names found =
   match List.find_opt (fun (name, _) -> not (List.mem name names)) found with
-  | Some (name, _) -> Error (Printf.sprintf "there is no member %S; known are %s" name (String.concat ", " names))
+  | Some (name, _) -> Error (Printf.sprintf "unknown member %S; known are %s" name (String.concat ", " names))
   | None -> Ok found
 
 let members_of names json = Result.bind (members json) (known names)
@@ -188,5 +188,5 @@ let of_json path json =
 
 let of_string ~path source =
   match Dolphin_json.Host_value.parse source with
-  | Error why -> Error ("this is no JSON: " ^ why)
+  | Error why -> Error ("this is not JSON: " ^ why)
   | Ok json -> of_json path json

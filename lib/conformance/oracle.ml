@@ -32,7 +32,8 @@ let explain = function
   | No_json why -> ("no-json", why)
   | Bad_request why -> ("bad-request", why)
   | Unknown_request name ->
-    ("unknown-request", Printf.sprintf "there is no request %S: there are hello, initial, step, times and dated" name)
+    ("unknown-request",
+     Printf.sprintf "unknown request %S: the requests are hello, initial, step, times and dated" name)
   | No_program -> ("no-program", "no program was given: initial comes first")
   | Bad_configuration why -> ("bad-configuration", why)
   | Bad_world why -> ("bad-world", why)

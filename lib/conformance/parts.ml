@@ -17,7 +17,7 @@ let part to_json of_json =
     match of_json (Yojson.Safe.from_string text) with
     | x -> Ok x
     | exception Wrong why -> Error why
-    | exception Yojson.Json_error _ -> Error "it is no JSON"
+    | exception Yojson.Json_error _ -> Error "it is not JSON"
   in
   { write; read }
 

@@ -82,7 +82,7 @@ let dated ~faults g run =
   let rec by_itself n date ((_, _, c) as at) =
     match (Transition.internal g.program (world date) c) () with
     | Seq.Nil -> Ok at
-    | Seq.Cons _ when n = 0 -> Error "it goes on by itself for ever"
+    | Seq.Cons _ when n = 0 -> Error "it never comes to a wait"
     | Seq.Cons (t, _) -> by_itself (n - 1) date (take at date None t)
   in
   let on_event ((_, _, c) as at) (date, event) =

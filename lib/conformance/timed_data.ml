@@ -31,7 +31,7 @@ let task json =
   let* vehicle = get text "vehicle" found in
   let others = List.filter (fun (key, _) -> key <> "task" && key <> "vehicle") found in
   match List.find_opt (fun (key, _) -> not (List.mem key moment_names)) others with
-  | Some (key, _) -> Error (Printf.sprintf "there is no moment %S; known are %s" key (String.concat ", " moment_names))
+  | Some (key, _) -> Error (Printf.sprintf "unknown moment %S; known are %s" key (String.concat ", " moment_names))
   | None -> Result.map (fun moments -> { name; vehicle; moments }) (windows others)
 
 let times found =

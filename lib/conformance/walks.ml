@@ -28,8 +28,8 @@ let longest_walk = 10_000
 
 let rec until ask place label rules n =
   match (Dialogue.steps ask place (Some [])).internal with
-  | [] -> Error (Printf.sprintf "there is no %s before nothing happens by itself" label)
-  | _ when n = 0 -> Error (Printf.sprintf "there is no %s in %d steps" label longest_walk)
+  | [] -> Error (Printf.sprintf "no %s before nothing happens by itself" label)
+  | _ when n = 0 -> Error (Printf.sprintf "no %s within %d steps" label longest_walk)
   | t :: _ ->
     let rules = taking t rules and place = { place with configuration = t.next } in
     if Match.label label t.label then Ok (place, rules) else until ask place label rules (n - 1)
@@ -113,7 +113,7 @@ let forbids ask place steps =
   match List.rev steps with
   | Case.Step last :: before -> (
       match along ask place (List.rev before) with
-      | Error why, rules -> (Error ("what comes before the last step is not possible: " ^ why), rules)
+      | Error why, rules -> (Error ("the steps before the last one are not possible: " ^ why), rules)
       | Ok places, rules -> (
           match follow ask places last with
           | [], _, _ -> (Ok (), rules)

@@ -145,9 +145,10 @@ let check_tiles url =
     from 0
   in
   match String.split_on_char ':' (origin url) with
-  | ("http" | "https") :: _ when not (String.for_all is_plain (origin url)) -> Error (url ^ " is no address of tiles")
+  | ("http" | "https") :: _ when not (String.for_all is_plain (origin url)) ->
+    Error (url ^ " is not an address of tiles")
   | ("http" | "https") :: _ when List.for_all has [ "{z}"; "{x}"; "{y}" ] -> Ok url
-  | _ -> Error (url ^ " is no address of tiles, such as https://tile.example/{z}/{x}/{y}.png")
+  | _ -> Error (url ^ " is not an address of tiles, such as https://tile.example/{z}/{x}/{y}.png")
 
 let headers ~tiles =
   [ ("Content-Security-Policy", policy tiles); ("X-Content-Type-Options", "nosniff");

@@ -31,8 +31,8 @@ let needed result = Result.map_error (refusal 400 "bad-request") result
 let body (r : Request.t) =
   match Host_value.parse r.body with
   | Ok (`Assoc found) -> Ok found
-  | Ok _ -> bad "the body is no JSON object"
-  | Error why -> bad ("the body is no JSON: " ^ why)
+  | Ok _ -> bad "the body is not a JSON object"
+  | Error why -> bad ("the body is not JSON: " ^ why)
 
 let get read name found = needed (get read name found)
 let optional read name found = needed (Field.optional (nullable read) ~default:None name found)

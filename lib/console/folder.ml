@@ -80,7 +80,7 @@ let regular path full =
   match Unix.stat full with
   | { st_kind = S_REG; st_nlink = 1; _ } -> Ok ()
   | { st_kind = S_REG; _ } -> refuse path "this file has another name, a hard link: a copy of it would be shown"
-  | { st_kind = S_DIR | S_LNK | S_CHR | S_BLK | S_FIFO | S_SOCK; _ } -> refuse path "this is no file"
+  | { st_kind = S_DIR | S_LNK | S_CHR | S_BLK | S_FIFO | S_SOCK; _ } -> refuse path "this is not a regular file"
   | exception Unix.Unix_error (error, _, _) -> refuse path (Unix.error_message error)
 
 let find f path =
@@ -116,7 +116,7 @@ let may_read f path =
     let* () = regular path full in
     if List.exists is_hidden names || not (kind below <> None || is_map below) then refuse path "hidden" else Ok ()
   in
-  Result.map_error (fun _ -> path ^ ": there is no such file in the folder of this console") visible
+  Result.map_error (fun _ -> path ^ ": no such file in the folder of this console") visible
 
 let inside f path =
   match Unix.realpath path with

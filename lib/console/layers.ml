@@ -12,7 +12,7 @@ let is_tiles path = String.lowercase_ascii (Filename.extension path) = ".mbtiles
 let of_folder w r =
   let* path = parameter r "path" in
   let* full = Workspace.file w path in
-  if Folder.kind full = Some Layer then Ok full else bad "this is no layer"
+  if Folder.kind full = Some Layer then Ok full else bad "this is not a layer"
 
 let no_layer path why = refusal 422 "no-layer" (Printf.sprintf "%s: %s" (Filename.basename path) why)
 

@@ -31,7 +31,7 @@ let tell_program folder (tell : Narrator.tell) program =
 
 (* The reason why the log is missing. *)
 let lacks_program tell (header : Header.t) =
-  let what = Printf.sprintf "%s is not in this folder, or has changed: there is no log" header.program.path in
+  let what = Printf.sprintf "%s is not in this folder, or has changed: no log" header.program.path in
   Narrator.remark_on tell ~time:0. what
 
 let rec tell_entry folder tell ~journal teller (entry : Entry.t) =

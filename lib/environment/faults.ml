@@ -20,7 +20,7 @@ let set faults name limit =
       | Some near -> Printf.sprintf "did you mean %s?" near
       | None -> "there are fail, loss, join, all and interrupt"
     in
-    Error (Printf.sprintf "there is no fault '%s': %s" other hint)
+    Error (Printf.sprintf "unknown fault '%s': %s" other hint)
 
 let add faults item =
   Result.bind faults (fun faults ->
@@ -29,7 +29,7 @@ let add faults item =
       | [ name; n ] -> (
           match int_of_string_opt n with
           | Some n when n >= 0 -> set faults name (At_most n)
-          | Some _ | None -> Error (Printf.sprintf "'%s' is no number of faults, as in %s=1" n name))
+          | Some _ | None -> Error (Printf.sprintf "'%s' is not a number of faults, as in %s=1" n name))
       | _ -> Error (Printf.sprintf "'%s' is not as in fail or fail=1" item))
 
 let of_string text = List.fold_left add (Ok none) (String.split_on_char ',' text)

@@ -37,7 +37,7 @@ let rec tokens text i found =
     | _ -> (
         match List.find_opt (fun (spelling, _) -> starts_at text i spelling) spellings with
         | Some (spelling, token) -> tokens text (i + String.length spelling) (token :: found)
-        | None -> Error "what it says is not understood")
+        | None -> Error "it cannot be read")
 
 and number text i found =
   let signed = not (is_of_number text.[i]) in
@@ -174,13 +174,13 @@ let on_grid = function
 let longest = 200
 
 let of_string text =
-  let explained why = Printf.sprintf "'%s' is no position: %s" text why in
-  if String.length text > longest then Error "a text of that length is no position"
+  let explained why = Printf.sprintf "'%s' is not a position: %s" text why in
+  if String.length text > longest then Error "the text is too long for a position"
   else
     Result.map_error explained
       (let* tokens = tokens text 0 [] in
        match on_grid tokens with
        | Some found -> found
        | None ->
-         if List.exists (function Word _ -> true | _ -> false) tokens then Error "what it says is not understood"
+         if List.exists (function Word _ -> true | _ -> false) tokens then Error "it cannot be read"
          else in_degrees tokens)

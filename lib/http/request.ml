@@ -90,7 +90,7 @@ let header_of_line line =
     let name = String.sub line 0 i and text = String.trim (String.sub line (i + 1) (String.length line - i - 1)) in
     if for_all is_token name && for_all is_visible text then Ok (String.lowercase_ascii name, text)
     else Error (Malformed "a header with characters that none has")
-  | Some _ | None -> Error (Malformed "a line that is no header")
+  | Some _ | None -> Error (Malformed "a line that is not a header")
 
 let length r =
   match List.assoc_opt "transfer-encoding" r.headers, List.filter (fun (n, _) -> n = "content-length") r.headers with
@@ -99,7 +99,7 @@ let length r =
   | None, [ (_, text) ] when text <> "" && String.length text < 10 && for_all (fun c -> c >= '0' && c <= '9') text ->
     Ok (int_of_string text)
   | None, [ (_, text) ] when for_all (fun c -> c >= '0' && c <= '9') text && text <> "" -> Error Too_large
-  | None, _ -> Error (Malformed "the Content-Length is no number")
+  | None, _ -> Error (Malformed "the Content-Length is not a number")
 
 let verbs = [ "GET"; "HEAD"; "POST"; "PUT"; "DELETE"; "OPTIONS"; "PATCH" ]
 
@@ -120,7 +120,7 @@ let of_head text =
         Ok (r, length)
       | [ _; _; version ] when String.length version > 5 && String.sub version 0 5 = "HTTP/" ->
         Error (Unsupported "this is neither HTTP/1.1 nor a method of it")
-      | _ -> Error (Malformed "the first line is no request"))
+      | _ -> Error (Malformed "the first line is not a request"))
 
 let keeps_alive r =
   match Option.map String.lowercase_ascii (List.assoc_opt "connection" r.headers) with

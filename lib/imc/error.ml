@@ -36,7 +36,7 @@ let label = function
 let pp_fault ppf = function
   | Overrun -> Fmt.string ppf "a field reaches past the end"
   | Leftover n -> Fmt.pf ppf "%d bytes follow the last field" n
-  | Unknown_message id -> Fmt.pf ppf "there is no message %d" id
+  | Unknown_message id -> Fmt.pf ppf "unknown message %d" id
   | Misplaced { id; expected } -> Fmt.pf ppf "message %d stands where %s is expected" id expected
   | Too_deep -> Fmt.pf ppf "more than %d messages within messages" max_depth
 

@@ -56,6 +56,6 @@ let to_fence json : (Fences.fence, string) result =
     | "depth" -> metres (fun n -> Fences.Depth n)
     | "height" -> metres (fun n -> Fences.Height n)
     | "distance" -> metres (fun n -> Fences.Distance n)
-    | other -> Error (Printf.sprintf "there is no fence '%s'" other)
+    | other -> Error (Printf.sprintf "unknown fence '%s'" other)
   in
   Ok { Fences.rule; margin; text; at = Dolphin_syntax.Location.none }

@@ -219,7 +219,7 @@ let of_document s id name parameters =
     | "textDocument/formatting" -> answer id (formatting d)
     | "textDocument/rename" -> renaming id uri d offset parameters
     | "textDocument/prepareRename" -> answer id (prepared d offset)
-    | _ -> refusal id (-32601) (Printf.sprintf "there is no request '%s'" name)
+    | _ -> refusal id (-32601) (Printf.sprintf "unknown request '%s'" name)
 
 let request s id name parameters =
   match s.phase, name with
@@ -257,7 +257,7 @@ let notified s name parameters =
 let handle s m =
   let parameters = field "params" m in
   match string_at [ "method" ] m, field "id" m with
-  | None, `Null -> s, [ refusal `Null (-32600) "this is no message of the protocol" ]
+  | None, `Null -> s, [ refusal `Null (-32600) "this is not a message of the protocol" ]
   | None, _ -> s, []
   | Some name, `Null -> notified s name parameters
   | Some name, id ->

@@ -239,7 +239,7 @@ let pp_reason ppf = function
       | Some trace -> Fmt.pf ppf "%a@ the %a one is in a state" pp_trace trace pp_side side
       | None -> Fmt.pf ppf "The %a one has a state that cannot be reached," pp_side side
     in
-    Fmt.pf ppf "%a@ of which there are %d like it on the left and %d on the right,@ as far as %d steps tell." pp_place
+    Fmt.pf ppf "%a@ with %d similar states on the left and %d on the right,@ compared over %d steps." pp_place
       trace left right steps
   | No_matching -> Fmt.string ppf "Each state has its like in the other, but they cannot all be matched at once."
   | Undecided -> Fmt.string ppf "Whether they match was not found out within the limit of effort."

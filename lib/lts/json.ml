@@ -98,7 +98,7 @@ let of_string source =
 
 let pp_error ppf = function
   | Not_json message -> Fmt.pf ppf "this is not JSON: %s" message
-  | Not_a_graph -> Fmt.string ppf "this is no graph: expected an object with \"format\": \"dolphin-lts\""
+  | Not_a_graph -> Fmt.string ppf "this is not a graph: expected an object with \"format\": \"dolphin-lts\""
   | Version version -> Fmt.pf ppf "this is version %d of the format; expected version 1" version
   | Expected { what; where } -> Fmt.pf ppf "expected %s in %s" what where
   | No_such_state { state; states; where } ->

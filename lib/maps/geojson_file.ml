@@ -114,6 +114,6 @@ let read text =
       List.concat (List.mapi feature (Json_text.elements "the features" (Json_text.member "features" json)))
     | `String "Feature" -> feature 0 json
     | `String _ -> each ~name:"" ~place (fun () -> shapes place json)
-    | _ -> wrong "" "this is no GeoJSON: it has no \"type\": \"FeatureCollection\""
+    | _ -> wrong "" "this is not GeoJSON: it has no \"type\": \"FeatureCollection\""
   in
   of_encoding text @ things

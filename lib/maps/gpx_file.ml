@@ -34,5 +34,5 @@ let things x =
 
 let read text =
   let root = Xml_text.read text in
-  if root.tag <> "gpx" then wrong root.place "this is no GPX: its root is '%s'" root.tag;
+  if root.tag <> "gpx" then wrong root.place "this is not GPX: its root is '%s'" root.tag;
   List.concat_map things root.inside

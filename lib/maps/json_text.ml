@@ -30,8 +30,8 @@ let told why =
   | Some i ->
     let place = String.sub why 0 i and rest = String.sub why (i + 1) (String.length why - i - 1) in
     let place = match String.index_opt place ':' with Some n -> String.sub place 0 n | None -> place in
-    Drawn.wrong (String.uncapitalize_ascii place) "this is no JSON: %s" (String.uncapitalize_ascii rest)
-  | None -> Drawn.wrong "" "this is no JSON: %s" (String.uncapitalize_ascii why)
+    Drawn.wrong (String.uncapitalize_ascii place) "this is not JSON: %s" (String.uncapitalize_ascii rest)
+  | None -> Drawn.wrong "" "this is not JSON: %s" (String.uncapitalize_ascii why)
 
 let read text =
   let text = fst (Utf8_text.repaired (Utf8_text.without_mark text)) in

@@ -72,5 +72,5 @@ let rec things ~follow x =
 
 let read ~follow text =
   let root = Xml_text.read text in
-  if root.tag <> "kml" then wrong root.place "this is no KML: its root is '%s'" root.tag;
+  if root.tag <> "kml" then wrong root.place "this is not KML: its root is '%s'" root.tag;
   things ~follow root

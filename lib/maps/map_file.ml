@@ -20,7 +20,7 @@ let in_file name read text =
 
 let archived suffix text =
   match Zip_text.files ~most:most_bytes (ends suffix) text with
-  | [] -> Drawn.wrong "" "there is no *%s in this archive" suffix
+  | [] -> Drawn.wrong "" "this archive has no *%s" suffix
   | files -> files
 
 let nmisz text =

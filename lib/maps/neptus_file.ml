@@ -83,5 +83,5 @@ let things x =
 
 let read text =
   let root = Xml_text.read text in
-  if root.tag <> "map" then wrong root.place "this is no map of Neptus: its root is '%s'" root.tag;
+  if root.tag <> "map" then wrong root.place "this is not a map of Neptus: its root is '%s'" root.tag;
   List.concat_map things (List.concat_map (fun features -> features.inside) (children "features" root))

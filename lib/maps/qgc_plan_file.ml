@@ -112,7 +112,7 @@ let rally i p =
 let read text =
   let json = Json_text.read text in
   if Json_text.member "fileType" json <> `String "Plan" then
-    wrong "" "this is no plan of QGroundControl: it has no \"fileType\": \"Plan\"";
+    wrong "" "this is not a plan of QGroundControl: it has no \"fileType\": \"Plan\"";
   let mission = Json_text.member "mission" json in
   let items =
     List.mapi (fun i item -> (Printf.sprintf "item %d of the mission" (i + 1), item))

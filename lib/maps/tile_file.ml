@@ -90,7 +90,7 @@ let bounds db =
 let read path =
   with_database path (fun db ->
       let* quick =
-        Result.map_error (fun why -> "it is no MBTiles, which has a table of tiles: " ^ why) (is_quick db) in
+        Result.map_error (fun why -> "it is not an MBTiles file: no table of tiles: " ^ why) (is_quick db) in
       match metadata db "format" with
       | _ when not quick -> Error "its tiles have no index by zoom_level, tile_column and tile_row"
       | Some "pbf" -> Error "its tiles are vectors (pbf), and only pictures are shown: png, jpg, webp"
@@ -114,7 +114,7 @@ let kinds = [ ("\x89PNG\r\n", "image/png"); ("\xff\xd8\xff", "image/jpeg"); ("RI
 let image bytes =
   match List.find_opt (fun (first, _) -> String.starts_with ~prefix:first bytes) kinds with
   | Some (_, kind) -> Ok (Some { kind; bytes })
-  | None -> Error "this tile is no picture: neither png nor jpg nor webp"
+  | None -> Error "this tile is not a picture: neither png nor jpg nor webp"
 
 (* Rows are counted from the south in the file. *)
 let tile path ~zoom ~column ~row =

@@ -51,7 +51,7 @@ let read text =
   let input = Xmlm.make_input ~enc ~strip:true ~ns:(fun prefix -> Some prefix) (`String (0, text)) in
   try tree input
   with Xmlm.Error (position, error) ->
-    Drawn.wrong (place_of position) "this is no XML: %s" (Xmlm.error_message error)
+    Drawn.wrong (place_of position) "this is not XML: %s" (Xmlm.error_message error)
 
 let child tag x = List.find_opt (fun y -> y.tag = tag) x.inside
 let children tag x = List.filter (fun y -> y.tag = tag) x.inside
@@ -60,4 +60,4 @@ let text_of tag x = match child tag x with Some y -> y.text | None -> ""
 let number x text =
   match Dolphin_numerals.Numeral.number (String.trim text) with
   | Some number -> number
-  | None -> Drawn.wrong x.place "'%s' is no number" (if String.length text > 40 then "..." else text)
+  | None -> Drawn.wrong x.place "'%s' is not a number" (if String.length text > 40 then "..." else text)

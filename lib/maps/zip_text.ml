@@ -10,7 +10,7 @@ let part text start length =
 (* The record at the end has the place of the list of files. A comment of at most 65,535 bytes may follow it. *)
 let end_record text =
   let rec find i =
-    if i < 0 || i < String.length text - 65_557 then wrong "this is no ZIP archive"
+    if i < 0 || i < String.length text - 65_557 then wrong "this is not a ZIP archive"
     else if long text i = 0x06054b50 then i
     else find (i - 1)
   in

@@ -52,7 +52,7 @@ let create = create
 
 let unknown plan =
   Printf.sprintf
-    "the console died just as it asked for plan %s, which the vehicle had run before: nobody knows whether it has run \
+    "the console died just as it asked for plan %s, which the vehicle had run before: it is unknown whether it has run \
      again"
     plan
 
@@ -179,7 +179,7 @@ let judge_mode ~now ~clock x =
   | Idle, Some f when now < f.unrested_until && maneuvers ~since:(f.ended +. rest_patience) x && not (is_busy x) ->
     let x, outputs = begin_stop ~now ~clock ~took_effect:true f.attempt x in
     let plan = f.attempt.order.plan in
-    (x, Remark (Printf.sprintf "the vehicle goes on though plan %s was over; it is told to stop" plan) :: outputs)
+    (x, Remark (Printf.sprintf "the vehicle goes on though plan %s was over; it is ordered to stop" plan) :: outputs)
   | (Idle | Starting _ | Running _ | Ending _), _ -> (x, [])
 
 (* The plan before is over for good once the vehicle was seen to rest. *)
@@ -306,7 +306,7 @@ let give_stop_up ~now ~clock (attempt : Attempt.t) next x =
   | None -> (x, [ remark ])
 
 let goes_on plan seconds =
-  Printf.sprintf "may still run plan %s: it still maneuvers %.0f s after it was told to stop" plan seconds
+  Printf.sprintf "may still run plan %s: it still maneuvers %.0f s after the order to stop" plan seconds
 
 let is_abort_due ~now ~first_sent ~aborted x =
   now >= first_sent +. x.abort_after && Option.fold aborted ~none:true ~some:(fun at -> now >= at +. abort_interval)
@@ -321,7 +321,7 @@ let tick_stop ~now ~clock x =
     let plan = attempt.order.plan and moves = maneuvers ~since:after x in
     if now >= first_sent +. stop_patience && not moves then give_stop_up ~now ~clock attempt s.next x
     else if moves && is_abort_due ~now ~first_sent ~aborted:s.aborted x then
-      let told = Printf.sprintf "%s; it is told to abort" (goes_on plan (now -. first_sent)) in
+      let told = Printf.sprintf "%s; it is ordered to abort" (goes_on plan (now -. first_sent)) in
       let remark = if s.aborted = None then [ Remark told ] else [] in
       ({ x with phase = Stopping { s with aborted = Some now; warned = true } }, Send Message.Abort :: remark)
     else if moves && now >= first_sent +. warning && not s.warned then
@@ -415,7 +415,7 @@ let detect_duplicates input x =
   | None -> ({ x with duplicates }, [])
   | Some (duplicates, plan) ->
     let why = "the request for it came twice, or another console made one" in
-    ({ x with duplicates }, [ Remark (Printf.sprintf "plan %s begins anew: %s" plan why) ])
+    ({ x with duplicates }, [ Remark (Printf.sprintf "plan %s starts again: %s" plan why) ])
 
 let handle ~now ~clock input x =
   match input with

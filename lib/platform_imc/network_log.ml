@@ -17,7 +17,7 @@ let message_name id =
 let pp_packet ppf (bytes, len) =
   match Header.read ~len bytes with
   | Ok h -> Fmt.pf ppf "%s from 0x%04x to 0x%04x, %d bytes" (message_name h.id) h.src h.dst len
-  | Error why -> Fmt.pf ppf "%d bytes that are no packet: %s" len (Error.label why)
+  | Error why -> Fmt.pf ppf "%d bytes that are not a packet: %s" len (Error.label why)
 
 let pp_host ppf host = Fmt.string ppf (Unix.string_of_inet_addr host)
 

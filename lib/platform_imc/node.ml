@@ -97,7 +97,7 @@ let rival ~now ~host other n =
   let text = Printf.sprintf "two systems have the IMC address 0x%04x: %s, and %s" n.id (place n) other in
   let warning text = Some { about = other; text } in
   if belongs host n then
-    ({ n with shared = Some now }, warning (text ^ "; which of them speaks cannot be told, so it cannot be picked"))
+    ({ n with shared = Some now }, warning (text ^ "; their messages cannot be told apart, so it cannot be picked"))
   else (n, warning (text ^ ", which is ignored"))
 
 (* A system that was restarted moves to another port; two with one IMC address seem to move there and back. *)

@@ -17,7 +17,7 @@ let of_report (report : Plan_report.t) =
 
 let obstacle ~mode ~error report =
   match (mode : (float * Mode.t) option), (report : Plan_report.t option) with
-  | _, None -> Some "has not said yet what it runs"
+  | _, None -> Some "has not reported its plan state yet"
   | None, Some r -> of_report r
   | Some (sent, mode), Some r -> (
       match r.state.state with

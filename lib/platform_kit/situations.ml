@@ -84,8 +84,8 @@ let greeted ?(resumes = false) ~started command =
   Talk.first_line t ~within:10. >>= function
   | Ok (Hello greeting) when greeting.version = Report.version -> Lwt.return (t, greeting)
   | Ok (Hello greeting) -> wrong "it speaks version %d of the protocol" greeting.version
-  | Ok (Trouble why) -> wrong "it says that it cannot go on: %s" why
-  | Ok _ -> wrong "its first line is no greeting"
+  | Ok (Trouble why) -> wrong "it reports that it cannot go on: %s" why
+  | Ok _ -> wrong "its first line is not a greeting"
   | Error why -> wrong "its first line %s" why
 
 (* The known state of vehicles, from all reports so far. *)
@@ -151,7 +151,7 @@ let strange_orders plans ~started command =
 let refused_line plans ~started command =
   with_vehicle plans ~started command >>= fun (t, v) ->
   let before = List.length (Talk.reports t) in
-  Talk.send t (Refused "is not a 'vehicle' as the protocol has it: of latitude and longitude one is missing");
+  Talk.send t (Refused "is not a valid 'vehicle': of latitude and longitude one is missing");
   let add (known : Report.sight) : Report.t -> Report.sight = function
     | Vehicle s when String.equal s.vehicle v ->
       let now x before = if x = None then before else x in
@@ -254,7 +254,7 @@ let stop_at_once plans ~started command =
   Talk.send t (stop_order r v);
   end_of t plans r >>= function
   | Done -> wrong "plan %s was stopped at once, and is 'done'" plans.long
-  | Absent -> wrong "'absent' is only said after a 'resume'"
+  | Absent -> wrong "'absent' only answers a 'resume'"
   | Failed _ | Stopped | Taken | Progress _ | Unknown _ ->
     rest 0.5 >>= fun () ->
     expect_one_end t r >>= fun () ->
@@ -269,8 +269,8 @@ let refusal plans ~started command =
   with_vehicle plans ~started command >>= fun (t, v) ->
   let r = request () and s = request () in
   Talk.send t (start_order r v foreign);
-  expect_refusal t plans r "a plan in a language that nobody speaks" >>= fun () ->
-  Talk.send t (start_order s "nobody-is-called-so" (by_name plans.short));
+  expect_refusal t plans r "a plan in an unknown language" >>= fun () ->
+  Talk.send t (start_order s "no-such-vehicle" (by_name plans.short));
   expect_refusal t plans s "a plan for a vehicle that is not there" >>= fun () ->
   runs_to_its_end t plans v plans.short >>= fun _ -> fine
 
@@ -283,7 +283,7 @@ let validation plans ~started command =
         | _ -> None)
   in
   check 1 foreign >>= function
-  | [] -> wrong "a plan in a language that nobody speaks is found to have no problems"
+  | [] -> wrong "a plan in an unknown language is found to have no problems"
   | _ :: _ -> (
       check 2 (by_name plans.short) >>= function
       | [] -> fine
@@ -301,7 +301,7 @@ let slow_reader plans ~started command =
   end_of t plans r >>= fun _ ->
   let pongs = List.filter_map (function Report.Pong id -> Some id | _ -> None) (Talk.reports t) in
   if pongs <> List.init last succ then
-    wrong "of %d pings that were sent while nobody read, %d were answered, or not in order" last (List.length pongs)
+    wrong "of %d pings sent while its output was not read, %d were answered, or not in order" last (List.length pongs)
   else rest 0.3 >>= fun () -> expect_one_end t r >>= fun () -> fine
 
 let most_at_once = 100
@@ -319,7 +319,7 @@ let all_at_once plans ~started command =
   let finished (v, r) =
     end_of t plans r >>= function
     | Done -> Lwt.return_unit
-    | other -> wrong "%s was to run plan %s, and says '%s'" v plans.short (of_word other)
+    | other -> wrong "%s was to run plan %s, and reports '%s'" v plans.short (of_word other)
   in
   Lwt_list.iter_s finished requests >>= fun () ->
   rest 0.3 >>= fun () ->
@@ -345,11 +345,11 @@ let died_while_running plans ~started command die =
 let killed_while_running plans ~started command =
   died_while_running plans ~started command Talk.kill >>= fun (t, v, r, said) ->
   match said with
-  | Absent -> wrong "after its death the adapter says that a plan which the vehicle had taken was never started"
-  | Done -> wrong "after its death the adapter says that plan %s is done" plans.long
+  | Absent -> wrong "after its death the adapter reports a plan that the vehicle had taken as never started"
+  | Done -> wrong "after its death the adapter reports plan %s as done" plans.long
   | Taken | Unknown _ | Failed _ | Stopped | Progress _ ->
     stopped t plans v r >>= fun _ ->
-    runs_to_its_end t plans v plans.short >>= fun _ -> Lwt.return_some (Printf.sprintf "it says '%s'" (of_word said))
+    runs_to_its_end t plans v plans.short >>= fun _ -> Lwt.return_some (Printf.sprintf "it reports '%s'" (of_word said))
 
 let resume_twice plans ~started command =
   died_while_running plans ~started command Talk.kill >>= fun (t, v, r, said) ->
@@ -374,7 +374,7 @@ let killed_after_its_end plans ~started command =
   again { plans with vehicle = Some v } ~started command >>= fun (t, _) ->
   Talk.send t resume;
   word t plans r >>= function
-  | (Done | Unknown _) as said -> Lwt.return_some (Printf.sprintf "it says '%s'" (of_word said))
+  | (Done | Unknown _) as said -> Lwt.return_some (Printf.sprintf "it reports '%s'" (of_word said))
   | other -> wrong "a plan that was done before the adapter died is '%s' after it" (of_word other)
 
 let never_ordered plans ~started command =
@@ -385,7 +385,7 @@ let never_ordered plans ~started command =
   | (Absent | Unknown _) as said ->
     rest 0.5 >>= fun () ->
     (match List.filter (( <> ) said) (words t r) with
-     | [] -> Lwt.return_some (Printf.sprintf "it says '%s'" (of_word said))
+     | [] -> Lwt.return_some (Printf.sprintf "it reports '%s'" (of_word said))
      | other :: _ -> wrong "a request that was never ordered is '%s', and then '%s'" (of_word said) (of_word other))
   | other -> wrong "a request that was never ordered is '%s'" (of_word other)
 
@@ -398,7 +398,7 @@ let console_dies plans ~started command =
   died_while_running plans ~started command die >>= fun (t, v, r, said) ->
   match said with
   | Taken | Unknown _ ->
-    stopped t plans v r >>= fun _ -> Lwt.return_some (Printf.sprintf "it says '%s'" (of_word said))
+    stopped t plans v r >>= fun _ -> Lwt.return_some (Printf.sprintf "it reports '%s'" (of_word said))
   | Absent | Done | Failed _ | Stopped | Progress _ ->
     wrong "the console died, and a plan that ran is '%s': vehicles are to fly on" (of_word said)
 
@@ -410,7 +410,7 @@ let close plans ~started command =
   Talk.send t Close;
   Talk.await t ~within:6. ~what:"'quiet'" (function Quiet -> Some () | _ -> None) >>= fun () ->
   Talk.ends_within t 1.5 >>= fun ended ->
-  if not ended then wrong "it has said 'quiet', and has not ended after 1.5 s"
+  if not ended then wrong "it has sent 'quiet', and has not ended after 1.5 s"
   else
     let resume = resume_order ~notes:(notes_of t r) r v plans.long in
     again { plans with vehicle = Some v } ~started command >>= fun (t, _) ->
@@ -432,14 +432,14 @@ let all =
     situation "start-twice" "takes a start that comes twice for one" start_twice;
     situation "stop" "stops a plan, and reports one end, the same again when asked again" stop;
     situation "stop-stranger" "answers the stop of a request that it never heard of" stop_of_a_stranger;
-    situation "stop-at-once" "stops a plan before it has said that it took it, and is free then" stop_at_once;
+    situation "stop-at-once" "stops a plan before reporting it as taken, and is free then" stop_at_once;
     situation "refusal" "refuses what it cannot do, in words, and is free then" refusal;
-    situation "validation" "says what is wrong with a plan, and moves nothing" validation;
-    situation "slow-reader" "loses nothing while nobody reads what it writes" slow_reader;
+    situation "validation" "reports the problems of a plan, and moves nothing" validation;
+    situation "slow-reader" "loses nothing while its output is not read" slow_reader;
     situation "all-at-once" "commands all of its vehicles at once, up to 100" all_at_once;
-    situation "killed" "after its death says what became of a plan that ran" killed_while_running;
-    situation "killed-after-end" "after its death does not run again what had ended" killed_after_its_end;
+    situation "killed" "after its death reports the outcome of a plan that ran" killed_while_running;
+    situation "killed-after-end" "after its death does not rerun an ended plan" killed_after_its_end;
     situation "resume-twice" "answers a second 'resume' as the first" resume_twice;
     situation "never-ordered" "does not claim a request that was never ordered" never_ordered;
     situation "console-dies" "lets vehicles fly on when its input ends, and ends" console_dies;
-    situation "close" "stops all, says that it is quiet, and ends" close ]
+    situation "close" "stops all vehicles, reports 'quiet', and ends" close ]

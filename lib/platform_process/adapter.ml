@@ -57,7 +57,7 @@ let close a = Child.close a.child
 let read_greeting a =
   Lines.next a.lines >>= function
   | End_of_input -> gone a >|= fun why -> Error (why ^ " before it greeted")
-  | Too_long -> Lwt.return (Error "does not greet as the platform protocol has it: its first line is too long")
+  | Too_long -> Lwt.return (Error "violates the platform protocol: its first line is too long")
   | Line text -> (
       match Report.of_line text with
       | Ok (Some (Hello greeting)) when greeting.version = Report.version -> Lwt.return (Ok greeting)
@@ -68,8 +68,8 @@ let read_greeting a =
                 Report.version))
       | Ok (Some (Trouble why)) -> Lwt.return (Error ("says: " ^ why))
       | Ok (Some _ | None) ->
-        Lwt.return (Error "does not greet as the platform protocol has it: its first line is no 'hello'")
-      | Error why -> Lwt.return (Error ("does not greet as the platform protocol has it: its first line " ^ why)))
+        Lwt.return (Error "violates the platform protocol: its first line is not a 'hello'")
+      | Error why -> Lwt.return (Error ("violates the platform protocol: its first line " ^ why)))
 
 let greet a hello =
   send a (Order.to_line hello);

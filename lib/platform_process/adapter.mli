@@ -14,7 +14,7 @@ val send : t -> string -> unit
 (** [send a line] writes [line] when the adapter reads; never waits. *)
 
 (** The output of an adapter. *)
-type line = Report of Report.t | Garbage of string  (** its fault: ["is no JSON: ..."] *)
+type line = Report of Report.t | Garbage of string  (** its fault: ["is not JSON: ..."] *)
 
 val listen : t -> (line -> unit) -> string Lwt.t
 (** [listen a f] gives [f] each line, in order, and resolves at the end of the output: with the reason, as a

@@ -367,7 +367,7 @@ let ping ~now d =
   else if d.ping.unanswered >= most_unanswered then
     output
       (Give_up
-         (Printf.sprintf "it has said nothing for %s" (seconds (ping_interval *. float_of_int most_unanswered))))
+         (Printf.sprintf "it has sent nothing for %s" (seconds (ping_interval *. float_of_int most_unanswered))))
       { d with ping = no_ping }
   else
     let id = d.ping.id + 1 in

@@ -22,7 +22,7 @@ let first (s : Report.sight) =
     Ok { id = s.vehicle; kind; payload = []; place = None; height = 0.; depth = None; altitude = None;
          battery = None; speed = None; readings = []; link; unready = None }
   | None, _ -> Error (Printf.sprintf "the first report of %s has no type" s.vehicle)
-  | Some _, None -> Error (Printf.sprintf "the first report of %s does not say whether it has a link" s.vehicle)
+  | Some _, None -> Error (Printf.sprintf "the first report of %s lacks its link" s.vehicle)
 
 let add (s : Report.sight) known =
   let known = match known with Some x -> Ok x | None -> first s in

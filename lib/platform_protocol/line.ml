@@ -8,17 +8,17 @@ let make kind members : Yojson.Safe.t = `Assoc (("kind", text kind) :: members)
 
 let read kinds line =
   match Host_value.parse line with
-  | Error why -> Error ("is no JSON: " ^ why)
+  | Error why -> Error ("is not JSON: " ^ why)
   | Ok (`Assoc members) -> (
       match List.assoc_opt "kind" members with
       | Some (`String kind) -> (
           match List.assoc_opt kind kinds with
           | Some reader ->
-            let told why = Printf.sprintf "is no '%s' as the protocol has it: %s" kind why in
+            let told why = Printf.sprintf "is not a valid '%s': %s" kind why in
             Result.map_error told (Result.map Option.some (reader members))
           | None -> Ok None)
       | Some _ | None -> Error "has no member 'kind' that is a text")
-  | Ok _ -> Error "is no JSON object"
+  | Ok _ -> Error "is not a JSON object"
 
 let count json =
   let* n = whole json in

@@ -12,7 +12,7 @@ val make : string -> (string * Yojson.Safe.t) list -> Yojson.Safe.t
 val read :
   (string * (Dolphin_json.Field.members -> ('a, string) result)) list -> string -> ('a option, string) result
 (** [read kinds text] is the result of its kind's reader for the line [text]; [None]: its kind is not among [kinds]. The
-    error is in words that follow the line's name: ["is no JSON: ..."], ["has no member 'why'"].
+    error is in words that follow the line's name: ["is not JSON: ..."], ["has no member 'why'"].
 *)
 
 (** {1:fields Members} *)

@@ -32,4 +32,4 @@ val to_line : t -> string
 
 val of_line : string -> (t option, string) result
 (** [of_line text] is the order that [text] is; [None] for one of a kind that is not known. The error follows the line's
-    name: ["is no JSON: ..."]. *)
+    name: ["is not JSON: ..."]. *)

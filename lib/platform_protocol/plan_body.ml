@@ -174,7 +174,7 @@ let kind members : (Plan.kind, string) result =
   | "followPath" ->
     let* points = get (list point) "points" members in
     Ok (Plan.Follow_path points)
-  | name -> Error (Printf.sprintf "there is no maneuver '%s'" name)
+  | name -> Error (Printf.sprintf "unknown maneuver '%s'" name)
 
 let payload json : (Plan.payload, string) result =
   let* payload = members json in

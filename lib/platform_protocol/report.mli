@@ -62,7 +62,7 @@ val to_line : t -> string
 
 val of_line : string -> (t option, string) result
 (** [of_line text] is the report that [text] is; [None] for one of a kind that is not known. The error follows the
-    line's name: ["is no JSON: ..."]. *)
+    line's name: ["is not JSON: ..."]. *)
 
 val version : int
 (** Of the protocol: 1. *)

@@ -185,7 +185,7 @@ let start id task f =
   | Free -> set_silence id { craft with activity = Ordered task } f.now f
   | Ordered old | Under_way { task = old; _ } | Over { task = old; _ } ->
     let craft, f = give_up craft f in
-    let why = Printf.sprintf "told to run '%s' while it ran '%s'" task.Core.name old.Core.name in
+    let why = Printf.sprintf "ordered to run '%s' while it ran '%s'" task.Core.name old.Core.name in
     report_now id craft task (Error why) f
 
 let stop id f =

@@ -26,7 +26,7 @@ type call =
   (Core.value, string) result Lwt.t
 
 let no_host ~site:_ ~subject:_ ~member:_ ~arguments:_ =
-  Lwt.return (Error "there is no host process to call: name one with --supplier")
+  Lwt.return (Error "no host process to call: name one with --supplier")
 
 type beginning = {
   configuration : Configuration.t;

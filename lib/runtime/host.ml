@@ -59,7 +59,7 @@ let read_reply ~site id text =
         let* () = same id in
         (match Host_value.of_json ~site json with
          | Ok x -> Ok (Ok x)
-         | Error why -> wrong (Printf.sprintf "which is no value for a program: %s" why))
+         | Error why -> wrong (Printf.sprintf "which is not a value for a program: %s" why))
       | Some id, None, Some (`String why) ->
         let* () = same id in
         Ok (Error why)

@@ -84,7 +84,7 @@ let vehicle_table : vehicle Setting.t list =
     setting "charge" "the share of the battery that an hour's rest gives, as in charge 50.percent"
       (one Setting.per_hour (fun v charge -> { v with charge }));
     setting "charger" ~again:true "a place and a radius in metres, as in charger 41.185, -8.706, 30.m" charger;
-    setting "shows" ~again:true "a quantity and what it may be, as in shows 'Temperature', 12, 18" shows;
+    setting "shows" ~again:true "a quantity and its possible values, as in shows 'Temperature', 12, 18" shows;
     setting "joins" "a time, as in joins 30.seconds" (one Setting.time (fun v joins -> { v with joins }));
     setting "leaves" "a time, as in leaves 10.min" (one Setting.time (fun v time -> { v with leaves = Some time }));
     setting "drops" ~again:true "two times, when the link drops and for how long, as in drops 60.seconds, 30.seconds"
@@ -281,7 +281,7 @@ let field state (word : string located) quantity values =
 let without_variables (d : Diagnostic.t) =
   match d.code, d.hint with
   | Unknown_name, None ->
-    { d with hint = Some "there are no variables in a fleet: write the area itself, or map('harbour.geojson').basin" }
+    { d with hint = Some "a fleet has no variables: write the area itself, or map('harbour.geojson').basin" }
   | _, _ -> d
 
 let fence state (word : string located) arguments =
@@ -322,7 +322,7 @@ let entry state (word : string located) arguments =
         | Some near -> Printf.sprintf "did you mean '%s'?" near
         | None -> "a fleet consists of vehicle, plan, answer, reply, input, field and fence"
       in
-      add_fault state (Diagnostic.error word.at (Printf.sprintf "there is no '%s' in a fleet" other) ~hint)
+      add_fault state (Diagnostic.error word.at (Printf.sprintf "a fleet has no '%s'" other) ~hint)
 
 let statement state (s : statement) =
   match s.it with
@@ -357,7 +357,7 @@ let unmeasured state =
   let of_vehicle { entry = (v : vehicle); name_at } =
     let is_open (q, xs) = xs = [] && not (is_sampled q) in
     let fault (q, _) =
-      Diagnostic.error name_at (Printf.sprintf "vehicle '%s' shows '%s', and nothing says what that is" v.id q)
+      Diagnostic.error name_at (Printf.sprintf "vehicle '%s' shows '%s', which has no values" v.id q)
         ~hint:(Printf.sprintf "give values, as in shows '%s', 12, 18, or a field: field '%s', 12, at(41.18, -8.7)" q q)
     in
     List.map fault (List.filter is_open v.shows)

@@ -41,14 +41,14 @@ let place (name : string Ast.located) =
   match Dolphin_geo.Place.find name.it with
   | Some position -> Ok (Position position)
   | None ->
-    error name.at "there is no place Location.%s" name.it
+    error name.at "unknown place Location.%s" name.it
       ~hint:(did_you_mean name.it (List.map fst Dolphin_geo.Place.all))
 
 let in_unit n (name : string Ast.located) =
   match Operators.in_unit (Number n) name.it with
   | Ok value -> Ok (Number (Option.value (Value.to_number value) ~default:n, dimension name.it))
   | Error _ ->
-    error name.at "there is no unit '%s'" name.it ~hint:(Operators.unit_hint name.it)
+    error name.at "unknown unit '%s'" name.it ~hint:(Operators.unit_hint name.it)
 
 let rec read (e : Ast.expression) =
   match e.it with
@@ -68,7 +68,7 @@ let rec read (e : Ast.expression) =
       | Error _ as fault -> fault)
   | Variable "unknown" -> Ok Unknown
   | Variable name ->
-    error e.at "there are no variables in a fleet" ~hint:(Printf.sprintf "a text is put in quotes: '%s'" name)
+    error e.at "a fleet has no variables" ~hint:(Printf.sprintf "a text is put in quotes: '%s'" name)
   | _ ->
     error e.at "only a number, a text or a place may stand here"
       ~hint:"as in 1.5, 30.seconds, 'UUV', Location.APDL"

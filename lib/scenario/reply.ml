@@ -46,7 +46,7 @@ let rec value (e : expression) : (Core.value, Diagnostic.t) result =
   | Unary (Negate, inner) ->
     let* x = value inner in
     at e.at (Operators.unary Negate x)
-  | Variable "fails" -> error e.at "fails is no value: it stands for a whole reply"
+  | Variable "fails" -> error e.at "fails is not a value: it stands for a whole reply"
   | Member { subject = { it = Variable "Location"; _ }; safe = false; _ } | Variable _ -> literal e
   | Member { subject; name; safe = false } ->
     let* _ = literal e in
@@ -71,7 +71,7 @@ let rec value (e : expression) : (Core.value, Diagnostic.t) result =
       | "vehicles", None -> error e.at "vehicles takes ids in quotes, as in vehicles('x8-02', 'x8-03')"
       | "location", _ -> error e.at "location takes a latitude and a longitude in degrees, and perhaps a height"
       | "area", _ -> error e.at "area takes a position and a radius, as in area(Location.APDL, 2.km)"
-      | ("either" | "fails"), _ -> error e.at "%s is no value: it stands for a whole reply" word
+      | ("either" | "fails"), _ -> error e.at "%s is not a value: it stands for a whole reply" word
       | _ -> (
           match Diagnostic.suggest word words with
           | Some near -> other e ~hint:(Printf.sprintf "did you mean %s?" near)
@@ -165,8 +165,8 @@ let data (e : expression) =
   let datum reply =
     match reply with
     | Ok x when Dolphin_json.Host_value.is_data x -> Ok x
-    | Ok _ -> error e.at "what is posted has no tasks and objects in it"
-    | Error _ -> error e.at "fails is no input"
+    | Ok _ -> error e.at "tasks and objects cannot be posted"
+    | Error _ -> error e.at "fails is not an input"
   in
   let* replies = read e in
   List.fold_right (fun reply rest -> Result.bind (datum reply) (fun x -> Result.map (List.cons x) rest)) replies (Ok [])

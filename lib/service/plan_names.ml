@@ -28,7 +28,7 @@ let misspelt p (s : Dolphin_scenario.Scenario.t) =
       match Diagnostic.suggest name known with
       | Some near when is_misspelling name near ->
         let hint = Printf.sprintf "did you mean '%s'?" near in
-        Some (Diagnostic.warning ~hint Unknown_plan at (Printf.sprintf "the fleet says nothing of plan '%s'" name))
+        Some (Diagnostic.warning ~hint Unknown_plan at (Printf.sprintf "the fleet does not have plan '%s'" name))
       | Some _ | None -> None
   in
   List.filter_map warn (of_program p)

@@ -9,12 +9,12 @@ let words =
       "A local variable, which ends with its block; at the top of a program the same as `x = e`. `def \
        f(x) { ... }` defines a function.";
       "parameter", "parameter n = e, 'what it is'",
-      "A global that whoever starts the program may give another value, by `--set n=e`; `dolphin help` lists them.";
+      "A global whose value can be replaced at the start, by `--set n=e`; `dolphin help` lists them.";
       "if", "if (c) { ... } else { ... }", "Runs the first block if the condition holds, else the second.";
-      "else", "if (c) { ... } else { ... }", "What runs if the condition does not hold.";
+      "else", "if (c) { ... } else { ... }", "The block for a condition that does not hold.";
       "while", "while (c) { ... }", "Repeats the block as long as the condition holds.";
       "for", "for (x in xs) { ... }", "Goes through lists, ranges, vehicle sets, strings and maps.";
-      "in", "x in xs", "Whether x is among the elements of xs; in `for`, what the loop goes through.";
+      "in", "x in xs", "Whether x is an element of xs; in `for`, the collection to go through.";
       "return", "return e", "Ends a function or closure with the value e.";
       "break", "break", "Ends the innermost loop.";
       "continue", "continue", "Goes on with the next round of the innermost loop.";
@@ -22,11 +22,11 @@ let words =
       "false", "false", "The truth value.";
       "null", "null", "No value.";
       "when", "when { C } then T", "In allOf and oneOf: T runs once C holds, which is judged and taken in one step.";
-      "then", "when { C } then T", "What runs when the condition holds.";
+      "then", "when { C } then T", "The task that runs once the condition holds.";
       "waitFor", "waitFor { C } then T", "T, which starts as soon as C holds.";
       "watch", "watch T onError { err -> ... }",
       "T; an error in it stops it and runs the code, which may `ignore()`, `propagate()`, `retry()` or `halt()`.";
-      "onError", "watch T onError { err -> ... }", "What is done about an error of the watched task.";
+      "onError", "watch T onError { err -> ... }", "The reaction to an error of the watched task.";
       "repeat", "repeat T", "T, again and again.";
       "run", "during D run T", "The task to which a limit belongs.";
       "until", "until { C } run T", "T, which is stopped and done when C holds. Also `T until { C }`.";
@@ -51,31 +51,33 @@ let procedures =
        `execute T`, on any of the vehicles picked.";
       "release", "release vs", "Gives the vehicles back: others may pick them.";
       "setConnectionTimeout", "setConnectionTimeout vs, 2.min",
-      "How long nothing may be heard of the vehicles before their tasks fail.";
-      "ask", "ask 'prompt'", "Asks people a question; its value is what the answer computes.";
+      "The longest silence of the vehicles before their tasks fail.";
+      "ask", "ask 'prompt'", "Asks people a question; its value is that of the expression typed in answer.";
       "input", "input 'key', ...",
       "At the top: pairs with these keys may be posted from outside at any time.";
       "onInterrupt", "onInterrupt { vs -> T }",
-      "At the top: what Ctrl-C executes instead of only stopping, by the vehicles picked. A second Ctrl-C stops all.";
+      "At the top: a task that Ctrl-C executes on the picked vehicles, instead of only stopping. A second Ctrl-C \
+       stops all.";
       "confirm", "confirm 'prompt'",
       "Asks a question that takes yes or no. As part of a task: a task, done by yes, failed by no.";
       "message", "message x", "Shows a value to people.";
       "println", "println x", "Shows a value to people, as `message`.";
       "pause", "pause 2.min", "Makes the script wait.";
-      "halt", "halt 'why'", "Ends the program: what runs is stopped, and all vehicles are released.";
+      "halt", "halt 'why'", "Ends the program: running tasks are stopped, and all vehicles are released.";
       "post", "post k: x", "Puts pairs into the tuple space.";
       "consume", "consume k: x",
       "Takes pairs out of the tuple space, all of them or none, and is true if it took them. `_` is any value.";
       "poll", "poll k: x",
       "Whether the pairs are in the tuple space; takes nothing. `poll 'k'` asks for any pair of that key.";
-      "position", "position(v)", "Where the vehicle is now.";
-      "battery", "battery(v)", "What is left in the vehicle's battery, from 0 to 1.";
-      "speed", "speed(v)", "How fast the vehicle is over the ground, in metres per second.";
+      "position", "position(v)", "The vehicle's present position.";
+      "battery", "battery(v)", "The charge left in the vehicle's battery, from 0 to 1.";
+      "speed", "speed(v)", "The vehicle's speed over the ground, in metres per second.";
       "connected", "connected(v)", "Whether there is a link to the vehicle.";
-      "reading", "reading(v, 'Temperature')", "The last value that the vehicle has told of what it measures.";
+      "reading", "reading(v, 'Temperature')", "The last value that the vehicle has reported of a quantity that it \
+                                               measures.";
       "running", "running(v)", "Whether the vehicle runs a task now.";
       "now", "now()", "The whole seconds since the run started.";
-      "eta", "eta(v, p)", "The seconds in which the vehicle gets from where it is to a position, straight on.";
+      "eta", "eta(v, p)", "The seconds that the vehicle takes to a position, in a straight line.";
       "location", "location(latitude, longitude)", "A position, in degrees; a third number is its height in metres. \
                                                     Also `location \"41\xc2\xb011.1'N 8\xc2\xb042.4'W\"`.";
       "polygon", "polygon([p1, p2, ...])",
@@ -84,8 +86,8 @@ let procedures =
       "The areas, lines and positions on the map in this file, by name: GeoJSON, KML, KMZ, GPX, plans of \
        QGroundControl, missions of Neptus.";
       "fence", "fence inside harbour, margin: 20.m",
-      "What vehicles must keep to: `inside` or `outside` an area, at most a `depth` or a `height`, at least a \
-       `distance` from each other. A plan that breaks it fails.";
+      "A limit for vehicles: `inside` or `outside` an area, at most a `depth` or a `height`, at least a `distance` \
+       from each other. A plan that violates it fails.";
       "corridor", "corridor(path, width)", "The points at most half the width away from a path, a list of positions.";
       "along", "along(path, d)", "The position d metres along a path, a list of positions.";
       "coverage", "coverage(area, spacing: 40.m)",
@@ -96,9 +98,9 @@ let procedures =
       "sector", "sector(datum, radius: 200.m)",
       "The points of a search in three triangles that meet at a position; `bearing:` is that of its first leg.";
       "spiral", "spiral(datum, spacing: 50.m, radius: 200.m)",
-      "The points of a spiral around a position; `bearing:` is where it begins.";
+      "The points of a spiral around a position, which begins at `bearing:`.";
       "footprint", "footprint(altitude: 10.m, range: 50.m)",
-      "How wide the strip is that a sidescan of this range sees; a camera has an `angle` instead.";
+      "The width of the strip that a sidescan of this range sees; a camera has an `angle` instead.";
       "area", "area(centre, radius)", "The circle around a position, its radius in metres. Also `centre ^ radius`.";
       "ignore", "ignore()", "In `onError`: the watched task counts as done.";
       "propagate", "propagate()", "In `onError`: the error climbs on.";
@@ -109,8 +111,8 @@ let procedures =
 
 let blocks =
   List.map (entry Block)
-    [ "pick", "pick { count 3; type 'UUV' }", "Binds vehicles to the program and gives them as a set. \
-                                               With `else { ... }`, what to do without.";
+    [ "pick", "pick { count 3; type 'UUV' }", "Binds vehicles to the program and gives them as a set. `else { ... }` \
+                                               is the alternative if too few come.";
       "imcPlan", "imcPlan { locate 41.185, -8.706; goTo speed: 1.2 }",
       "An inline plan: settings, and maneuvers in their order.";
       "mission", "mission { takeOff 30; goPos p; returnHomeAndLand() }",
@@ -128,8 +130,8 @@ let of_pick =
       "type", "type 'UUV'", "Vehicles of this type.";
       "payload", "payload 'DVL', 'Sidescan'", "Vehicles that carry all of these devices.";
       "region", "region centre, radius", "Vehicles that are in this area now. Also `region area`.";
-      "count", "count 3", "How many; `_` is all that there are. 1 by default.";
-      "timeout", "timeout 30.seconds", "How long to look for them; 0 is not at all." ]
+      "count", "count 3", "The number of vehicles; `_` is all in reach. 1 by default.";
+      "timeout", "timeout 30.seconds", "The time to look for them; 0 is not at all." ]
 
 let of_position =
   List.map (entry Setting)
@@ -143,10 +145,11 @@ let of_position =
 let of_plan =
   List.map (entry Setting)
     [ "planName", "planName 'name'", "The plan's name.";
-      "description", "description 'text'", "What the plan is for.";
-      "vehicles", "vehicles 'id', ...", "Who may run the plan.";
+      "description", "description 'text'", "The purpose of the plan.";
+      "vehicles", "vehicles 'id', ...", "The vehicles that may run the plan.";
       "locate", "locate latitude, longitude",
-      "Where the next maneuver is. Also `locate position`. At the top of a program: where plans are without it.";
+      "The place of the next maneuver. Also `locate position`. At the top of a program: the place of plans without \
+       one.";
       "move", "move north, east", "Moves the place of the next maneuver, in metres.";
       "speed", "speed 1.5, Speed.Units.METERS_PS", "The speed of the maneuvers that follow.";
       "z", "z 2, Z.Units.DEPTH", "The depth, altitude or height of the maneuvers that follow." ]
@@ -155,13 +158,13 @@ let maneuvers =
   List.map (entry Maneuver)
     [ "goTo", "goTo()", "Goes to the place.";
       "loiter", "loiter radius: 20, duration: 60, direction: 'VDEP'",
-      "Circles around the place for so many seconds; 0 is without end.";
+      "Circles around the place for this many seconds; 0 is without end.";
       "skeeping", "skeeping radius: 20, duration: 60",
-      "Keeps within the radius of the place, drifting, for so many seconds; 0 is without end.";
+      "Keeps within the radius of the place, drifting, for this many seconds; 0 is without end.";
       "yoyo", "yoyo max_depth: 20, min_depth: 2, pitch: 15.degrees",
       "Goes to the place, up and down on the way.";
       "popup", "popup duration: 180, currPos: true",
-      "Comes to the surface for a fix: where it is (`currPos`) or at the place.";
+      "Comes to the surface for a fix: at its present position (`currPos`) or at the place.";
       "rows", "rows width: 100, length: 200, hstep: 27",
       "Parallel rows, the first along `bearing` (north) from the place, the others to the left of it: west. \
        To the right (east): `firstCurveRight: true`.";
@@ -172,7 +175,7 @@ let maneuvers =
 let of_mission =
   List.map (entry Setting)
     [ "name", "name 'photos'", "The mission's name.";
-      "vehicles", "vehicles 'id', ...", "Who may run the mission.";
+      "vehicles", "vehicles 'id', ...", "The vehicles that may run the mission.";
       "arm", "arm true", "The vehicle may be armed in order to begin.";
       "speed", "speed 12", "Metres per second, from here on.";
       "altitude", "altitude 40", "Metres above home, from here on." ]
@@ -180,27 +183,27 @@ let of_mission =
 let items =
   List.map (entry Maneuver)
     [ "stored", "stored 'survey'", "Flies the stored mission of this name here.";
-      "home", "home p", "Where home is; without a position, here.";
+      "home", "home p", "The home position; without an argument, here.";
       "takeOff", "takeOff 30", "Takes off to this many metres above home.";
       "takeOffWithYaw", "takeOffWithYaw 30, 90", "Takes off, and turns to this course.";
       "goPos", "goPos p, altitude: 40, speed: 12", "Goes to a position. Also `goPos latitude, longitude`.";
-      "move", "move north, east, up", "Goes so many metres from where it is then. Also `move p, { north 10 }`.";
-      "moveFromHome", "moveFromHome north, east", "Goes to so many metres from home.";
+      "move", "move north, east, up", "Goes this many metres from its position then. Also `move p, { north 10 }`.";
+      "moveFromHome", "moveFromHome north, east", "Goes to a point this many metres from home.";
       "moveAndLoiter", "moveAndLoiter north, east, duration: 1.minute", "Goes there and circles.";
       "returnHome", "returnHome()", "Goes home.";
       "returnHomeAndLoiter", "returnHomeAndLoiter 1.minute", "Goes home and circles; 0 is without end.";
       "returnHomeAndLand", "returnHomeAndLand()", "Goes home and lands.";
-      "landingPoint", "landingPoint p", "Lands there; without a position, where it is then.";
+      "landingPoint", "landingPoint p", "Lands there; without a position, where the vehicle is then.";
       "loiterPos", "loiterPos p, duration: 1.minute, radius: 40", "Circles around a position, without end by default.";
-      "loiterTurns", "loiterTurns 3, p", "Circles so many times.";
-      "loiterTime", "loiterTime 1.minute, p", "Circles for so long.";
-      "delay", "delay 10.seconds", "Stays for so long.";
+      "loiterTurns", "loiterTurns 3, p", "Circles this number of times.";
+      "loiterTime", "loiterTime 1.minute, p", "Circles for this time.";
+      "delay", "delay 10.seconds", "Stays for this time.";
       "capturePhoto", "capturePhoto()", "Takes a photo.";
       "captureSeveralPhotos", "captureSeveralPhotos 10, 2.seconds", "Takes photos, with this time between two.";
       "captureUntilStop", "captureUntilStop 2.seconds", "Takes photos until `stopCapturing`.";
       "stopCapturing", "stopCapturing()", "Takes no more photos.";
-      "jumpToItem", "jumpToItem 2, 3", "Goes on with this item, so many times; -1 is always.";
-      "surveyArea", "surveyArea([p, q, r], 20, bearing: 45)", "Covers an area by lines so many metres apart." ]
+      "jumpToItem", "jumpToItem 2, 3", "Continues with this item, this number of times; -1 is always.";
+      "surveyArea", "surveyArea([p, q, r], 20, bearing: 45)", "Covers an area by lines at this distance in metres." ]
 
 let settings : Dolphin_syntax.Ast.builder -> entry list = function
   | Pick -> of_pick
@@ -212,8 +215,8 @@ let settings : Dolphin_syntax.Ast.builder -> entry list = function
 
 let members =
   List.map (entry Member)
-    [ "size", "xs.size()", "How many elements or characters there are.";
-      "isEmpty", "xs.isEmpty()", "Whether there is none.";
+    [ "size", "xs.size()", "The number of elements or characters.";
+      "isEmpty", "xs.isEmpty()", "Whether it is empty.";
       "contains", "xs.contains(x)", "Whether x is in it.";
       "each", "xs.each { ... }", "Runs the code for each element.";
       "eachWithIndex", "xs.eachWithIndex { x, i -> ... }", "Runs the code for each element and its index, from 0.";
@@ -222,8 +225,8 @@ let members =
       "find", "xs.find { ... }", "The first element for which the code is true, or null.";
       "any", "xs.any { ... }", "Whether the code is true for any element.";
       "every", "xs.every { ... }", "Whether the code is true for all elements.";
-      "count", "xs.count { ... }", "For how many elements the code is true.";
-      "inject", "xs.inject(start) { sum, x -> ... }", "What the code makes of the start and each element in turn.";
+      "count", "xs.count { ... }", "The number of elements for which the code is true.";
+      "inject", "xs.inject(start) { sum, x -> ... }", "The result of the code for the start and each element in turn.";
       "get", "xs.get(i)", "The element at an index from 0, or of a key.";
       "first", "xs.first()", "The first element.";
       "last", "xs.last()", "The last element.";
@@ -231,7 +234,7 @@ let members =
       "tail", "xs.tail()", "All but the first element.";
       "take", "xs.take(n)", "The first n.";
       "drop", "xs.drop(n)", "All but the first n.";
-      "indexOf", "xs.indexOf(x)", "Where x stands, from 0; -1 if it does not.";
+      "indexOf", "xs.indexOf(x)", "The index of x, from 0; -1 if x is not in it.";
       "reverse", "xs.reverse()", "In reverse order.";
       "sort", "xs.sort { key }", "In order, by the key that the code gives.";
       "unique", "xs.unique()", "Each value once.";
@@ -259,33 +262,36 @@ let members =
       "toInteger", "s.toInteger()", "The whole number that it spells; of a number, its whole part.";
       "toDouble", "s.toDouble()", "The number that it spells.";
       "abs", "n.abs()", "Without its sign.";
-      "round", "n.round(digits)", "Rounded to so many digits, or to a whole number.";
+      "round", "n.round(digits)", "Rounded to this number of digits, or to a whole number.";
       "times", "n.times { ... }", "Runs the code n times.";
       "id", "v.id", "The vehicle's id, or the plan's name.";
       "ids", "vs.ids", "The ids of the vehicles.";
       "type", "v.type", "The vehicle's type.";
-      "position", "v.position", "Where the vehicle is now.";
-      "battery", "v.battery", "What is left in the vehicle's battery, from 0 to 1.";
+      "position", "v.position", "The vehicle's present position.";
+      "battery", "v.battery", "The charge left in the vehicle's battery, from 0 to 1.";
       "payload", "v.payload", "The vehicle's devices.";
       "latitude", "p.latitude", "Degrees north.";
       "longitude", "p.longitude", "Degrees east.";
       "height", "p.height", "Metres above the ellipsoid.";
       "distance", "p.distance(q)", "Metres from p to q.";
       "bearing", "p.bearing(q)", "Degrees from the north.";
-      "displace", "p.displace(north, east)", "The position so many metres away.";
+      "displace", "p.displace(north, east)", "The position at this distance in metres.";
       "centre", "a.centre", "The centre of an area.";
       "radius", "a.radius", "The radius of a circle in metres.";
       "size", "a.size", "The size of an area in square metres.";
       "corners", "a.corners", "The corners of an area, rim by rim.";
       "bounds", "a.bounds", "The south-west and the north-east corner of an area's box.";
       "hull", "a.hull()", "The smallest convex area around an area.";
-      "offset", "a.offset(d)", "What is at most d metres away from an area; for d below 0, what is inside by -d.";
+      "offset", "a.offset(d)", "The points at most d metres away from an area; for d below 0, the points at least -d \
+                                inside.";
       "grid", "a.grid(d)", "The middles of squares of d metres that are in an area.";
-      "split", "a.split(3)", "So many parts of an area, equally large and each connected; of a string, its pieces.";
+      "split", "a.split(3)", "This number of parts of an area, equally large and each connected; of a string, its \
+                              pieces.";
       "length", "p.length",
-      "The metres from the first place of a plan to its last; `p.length(v)`: from where the vehicle is.";
-      "duration", "p.duration(v)", "The seconds that the plan takes the vehicle from where it is.";
-      "energy", "p.energy(v)", "What the plan takes of the vehicle's battery from where it is, from 0 to 1.";
+      "The metres from the first place of a plan to its last; `p.length(v)`: from the vehicle's position.";
+      "duration", "p.duration(v)", "The seconds that the plan takes the vehicle, from its position on.";
+      "energy", "p.energy(v)", "The share of the vehicle's battery that the plan takes, from its position on, from 0 \
+                                to 1.";
       "name", "t.name", "The name of a plan.";
       "call", "f.call(...)", "The value of the closure." ]
 
@@ -304,37 +310,37 @@ let constants =
 let fleet_entries =
   List.map (entry Fleet_word)
     [ "vehicle", "vehicle 'id', { type 'UUV' }", "A vehicle of the world.";
-      "plan", "plan 'name', { duration 3.min }", "How a plan ends, and how long it takes.";
-      "answer", "answer 'prompt', e1, e2", "What people answer to a prompt, one after another.";
-      "input", "input 'key', x1, x2", "What may be posted with a key from outside, one value after another.";
-      "field", "field 'Temperature', 12, at(41.185, -8.706)", "What a quantity is at a place, from a time on.";
-      "fence", "fence inside map('harbour.geojson').basin, margin: 20.m", "What vehicles must keep to, always.";
-      "locate", "locate 41.185, -8.706", "Where plans are, in programs that do not say so.";
-      "reply", "reply 'call', r1, r2", "What a supplier replies to a call, one after another." ]
+      "plan", "plan 'name', { duration 3.min }", "The outcome and the duration of a plan.";
+      "answer", "answer 'prompt', e1, e2", "People's answers to a prompt, one after another.";
+      "input", "input 'key', x1, x2", "Values that may be posted with a key from outside, one after another.";
+      "field", "field 'Temperature', 12, at(41.185, -8.706)", "The value of a quantity at a place, from a time on.";
+      "fence", "fence inside map('harbour.geojson').basin, margin: 20.m", "A limit that always holds for vehicles.";
+      "locate", "locate 41.185, -8.706", "The place of plans, in programs without one.";
+      "reply", "reply 'call', r1, r2", "A supplier's replies to a call, one after another." ]
 
 let of_vehicle =
   List.map (entry Setting)
     [ "type", "type 'UUV'", "The vehicle's type.";
       "payload", "payload 'DVL', 'Sidescan'", "Its devices.";
-      "at", "at 41.185, -8.706", "Where it is; several are all places where it is ever seen.";
+      "at", "at 41.185, -8.706", "Its position; several are all places where it is ever seen.";
       "speed", "speed 1.5", "Metres per second.";
-      "battery", "battery 80.percent", "What is in its battery; `unknown` if it does not tell.";
-      "shows", "shows 'Temperature', 12, 18", "What it measures, and what that may be.";
-      "drain", "drain 10.percent", "What an hour's work takes from the battery.";
-      "charge", "charge 50.percent", "What an hour's rest gives the battery.";
+      "battery", "battery 80.percent", "The charge of its battery; `unknown` if it does not report it.";
+      "shows", "shows 'Temperature', 12, 18", "A quantity that it measures, and its possible values.";
+      "drain", "drain 10.percent", "The share of the battery that an hour's work takes.";
+      "charge", "charge 50.percent", "The share of the battery that an hour's rest gives.";
       "charger", "charger 41.185, -8.706, 30.m", "A place: rest charges only within this distance.";
-      "joins", "joins 30.seconds", "When it comes.";
-      "leaves", "leaves 10.min", "When it goes.";
-      "drops", "drops 2.min, 30.seconds", "When its link falls silent, and for how long." ]
+      "joins", "joins 30.seconds", "The time at which it comes.";
+      "leaves", "leaves 10.min", "The time at which it goes.";
+      "drops", "drops 2.min, 30.seconds", "The time at which its link falls silent, and for how long." ]
 
 let of_fleet_plan =
   List.map (entry Setting)
-    [ "duration", "duration 3.min, 9.min", "How long it takes: a time, or the shortest and the longest.";
+    [ "duration", "duration 3.min, 9.min", "Its duration: a time, or the shortest and the longest.";
       "mayFail", "mayFail 20.percent", "It fails now and then.";
       "fails", "fails", "It always fails.";
-      "at", "at 41.186, -8.705", "Where it is run.";
+      "at", "at 41.186, -8.705", "The place where it is run.";
       "only", "only 'UAV', 'x8-02'", "Types and ids of the vehicles that know it.";
-      "charges", "charges 120.percent", "What an hour of it gives the battery, instead of draining it." ]
+      "charges", "charges 120.percent", "The share of the battery that an hour of it gives, instead of draining it." ]
 
 let fleet_settings = function
   | "vehicle" -> of_vehicle

@@ -396,7 +396,7 @@ let structure bindings =
 
 let rename d offset x =
   match Occurrences.at d.bindings offset with
-  | None -> Error "there is no variable or function of the program here"
+  | None -> Error "no variable or function of the program here"
   | Some _ when not (Surroundings.is_name x) -> Error (Printf.sprintf "'%s' is not a name" x)
   | Some b ->
     let renamed = read ~file:d.file ?fleet:d.fleet (replaced d.source b.uses x) in

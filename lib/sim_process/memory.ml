@@ -44,7 +44,7 @@ let read path =
 let append path = open_out_gen [ Open_append; Open_creat; Open_binary ] 0o666 path
 
 let open_ path =
-  let told why = Printf.sprintf "%s: this is no state of a simulated fleet: %s" path why in
+  let told why = Printf.sprintf "%s: this is not the state of a simulated fleet: %s" path why in
   let* past = if Sys.file_exists path then Result.map_error told (read path) else Ok None in
   match append path with
   | exception Sys_error why -> Error why

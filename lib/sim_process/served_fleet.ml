@@ -102,7 +102,7 @@ let problems_on vehicle plan f =
         let lacks = List.filter (fun device -> not (carries device)) (Inline_plan.required_payload plan) in
         let allowed = Inline_plan.vehicles plan in
         let others = if allowed = [] || List.mem vehicle.id allowed then [] else [ vehicle.id ] in
-        List.map (Printf.sprintf "there is no %s on board") lacks
+        List.map (Printf.sprintf "no %s on board") lacks
         @ List.map (Printf.sprintf "the plan is not for %s") others)
 
 (* A start that was ordered before is not ordered again. *)
@@ -114,7 +114,7 @@ let repeat request f =
 
 let start request v plan f =
   match vehicle_of v f, problems_on (Some v) plan f, Plan_body.of_json plan with
-  | None, _, _ -> say request (Failed (Printf.sprintf "there is no vehicle %s here" v)) f
+  | None, _, _ -> say request (Failed (Printf.sprintf "no vehicle %s here" v)) f
   | Some _, (why :: _), _ | Some _, [], Error why -> say request (Failed why) f
   | Some _, [], Ok task ->
     let fleet = if Names.mem v f.running then Fleet.stop v f.fleet else f.fleet in
@@ -136,7 +136,7 @@ let resume request f =
   match repeat request f with
   | Some again -> again
   | None when f.is_remembered -> (f, [ Report.Request (request, Absent) ])
-  | None -> (f, [ Report.Request (request, Unknown "this simulated fleet began anew, and remembers nothing") ])
+  | None -> (f, [ Report.Request (request, Unknown "this simulated fleet was restarted without its state") ])
 
 let on_fleet f fleet = ({ f with fleet }, [])
 

@@ -160,4 +160,4 @@ let match_up tokens =
     Error
       (Diagnostic.error (Token.at token)
          (Printf.sprintf "the program has more than %d words and signs up to here" most_tokens)
-         ~hint:"a program is what people write: let it compute, or get as inputs, what is this much")
+         ~hint:"programs are written by people: compute large data in the program, or pass it as inputs")

@@ -317,7 +317,7 @@ let greedy_bracket place =
     Some ("unexpected ':'", Printf.sprintf "parentheses behind %s hold all its pairs: %s" f (call f))
   | COLON, (NAME "execute" | COMMAND "execute"), _ when opener < first && before place 2 = BAR ->
     Some ("unexpected ':'",
-          Printf.sprintf "what other vehicles do stands behind a ',': execute v: T, %s: U"
+          Printf.sprintf "the tasks of other vehicles follow a ',': execute v: T, %s: U"
             (text_of place (place.index - 1)))
   | COLON, (NAME "execute" | COMMAND "execute"), _ when before place 1 = RBRACKET || before place 1 = RPAREN ->
     Some ("unexpected ':'", "before a ':' stands a name: give these vehicles one, or write execute (task)[vehicles]")
@@ -351,7 +351,7 @@ let described_parameter place =
   match kind place (statement place), this place with
   | PARAMETER, (NAME _ | COMMAND _ | STRING _ | TEMPLATE_OPEN | INTEGER _ | NUMBER _) ->
     Some (Printf.sprintf "unexpected %s" (spelt place place.index),
-          "behind the value of a parameter may stand a ',' and what it is, in quotes: parameter n = 3, 'how many'")
+          "a parameter's value may be followed by a ',' and a description in quotes: parameter n = 3, 'how many'")
   | _ -> None
 
 let stray place =
@@ -376,7 +376,7 @@ let stray place =
 let after_rounds place =
   if place.acceptable NEVER then
     let operator = text_of place (place.index - 1) in
-    Some (Printf.sprintf "what the 'until' before this '%s' ends is not clear" operator,
+    Some (Printf.sprintf "the task that the 'until' before this '%s' ends is ambiguous" operator,
           Printf.sprintf
             "write (repeat task until { condition }) %s other, or repeat (task until { condition }) %s other"
             operator operator)

@@ -43,7 +43,7 @@ let faults (tokens : Token.t array) =
       begin match advice word with
         | Some hint when not is_member ->
           let hint = Option.value (advice_for_new tokens i word) ~default:hint in
-          let message = Printf.sprintf "there is no '%s' in this language" word in
+          let message = Printf.sprintf "this language has no '%s'" word in
           found := Diagnostic.error (Token.at token) message ~hint :: !found
         | Some _ | None -> ()
       end

@@ -316,21 +316,21 @@ rule code state = parse
   | "&&" { emit state lexbuf AND }
   | "||" { emit state lexbuf OR }
   | '!' { emit state lexbuf NOT }
-  | "===" { mended state lexbuf EQUAL "there is no operator '==='" ~hint:"write '=='" }
-  | "!==" { mended state lexbuf NOT_EQUAL "there is no operator '!=='" ~hint:"write '!='" }
-  | "<=>" { mended state lexbuf LESS "there is no operator '<=>'" ~hint:"sort by a key: xs.sort { x -> x.battery }" }
+  | "===" { mended state lexbuf EQUAL "unknown operator '==='" ~hint:"write '=='" }
+  | "!==" { mended state lexbuf NOT_EQUAL "unknown operator '!=='" ~hint:"write '!='" }
+  | "<=>" { mended state lexbuf LESS "unknown operator '<=>'" ~hint:"sort by a key: xs.sort { x -> x.battery }" }
   | ("==~" | "=~") as text {
-      mended state lexbuf EQUAL (Printf.sprintf "there is no operator '%s'" text)
+      mended state lexbuf EQUAL (Printf.sprintf "unknown operator '%s'" text)
         ~hint:"texts have startsWith(s), endsWith(s) and contains(s)" }
-  | "?=" { mended state lexbuf ASSIGN "there is no operator '?='" ~hint:"write x = x ?: value" }
-  | "*." { mended state lexbuf DOT "there is no operator '*.'" ~hint:"write xs.collect { it.name }" }
-  | "!in" blank { mended state lexbuf IN "there is no operator '!in'" ~hint:"write !(x in xs)" }
+  | "?=" { mended state lexbuf ASSIGN "unknown operator '?='" ~hint:"write x = x ?: value" }
+  | "*." { mended state lexbuf DOT "unknown operator '*.'" ~hint:"write xs.collect { it.name }" }
+  | "!in" blank { mended state lexbuf IN "unknown operator '!in'" ~hint:"write !(x in xs)" }
   | '.' digits as text {
       mended state lexbuf (NUMBER 0.) "a number begins with a digit" ~hint:(Printf.sprintf "write 0%s" text) }
-  | "=>" { mended state lexbuf ARROW "there is no '=>'" ~hint:"write '->' after parameters, '>=' to compare" }
+  | "=>" { mended state lexbuf ARROW "unknown operator '=>'" ~hint:"write '->' after parameters, '>=' to compare" }
   | "\xC2\xA0" { fault state (place state lexbuf) "a no-break space stands here" ~hint:"put an ordinary space" }
   | "\xE2\x80" ['\x90'-'\x95'] | "\xE2\x88\x92" {
-      mended state lexbuf MINUS "a typographic dash is no minus sign" ~hint:"write '-'" }
+      mended state lexbuf MINUS "a typographic dash is not a minus sign" ~hint:"write '-'" }
   | "\xE2\x86\x92" { mended state lexbuf ARROW "a typographic arrow stands here" ~hint:"write '->'" }
   | character as text {
       let hint =
@@ -342,7 +342,7 @@ rule code state = parse
         | _ -> None in
       let shown = if Char.code text.[0] < 0x20 || text = "\x7F" then String.escaped text else text in
       fault state (place state lexbuf) (Printf.sprintf "unexpected character '%s'" shown) ?hint }
-  | _ { fault state (place state lexbuf) "a byte that is no text stands here" }
+  | _ { fault state (place state lexbuf) "a byte that is not text stands here" }
 
 and comment state opening = parse
   | "*/" { () }
@@ -429,7 +429,7 @@ and escape state it = parse
       let code = int_of_string ("0x" ^ code) in
       if Uchar.is_valid code then add_character it.buffer code
       else
-        fault state (place state lexbuf ~before:1) "half of a surrogate pair is no character"
+        fault state (place state lexbuf ~before:1) "half of a surrogate pair is not a character"
           ~hint:"write both halves: \\ud83d\\udc2c" }
   | 'u' {
       fault state (place state lexbuf ~before:1) "'\\u' needs four hexadecimal digits" ~hint:"such as \\u00e9" }

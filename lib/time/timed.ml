@@ -390,7 +390,8 @@ let due o s (choice : Environment.choice) =
   | None when is_pick && not (has_links o) -> Some (Timer Residual.script_timer, Bounds.at_once)
   | None -> None
 
-let impatient v = "while nothing is heard of " ^ v ^ ", its connection timeout changes: what follows is not known here"
+let impatient v =
+  "while nothing is heard of " ^ v ^ ", its connection timeout changes: the effect on time is unknown here"
 
 (* How long a link has been silent is not asked when the program changes its patience. *)
 let check_patience o s next =

@@ -135,7 +135,8 @@ let unsettled t (fault : Fault.t) =
   let why = Format.asprintf "%a%s" at (Fault.location (options t).program fault) fault.message in
   raise (Limits.Stop (Unsettled why))
 
-let undated = "now() is not only compared with constants, as in now() < 20.min: what follows from it is not known here"
+let undated =
+  "now() is used other than in comparisons with constants such as now() < 20.min: its effect on time is unknown here"
 
 let check_dates t = Result.iter_error (fun site -> unsettled t (Fault.make site undated)) (options t).dates
 

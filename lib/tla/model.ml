@@ -184,7 +184,7 @@ let text program world (environment : Environment.options) plans prompts calls t
   let ppf = Format.formatter_of_buffer b in
   Format.pp_set_margin ppf 1_000_000;
   Format.fprintf ppf
-    "---- MODULE MC ----@.\\* %s in its world. Made by dolphin tla: make it anew rather than change it.@."
+    "---- MODULE MC ----@.\\* %s in its world. Made by dolphin tla: generate it again rather than edit it.@."
     (Tla.comment program.Core.source_name);
   Format.fprintf ppf "EXTENDS DolphinChecking@.@.";
   table ppf "MCFleet" fleet;

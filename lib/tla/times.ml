@@ -67,7 +67,8 @@ let posts t keys =
   let of_key k = (Format.asprintf "k = %a" Tla.pp (Tla.String k), bounds (t.durations.posted k)) in
   cases (List.map of_key keys) (bounds Some_time)
 
-let undated = {|Assert(FALSE, "now() is not only compared with constants: what follows from it is not known here")|}
+let undated =
+  {|Assert(FALSE, "now() is used other than in comparisons with constants: its effect on time is unknown here")|}
 
 let code_dates program : Tla.t =
   match Dated_code.named program with

@@ -380,7 +380,7 @@ and plan_lines t setting (e : expression) =
 and constant_setting t line site name names arguments =
   let known = List.for_all Constant.is_closed arguments in
   if not known then begin
-    refuse t line.site "'%s' of an inline plan depends on what the program computes" name
+    refuse t line.site "'%s' of an inline plan depends on computed values" name
       ~hint:"of an inline plan, only planName may do so";
     None
   end

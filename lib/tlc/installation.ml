@@ -81,7 +81,7 @@ let pp_trouble ppf = function
        which fetches it. Looked for in: %s."
       variable (String.concat ", " places)
   | No_such_jar { path; said_by } -> 
-    Fmt.pf ppf "%s: there is no such file, which %s names as the archive of TLC" path said_by
-  | No_java { said_by = None } -> Fmt.pf ppf "TLC needs Java, 11 or later, and there is no program 'java' on the PATH"
+    Fmt.pf ppf "%s: no such file, named by %s as the archive of TLC" path said_by
+  | No_java { said_by = None } -> Fmt.pf ppf "TLC needs Java, 11 or later, and the PATH has no program 'java'"
   | No_java { said_by = Some home } ->
-    Fmt.pf ppf "TLC needs Java, 11 or later, and there is no %s, though JAVA_HOME says so" (home / "bin" / "java")
+    Fmt.pf ppf "TLC needs Java, 11 or later, and %s, named by JAVA_HOME, does not exist" (home / "bin" / "java")

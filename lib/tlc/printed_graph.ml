@@ -166,7 +166,7 @@ let graphs g =
   | exception Problem problem -> Error problem
 
 let pp_problem ppf = function
-  | Not_a_line line -> Fmt.pf ppf "this line tells of no state and no transition: %s" line
+  | Not_a_line line -> Fmt.pf ppf "this line has no state and no transition: %s" line
   | No_state_yet -> Fmt.string ppf "a transition or a mark comes before any state"
   | Twice state -> Fmt.pf ppf "a state comes twice: %s" state
   | No_such_state label -> Fmt.pf ppf "a transition %s leads to a state that does not come" label

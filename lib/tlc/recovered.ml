@@ -70,4 +70,4 @@ let pp_trouble ppf = function
   | No_label n -> Fmt.pf ppf "the state after step %d has no label" n
   | No_such_run { after; label } -> Fmt.pf ppf "after %a, the explorer cannot do %s" pp_labels after label
   | Does_not_return around -> 
-    Fmt.pf ppf "%a: this does not come back to where it began, in the explorer" pp_labels around
+    Fmt.pf ppf "%a: the explorer does not return to the beginning of this cycle" pp_labels around

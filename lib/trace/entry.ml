@@ -148,7 +148,7 @@ let of_members found =
     let* transitions = get whole "transitions" found in
     let* ending = Request.ending_of_members found in
     Ok (End { time; transitions; ending })
-  | other -> Error (Printf.sprintf "there are no lines of kind %S" other)
+  | other -> Error (Printf.sprintf "unknown kind of line: %S" other)
 
 (* Which labels a trace has: all, or those of some kinds. *)
 let to_observed : Yojson.Safe.t -> (string list, string) result = function
@@ -169,12 +169,12 @@ let first_of_string line = first_of_json (Result.value (Host_value.parse line) ~
 
 let of_numbered_string line =
   match Host_value.parse line with
-  | Error why -> Error ("this is no JSON: " ^ why)
+  | Error why -> Error ("this is not JSON: " ^ why)
   | Ok (`Assoc (("format", _) :: _) as json) -> Result.map (fun entry -> (entry, None)) (first_of_json json)
   | Ok (`Assoc found) ->
     let* entry = of_members found in
     let* notes = optional (fun json -> Result.map Option.some (whole json)) ~default:None "notes" found in
     Ok (entry, notes)
-  | Ok _ -> Error "this is no JSON object"
+  | Ok _ -> Error "this is not JSON object"
 
 let of_string line = Result.map fst (of_numbered_string line)

@@ -105,7 +105,7 @@ let of_members found =
     let* value = get any "value" found in
     Ok (Input { key; value })
   | "interruption" -> Result.map (fun stuck -> Interruption { stuck }) (optional truth ~default:false "stuck" found)
-  | other -> Error (Printf.sprintf "there are no events of kind %S" other)
+  | other -> Error (Printf.sprintf "unknown kind of event: %S" other)
 
 let pp ppf h =
   let print format = Format.fprintf ppf format in

@@ -62,7 +62,7 @@ let of_order : Dolphin_semantics.World.order -> members = function
 let to_order json : (Dolphin_semantics.World.order, string) result =
   match json with
   | `String "id" -> Ok By_id
-  | _ -> Error "the order of vehicles is \"id\", or there is none"
+  | _ -> Error "the order of vehicles is \"id\" or absent"
 
 let to_json h : Yojson.Safe.t =
   `Assoc
@@ -99,7 +99,7 @@ let check_format json =
     let* its_version = get whole "version" found in
     if its_version = version then Ok ()
     else Error (Printf.sprintf "this journal is of version %d; version %d is known here" its_version version)
-  | _ -> Error "this is no journal: its first line is not the header of one"
+  | _ -> Error "this is not a journal: its first line is not the header of one"
 
 let of_json json =
   let* () = check_format json in

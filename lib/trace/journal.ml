@@ -69,7 +69,7 @@ let one_more (entry : Entry.t) = match entry with Note _ -> 1 | _ -> 0
 
 let missing ~expected found =
   Printf.sprintf
-    "%s of the platform before this line, not %d: the journal is damaged, and it is not known what vehicles were told"
+    "%s of the platform before this line, not %d: the journal is damaged, and the orders to vehicles are not known"
     (Phrase.count found "line") expected
 
 let read_next r =
@@ -92,7 +92,7 @@ let read_next r =
   | Unfinished "" -> if number = 1 then wrong "the journal is empty" else End_of_file
   | Unfinished text ->
     (* The rest of a line is never a whole line of JSON. *)
-    let first = "this is no journal, or not even its first line was written to its end" in
+    let first = "this is not a journal, or its first line is incomplete" in
     entry text ~otherwise:(fun _ -> if number = 1 then wrong first else Torn number)
 
 let next r =

@@ -168,7 +168,7 @@ let caused r (step : Step.t) event =
     | Bad_answer why -> mismatch r (Printf.sprintf "%s makes no transition: %s" by why)
   in
   match Event.to_event r.program r.configuration event with
-  | Error (No_value why) -> mismatch r (Printf.sprintf "%s is no event: %s" by why)
+  | Error (No_value why) -> mismatch r (Printf.sprintf "%s is not an event: %s" by why)
   | Error (Refused why) -> refused why
   | Ok e -> (
       match Transition.accept r.program r.world r.configuration e with
@@ -178,7 +178,7 @@ let caused r (step : Step.t) event =
           match Step.difference ~places:r.places expected step with
           | Some what -> mismatch r (Printf.sprintf "%s makes another transition: %s" by what)
           | None when step.choice > 0 ->
-            mismatch r (Printf.sprintf "%s makes one transition, so there is no choice %d" by step.choice)
+            mismatch r (Printf.sprintf "%s makes one transition, so it has no choice %d" by step.choice)
           | None ->
             let is_left () = Transition.internal r.program r.world r.configuration () <> Seq.Nil in
             let idle = match event with Interruption _ -> r.idle || not (is_left ()) | _ -> r.idle in

@@ -44,7 +44,7 @@ let check ?(world = World.empty) ?(most = most) program ~hash reader =
   | Line { entry = Header header; _ } ->
     let start = Replay.start ~hash program in
     (Some header, go reader (Result.value (Replay.feed start (Header header)) ~default:start))
-  | Line { number; _ } | Torn number -> (None, Unreadable { number; why = "there is no header" })
+  | Line { number; _ } | Torn number -> (None, Unreadable { number; why = "the header is missing" })
   | End_of_file -> (None, Unreadable { number = 1; why = "the journal is empty" })
   | Wrong { number; why } -> (None, Unreadable { number; why })
 
@@ -61,7 +61,7 @@ let describe (entry : Entry.t) =
   match entry with
   | Header _ | Partial _ -> "a header"
   | Label { label; _ } -> label
-  | Vehicle { state; _ } -> "what is known of " ^ state.id
+  | Vehicle { state; _ } -> "the known state of " ^ state.id
   | Event { event; _ } -> Format.asprintf "%a" Event.pp event
   | Transition { index; step; _ } ->
     let at = Option.fold ~none:"" ~some:(fun at -> ", at " ^ Step.text_of_place at) step.at in
@@ -79,17 +79,17 @@ let pp ppf = function
     Format.fprintf ppf "the beginning of a run, of %s in %s; it breaks off%s" (count transitions) (Phrase.time time)
       (if torn then " in the middle of a line" else "")
   | No_run { number; entry; transitions; mismatch } ->
-    Format.fprintf ppf "line %d is none of a run: %s@,%a@,before it: %s of a run" number (describe entry)
+    Format.fprintf ppf "line %d does not belong to a run: %s@,%a@,before it: %s of a run" number (describe entry)
       Replay.pp_mismatch mismatch (count transitions)
   | Possible { lines; over } ->
-    Format.fprintf ppf "what a run can look like: %s%s" (Phrase.count lines "line")
+    Format.fprintf ppf "a possible run: %s%s" (Phrase.count lines "line")
       (if over then ", to its end" else "")
   | Impossible { number; entry; lines; mismatch } ->
     let show_all ppf = function
       | [] -> Format.pp_print_string ppf "nothing"
       | labels -> Format.pp_print_string ppf (String.concat ", " labels)
     in
-    Format.fprintf ppf "line %d is not what a run can look like: %s@,%s@,what could come: %a@,before it: %s"
+    Format.fprintf ppf "line %d does not fit any run: %s@,%s@,possible here: %a@,before it: %s"
       number (describe entry) mismatch.reason show_all mismatch.possible (Phrase.count lines "line")
   | Unknown { number; most } ->
     Format.fprintf ppf

@@ -207,7 +207,7 @@ let assumption_of_json json : (World.assumption, string) result =
     let* claimed = text claimed in
     let* holds = get truth "is" found in
     Ok (World.Claim (claimed, holds))
-  | _ -> Error "what is assumed is late, missing, battery, speed, connected, reading, position or claim"
+  | _ -> Error "unknown assumption: expected late, missing, battery, speed, connected, reading, position or claim"
 
 let json_of_step s : Yojson.Safe.t =
   let cause = match s.cause with Choice i -> [ ("choice", `Int i) ] | Event h -> Event.members h in
@@ -252,16 +252,16 @@ let of_header json =
       let* n = get whole "steps" found in
       let* m = get whole "cycle" found in
       Ok ({ program; fleet; property; steps = []; cycle = [] }, n, m)
-  | _ -> Error "this is no run to follow: its first line is not the header of one"
+  | _ -> Error "this is not a run to follow: its first line is not the header of one"
 
 let parsed number line =
   match Yojson.Safe.from_string line with
   | json -> Ok json
-  | exception Yojson.Json_error _ -> Error (Printf.sprintf "line %d is no JSON" number)
+  | exception Yojson.Json_error _ -> Error (Printf.sprintf "line %d is not JSON" number)
 
 let of_lines lines =
   match lines with
-  | [] -> Error "this is no run to follow: it is empty"
+  | [] -> Error "this is not a run to follow: it is empty"
   | first :: rest ->
     let* json = parsed 1 first in
     let* witness, n, m = of_header json in

@@ -39,7 +39,7 @@ Plans that look like a misspelling of the fleet's are pointed out.
   > plan 'survey2'
   > EOF
   $ dolphin check plans.dol
-  plans.dol:2:23: warning: the fleet says nothing of plan 'dvie'
+  plans.dol:2:23: warning: the fleet does not have plan 'dvie'
     2 | def dive(i) { imcPlan('dvie') >> imcPlan('dive' + i) }
       |                       ^^^^^^
       hint: did you mean 'dive'?

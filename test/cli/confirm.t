@@ -101,16 +101,16 @@ no stop the other vehicle, and the program:
   15 states, 22 transitions, depth 10
   $ sed '/^ *ignore()$/d' approval.dol > strict.dol
   $ dolphin explore strict.dol --fleet approval.fleet | sed -n 3p
-  no unhandled error: violated after 6 steps: an error that nobody handles ends the program
+  no unhandled error: violated after 6 steps: an unhandled error ends the program
   $ sed "/^answer/d" approval.fleet > unsaid.fleet
   $ dolphin explore strict.dol --fleet unsaid.fleet | sed -n 3p
-  no unhandled error: violated after 6 steps: an error that nobody handles ends the program
+  no unhandled error: violated after 6 steps: an unhandled error ends the program
 
 Nor would it help if all said yes: nobody need do so in time.
 
   $ sed "s/, no$//; s/ no, yes/ yes/" approval.fleet > approved.fleet
   $ dolphin explore strict.dol --fleet approved.fleet | sed -n 3p
-  no unhandled error: violated after 6 steps: an error that nobody handles ends the program
+  no unhandled error: violated after 6 steps: an unhandled error ends the program
 
 Without its limit, a question that nobody answers is waited for. How long, nobody knows:
 
@@ -120,7 +120,7 @@ Without its limit, a question that nobody answers is waited for. How long, nobod
   $ sed 's/ within 30.minutes//' approval.dol > unlimited.dol
   $ dolphin time unlimited.dol --fleet approval.fleet | grep -A 1 latest
   completed: 5:00 at the earliest, no latest time
-  nobody knows how long it takes: an answer to 'Retrieve noptilus-1?'
+  duration unknown: an answer to 'Retrieve noptilus-1?'
 
 A run whose time passes by itself takes answers by its socket, too, while nobody is at its terminal:
 

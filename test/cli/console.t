@@ -91,7 +91,7 @@ The plans on the command line:
   dolphin: no vehicle is given a plan 'none'; inline plans are circles
   [1]
   $ dolphin plan --json --to kml plans.dol
-  dolphin: --json prints what plans are in short: it goes with neither export nor --platform
+  dolphin: --json prints a summary of plans: it excludes export and --platform
   [2]
 
 The port is taken; there is no such folder:
@@ -101,9 +101,9 @@ The port is taken; there is no such folder:
   $ dolphin console . --port 99999999 2>&1 | head -1
   dolphin: option '--port': '99999999' is not a port, from 0 to 65535
   $ dolphin console . --listen here 2>&1 | head -1
-  dolphin: option '--listen': 'here' is no address such as 192.168.1.5
+  dolphin: option '--listen': 'here' is not an address such as 192.168.1.5
   $ dolphin console . --tiles https://tile.example/ 2>&1 | head -1
-  dolphin: option '--tiles': https://tile.example/ is no address of tiles, such
+  dolphin: option '--tiles': https://tile.example/ is not an address of tiles,
   $ dolphin console none
   dolphin: none: No such file or directory
   [2]

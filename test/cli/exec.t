@@ -187,22 +187,22 @@ A battery that its vehicle never tells is unknown; a condition that compares it 
   $ dolphin exec silent.dol --fleet silent.fleet
      0:00  program     picks silent
      0:00  silent      starts visit
-     0:00  program     silent.dol:2:9: this condition does not hold: battery(silent) is unknown, since silent has not told it: battery(v) ?: x takes x then
+     0:00  program     silent.dol:2:9: this condition does not hold: battery(silent) is unknown, since silent has not reported it: battery(v) ?: x takes x then
      1:00  silent      ends visit
      1:00  silent      starts visit
-     1:00  program     silent.dol:3:9: this condition does not hold: battery(silent) is unknown, since silent has not told it: battery(v) ?: x takes x then
+     1:00  program     silent.dol:3:9: this condition does not hold: battery(silent) is unknown, since silent has not reported it: battery(v) ?: x takes x then
      2:00  silent      ends visit
      2:00  program     says: unknown, taken as 0.5
      2:00  program     releases silent
-     2:00  program     fails: battery(silent) is unknown, since silent has not told it: battery(v) ?: x takes x then
-  silent.dol:5:5: error: battery(silent) is unknown, since silent has not told it: battery(v) ?: x takes x then
+     2:00  program     fails: battery(silent) is unknown, since silent has not reported it: battery(v) ?: x takes x then
+  silent.dol:5:5: error: battery(silent) is unknown, since silent has not reported it: battery(v) ?: x takes x then
     5 | if (battery(v) < 0.3) { message 'low' }
       |     ^^^^^^^^^^^^^^^^
   [1]
   $ dolphin explore silent.dol --fleet silent.fleet | grep -A 1 holds
   no deadlock: holds
   termination: holds
-  no unhandled error: violated after 10 steps: an error that nobody handles ends the program
+  no unhandled error: violated after 10 steps: an unhandled error ends the program
   assertions: holds
   vehicles for all tasks: holds
   note: all code reached: violated: no run reaches message at silent.dol:5:25

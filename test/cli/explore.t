@@ -24,12 +24,12 @@ The same, if a plan may fail once.
   $ explore ../../examples/rendezvous.dol --faults fail=1
   no deadlock: holds
   termination: holds
-  no unhandled error: violated after 10 steps: an error that nobody handles ends the program
+  no unhandled error: violated after 10 steps: an unhandled error ends the program
   assertions: holds
   vehicles for all tasks: holds
   41 states, 50 transitions, depth 35; reduced by partial order, symmetry
   
-  no unhandled error: a shortest run in which an error that nobody handles ends the program
+  no unhandled error: a shortest run in which an unhandled error ends the program
        program                                   noptilus-1                 where              variables
    1   ask(Radius of operation area? (km))                                  rendezvous.dol:2
    2   answer(2)                                                            rendezvous.dol:2
@@ -136,7 +136,7 @@ not fit. The place of an error that a handler takes is that of the code that bro
        v = noptilus-1
    4                                 starts p    decided.dol:4
    5                                 ends p      decided.dol:4
-       decides the formula: what follows makes no difference
+       decides the formula: the rest of the run does not matter
    6   broken(division by zero)                  decided.dol:4
    7   act                                       decided.dol:7
        count = 1
@@ -151,7 +151,7 @@ not fit. The place of an error that a handler takes is that of the code that bro
    3   execute                                    decided.dol:4  v = noptilus-1
    4                                  starts p    decided.dol:4
    5                                  ends p      decided.dol:4
-       decides the formula: what follows makes no difference
+       decides the formula: the rest of the run does not matter
    6   broken(division by zero)                   decided.dol:4
    7   act                                        decided.dol:7  count = 1
    8   timeout                                    decided.dol:4
@@ -165,7 +165,7 @@ not fit. The place of an error that a handler takes is that of the code that bro
    3   execute                                    decided.dol:4  v = noptilus-1
    4                                  starts p    decided.dol:4
    5                                  ends p      decided.dol:4
-       decides the formula: what follows makes no difference
+       decides the formula: the rest of the run does not matter
    6   broken(division by zero)                   decided.dol:4
    7   act                                        decided.dol:7  count = 1
    8   timeout                                    decided.dol:4                  idled long enough
@@ -181,13 +181,13 @@ A program that may never end.
   > END
   $ explore round.dol
   no deadlock: holds
-  termination: violated: after 1 step, 4 steps that can repeat for ever
+  termination: violated: after 1 step, 4 steps that can repeat without end
   no unhandled error: holds
   assertions: holds
   vehicles for all tasks: holds
   5 states, 5 transitions, depth 4; reduced by partial order
   
-  termination: a run in which the program can go on for ever
+  termination: a run in which the program may never end
       program   where        variables
   1   pause(1)  round.dol:2  x = 1
   and from there, again and again:
@@ -307,7 +307,7 @@ Invariants.
   no unhandled error: holds
   assertions: holds
   vehicles for all tasks: holds
-  invariant 1 / n > 0: inconclusive, the condition cannot be told: division by zero
+  invariant 1 / n > 0: inconclusive, the condition cannot be evaluated: division by zero
   invariant bound("noptilus-1") || n == 0: violated after 4 steps: it does not hold
   26 states, 31 transitions, depth 9; reduced by symmetry of vehicles
   
@@ -350,17 +350,17 @@ Formulas of temporal logic.
   > END
   $ explore again.dol --faults fail --ltl 'G (start(a) -> F (done(a) | fail(a, noptilus-1)))' --ltl 'G F {n == 1}' --ltl 'message("done") R !end' --ltl 'G (fail -> X consume(failed: 1))'
   no deadlock: holds
-  termination: violated: after 3 steps, 4 steps that can repeat for ever
+  termination: violated: after 3 steps, 4 steps that can repeat without end
   no unhandled error: holds
   assertions: holds
   vehicles for all tasks: holds
   formula G (start(a) -> F (done(a) | fail(a, noptilus-1))): holds
-  formula G F {n == 1}: violated: after 3 steps, 4 steps that can repeat for ever
+  formula G F {n == 1}: violated: after 3 steps, 4 steps that can repeat without end
   formula message("done") R !end: holds
   formula G (fail -> X consume(failed: 1)): holds
   10 states, 10 transitions, depth 7; reduced by partial order; 38 states for formulas
   
-  termination: a run in which the program can go on for ever
+  termination: a run in which the program may never end
       program                               where        variables
   1   pick(1 vehicle with id 'noptilus-1')  again.dol:1
   2   picks noptilus-1                      again.dol:1
@@ -389,7 +389,7 @@ Formulas of temporal logic.
   formula F (done(a) & running(a)): violated after 7 steps: it does not hold
   15 states, 14 transitions, depth 11; reduced by partial order; 24 states for formulas
   formula F (done(a) & running(a)): a shortest run in which it does not hold
-      decides the formula: what follows makes no difference
+      decides the formula: the rest of the run does not matter
   $ explore deadlock.dol --ltl 'F ended' | grep violated
   no deadlock: violated after 6 steps: nothing can happen any more, and the program has not ended
   formula F ended: violated after 6 steps: it does not hold
@@ -399,13 +399,13 @@ Beside a violation that a reduced search has found.
   $ explore ../../examples/rendezvous.dol --faults fail --ltl 'F ended' --ltl 'G !error' | grep -e '^[a-z ]*: ' -e '^formula.*: [hv]'
   no deadlock: holds
   termination: holds
-  no unhandled error: violated after 10 steps: an error that nobody handles ends the program
+  no unhandled error: violated after 10 steps: an unhandled error ends the program
   assertions: holds
   vehicles for all tasks: holds
   formula F ended: holds
   formula G !error: violated after 10 steps: it does not hold
-  no unhandled error: a shortest run in which an error that nobody handles ends the program
-       decides the formula: what follows makes no difference
+  no unhandled error: a shortest run in which an unhandled error ends the program
+       decides the formula: the rest of the run does not matter
 
 What has been violated stays so: not all states need be seen. What nobody can list is not followed where it cannot matter.
 
@@ -418,11 +418,11 @@ What has been violated stays so: not all states need be seen. What nobody can li
   > post b: battery(v)
   > END
   $ explore unlisted.dol --ltl 'G !message' --ltl '!bind W pick' | grep formula
-  formula G !message: inconclusive, unlisted.dol:3:1: what battery(noptilus-1) is, is open, and more than a comparison depends on it: a fleet may list what batteries, positions and measurements show
+  formula G !message: inconclusive, unlisted.dol:3:1: the value of battery(noptilus-1) is open, and more than a comparison depends on it: a fleet may list the values of batteries, positions and measurements
   formula !bind W pick: holds
   4 states, 3 transitions, depth 3; reduced by partial order; 1 states for formulas
   $ explore again.dol --ltl 'G (strat(a))'
-  dolphin: --ltl 'G (strat(a))': there is no proposition 'strat' (did you mean start?)
+  dolphin: --ltl 'G (strat(a))': unknown proposition 'strat' (did you mean start?)
   [2]
   $ explore again.dol --ltl 'G (start(a)'
   dolphin: --ltl 'G (start(a)': a ')' is missing
@@ -570,10 +570,10 @@ It does not fit another program, and no other file is one.
   dolphin: assertion.run: deadlock.dol does not fit, at step 4: the program has no such choice there (act(post alarm:1))
   [2]
   $ dolphin exec deadlock.dol --follow deadlock.dol
-  dolphin: deadlock.dol: line 1 is no JSON
+  dolphin: deadlock.dol: line 1 is not JSON
   [2]
   $ dolphin exec assertion.dol --follow assertion.run --journal assertion.journal
-  dolphin: a recorded run (--follow) goes with its program, a fleet, --draw and --layer, and with no other options
+  dolphin: a recorded run (--follow) takes a program, a fleet, --draw and --layer, and no other options
   [2]
   $ dolphin exec deadlock.dol --follow missing.run
   dolphin: missing.run: No such file or directory
@@ -620,7 +620,7 @@ Of vehicles that are alike it does not matter which are picked. A run that is sh
   vehicles for all tasks: holds
   34 states, 33 transitions, depth 33; reduced by partial order, symmetry, symmetry of vehicles
   $ explore teams.dol --faults fail=1,loss --trace teams.run | grep -E 'violated|states|fails'
-  no unhandled error: violated after 7 steps: an error that nobody handles ends the program
+  no unhandled error: violated after 7 steps: an unhandled error ends the program
   42 states, 49 transitions, depth 33; reduced by partial order, symmetry of vehicles
   7                                   fails in p: failure  teams.dol:4
   $ dolphin exec teams.dol --follow teams.run | tail -n 4
@@ -701,13 +701,13 @@ What cannot be explored.
   dolphin: missing.dol: No such file or directory
   [2]
   $ dolphin explore round.dol --faults lost=1
-  dolphin: option '--faults': there is no fault 'lost': did you mean loss?
+  dolphin: option '--faults': unknown fault 'lost': did you mean loss?
   Usage: dolphin explore [OPTION]… PROG
   Try 'dolphin explore --help' or 'dolphin --help' for more information.
   [2]
   $ dolphin explore round.dol --trace round.svg
-  dolphin: option '--trace': 'round.svg' is the name of a picture, and what is
-           written is JSON
+  dolphin: option '--trace': 'round.svg' is the name of a picture, but JSON
+           would be written
   Usage: dolphin explore [OPTION]… PROG
   Try 'dolphin explore --help' or 'dolphin --help' for more information.
   [2]
@@ -784,7 +784,7 @@ For whatever collects results of tests, and for code hosts and editors.
   $ grep -c '"kind": "open"' bound.sarif
   9
   $ explore reports.dol --sarif -
-  dolphin: option '--sarif': '-' is no name of a file
+  dolphin: option '--sarif': '-' is not a file name
   Usage: dolphin explore [OPTION]… PROG
   Try 'dolphin explore --help' or 'dolphin --help' for more information.
   [2]
@@ -801,14 +801,14 @@ What was found is kept, and used again if nothing has changed.
   $ verdict; cp result first
   1, 
   $ verdict --trace again.run; cmp result first
-  1, dolphin: nothing has changed: these are the verdicts that were kept
+  1, dolphin: nothing has changed: these are the stored verdicts
   $ dolphin explore kept.dol --trace once.run > /dev/null; cmp once.run again.run
   $ find kept -type f | wc -l
   1
   $ verdict --faults fail
   1, 
   $ verdict --faults fail
-  1, dolphin: nothing has changed: these are the verdicts that were kept
+  1, dolphin: nothing has changed: these are the stored verdicts
   $ echo "vehicle 'b', { type 'UUV' }" >> kept.fleet
   $ verdict
   1, 
@@ -816,7 +816,7 @@ What was found is kept, and used again if nothing has changed.
   $ verdict
   0, 
   $ verdict
-  0, dolphin: nothing has changed: these are the verdicts that were kept
+  0, dolphin: nothing has changed: these are the stored verdicts
 
 Not if it is inconclusive, if the file is not as it was written, or where no file can be written.
 
@@ -835,7 +835,7 @@ Not if it is inconclusive, if the file is not as it was written, or where no fil
   $ : > $kept; verdict
   0, 
   $ verdict
-  0, dolphin: nothing has changed: these are the verdicts that were kept
+  0, dolphin: nothing has changed: these are the stored verdicts
   $ touch file; XDG_CACHE_HOME=$PWD/file verdict
   0, dolphin: $TESTCASE_ROOT/file/dolphin: Not a directory
 
@@ -864,9 +864,9 @@ Random walks: the same ones with the same seed. Only where they have been everyw
   $ dolphin explore ../../examples/sequence.dol --sample 20 --seed 1 --json | grep -o '"sample".*'
   "sample":{"walks":1,"seed":1,"visits":14,"visited":14,"new":0.0,"estimate":14.0}}
   $ dolphin explore ../../examples/sequence.dol --sample 0 2>&1 | head -1
-  dolphin: option '--sample': '0' is no number from 1 on
+  dolphin: option '--sample': '0' is not a number from 1 on
   $ dolphin explore ../../examples/sequence.dol --sample 3 --ltl 'F ended'
-  dolphin: random walks say nothing of a formula: give --sample or --ltl, not both
+  dolphin: random walks cannot check a formula: give --sample or --ltl, not both
   [2]
 
 States beyond a bound on memory go to disk. Here none do, and nothing is left there.
@@ -879,10 +879,10 @@ States beyond a bound on memory go to disk. Here none do, and nothing is left th
   dolphin: --spill is for states beyond a bound on memory: give --max-memory too
   [2]
   $ explore ../../examples/rendezvous.dol --max-memory 1G --spill nowhere
-  dolphin: --spill nowhere: there is no such directory
+  dolphin: --spill nowhere: no such directory
   [2]
   $ explore ../../examples/rendezvous.dol --max-memory 1G --spill deadlock.dol
-  dolphin: --spill deadlock.dol: this is no directory
+  dolphin: --spill deadlock.dol: not a directory
   [2]
   $ explore ../../examples/rendezvous.dol --max-memory 1G --spill disk --compress
   dolphin: states on disk are not compressed: give --spill or --compress, not both
@@ -936,9 +936,9 @@ Bitstate hashing: as many states where the bits are many, and nothing is said to
   $ dolphin explore ../../examples/sequence.dol --bitstate 1M --json | grep -o '"bitstate":{"bytes":[0-9]*,"hashes":[0-9]*'
   "bitstate":{"bytes":1048576,"hashes":3
   $ dolphin explore ../../examples/sequence.dol --bitstate 0 2>&1 | head -1
-  dolphin: option '--bitstate': '0' is no size such as 512M or 8G
+  dolphin: option '--bitstate': '0' is not a size such as 512M or 8G
   $ dolphin explore ../../examples/sequence.dol --bitstate 1M --ltl 'F ended'
-  dolphin: bitstate hashing says nothing of a formula: give --bitstate or --ltl, not both
+  dolphin: bitstate hashing cannot check a formula: give --bitstate or --ltl, not both
   [2]
   $ dolphin explore ../../examples/sequence.dol --bitstate 1M --sample 3
   dolphin: random walks keep their states: give --sample or --bitstate, not both
@@ -976,13 +976,13 @@ Values that hold their parts many times over are compared part by part once:
   > END
   $ dolphin explore shared.dol --timeout 10 | grep -e deadlock -e error:
   no deadlock: holds
-  no unhandled error: violated after 4 steps: an error that nobody handles ends the program
-  no unhandled error: a shortest run in which an error that nobody handles ends the program
+  no unhandled error: violated after 4 steps: an unhandled error ends the program
+  no unhandled error: a shortest run in which an unhandled error ends the program
   $ dolphin explore shared.dol --timeout 10 --reduction none --invariant 'xs == xs' | grep -e deadlock -e error: -e invariant
   no deadlock: holds
-  no unhandled error: violated after 4 steps: an error that nobody handles ends the program
+  no unhandled error: violated after 4 steps: an unhandled error ends the program
   invariant xs == xs: holds
-  no unhandled error: a shortest run in which an error that nobody handles ends the program
+  no unhandled error: a shortest run in which an unhandled error ends the program
   $ dolphin lts shared.dol --timeout 10 | tail -n 1
   (3,"fault(a value of more than 1000000 parts, each counted as often as it stands there, is too large for this)",4)
 

@@ -40,7 +40,7 @@ What must hold of every state or every run may be broken by it. The run can be f
   4   execute                                       lock.dol:3
   5                                  starts survey  lock.dol:3
   6   interrupt
-      decides the formula: what follows makes no difference
+      decides the formula: the rest of the run does not matter
   tuples then: {lock:1}
   $ dolphin exec lock.dol --follow cut.run
   breaks: formula G (start(survey) -> F done(survey))
@@ -78,13 +78,13 @@ Who is stuck is stuck, though a person could interrupt; who goes on for ever doe
   formula F ended: a shortest run in which it does not hold
       program  where
   1   execute  stuck.dol:1
-      decides the formula: what follows makes no difference
+      decides the formula: the rest of the run does not matter
   $ cat > round.dol <<'END'
   > while (true) { pause 1.seconds }
   > END
   $ explore round.dol --faults interrupt | head -6
   no deadlock: holds
-  termination: violated: after 1 step, 2 steps that can repeat for ever
+  termination: violated: after 1 step, 2 steps that can repeat without end
   no unhandled error: holds
   assertions: holds
   vehicles for all tasks: holds
@@ -99,8 +99,7 @@ It is asked for by its name: all that may go wrong is another thing.
   $ dolphin lts lock.dol --faults interrupt | grep -c interrupt
   20
   $ dolphin explore lock.dol --faults interupt
-  dolphin: option '--faults': there is no fault 'interupt': did you mean
-           interrupt?
+  dolphin: option '--faults': unknown fault 'interupt': did you mean interrupt?
   Usage: dolphin explore [OPTION]… PROG
   Try 'dolphin explore --help' or 'dolphin --help' for more information.
   [2]

@@ -77,16 +77,16 @@ A fence is known before the program runs, and of its kind.
     3 | fence inside 3
       |              ^
   $ wrong 'fence insde basin'
-  wrong.dol:3:7: error: there is no fence 'insde'
+  wrong.dol:3:7: error: unknown fence 'insde'
     3 | fence insde basin
       |       ^^^^^
       hint: did you mean 'inside'?
   $ wrong 'fence'
-  wrong.dol:3:1: error: fence declares what vehicles must keep to
+  wrong.dol:3:1: error: fence declares a limit that vehicles must keep
     3 | fence
       | ^^^^^
       hint: write fence inside AREA, fence outside AREA, fence depth 30.m, fence height 120.m or fence distance 50.m
-  wrong.dol:3:1: warning: this has no effect: nobody takes its value
+  wrong.dol:3:1: warning: this has no effect: its value is not used
     3 | fence
       | ^^^^^
   $ wrong 'fence depth(-3)'
@@ -98,7 +98,7 @@ A fence is known before the program runs, and of its kind.
     3 | fence distance 0.m
       |                ^^^
   $ wrong 'fence distance 3.m, margin: 2.m'
-  wrong.dol:3:21: error: fence distance has no margin: the distance is what vehicles keep
+  wrong.dol:3:21: error: fence distance takes no margin: vehicles keep the distance itself
     3 | fence distance 3.m, margin: 2.m
       |                     ^^^^^^
   $ wrong 'fence inside basin, margin: 0 - 3.m'
@@ -116,11 +116,11 @@ A fence is known before the program runs, and of its kind.
       |                     ^^^^^
       hint: as in fence inside harbour, margin: 20.m
   $ wrong 'x = fence(inside(basin))'
-  wrong.dol:3:5: error: fence declares what vehicles must keep to: it stands by itself at the top of the program
+  wrong.dol:3:5: error: fence declares a limit that vehicles must keep: it stands by itself at the top of the program
     3 | x = fence(inside(basin))
       |     ^^^^^^^^^^^^^^^^^^^^
   $ wrong 'if (true) { fence depth 3.m }'
-  wrong.dol:3:13: error: fence declares what vehicles must keep to: it stands by itself at the top of the program
+  wrong.dol:3:13: error: fence declares a limit that vehicles must keep: it stands by itself at the top of the program
     3 | if (true) { fence depth 3.m }
       |             ^^^^^^^^^^^^^^^
   $ wrong 'fence inside nowhere'
@@ -266,8 +266,8 @@ To the explorer and to dolphin time any plan may fail where there are fences.
   > END
   $ cp late.fleet kept.fleet
   $ dolphin explore kept.dol | grep '^no unhandled'
-  no unhandled error: violated after 5 steps: an error that nobody handles ends the program
-  no unhandled error: a shortest run in which an error that nobody handles ends the program
+  no unhandled error: violated after 5 steps: an unhandled error ends the program
+  no unhandled error: a shortest run in which an unhandled error ends the program
   $ dolphin time kept.dol | head -3
   completed: 10:00 at the earliest, 10:00 at the latest
   failed: 0:00 at the earliest, 10:00 at the latest
@@ -311,8 +311,8 @@ Any plan may fail then: where nobody handles that, exploring says so.
 
   $ printf "v = pick { type 'UUV' }\nexecute task('drift')[v]\n" > drift.dol
   $ dolphin explore drift.dol --fleet open.fleet | grep 'unhandled'
-  no unhandled error: violated after 5 steps: an error that nobody handles ends the program
-  no unhandled error: a shortest run in which an error that nobody handles ends the program
+  no unhandled error: violated after 5 steps: an unhandled error ends the program
+  no unhandled error: a shortest run in which an unhandled error ends the program
   $ grep -v fence open.fleet > free.fleet
   $ dolphin explore drift.dol --fleet free.fleet | grep 'unhandled'
   no unhandled error: holds
@@ -352,7 +352,7 @@ What is wrong with a fence of a fleet is told at its place; so are its variables
   wrong.fleet:1:14: error: unknown name 'basin'
     1 | fence inside basin
       |              ^^^^^
-      hint: there are no variables in a fleet: write the area itself, or map('harbour.geojson').basin
+      hint: a fleet has no variables: write the area itself, or map('harbour.geojson').basin
   wrong.fleet:2:19: error: the map cannot be read: nowhere.kml: No such file or directory
     2 | fence outside map('nowhere.kml').rock
       |                   ^^^^^^^^^^^^^
@@ -454,24 +454,24 @@ By its order 'south' may run beside 'north', by time it is over before: so dolph
   status 0
   fence distance 30.m: holds
 
-Where vehicles know a plan by its name only, nobody knows how near it comes.
+Where vehicles know a plan by its name only, at an unknown distance it comes.
 
   $ sed "s/lane('south', 50)/task('drift')/" lanes.dol > drift.dol
   $ explored drift.dol --fleet lanes.fleet
   status 3
-  fence distance 30.m: inconclusive, nobody knows how near 'drift' comes to 'north', which may run side by side
+  fence distance 30.m: inconclusive, the distance between 'drift' and 'north', which may run side by side, is unknown
   13 states for plans side by side
   
   plans that may run side by side:
-    drift.dol:15:15: plan 'drift' on n1, beside drift.dol:4:5: plan 'north' on n2: nobody knows how near
+    drift.dol:15:15: plan 'drift' on n1, beside drift.dol:4:5: plan 'north' on n2: distance unknown
   $ dolphin time drift.dol --fleet lanes.fleet > found; echo "status $?"; grep -A2 '^fence\|^plans' found
   status 3
-  fence distance 30.m: inconclusive, plans run side by side, nobody knows how near
+  fence distance 30.m: inconclusive, plans run side by side at an unknown distance
   task   vehicle  starts  ends                  fails             where
   drift  n1       0:00    10:00                 0:00 to 10:00     drift.dol:15
   --
   plans that may run side by side:
-    drift.dol:15:15: plan 'drift' on n1, beside drift.dol:4:5: plan 'north' on n2: nobody knows how near
+    drift.dol:15:15: plan 'drift' on n1, beside drift.dol:4:5: plan 'north' on n2: distance unknown
   
 
 One after the other they come as near as they like.

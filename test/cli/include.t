@@ -69,8 +69,8 @@ What a journal was written with, is what was included as well.
 
   $ sed -i 's/rounds = 3/rounds = 4/' lib/limits.dol
   $ dolphin trace check mission.dol mission.run
-  dolphin: mission.dol is not the text that this run was of, or has changed since: places are not compared
-  mission.run: line 6 is none of a run: transition 3, at 4:1: message '3 rounds'
+  dolphin: mission.dol is not the program of this run, or has changed since: places are not compared
+  mission.run: line 6 does not belong to a run: transition 3, at 4:1: message '3 rounds'
     no transition is like this one; the nearest differs: "label" should be "message '4 rounds'", not "message '3 rounds'"
     enabled then: message '4 rounds'
     awaited then: nothing

@@ -103,12 +103,12 @@ Of what was observed elsewhere, inputs are labels:
   > {"kind":"label","label":"input go:1"}
   > END
   $ dolphin trace check waits.dol seen.run --fleet waits.fleet
-  seen.run: what a run can look like: 2 lines
+  seen.run: a possible run: 2 lines
   $ sed 's/go:1/no:1/' seen.run > unseen.run
   $ dolphin trace check waits.dol unseen.run --fleet waits.fleet
-  unseen.run: line 3 is not what a run can look like: input no:1
+  unseen.run: line 3 does not fit any run: input no:1
     input no:1 could not happen
-    what could come: nothing
+    possible here: nothing
     before it: 1 line
   [1]
   $ check-journals

@@ -2,7 +2,7 @@ Looks at sensors do not contradict each other as long as no time passes: a batte
 moment. So these programs do not go round in no time.
 
   $ explore() { dolphin explore "$@" --fleet one.fleet | grep -e termination -e deadlock; }
-  $ timed() { dolphin time "$@" --fleet one.fleet | grep -e completed -e 'for ever'; }
+  $ timed() { dolphin time "$@" --fleet one.fleet | grep -e completed -e endlessly; }
   $ cat > one.fleet <<'END'
   > vehicle 'a', { type 'UUV' }
   > plan 'p', { duration 3.min, 9.min }
@@ -61,15 +61,15 @@ What one moment may show is a run in no time.
   > END
   $ explore spin.dol
   no deadlock: holds
-  termination: violated: after 3 steps, 2 steps that can repeat for ever
-  termination: a run in which the program can go on for ever
+  termination: violated: after 3 steps, 2 steps that can repeat without end
+  termination: a run in which the program may never end
   $ timed spin.dol
   completed: 2:00:00 at the earliest, 2:00:00 at the latest
-  a run that may go round for ever in no time:
+  a run that may loop endlessly in no time:
 
 A formula is asked of runs of a world, too.
 
   $ dolphin explore chatter.dol --fleet one.fleet --ltl 'F ended' | grep '^formula'
   formula F ended: holds
   $ dolphin explore spin.dol --fleet one.fleet --ltl 'F ended' | grep '^formula.*violated'
-  formula F ended: violated: after 3 steps, 2 steps that can repeat for ever
+  formula F ended: violated: after 3 steps, 2 steps that can repeat without end

@@ -42,9 +42,9 @@ A session with the language server, as an editor has it.
   null
   [{"name": "v", "kind": 13, "range": "0:0-0:1", "selectionRange": "0:0-0:1"}, {"name": "t", "kind": 12, "range": "1:4-1:5", "selectionRange": "1:4-1:5"}, {"name": "xs", "kind": 13, "range": "3:16-3:18", "selectionRange": "3:16-3:18"}]
   [{"range": "0:0-4:0", "newText": "v = pick { type 'UUV' }\ndef t(i) { imcPlan('a' + i) }\nexecute v: t(1) >> t(2)\nmessage \"${v}\"\nxs = [v].si\n"}]
-  error -32601: there is no request 'textDocument/inlineValue'
+  error -32601: unknown request 'textDocument/inlineValue'
   error -32700: this is not JSON
-  error -32600: this is no message of the protocol
+  error -32600: this is not a message of the protocol
   null
   error -32600: the server has been shut down
 
@@ -65,7 +65,7 @@ A program and its fleet: each tells of the other's changes. What was opened last
   hint: did you mean 'duration'?
   diagnostics of m%20x.fleet
   diagnostics of m x.dol
-    1:19-1:26 the fleet says nothing of plan 'survy'
+    1:19-1:26 the fleet does not have plan 'survy'
   hint: did you mean 'survey'?
   names duration mayFail fails at only charges
   null

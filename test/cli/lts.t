@@ -125,7 +125,7 @@ Bounds, and how many search.
   dolphin: two.dol: the time was up
   [3]
   $ dolphin lts two.dol --workers 0
-  dolphin: option '--workers': '0' is no number from 1 on
+  dolphin: option '--workers': '0' is not a number from 1 on
   Usage: dolphin lts [OPTION]… PROG
   Try 'dolphin lts --help' or 'dolphin --help' for more information.
   [2]
@@ -139,7 +139,7 @@ Programs of which nobody knows what they do first.
   > message 5 / now()
   > END
   $ dolphin lts open.dol
-  open.dol:1:9: error: what now() is, is open, and more than a comparison depends on it: a fleet may list what batteries, positions and measurements show
+  open.dol:1:9: error: the value of now() is open, and more than a comparison depends on it: a fleet may list the values of batteries, positions and measurements
     1 | message 5 / now()
       |         ^^^^^^^^^
   [3]

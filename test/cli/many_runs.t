@@ -83,17 +83,17 @@ What is no such file, or lacks runs, is not counted.
   dolphin: standard input:1: before the first run there is to be the header: all that --each has printed
   [2]
   $ head -1 first | dolphin exec relay.dol --runs-from -
-  dolphin: standard input:2: there are no runs
+  dolphin: standard input:2: it has no runs
   [2]
   $ cp relay.fleet other.fleet; echo "vehicle 'b', { type 'UUV' }" >> other.fleet
   $ dolphin exec relay.dol --fleet other.fleet --runs-from first
   dolphin: first:1: these are runs of another program, fleet or version of Dolphin, or with other parameters or answers
   [2]
   $ head -c 300 first | dolphin exec relay.dol --runs-from -
-  dolphin: standard input:2: this is no JSON
+  dolphin: standard input:2: this is not JSON
   [2]
   $ sed 's/"end":"completed"/"end":"well"/' first | dolphin exec relay.dol --runs-from -
-  dolphin: standard input:2: 'well' is no way in which a run ends
+  dolphin: standard input:2: 'well' is not an ending of a run
   [2]
   $ sed 's/"ended":1/"ended":"one"/' first | dolphin exec relay.dol --runs-from -
   dolphin: standard input:2: "tasks" is "ended" is "one", not a whole number
@@ -144,20 +144,20 @@ What does not go together.
   $ dolphin exec relay.dol --json 2>&1 | head -1
   dolphin: --jobs, --json and --each go with --runs or --until
   $ dolphin exec relay.dol --runs-from first --runs 3 2>&1 | head -1
-  dolphin: --runs-from makes no runs: --runs, --until, --jobs and --each do not go with it
+  dolphin: --runs-from makes no runs: it excludes --runs, --until, --jobs and --each
   $ dolphin exec relay.dol --runs-from first --seed 3
   dolphin: --runs-from makes no runs: --seed has no use
   [2]
   $ dolphin exec relay.dol --runs 3 --each --json 2>&1 | head -1
   dolphin: --json is one answer, --each a line for each run: give one of them
   $ dolphin exec relay.dol --runs 3 --each --draw runs.svg
-  dolphin: --each prints runs and draws none: --runs-from draws what was printed
+  dolphin: --each prints runs and draws none: use --runs-from to draw them
   [2]
   $ dolphin exec relay.dol --runs 3 --journal relay.run
-  dolphin: of many runs (--runs, --until) there is one answer: of the other options only --fleet, --sim, --set, --seed, --answer and --draw go with them
+  dolphin: many runs (--runs, --until) have one answer: of the other options only --fleet, --sim, --set, --seed, --answer and --draw are allowed
   [2]
   $ dolphin exec relay.dol --runs 3 --quiet
-  dolphin: of many runs (--runs, --until) there is one answer: of the other options only --fleet, --sim, --set, --seed, --answer and --draw go with them
+  dolphin: many runs (--runs, --until) have one answer: of the other options only --fleet, --sim, --set, --seed, --answer and --draw are allowed
   [2]
   $ dolphin exec relay.dol --runs 3 --speed 2
   dolphin: --runs and --until are for simulated runs, as fast as they go: without --imc, --platform and --speed

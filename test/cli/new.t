@@ -1,9 +1,9 @@
 A mission to start from is right, and checks itself.
 
   $ dolphin new survey
-  survey is a mission to start from: its README.md tells more. Try, there:
+  survey is a mission to start from; see its README.md. Try there:
     dolphin exec mission.dol      runs it on the simulated fleet
-    dolphin explore mission.dol   checks every run that it can have
+    dolphin explore mission.dol   checks every possible run
   $ find survey -type f | sort
   survey/.github/workflows/mission.yml
   survey/README.md

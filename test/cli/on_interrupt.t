@@ -29,7 +29,7 @@ Each of its lines matters. A failure on the way home that nobody watches stops t
   [1]
   $ explore unwatched.dol --fleet home.fleet --faults interrupt,loss=1 | grep -B 1 -A 30 'no unhandled error: a'
   
-  no unhandled error: a shortest run in which an error that nobody handles ends the program
+  no unhandled error: a shortest run in which an unhandled error ends the program
       program                                   noptilus-1                      where
   1   pick(3 vehicles of type 'UUV')                                            unwatched.dol:19
   2   picks noptilus-1, noptilus-2, noptilus-3                                  unwatched.dol:19
@@ -54,7 +54,7 @@ A way home that has no value yet when it is wanted.
   > execute task('survey')[v]
   > EOF
   $ explore late.dol --fleet home.fleet --faults interrupt | grep -A 9 'no unhandled error: a'
-  no unhandled error: a shortest run in which an error that nobody handles ends the program
+  no unhandled error: a shortest run in which an unhandled error ends the program
       program                         where
   1   pick(1 vehicle of type 'UUV')   late.dol:2
   2   picks noptilus-1                late.dol:2

@@ -20,7 +20,7 @@ What was read is in the journal: with another value the run is another.
 
   $ sed 's/"Temperature":1[0-9.]*/"Temperature":19/' run.jsonl > warm.jsonl
   $ dolphin trace check front.dol warm.jsonl
-  warm.jsonl: line 94 is none of a run: transition 4, at 5:1: cut
+  warm.jsonl: line 94 does not belong to a run: transition 4, at 5:1: cut
     nothing could happen by itself, so cut could not
     false then: until at 5:14
     enabled then: nothing
@@ -48,9 +48,9 @@ With values in the fleet, any expression may depend on them.
   > execute auv: task("go${reading(auv, 'Temperature')}")
   > END
   $ dolphin explore sorted.dol --fleet front.fleet | head -3
-  no deadlock: inconclusive, sorted.dol:2:14: what goreading(lauv-1,'Temperature') is, is open, and more than a comparison depends on it: a fleet may list what batteries, positions and measurements show
-  termination: inconclusive, sorted.dol:2:14: what goreading(lauv-1,'Temperature') is, is open, and more than a comparison depends on it: a fleet may list what batteries, positions and measurements show
-  no unhandled error: inconclusive, sorted.dol:2:14: what goreading(lauv-1,'Temperature') is, is open, and more than a comparison depends on it: a fleet may list what batteries, positions and measurements show
+  no deadlock: inconclusive, sorted.dol:2:14: the value of goreading(lauv-1,'Temperature') is open, and more than a comparison depends on it: a fleet may list the values of batteries, positions and measurements
+  termination: inconclusive, sorted.dol:2:14: the value of goreading(lauv-1,'Temperature') is open, and more than a comparison depends on it: a fleet may list the values of batteries, positions and measurements
+  no unhandled error: inconclusive, sorted.dol:2:14: the value of goreading(lauv-1,'Temperature') is open, and more than a comparison depends on it: a fleet may list the values of batteries, positions and measurements
   $ sed "s/shows 'Temperature'/shows 'Temperature', 12, 18/" front.fleet > two.fleet
   $ dolphin explore sorted.dol --fleet two.fleet | grep deadlock
   no deadlock: holds

@@ -101,13 +101,13 @@ A call for which the fleet has no reply.
   $ explore mission.dol
   no deadlock: holds
   termination: holds
-  no unhandled error: violated after 10 steps: an error that nobody handles ends the program
+  no unhandled error: violated after 10 steps: an unhandled error ends the program
   assertions: holds
   vehicles for all tasks: holds
   note: all code reached: violated: no run reaches message at mission.dol:5:3, execute at mission.dol:6:3
   11 states, 10 transitions, depth 10; reduced by partial order
   
-  no unhandled error: a shortest run in which an error that nobody handles ends the program
+  no unhandled error: a shortest run in which an unhandled error ends the program
        program                                   where          variables
    1   call(getSupplier)                         mission.dol:1
    2   reply(host object supplier)               mission.dol:1
@@ -119,7 +119,7 @@ A call for which the fleet has no reply.
    8   reply(host object queue)                  mission.dol:4
    9   call(queue.await)                         mission.dol:4
   10   no-reply(the fleet has no reply 'queu...  mission.dol:4
-  the fleet lacks an entry: reply 'queue.await', and what the supplier may reply
+  the fleet lacks an entry: reply 'queue.await', and the supplier's possible replies
   [1]
   $ dolphin exec mission.dol
      0:00  program     calls getSupplier
@@ -131,8 +131,8 @@ A call for which the fleet has no reply.
      0:00  program     is told host object queue
      0:00  program     calls queue.await
      0:00  program     releases noptilus-1
-     0:00  program     fails: queue.await: there is no host process to call: name one with --supplier, or give the fleet a reply 'queue.await'
-  mission.dol:4:10: error: queue.await: there is no host process to call: name one with --supplier, or give the fleet a reply 'queue.await'
+     0:00  program     fails: queue.await: no host process to call: name one with --supplier, or give the fleet a reply 'queue.await'
+  mission.dol:4:10: error: queue.await: no host process to call: name one with --supplier, or give the fleet a reply 'queue.await'
     4 |   work = supplier.queue.await(v, 20.minutes)
       |          ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
   [1]
@@ -193,7 +193,7 @@ A supplier that need never come to its end.
 
   $ sed -i "s/true, either(true, false), false/either(true, false)/" mission.fleet
   $ explore mission.dol --trace cycle.run | sed -n '/a run in which the program/,/^$/p'
-  termination: a run in which the program can go on for ever
+  termination: a run in which the program may never end
        program                        where          variables
    1   call(getSupplier)              mission.dol:1
    2   reply(host object supplier)    mission.dol:1
@@ -232,7 +232,7 @@ A supplier that need never come to its end.
     21  program     says: task('survey')
   $ explore mission.dol --ltl 'F ended' --invariant '!running("survey")' | grep '^[fi].*: violated'
   invariant !running("survey"): violated after 13 steps: it does not hold
-  formula F ended: violated: after 11 steps, 10 steps that can repeat for ever
+  formula F ended: violated: after 11 steps, 10 steps that can repeat without end
 
 A journal of such a run checks, and is resumed wherever it breaks off: the fleet continues with its replies.
 
@@ -262,7 +262,7 @@ What a supplier has replied the fleet does not go on with, unless it would have 
   dolphin: part.run: this run has a supplier, which died with its console: name it again with --supplier
   [2]
   $ dolphin exec real.dol --resume part.run --supplier ../../examples/supplier.py | tail -1
-  dolphin: the supplier is started anew: 2 calls that it has answered in this run are not made again
+  dolphin: the supplier is started again: 2 calls that it has answered in this run are not made again
     13:10  program     ends
   $ head -n 4 real.run > part.run
   $ dolphin exec real.dol --resume part.run | tail -1

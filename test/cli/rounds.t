@@ -183,11 +183,11 @@ without any event is what the runtime would do.
   formula F G !start(p): holds
   $ dolphin explore fair.dol --fairness none --ltl 'F ended' | grep -e termination -e '^formula.*: [hv]'
   termination: holds
-  formula F ended: violated: after 8 steps, 2 steps that can repeat for ever
+  formula F ended: violated: after 8 steps, 2 steps that can repeat without end
   $ dolphin explore spin.dol --ltl 'F ended' | grep -e termination -e '^formula.*: [hv]'
-  termination: violated: after 2 steps, 2 steps that can repeat for ever
-  formula F ended: violated: after 2 steps, 2 steps that can repeat for ever
-  termination: a run in which the program can go on for ever
+  termination: violated: after 2 steps, 2 steps that can repeat without end
+  formula F ended: violated: after 2 steps, 2 steps that can repeat without end
+  termination: a run in which the program may never end
 
 The explorer and the timed analysis have the same rounds. Without a duration in the fleet, a plan on an empty battery may
 be one without any time, which succeeds.

@@ -29,7 +29,7 @@ One that broke off is told from one that ended.
   $ dolphin runs show 1999 | tail -n 1
             picks noptilus-1                   picked
   $ dolphin runs show 1998
-  dolphin: there is no run '1998': see dolphin runs
+  dolphin: no run '1998': dolphin runs lists them
   [2]
 
 Where nothing names the folder (a relative path does not), or it cannot be read, nobody knows what was kept.
@@ -55,5 +55,5 @@ A folder that cannot be made is told before the run.
 Its journal has one place.
 
   $ dolphin exec mission.dol --keep --journal mission.run
-  dolphin: --keep goes with none of --journal, --resume and --follow
+  dolphin: --keep excludes --journal, --resume and --follow
   [2]

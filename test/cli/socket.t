@@ -23,16 +23,16 @@ What is wrong with a pair is told, and nothing is posted:
   dolphin: the program declares no input 'ovr': did you mean 'over'?
   [2]
   $ dolphin post ./counts.run 'n: south'
-  dolphin: 'south' is no value: a text stands in quotes, 'south'
+  dolphin: 'south' is not a value: put a text in quotes, 'south'
   [2]
   $ dolphin post ./counts.run 'n: '
-  dolphin: what is posted is a key and a value, as in abort: true
+  dolphin: give a key and a value, as in abort: true
   [2]
   $ dolphin post ./counts.run '{ }'
-  dolphin: what is posted is a key and a value, as in abort: true
+  dolphin: give a key and a value, as in abort: true
   [2]
   $ dolphin post ./counts.run "n: task('p')"
-  dolphin: what is posted has no tasks and objects in it
+  dolphin: tasks and objects cannot be posted
   [2]
   $ dolphin post ./counts.run --stop 'n: 1'
   dolphin: --follow and --stop go with no pairs
@@ -124,7 +124,7 @@ On a terminal, a line that is typed is an input; one that was typed before a que
   >  shown 'asks: How deep'; echo 5; shown 'program  *ends') | \
   >   TERM=xterm timeout 60 script -qf -c 'dolphin exec typed.dol --speed 1' typescript > /dev/null
   $ tr -d '\r' < typescript | grep -ao 'program  .*' | sed 's/ *$//'
-  program     'north' is no value: a text stands in quotes, 'north'
+  program     'north' is not a value: put a text in quotes, 'north'
   program     the program declares no input 'stay', only 'go'
   program     gets go:2
   program     consumes go:2

@@ -117,16 +117,16 @@ What is wrong is told.
   status 2
   $ head='\001\000\000\000\000\000\000\000\000'  # a partition, no targets, no parts
   $ ask $head'\001\000\000\000\003\000\000\000\000xyz'
-  dolphin: state 1 of the batch is no state of this program: it is of no kind
+  dolphin: state 1 of the batch is not a state of this program: it is of no kind
   status 2
   $ ask $head'\001\000\000\000\001\000\000\000\000e'
-  dolphin: state 1 of the batch is no state of this program: it ends too early
+  dolphin: state 1 of the batch is not a state of this program: it ends too early
   status 2
   $ ask $head'\001\000\000\000\021\000\000\000\000e1234567812345678'
-  dolphin: state 1 of the batch is no state of this program: it names a part that was not given
+  dolphin: state 1 of the batch is not a state of this program: it names a part that was not given
   status 2
   $ ask $head'\001\000\000\000\006\000\000\000\000s[]\n[]'
-  dolphin: state 1 of the batch is no state of this program: what the environment remembers is not written as dolphin writes it
+  dolphin: state 1 of the batch is not a state of this program: the environment's memory is not written as dolphin writes it
   status 2
   $ ask $head'\377\377\377\377'
   dolphin: a batch of 4294967295 states is larger than any
@@ -135,13 +135,13 @@ What is wrong is told.
   dolphin: a batch for 0 partitions: there are 1 to 1000000
   status 2
   $ ask '' --run
-  dolphin: the input has no batch of states: there is no run in it
+  dolphin: the input has no batch of states, so no run
   status 2
   $ ask $head'\001\000\000\000\002\000\000\000\000s\n' --run
-  dolphin: state 1 of the run is no state of this program: what the environment remembers is not written as dolphin writes it
+  dolphin: state 1 of the run is not a state of this program: the environment's memory is not written as dolphin writes it
   status 2
   $ dolphin successors relay.dol --greeting --run
-  dolphin: --greeting asks nothing of a run: give --greeting or --run
+  dolphin: --greeting and --run exclude each other: give --greeting or --run
   [2]
   $ dolphin successors relay.dol --invariant 'x y'
   dolphin: --invariant 'x y': unknown name 'x'
@@ -155,7 +155,7 @@ A state of another place of the run is no step of it.
   dolphin: no transition leads to state 1 of the run
   [2]
   $ dolphin successors relay.dol --run < without
-  dolphin: state 3 of the run is no state of this program: it names a part that was not given
+  dolphin: state 3 of the run is not a state of this program: it names a part that was not given
   [2]
 
 States that hold areas are the same states when they are read again.

@@ -18,8 +18,8 @@ Without a supplier, and with one that is not there.
      0:00  program     picks x8-02
      0:00  program     calls getSupplier
      0:00  program     releases x8-02
-     0:00  program     fails: getSupplier: there is no host process to call: name one with --supplier, or give the fleet a reply 'getSupplier'
-  program.dol:2:12: error: getSupplier: there is no host process to call: name one with --supplier, or give the fleet a reply 'getSupplier'
+     0:00  program     fails: getSupplier: no host process to call: name one with --supplier, or give the fleet a reply 'getSupplier'
+  program.dol:2:12: error: getSupplier: no host process to call: name one with --supplier, or give the fleet a reply 'getSupplier'
     2 | supplier = getSupplier()
       |            ^^^^^^^^^^^^^
   [1]

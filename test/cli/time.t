@@ -95,7 +95,7 @@ A deadline that holds, and one that does not, with the run that breaks it.
   $ dolphin time relay.dol --deadline 8.min > /dev/null
   [1]
   $ dolphin time relay.dol --deadline soon 2>&1 | head -1
-  dolphin: option '--deadline': 'soon' is no time such as 40.min or 90.seconds
+  dolphin: option '--deadline': 'soon' is not a time such as 40.min or
 
 A battery that runs empty in some run, ones that are charged in time, one that the program looks at, and one of which it
 is not known.
@@ -265,7 +265,7 @@ Virtual time is exact; how much more or less is nothing can be said.
   $ dolphin trace check relay.dol real.run --timed --fleet short.fleet
   real.run: a run, of 14 transitions in 8:49; completed
   $ dolphin trace check relay.dol relay.run --tolerance=-1 2>&1 | head -n 1
-  dolphin: option '--tolerance': -1 is no number of seconds, 0 or more
+  dolphin: option '--tolerance': -1 is not a number of seconds, 0 or more
 
   $ dolphin trace check relay.dol - --timed < relay.run
   -: a run, of 14 transitions in 8:49; completed
@@ -277,7 +277,7 @@ A plan of which the fleet does not say how long it takes.
   $ sed -i "s/plan 'visit'.*/plan 'visit'/" relay.fleet
   $ dolphin time relay.dol | timeless
   completed: 5:30 at the earliest, no latest time
-  nobody knows how long it takes: relay.dol:4:39: visit on b; in the fleet: plan 'visit', { duration 3.min, 9.min }
+  duration unknown: relay.dol:4:39: visit on b; in the fleet: plan 'visit', { duration 3.min, 9.min }
   task    vehicle  starts        ends           where
   survey  a        0:00          4:00 to 7:00   relay.dol:3
   home    a        4:00 to 7:00  5:30 to 8:30   relay.dol:3
@@ -290,8 +290,8 @@ It is said once, however often the program starts it.
   > b = pick { id 'b' }
   > for (i in 1..2) { execute task('visit')[b] }
   > X
-  $ dolphin time again.dol --fleet relay.fleet | grep nobody
-  nobody knows how long it takes: again.dol:2:27: visit on b; in the fleet: plan 'visit', { duration 3.min, 9.min }
+  $ dolphin time again.dol --fleet relay.fleet | grep unknown
+  duration unknown: again.dol:2:27: visit on b; in the fleet: plan 'visit', { duration 3.min, 9.min }
 
 A program that goes round for ever, and one that waits in vain.
 
@@ -305,7 +305,7 @@ A program that goes round for ever, and one that waits in vain.
   home  a        0:00 or later  1:30 or later  patrol.dol:2
   12 states, depth 6, T
   
-  a run that may go on for ever:
+  a run that may never end:
       program                      where         variables
   1   pick(1 vehicle with id 'a')  patrol.dol:1
   2   picks a                      patrol.dol:1
@@ -329,8 +329,8 @@ A program that goes round for ever, and one that waits in vain.
   > a = pick { id 'a' }
   > execute (confirm('Is the boat away?') >> task('home')[a])
   > X
-  $ dolphin time asked.dol --fleet relay.fleet | grep 'nobody knows'
-  nobody knows how long it takes: an answer to 'Is the boat away?'
+  $ dolphin time asked.dol --fleet relay.fleet | grep 'duration unknown'
+  duration unknown: an answer to 'Is the boat away?'
   $ cat > vain.dol << 'X'
   > a = pick { id 'a' }
   > execute waitFor { consume ready: 1 } then task('home')[a]
@@ -339,7 +339,7 @@ A program that goes round for ever, and one that waits in vain.
   no run ends
   8 states, depth 3, T
   
-  a run in which nothing happens any more:
+  a run in which nothing more happens:
          program                      where       variables
   0:00   pick(1 vehicle with id 'a')  vain.dol:1
   0:00   picks a                      vain.dol:1
@@ -371,8 +371,8 @@ The run that is shown, in a file that can be followed: here, and where there is 
     14  program     releases a, b
     14  program     ends
   $ dolphin time relay.dol --trace relay.svg
-  dolphin: option '--trace': 'relay.svg' is the name of a picture, and what is
-           written is JSON
+  dolphin: option '--trace': 'relay.svg' is the name of a picture, but JSON
+           would be written
   Usage: dolphin time [OPTION]… PROG
   Try 'dolphin time --help' or 'dolphin --help' for more information.
   [2]
@@ -524,7 +524,7 @@ What follows is not known if it changes meanwhile how long nothing may be heard 
   > execute task('p')[v] | (idle(70.seconds) >> action { setConnectionTimeout v, 5.min })
   > END
   $ dolphin time changes.dol --fleet waits.fleet 2>&1 | sed 's/, [0-9.]* s, [0-9]* MiB//'
-  inconclusive: while nothing is heard of a, its connection timeout changes: what follows is not known here; times are of the runs until then
+  inconclusive: while nothing is heard of a, its connection timeout changes: the effect on time is unknown here; times are of the runs until then
   task  vehicle  starts  where
   p     a        0:00    changes.dol:2
   12 states, depth 5
@@ -597,7 +597,7 @@ What code does with the date is exact where it compares it with constants. Else 
   its end depends on: now() = 5:00 (5:00), then dusk.dol:3:17: survey on a (3:00)
   $ echo 'if (now() - 10 > limit) { message limit }' >> dusk.dol
   $ dolphin time dusk.dol 2>&1 | sed 's/, [0-9.]* s, [0-9]* MiB//'
-  inconclusive: dusk.dol:5:5: now() is not only compared with constants, as in now() < 20.min: what follows from it is not known here; times are of the runs until then
+  inconclusive: dusk.dol:5:5: now() is used other than in comparisons with constants such as now() < 20.min: its effect on time is unknown here; times are of the runs until then
   2 states, depth 0
   $ dolphin time dusk.dol > /dev/null 2>&1
   [3]
@@ -618,14 +618,14 @@ Neither locals nor parameters of functions are constants, nor is what is kept of
   > execute task('survey')[v] until { now() - start > 1.min }
   > END
   $ dolphin time start.dol --fleet dusk.fleet 2>&1 | head -1
-  inconclusive: start.dol:2:9: now() is not only compared with constants, as in now() < 20.min: what follows from it is not known here; times are of the runs until then
+  inconclusive: start.dol:2:9: now() is used other than in comparisons with constants such as now() < 20.min: its effect on time is unknown here; times are of the runs until then
   $ cat > local.dol <<'END'
   > v = pick { id 'a' }
   > def survey(limit) { task('survey') until { now() >= limit } }
   > execute survey(1.min)[v]
   > END
   $ dolphin time local.dol --fleet dusk.fleet 2>&1 | head -1
-  inconclusive: local.dol:2:44: now() is not only compared with constants, as in now() < 20.min: what follows from it is not known here; times are of the runs until then
+  inconclusive: local.dol:2:44: now() is used other than in comparisons with constants such as now() < 20.min: its effect on time is unknown here; times are of the runs until then
 
 What nobody can tell of the very first state is said, too.
 
@@ -633,7 +633,7 @@ What nobody can tell of the very first state is said, too.
   > message 5 / now()
   > END
   $ dolphin time first.dol 2>&1 | sed 's/; times are.*//; s/, [0-9.]* s, [0-9]* MiB//'
-  inconclusive: first.dol:1:9: what now() is, is open, and more than a comparison depends on it: a fleet may list what batteries, positions and measurements show
+  inconclusive: first.dol:1:9: the value of now() is open, and more than a comparison depends on it: a fleet may list the values of batteries, positions and measurements
   0 states, depth 0
   $ dolphin time first.dol > /dev/null 2>&1
   [3]

@@ -23,7 +23,7 @@ What is found is the same.
   20:00                     ends out                    two.dol:2
   its end depends on: two.dol:2:13: out on v1 (20:00), then two.dol:2:28: back on v1 (20:00)
   $ dolphin time six.dol --workers 0
-  dolphin: option '--workers': '0' is no number from 1 on
+  dolphin: option '--workers': '0' is not a number from 1 on
   Usage: dolphin time [OPTION]… PROG
   Try 'dolphin time --help' or 'dolphin --help' for more information.
   [2]

@@ -26,7 +26,7 @@
   Told.cfg
   $ head -3 out/model/MC.tla
   ---- MODULE MC ----
-  \* mission.dol in its world. Made by dolphin tla: make it anew rather than change it.
+  \* mission.dol in its world. Made by dolphin tla: generate it again rather than edit it.
   EXTENDS DolphinChecking
   $ grep -c 'at mission.dol:2' out/model/MC.tla
   4

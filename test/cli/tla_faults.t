@@ -38,7 +38,7 @@ What `dolphin tla` makes of faults.
     OnInterrupt <- MCOnInterrupt
     Interruptions = TRUE
   $ faults --faults lose
-  dolphin: option '--faults': there is no fault 'lose': did you mean loss?
+  dolphin: option '--faults': unknown fault 'lose': did you mean loss?
   Usage: dolphin tla [OPTION]… PROG
   Try 'dolphin tla --help' or 'dolphin --help' for more information.
   [2]

@@ -82,10 +82,10 @@ One that goes on for ever.
   no unhandled error: holds
   assertions: holds
   vehicles for all tasks: holds
-  termination: violated after 1 step, 4 steps that can repeat for ever
+  termination: violated after 1 step, 4 steps that can repeat without end
   5 distinct states, 6 generated
   
-  termination: a run in which the program can go on for ever
+  termination: a run in which the program may never end
       program   where        variables
   1   pause(1)  round.dol:2  x = 1
   and from there, again and again:
@@ -110,7 +110,7 @@ One that the explorer does not know: then the two statements of the semantics di
   2 distinct states, 2 generated, 1 not looked at
   
   TypeOK: a run in which it does not hold
-  This is no run of the explorer: after nothing, the explorer cannot do pause(2). --compare tells more. The states of TLC:
+  The explorer does not have this run: after nothing, the explorer cannot do pause(2). --compare shows the difference. The states of TLC:
      1  Next
         /\ N = [ bag |-> <<>>,
           queue |-> <<>> ]
@@ -150,7 +150,7 @@ On a violation it says little.
   assertions: not decided: TLC stops at a violation
   vehicles for all tasks: not decided: TLC stops at a violation
   5 distinct states, 6 generated
-  some property is violated: TLC's distributed mode does not say which, and shows only the last step. To see a run: --run alone.
+  some property is violated: TLC's distributed mode does not name it, and shows only the last step. To see a run: --run alone.
   last step: pause(1)
   [1]
 
@@ -168,7 +168,7 @@ State graphs: equal, and not.
   END              1
   $ sed -i "s/'a'/'b'/" said
   $ dolphin tla message.dol --compare
-  not isomorphic. Left is the explorer's graph, right TLC's; what is seen of a state counts as a transition that stays there, in parentheses.
+  not isomorphic. Left is the explorer's graph, right TLC's; the observable part of a state counts as a transition that stays there, in parentheses.
   left: 3 states, 3 transitions; right: 3 states, 3 transitions
   At the start the left one can do message 'a' by MESSAGE,
   the right one message 'b' by MESSAGE.
@@ -215,19 +215,19 @@ What goes wrong.
 What cannot be asked.
 
   $ dolphin tla round.dol
-  dolphin: what is to be done with the model? -o DIR writes it, --run has TLC check it, --compare compares state graphs
+  dolphin: give -o DIR to write the model, --run to check it by TLC, or --compare to compare state graphs
   [2]
   $ dolphin tla round.dol --run --compare
-  dolphin: --run and --compare are two things: ask for one at a time
+  dolphin: --run and --compare exclude each other: give one of them
   [2]
   $ dolphin tla round.dol --compare --workers 2
-  dolphin: --workers is about --run, which is not there
+  dolphin: --workers needs --run
   [2]
   $ dolphin tla round.dol --run --distributed here:1 --workers 2
-  dolphin: --workers is not for --distributed: each worker says itself how many threads it has
+  dolphin: --workers is not for --distributed: each worker has its own number of threads
   [2]
   $ dolphin tla round.dol -o model --coverage
-  dolphin: --coverage is about --compare, which is not there
+  dolphin: --coverage needs --compare
   [2]
   $ dolphin tla round.dol --run --distributed here 2>&1 | head -1
   dolphin: option '--distributed': 'here' is not HOST:PORT, as in

@@ -177,9 +177,9 @@ What was written is a run to follow, here and by exec.
   waits for relay.dol:4: consume ready: 1
   >  1  noptilus-2 starts survey (relay.dol:3)
   3> g 9
-  there is no state 9: the last one is 5
+  no state 9: the last one is 5
   3> next 7
-  so much is not ahead: 2 steps
+  not as many steps ahead: 2 steps
   3> 
 
 It has to fit the world, and the program.
@@ -190,7 +190,7 @@ It has to fit the world, and the program.
   dolphin: stuck.run does not fit relay.dol: step 5 cannot be taken: fail(noptilus-1, survey, failure) does not happen in this world; its --faults and answers may be other ones
   [2]
   $ walk --trace relay.dol </dev/null
-  dolphin: relay.dol: line 1 is no JSON
+  dolphin: relay.dol: line 1 is not JSON
   [2]
 
 A counterexample is followed to its end: the state that shows it. Words may be short.
@@ -206,7 +206,7 @@ A counterexample is followed to its end: the state that shows it. Words may be s
   5> 
   nothing can happen here: 'undo' goes back, 'quit' leaves
   5> 1
-  there is no choice 1 here
+  no choice 1 here
   5> 
 
 Whatever a sensor may show is a choice; what nobody can list is said, and one may go back.
@@ -239,13 +239,13 @@ Whatever a sensor may show is a choice; what nobody can list is said, and one ma
   B         noptilus-1
   N         -
   script    charge.dol:2
-  What may happen here cannot be listed:
-  charge.dol:3:1: error: what battery(noptilus-1) is, is open, and more than a comparison depends on it: a fleet may list what batteries, positions and measurements show
+  The possible steps here cannot be listed:
+  charge.dol:3:1: error: the value of battery(noptilus-1) is open, and more than a comparison depends on it: a fleet may list the values of batteries, positions and measurements
     3 | post level: battery(v)
       | ^^^^^^^^^^^^^^^^^^^^^^
   3> 1
-  What may happen here cannot be listed:
-  charge.dol:3:1: error: what battery(noptilus-1) is, is open, and more than a comparison depends on it: a fleet may list what batteries, positions and measurements show
+  The possible steps here cannot be listed:
+  charge.dol:3:1: error: the value of battery(noptilus-1) is open, and more than a comparison depends on it: a fleet may list the values of batteries, positions and measurements
     3 | post level: battery(v)
       | ^^^^^^^^^^^^^^^^^^^^^^
   3> u 2
@@ -307,24 +307,24 @@ What is typed wrongly is told.
   script    many.dol:1
      1  program pick(4 vehicles) (many.dol:1)
   0> 7
-  there is no choice 7 here
+  no choice 7 here
   0> jump
   'jump' is not known here: type a number, or help
   0> next x
   'next' needs a number, not 'x'
   0> goto 5
-  there is no state 5: the last one is 0
+  no state 5: the last one is 0
   0> undo
   this is as far back as it goes
   0> write
   'write' needs the name of a file
   0> write run.svg
-  'run.svg' is the name of a picture, and what is written is
-  JSON
+  'run.svg' is the name of a picture, but JSON would be
+  written
   0> write no/where.run
   no/where.run: No such file or directory
   0> next 2
-  so much is not ahead: nothing is
+  not as many steps ahead: nothing is
   0> 
   
   state 1

@@ -90,11 +90,11 @@ What is more than compared cannot be explored, unless the fleet says what it may
   > post level: battery(v)
   > END
   $ explore level.dol | grep deadlock
-  no deadlock: inconclusive, level.dol:2:1: what battery(noptilus-1) is, is open, and more than a comparison depends on it: a fleet may list what batteries, positions and measurements show
+  no deadlock: inconclusive, level.dol:2:1: the value of battery(noptilus-1) is open, and more than a comparison depends on it: a fleet may list the values of batteries, positions and measurements
   $ explore level.dol > shown
   [3]
   $ dolphin lts level.dol
-  level.dol:2:1: error: what battery(noptilus-1) is, is open, and more than a comparison depends on it: a fleet may list what batteries, positions and measurements show
+  level.dol:2:1: error: the value of battery(noptilus-1) is open, and more than a comparison depends on it: a fleet may list the values of batteries, positions and measurements
     2 | post level: battery(v)
       | ^^^^^^^^^^^^^^^^^^^^^^
   [3]
@@ -214,12 +214,12 @@ Faults have names and numbers.
   dolphin: by the fleet these join late: b; here they are there from the start, unless --faults has join
   no deadlock: holds
   $ explore late.dol --faults jion
-  dolphin: option '--faults': there is no fault 'jion': did you mean join?
+  dolphin: option '--faults': unknown fault 'jion': did you mean join?
   Usage: dolphin explore [OPTION]… PROG
   Try 'dolphin explore --help' or 'dolphin --help' for more information.
   [2]
   $ explore late.dol --faults fail=often
-  dolphin: option '--faults': 'often' is no number of faults, as in fail=1
+  dolphin: option '--faults': 'often' is not a number of faults, as in fail=1
   Usage: dolphin explore [OPTION]… PROG
   Try 'dolphin explore --help' or 'dolphin --help' for more information.
   [2]
@@ -261,7 +261,7 @@ A file that says less than it must is refused.
   $ rm level.fleet
   $ dolphin exec --follow level.run level.dol
      2  program     picks noptilus-1
-  dolphin: level.run: level.dol does not fit, at step 3: what battery(noptilus-1) is, is open, and more than a comparison depends on it: a fleet may list what batteries, positions and measurements show
+  dolphin: level.run: level.dol does not fit, at step 3: the value of battery(noptilus-1) is open, and more than a comparison depends on it: a fleet may list the values of batteries, positions and measurements
   [2]
 
 The programs that ran did what the semantics allows.

@@ -60,7 +60,7 @@ What is wrong with a program or a fleet has codes that do not change.
   > {"request": "initial", "program": "message x\npause 5.parsecs", "fleet": "vehicle 'v', { colour 'red'; type 'UUV' }"}
   > END
   $ dolphin step < requests
-  {"rejected":[{"in":"program","code":"unknown-name","line":1,"column":9,"message":"unknown name 'x'"},{"in":"program","code":"unknown-unit","line":2,"column":9,"message":"there is no unit 'parsecs'","hint":"units are m, km, seconds, min, hours, days, degrees, knots, feet, percent and the like"},{"in":"fleet","code":"fleet","line":1,"column":16,"message":"a vehicle has no setting 'colour'","hint":"its settings are type, payload, at, speed, battery, drain, charge, charger, shows, joins, leaves, drops"}]}
+  {"rejected":[{"in":"program","code":"unknown-name","line":1,"column":9,"message":"unknown name 'x'"},{"in":"program","code":"unknown-unit","line":2,"column":9,"message":"unknown unit 'parsecs'","hint":"units are m, km, seconds, min, hours, days, degrees, knots, feet, percent and the like"},{"in":"fleet","code":"fleet","line":1,"column":16,"message":"a vehicle has no setting 'colour'","hint":"its settings are type, payload, at, speed, battery, drain, charge, charger, shows, joins, leaves, drops"}]}
 
 What cannot be answered has an error, and the next request its reply. Empty lines are passed over.
 
@@ -82,14 +82,14 @@ What cannot be answered has an error, and the next request its reply. Empty line
   $ dolphin step < requests
   {"error":{"code":"no-json","message":"Line 1, bytes 18-19: Unexpected end of input"}}
   {"error":{"code":"bad-request","message":"a request is an object"}}
-  {"id":[1],"error":{"code":"unknown-request","message":"there is no request \"jump\": there are hello, initial, step, times and dated"}}
+  {"id":[1],"error":{"code":"unknown-request","message":"unknown request \"jump\": the requests are hello, initial, step, times and dated"}}
   {"error":{"code":"no-program","message":"no program was given: initial comes first"}}
   {"error":{"code":"bad-request","message":"\"program\" is 5, not a text"}}
   {"configuration":{"control":"script","end":null,"A":{},"B":[],"N":[],"store":{},"state":[["script",[["evaluate",3],3,[],[]]],[],[],[],[]]},"world":[]}
   {"error":{"code":"bad-configuration","message":"\"state\" is missing"}}
   {"error":{"code":"bad-configuration","message":"999 is not the number of an expression of this program"}}
   {"error":{"code":"bad-world","message":"\"type\" is missing"}}
-  {"error":{"code":"bad-event","message":"there are no events of kind \"rain\""}}
+  {"error":{"code":"bad-event","message":"unknown kind of event: \"rain\""}}
   {"transitions":[],"awaited":[],"refused":[{"event":{"event":"interruption"},"code":"not-awaited"}]}
   {"error":{"code":"bad-configuration","message":"B is not empty after the end"}}
 
@@ -115,17 +115,17 @@ Questions about times have errors, too.
   {"error":{"code":"no-program","message":"no program was given: initial comes first"}}
   {"configuration":{"control":"script","end":null,"A":{},"B":[],"N":[],"store":{},"state":[["script",[["evaluate",4],4,[],[]]],[],[],[],[]]},"world":[]}
   {"ends":{"completed":[3000,3000]},"tasks":[],"endless":false,"missed":[]}
-  {"error":{"code":"bad-faults","message":"there is no fault 'rain': did you mean fail?"}}
+  {"error":{"code":"bad-faults","message":"unknown fault 'rain': did you mean fail?"}}
   {"error":{"code":"bad-faults","message":"\"faults\" is 1, not a text"}}
   {"error":{"code":"bad-request","message":"\"run\" is missing"}}
   {"error":{"code":"bad-event","message":"\"at\" is missing"}}
-  {"error":{"code":"bad-event","message":"there are no events of kind \"rain\""}}
+  {"error":{"code":"bad-event","message":"unknown kind of event: \"rain\""}}
   {"error":{"code":"bad-run","message":"the end of timer 2 at 3000 is not awaited"}}
   {"error":{"code":"bad-run","message":"the answer 1 at 3000 is not awaited"}}
   {"error":{"code":"bad-run","message":"its dates go back"}}
   {"findings":[{"at":2000,"timer":1,"too":"early"}]}
   {"configuration":{"control":"script","end":null,"A":{},"B":[],"N":[],"store":{},"state":[["script",[["evaluate",5],5,[],[]]],[],[],[],[]]},"world":[]}
-  {"error":{"code":"bad-run","message":"it goes on by itself for ever"}}
+  {"error":{"code":"bad-run","message":"it never comes to a wait"}}
 
 It ends when its input does.
 

@@ -12,7 +12,7 @@ let refused expected text () =
 let case_with members = Printf.sprintf {|{"title": "t", "fleet": [], "program": ["post a: 1"], %s}|} members
 
 let unreadable =
-  [ ("no JSON", "this is no JSON: Blank input data", "");
+  [ ("no JSON", "this is not JSON: Blank input data", "");
     ("a list", "[], not an object", "[]");
     ("no title", "\"title\" is missing", {|{"fleet": [], "program": [], "expect": {"trace": []}}|});
     ("nothing expected", "nothing is expected", case_with {|"expect": {}|});
@@ -20,11 +20,11 @@ let unreadable =
       "expect.traces: this expectation is not known",
       case_with {|"expect": {"traces": []}|} );
     ( "an unknown member of a step",
-      "expect.trace: there is no member \"effect\"; known are label, event, world, now, rule, effects, A, B, N, \
+      "expect.trace: unknown member \"effect\"; known are label, event, world, now, rule, effects, A, B, N, \
        store, end",
       case_with {|"expect": {"trace": [{"label": "end", "effect": []}]}|} );
     ( "an unknown member",
-      "there is no member \"expects\"; known are title, covers, program, fleet, environment, expect, fails",
+      "unknown member \"expects\"; known are title, covers, program, fleet, environment, expect, fails",
       case_with {|"expects": {}|} );
     ( "a step without a label",
       "expect.trace: \"label\" is missing",

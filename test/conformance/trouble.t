@@ -1,19 +1,19 @@
 Cases that cannot be read are told before anything is judged.
 
   $ dolphin conform nowhere
-  dolphin: nowhere: there is no such file or directory
+  dolphin: nowhere: no such file or directory
   [2]
   $ mkdir empty && dolphin conform empty
-  dolphin: empty: there are no cases here
+  dolphin: empty: no cases here
   [2]
   $ echo '{' > broken.json && dolphin conform broken.json
-  dolphin: broken.json: this is no JSON: Line 2, bytes -1-0: Unexpected end of input
+  dolphin: broken.json: this is not JSON: Line 2, bytes -1-0: Unexpected end of input
   [2]
   $ cat > misspelt.json << 'END'
   > {"title": "t", "fleet": [], "program": ["post a: 1"], "expect": {"trace": [{"label": "post a:1", "effect": []}, "end"]}}
   > END
   $ dolphin conform misspelt.json
-  dolphin: misspelt.json: expect.trace: there is no member "effect"; known are label, event, world, now, rule, effects, A, B, N, store, end
+  dolphin: misspelt.json: expect.trace: unknown member "effect"; known are label, event, world, now, rule, effects, A, B, N, store, end
   [2]
   $ dolphin conform --impl-timeout=soon misspelt.json 2>&1 | head -n 1
   dolphin: option '--impl-timeout': invalid value 'soon', expected a floating
@@ -70,7 +70,7 @@ An implementation that dies, hangs or writes nonsense has failed. One that does 
   dolphin: the implementation does not speak the step protocol: it did not reply within 0.2 s
   [2]
   $ dolphin conform --impl 'echo nonsense; cat > /dev/null' wrong
-  dolphin: the implementation does not speak the step protocol: its reply is no JSON: Line 1, bytes 0-8: Invalid token 'nonsense'
+  dolphin: the implementation does not speak the step protocol: its reply is not JSON: Line 1, bytes 0-8: Invalid token 'nonsense'
   [2]
   $ dolphin conform --impl 'echo {}; cat > /dev/null' wrong
   dolphin: the implementation does not speak the step protocol: its reply has not the id of the request, 1
@@ -162,13 +162,14 @@ Both commands have a manual.
   
          125 a fault of dolphin itself. Please report it.
   
-         130 the run was interrupted: by Ctrl-C, by a request to terminate, or
-             because nobody reads its log any more.
+         130 the run was interrupted by Ctrl-C, by a request to terminate, or
+             because its log has no reader any more.
   
   EXAMPLES
   $ dolphin step --help=plain | sed -n '/^NAME/,/^DESCRIPTION/p'
   NAME
-         dolphin-step - tell what a configuration can do, for other programs
+         dolphin-step - compute the transitions of configurations, for other
+         programs
   
   SYNOPSIS
          dolphin step [OPTION]…
@@ -179,4 +180,4 @@ Both commands have a manual.
              judge an implementation by a corpus of cases
   --
          step [OPTION]…
-             tell what a configuration can do, for other programs
+             compute the transitions of configurations, for other programs

@@ -66,17 +66,17 @@ let header =
   ^ {|"property":"x","steps":1,"cycle":0}|}
 
 let refused =
-  [ ([], "this is no run to follow: it is empty"); ([ "{" ], "line 1 is no JSON");
-    ([ "[]" ], "this is no run to follow: its first line is not the header of one");
+  [ ([], "this is not a run to follow: it is empty"); ([ "{" ], "line 1 is not JSON");
+    ([ "[]" ], "this is not a run to follow: its first line is not the header of one");
     ([ {|{"format":"dolphin-course","version":9}|} ], "this run is of version 9; version 1 is known here");
     ([ header ], "1 steps are announced, and 0 are there"); ([ header; "{}" ], {|line 2: "label" is missing|});
     ([ header; {|{"label":"end","choice":-1}|} ], "line 2: a choice is a number from 0");
     ([ header; {|{"label":"end","choice":0,"assumed":[{"wind":"a"}]}|} ],
-     "line 2: what is assumed is late, missing, battery, speed, connected, reading, position or claim");
+     "line 2: unknown assumption: expected late, missing, battery, speed, connected, reading, position or claim");
     ([ header; {|{"label":"end","choice":0,"assumed":[{"battery":"a"}]}|} ], {|line 2: "is" is missing|});
     ([ header; {|{"label":"end","choice":0,"assumed":[{"position":"a","is":[91,0,0]}]}|} ],
      "line 2: latitude 91 is not from -90 to 90 degrees");
-    ([ header; {|{"label":"end","event":"rain"}|} ], {|line 2: there are no events of kind "rain"|}) ]
+    ([ header; {|{"label":"end","event":"rain"}|} ], {|line 2: unknown kind of event: "rain"|}) ]
 
 let refused_case (lines, expected) =
   let check () =

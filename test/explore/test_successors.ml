@@ -320,7 +320,7 @@ let test_parts () =
     | Ok batch -> Printf.sprintf "%d transitions, %d parts" batch.transitions (List.length batch.parts)
     | Error e -> Format.asprintf "%a" Error.pp e
   in
-  let unknown = "state 1 of the batch is no state of this program: it names a part that was not given" in
+  let unknown = "state 1 of the batch is not a state of this program: it names a part that was not given" in
   Alcotest.(check string) "without parts" unknown (answer []);
   List.iteri
     (fun i _ ->

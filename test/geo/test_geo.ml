@@ -183,12 +183,12 @@ let texts () =
 
 let bad_texts () =
   let check (text, why) =
-    Alcotest.(check string) text (Printf.sprintf "'%s' is no position: %s" text why) (read text)
+    Alcotest.(check string) text (Printf.sprintf "'%s' is not a position: %s" text why) (read text)
   in
   List.iter check
     [ ("", "a latitude and a longitude are missing, as in 41\xc2\xb011.1'N 8\xc2\xb042.4'W");
       ("41.5", "a latitude and a longitude are missing, as in 41\xc2\xb011.1'N 8\xc2\xb042.4'W");
-      ("Porto", "what it says is not understood"); ("41 61 N 8 0 W", "minutes are below 60, not 61");
+      ("Porto", "it cannot be read"); ("41 61 N 8 0 W", "minutes are below 60, not 61");
       ("91 N 8 W", "latitude 91 is not from -90 to 90 degrees"); ("41N 8N", "it has no latitude and longitude, by its letters");
       ("41N, 8", "both have a letter of N, S, E and W, or none has");
       ("-41N 8W", "a sign and a letter of N, S, E and W exclude each other");
@@ -200,7 +200,7 @@ let bad_texts () =
       ("29T 4559363 524756", "eastings of UTM are from 100000 to 900000 m, not 4559363");
       ( "34S 259583 6245888",
         "the letter S of UTM is a band of latitudes, and these metres are not in it; write 34 south for the southern half" ) ];
-  Alcotest.(check string) "long" "a text of that length is no position" (read (String.make 10_000 '1'))
+  Alcotest.(check string) "long" "the text is too long for a position" (read (String.make 10_000 '1'))
 
 (* Whatever a text says, reading it ends. *)
 let any_text = QCheck2.Gen.(string_size ~gen:(oneofl [ '4'; '1'; '.'; ' '; 'N'; 'W'; 's'; '-'; ','; '\''; '\xc2'; '\xb0' ]) (int_bound 12))

@@ -85,7 +85,7 @@ let json_errors () =
     | Error error -> Alcotest.(check string) text expected (Fmt.str "%a" Json.pp_error error)
   in
   let graph members = Printf.sprintf "{\"format\":\"dolphin-lts\",\"version\":1,%s}" members in
-  fails "[]" "this is no graph: expected an object with \"format\": \"dolphin-lts\"";
+  fails "[]" "this is not a graph: expected an object with \"format\": \"dolphin-lts\"";
   fails "{\"format\":\"dolphin-lts\",\"version\":2}" "this is version 2 of the format; expected version 1";
   fails (graph "\"initial\":0") "expected \"states\" in the object";
   fails (graph "\"initial\":1,\"states\":1") "there is no state 1 in \"initial\": there are 1, numbered from 0";

@@ -20,7 +20,7 @@ A changed map is a changed program.
   $ cut -b 1-3000 harbour.run | grep -v '"kind":"end"' > torn.run
   $ sed -i 's/-8.7052,41.1865/-8.7052,41.1866/' harbour.geojson
   $ dolphin trace check harbour.dol harbour.run 2>&1 | head -1
-  dolphin: harbour.dol is not the text that this run was of, or has changed since: places are not compared
+  dolphin: harbour.dol is not the program of this run, or has changed since: places are not compared
   $ dolphin exec harbour.dol --resume torn.run 2>&1 | cut -c 1-90
   dolphin: torn.run: this run was of another program, or the program has changed since; --fo
 
@@ -130,10 +130,10 @@ Hostile files: nothing is expanded, followed or written, and memory is bounded.
   overlap.kmz: the files in this archive overlap
   encrypted.kmz: 'doc.kml' in it is encrypted
   none.kmz: there is no *.kml in this archive
-  entity.kml: line 2, column 26: this is no XML: unknown entity reference (b)
-  external.kml: line 2, column 32: this is no XML: unknown entity reference (x)
-  laughs.kml: line 2, column 27: this is no XML: unknown entity reference (l9)
-  laughs.gpx: line 2, column 20: this is no XML: unknown entity reference (l9)
+  entity.kml: line 2, column 26: this is not XML: unknown entity reference (b)
+  external.kml: line 2, column 32: this is not XML: unknown entity reference (x)
+  laughs.kml: line 2, column 27: this is not XML: unknown entity reference (l9)
+  laughs.gpx: line 2, column 20: this is not XML: unknown entity reference (l9)
   deep.kml: line 1: elements are nested more than 100 deep
   deep.geojson: line 1, column 101: lists and objects are nested more than 100 deep
   large.geojson: the file is larger than 64 MB
@@ -245,7 +245,7 @@ The areas of a map, or of a list, keep vehicles out, each by itself; places and 
       |                                      ^^^^^^^^^^^^^^^^^^^^^^^^^
   fenced.dol: 1 error
   fenced.dol: no errors
-  fenced.dol:2:16: error: fence outside takes areas, and there are none
+  fenced.dol:2:16: error: fence outside takes areas, but has none
     2 | fence outside ([zones.buoy])
       |                ^^^^^^^^^^^^
   fenced.dol: 1 error
@@ -253,7 +253,7 @@ The areas of a map, or of a list, keep vehicles out, each by itself; places and 
     2 | fence outside ([a: zones.a, b: 1])
       |                ^^^^^^^^^^^^^^^^^^
   fenced.dol: 1 error
-  fenced.dol:2:16: error: fence outside takes areas, and there are none
+  fenced.dol:2:16: error: fence outside takes areas, but has none
     2 | fence outside ([:])
       |                ^^^
   fenced.dol: 1 error

@@ -107,13 +107,13 @@ assert same(ways[PLAN], [(float(r["longitude"]), float(r["latitude"]), float(r["
 assert ways[PLAN][0] == (-8.706, 41.185, -2), ways
 told = dolphin("plan", here / "survey.dol", "--to", "gpx")
 assert told[0] == files["gpx"].read_text(), "plan --to is plan export"
-assert "left out, since vehicles know their way and the program does not: by, name" in told[1], told[1]
+assert "left out, since only vehicles know their way: by, name" in told[1], told[1]
 
 # What cannot be written.
 for arguments, words in [
-    (("trace", "export", run), "--to FORMAT or -o FILE says what to write: csv, geojson, kml, gpx, mcap"),
+    (("trace", "export", run), "give --to FORMAT or -o FILE; the formats are csv, geojson, kml, gpx, mcap"),
     (("trace", "export", run, "-o", folder / "run.txt"), "ends in none of the formats csv, geojson, kml, gpx, mcap"),
-    (("trace", "export", run, "--to", "bag"), "'bag' is none of the formats csv, geojson, kml, gpx, mcap"),
+    (("trace", "export", run, "--to", "bag"), "'bag' is not one of the formats csv, geojson, kml, gpx, mcap"),
     (("plan", "export", here / "survey.dol", "nothing", "--to", "csv"), "no vehicle is given a plan 'nothing'"),
     (("plan", "export", here / "survey.dol", "by, name", "--to", "csv"), "nothing here has a place on a map"),
     (("plan",), "required argument PROG is missing"),

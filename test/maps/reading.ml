@@ -47,7 +47,7 @@ let wrong_geojson () =
   let begins_with start text = check start start (String.sub text 0 (min (String.length start) (String.length text))) in
   begins_with "wrong: line 2, bytes " (read "[1\n }");
   begins_with "wrong: line 1, bytes " (read "[1, 2");
-  check "something else" "wrong: this is no GeoJSON: it has no \"type\": \"FeatureCollection\"" (read "[1]");
+  check "something else" "wrong: this is not GeoJSON: it has no \"type\": \"FeatureCollection\"" (read "[1]");
   check "a geometry that is none"
     "a: (2.000000, 1.000000); a 2: flawed: feature 2 ('a'): GeoJSON has no geometry 'Circle'"
     (told [ feature "Point" "[1,2]"; feature "Circle" "[1,2]" ]);
@@ -85,11 +85,11 @@ let reading_kml () =
     (read (placed "a" "<Circle><coordinates>0,0</coordinates></Circle>"));
   check "a link" "note: line 1 ('n'): the link to 'http://example.org/a.kml' is not followed, and left out"
     (read "<NetworkLink><name>n</name><Link><href>http://example.org/a.kml</href></Link></NetworkLink>");
-  check "no number" "wrong: line 3: 'x' is no number"
+  check "no number" "wrong: line 3: 'x' is not a number"
     (read (placed "p\n\n" "<Point><coordinates>-8,x\n\n</coordinates></Point>"));
   check "no coordinates" "wrong: line 1: Point has no coordinates" (read (placed "p" "<Point/>"));
-  check "another document" "wrong: line 1: this is no KML: its root is 'gpx'" (shown "m.kml" "<gpx/>");
-  check "no XML" "wrong: line 2, column 2: this is no XML: expected root element" (shown "m.kml" "<!-- -->\n nothing")
+  check "another document" "wrong: line 1: this is not KML: its root is 'gpx'" (shown "m.kml" "<gpx/>");
+  check "no XML" "wrong: line 2, column 2: this is not XML: expected root element" (shown "m.kml" "<!-- -->\n nothing")
 
 let reading_gpx () =
   let read inside = shown "m.gpx" ("<gpx>" ^ inside ^ "</gpx>") in
@@ -119,7 +119,7 @@ let reading_plans () =
     (shown "m.plan" plan);
   check "a radius" "wrong: circle 1 of the fence: a radius is 0 m or more, not -1"
     (shown "m.plan" {|{"fileType":"Plan","geoFence":{"circles":[{"circle":{"center":[41,-8],"radius":-1}}]}}|});
-  check "another file" "wrong: this is no plan of QGroundControl: it has no \"fileType\": \"Plan\"" (shown "m.plan" "{}")
+  check "another file" "wrong: this is not a plan of QGroundControl: it has no \"fileType\": \"Plan\"" (shown "m.plan" "{}")
 
 (* Commands with a place that is not flown to, in frames that have no place on the globe, and landing patterns. *)
 let missions () =

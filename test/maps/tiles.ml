@@ -42,7 +42,7 @@ let tiles () =
       check "rows are counted from the north" "image/png 8" (tile path 3 1 7);
       check "jpg" "image/jpeg 4" (tile path 3 1 6);
       check "webp" "image/webp 12" (tile path 3 2 6);
-      check "no picture" "wrong: this tile is no picture: neither png nor jpg nor webp" (tile path 3 3 6);
+      check "no picture" "wrong: this tile is not a picture: neither png nor jpg nor webp" (tile path 3 3 6);
       check "too long" "none" (tile path 3 4 6);
       check "a text" "none" (tile path 3 5 6);
       check "not there" "none" (tile path 3 1 0);

@@ -37,9 +37,9 @@ let bad_features () =
     ("feature 1: flawed: feature 1: latitude 91 is not from -90 to 90 degrees; point 1: (0.000000, 1.000000)")
     (shown "m.geojson"
        (collection [ feature ~properties:"{}" "Point" "[1,91]"; feature ~properties:"{}" "Point" "[1,0]" ]));
-  check "GPX" "feature 1: flawed: line 1: '0x29' is no number; point 1: (1.000000, 2.000000)"
+  check "GPX" "feature 1: flawed: line 1: '0x29' is not a number; point 1: (1.000000, 2.000000)"
     (shown "m.gpx" "<gpx><wpt lat='0x29' lon='-8_7'/><wpt lat='1' lon='2'/></gpx>");
-  check "KML" "a: flawed: line 1: '4_1' is no number; b: (1.000000, 2.000000)"
+  check "KML" "a: flawed: line 1: '4_1' is not a number; b: (1.000000, 2.000000)"
     (shown "m.kml"
        "<kml><Placemark><name>a</name><Point><coordinates>-8,4_1</coordinates></Point></Placemark>\
         <Placemark><name>b</name><Point><coordinates>2,1</coordinates></Point></Placemark></kml>")

@@ -45,9 +45,9 @@ let setting_faults =
 let quantity_faults =
   [ fault "speed is a number and a unit, as in speed 1, Speed.Units.METERS_PS" [ set "speed" [] ];
     fault "expected a number as speed, found a string, 'fast'" [ set "speed" [ str "fast" ] ];
-    fault "'Speed.Units.RMP' is no unit of speed: did you mean Speed.Units.RPM?"
+    fault "'Speed.Units.RMP' is not a unit of speed: did you mean Speed.Units.RPM?"
       [ set "speed" [ i 1; sym "Speed.Units.RMP" ] ];
-    fault "'Z.Units.DEPTH' is no unit of speed: units are Speed.Units.METERS_PS, \
+    fault "'Z.Units.DEPTH' is not a unit of speed: units are Speed.Units.METERS_PS, \
            Speed.Units.RPM, Speed.Units.PERCENTAGE"
       [ set "speed" [ i 1; sym "Z.Units.DEPTH" ] ];
     fault "expected a unit of speed, as in Speed.Units.METERS_PS, found a number, 2" [ set "speed" [ i 1; i 2 ] ];
@@ -62,7 +62,7 @@ let quantity_faults =
     fault "speed counts percent from 0 to 100, and 0.8 is hardly meant: write 50 for half, not 50.percent"
       [ set "speed" [ n 0.8; sym "Speed.Units.PERCENTAGE" ] ];
     fault "z is a number and a unit, as in z 1, Z.Units.DEPTH" [ set "z" [ i 1; i 2; i 3 ] ];
-    fault "'Z.Units.DEEP' is no unit of z: did you mean Z.Units.DEPTH?" [ set "z" [ i 1; sym "Z.Units.DEEP" ] ];
+    fault "'Z.Units.DEEP' is not a unit of z: did you mean Z.Units.DEPTH?" [ set "z" [ i 1; sym "Z.Units.DEEP" ] ];
     fault "depth is from 0 to 100000 m, not -1" [ set "z" [ i (-1) ] ];
     fault "altitude is from 0 to 100000 m, not -1" [ set "z" [ i (-1); sym "Z.Units.ALTITUDE" ] ];
     fault "z is from -100000 to 100000 m, not 1000000" [ set "z" [ i 1000000; sym "Z.Units.HEIGHT" ] ] ]
@@ -78,9 +78,9 @@ let argument_faults =
     fault "duration of loiter is a whole number from 0 to 65535 seconds, not 65536" (loiter [ ("duration", i 65536) ]);
     fault "duration of loiter is a whole number from 0 to 65535 seconds, not -1" (loiter [ ("duration", i (-1)) ]);
     fault "duration of loiter is a whole number from 0 to 65535 seconds, not 0.5" (loiter [ ("duration", n 0.5) ]);
-    fault "'LEFT' is no direction of loiter: there are VDEP, CLOCKW, CCLOCKW, IWINDCURR"
+    fault "'LEFT' is not a direction of loiter: there are VDEP, CLOCKW, CCLOCKW, IWINDCURR"
       (loiter [ ("direction", str "LEFT") ]);
-    fault "'CLOCKWISE' is no direction of loiter: did you mean CLOCKW?" (loiter [ ("direction", str "CLOCKWISE") ]);
+    fault "'CLOCKWISE' is not a direction of loiter: did you mean CLOCKW?" (loiter [ ("direction", str "CLOCKWISE") ]);
     fault "expected a position as location of loiter, found a number, 4" (loiter [ ("location", i 4) ]);
     fault "latitude 100 is not from -90 to 90 degrees" (loiter [ ("location", items [ i 100; i 0 ]) ]);
     fault "expected a string as id of loiter, found a number, 4" (loiter [ ("id", i 4) ]);

@@ -51,9 +51,9 @@ let by_hand =
         m = mission { arm: true; takeOff 30; goPos there; move 100, 0; move 0, 150 }
         message "${m.length.round()} ${m.length(v).round()} ${m.duration(v).round()}"|};
     says "a way that depends on its beginning"
-      "failed: the way of plan 'plan-2' depends on where it begins: write length(v), with its vehicle"
+      "failed: the way of plan 'plan-2' depends on its start: write length(v), with its vehicle"
       "m = mission { move 100, 0; returnHome() }\nmessage m.length";
-    says "a plan without end" "failed: plan 'plan-2' goes on until it is stopped: nobody knows how long"
+    says "a plan without end" "failed: plan 'plan-2' goes on until it is stopped: its length is unknown"
       "m = imcPlan { locate Location.APDL; goTo(); skeeping duration: 0 }\nmessage m.duration(v)";
     says "the length of a plan by name"
       "failed: the way of plan 'survey' is not described here: only its vehicle knows it" "message imcPlan('survey').length";

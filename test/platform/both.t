@@ -27,7 +27,7 @@ both.
 It needs both, and does not begin with one of them; the vehicles go on.
 
   $ dolphin exec m.dol --resume m.run $imc
-  dolphin: m.run: this run was on vehicles of a network, which will move again: say --imc and --platform
+  dolphin: m.run: this run was on vehicles of a network, which will move again: give --imc and --platform
   [2]
   $ dolphin exec m.dol --resume m.run $imc --platform false
   dolphin: the adapter 'false' ended with exit status 1 before it greeted

@@ -75,10 +75,10 @@ Adapters that cannot be spoken to: no run begins.
   > done
   dolphin: the adapter './missing' ended with exit status 127 before it greeted
   dolphin: the adapter 'true' ended with exit status 0 before it greeted
-  dolphin: the adapter 'echo {}' does not greet as the platform protocol has it: its first line has no member 'kind' that is a text
+  dolphin: the adapter 'echo {}' violates the platform protocol: its first line has no member 'kind' that is a text
   dolphin: the adapter 'echo '{"kind":"hello","protocol":2,"name":"x"}'' speaks version 2 of the platform protocol, and we version 1
   dolphin: the adapter 'echo '{"kind":"error","why":"no serial port"}'' says: no serial port
-  dolphin: the adapter 'echo '{"kind":"pong","id":1}'' does not greet as the platform protocol has it: its first line is no 'hello'
+  dolphin: the adapter 'echo '{"kind":"pong","id":1}'' violates the platform protocol: its first line is not a 'hello'
 
 Of journals that are there nothing is lost, nor is a run resumed.
 

@@ -45,7 +45,7 @@ A run that is to be resumed and is not: its vehicles are not told to stop, and i
   [3]
   $ interrupted dolphin exec m.dol --resume m.run --platform "$quick" --platform 'exec sh slow.sh'
   status 130
-  dolphin: interrupted before the run went on: no vehicle was told to stop; go on with it by --resume m.run
+  dolphin: interrupted before the run went on: no vehicle was ordered to stop; go on with it by --resume m.run
   $ grep -c '"kind":"stop"' fleet.state
   0
   [1]

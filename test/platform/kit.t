@@ -16,17 +16,17 @@ The simulated fleet passes the kit, with a hundred vehicles.
   ok    start-twice      takes a start that comes twice for one
   ok    stop             stops a plan, and reports one end, the same again when asked again
   ok    stop-stranger    answers the stop of a request that it never heard of
-  ok    stop-at-once     stops a plan before it has said that it took it, and is free then
+  ok    stop-at-once     stops a plan before reporting it as taken, and is free then
   ok    refusal          refuses what it cannot do, in words, and is free then
-  ok    validation       says what is wrong with a plan, and moves nothing
-  ok    slow-reader      loses nothing while nobody reads what it writes
+  ok    validation       reports the problems of a plan, and moves nothing
+  ok    slow-reader      loses nothing while its output is not read
   ok    all-at-once      commands all of its vehicles at once, up to 100 (100 at once)
-  ok    killed           after its death says what became of a plan that ran (it says 'taken')
-  ok    killed-after-end after its death does not run again what had ended (it says 'done')
+  ok    killed           after its death reports the outcome of a plan that ran (it reports 'taken')
+  ok    killed-after-end after its death does not rerun an ended plan (it reports 'done')
   ok    resume-twice     answers a second 'resume' as the first
-  ok    never-ordered    does not claim a request that was never ordered (it says 'absent')
-  ok    console-dies     lets vehicles fly on when its input ends, and ends (it says 'taken')
-  ok    close            stops all, says that it is quiet, and ends
+  ok    never-ordered    does not claim a request that was never ordered (it reports 'absent')
+  ok    console-dies     lets vehicles fly on when its input ends, and ends (it reports 'taken')
+  ok    close            stops all vehicles, reports 'quiet', and ends
   21 of 21 situations passed
   $ grep -c '<testcase' kit.xml
   21
@@ -46,11 +46,11 @@ Each situation finds an adapter out that is wrong there.
   $ find_out greeting chatty
   chatty: status 1
     greeting         greets within 10 s, before all else
-        its first line is no JSON: Line 1, bytes 0-14: Invalid token 'connecting ...'
+        its first line is not JSON: Line 1, bytes 0-14: Invalid token 'connecting ...'
   $ find_out greeting mute
   mute: status 1
     greeting         greets within 10 s, before all else
-        its first line is no greeting
+        its first line is not a greeting
   $ find_out vehicles typeless
   typeless: status 1
     vehicles         reports a vehicle that is ready, at first with type and link
@@ -58,7 +58,7 @@ Each situation finds an adapter out that is wrong there.
   $ find_out vehicles 'half a place'
   half a place: status 1
     vehicles         reports a vehicle that is ready, at first with type and link
-        a line is no 'vehicle' as the protocol has it: of latitude and longitude one is missing: {"kind": "vehicle", "vehicle": "auv-002", "type": "UUV", "payload": [], "latitude": 41.1851800869126, "height": 0.0, "depth": null, "altitude": null, ...
+        a line is not a valid 'vehicle': of latitude and longitude one is missing: {"kind": "vehicle", "vehicle": "auv-002", "type": "UUV", "payload": [], "latitude": 41.1851800869126, "height": 0.0, "depth": null, "altitude": null, ...
   $ find_out strange-orders fragile
   fragile: status 1
     strange-orders   ignores orders and members that it does not know
@@ -93,31 +93,31 @@ Each situation finds an adapter out that is wrong there.
         the end of REQUEST did not come within 4 s
   $ find_out stop-at-once 'stops too early'
   stops too early: status 1
-    stop-at-once     stops a plan before it has said that it took it, and is free then
+    stop-at-once     stops a plan before reporting it as taken, and is free then
         the end of REQUEST did not come within 4 s
   $ find_out refusal 'refuses without words'
   refuses without words: status 1
     refusal          refuses what it cannot do, in words, and is free then
-        a plan in a language that nobody speaks was to be refused, as 'failed', and is 'failed ( )'
+        a plan in an unknown language was to be refused, as 'failed', and is 'failed ( )'
   $ find_out validation 'yes-man'
   yes-man: status 1
-    validation       says what is wrong with a plan, and moves nothing
-        a plan in a language that nobody speaks is found to have no problems
+    validation       reports the problems of a plan, and moves nothing
+        a plan in an unknown language is found to have no problems
   $ find_out slow-reader 'loses lines'
   loses lines: status 1
-    slow-reader      loses nothing while nobody reads what it writes
-        of 5000 pings that were sent while nobody read, 4995 were answered, or not in order
+    slow-reader      loses nothing while its output is not read
+        of 5000 pings sent while its output was not read, 4995 were answered, or not in order
   $ find_out all-at-once 'one at a time'
   one at a time: status 1
     all-at-once      commands all of its vehicles at once, up to 100
         the end of REQUEST did not come within 4 s
   $ find_out killed forgetful
   forgetful: status 1
-    killed           after its death says what became of a plan that ran
-        after its death the adapter says that a plan which the vehicle had taken was never started
+    killed           after its death reports the outcome of a plan that ran
+        after its death the adapter reports a plan that the vehicle had taken as never started
   $ find_out killed-after-end 'forgets ends'
   forgets ends: status 1
-    killed-after-end after its death does not run again what had ended
+    killed-after-end after its death does not rerun an ended plan
         a plan that was done before the adapter died is 'absent' after it
   $ find_out resume-twice wavering
   wavering: status 1
@@ -137,10 +137,10 @@ Each situation finds an adapter out that is wrong there.
         the console died, and a plan that ran is 'stopped': vehicles are to fly on
   $ find_out close 'never quiet'
   never quiet: status 1
-    close            stops all, says that it is quiet, and ends
+    close            stops all vehicles, reports 'quiet', and ends
         the adapter ended where 'quiet' was awaited
   $ dolphin platform check --only stopp true
-  dolphin: there is no situation 'stopp' (did you mean 'stop'?)
+  dolphin: unknown situation 'stopp' (did you mean 'stop'?)
   [2]
 
 Whoever interrupts it ends the adapter too: one that is deaf, and what that one has started.
@@ -155,7 +155,7 @@ Whoever interrupts it ends the adapter too: one that is deaf, and what that one 
   $ until test -e deaf || ! kill -0 $run; do sleep 0.05; done; kill -INT $run; wait $run
   [130]
   $ cat interrupted.txt
-  is interrupted; the adapter is ended
+  interrupted; the adapter is ended
   $ runs() { grep -qs '^State:[[:space:]]*[^XZ[:space:]]' /proc/$(cat $1)/status; }  # those that only wait for init are over
   $ for f in deaf sleeper; do
   >   for i in $(seq 200); do runs $f || break; sleep 0.05; done; ! runs $f || echo "$f is still there"

@@ -17,7 +17,7 @@ A line that is no report is told, and does no harm.
   $ run m.dol --journal 1.run --platform "$(with prints)"
   program     picks auv-1
   auv-1       starts a
-  program     platform sim: a line of the adapter is no JSON: Line 1, bytes 0-27: Invalid token 'armed, waiting for the link'; it is ignored
+  program     platform sim: a line of the adapter is not JSON: Line 1, bytes 0-27: Invalid token 'armed, waiting for the link'; it is ignored
   auv-1       ends a
   program     releases auv-1
   program     ends
@@ -55,13 +55,13 @@ A report of which one member is wrong is ignored as a whole, and the adapter is 
   $ run half.dol --journal half.run --platform 'python3 half.py 2> refused.txt'
   program     picks rover-1
   rover-1     starts short
-  program     platform half: a line of the adapter is no 'vehicle' as the protocol has it: of latitude and longitude one is missing; it is ignored
+  program     platform half: a line of the adapter is not a valid 'vehicle': of latitude and longitude one is missing; it is ignored
   rover-1     ends short
   program     says: 0.19
   program     releases rover-1
   program     ends
   $ cat refused.txt
-  is no 'vehicle' as the protocol has it: of latitude and longitude one is missing
+  is not a valid 'vehicle': of latitude and longitude one is missing
 
 The adapter dies: its vehicle loses its link, the next adapter says what became of the plan.
 

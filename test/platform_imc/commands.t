@@ -118,7 +118,7 @@ confirmed, for five seconds at most, and says so; the second one ends the progra
   program     releases noptilus-1
   program     is interrupted
   program     noptilus-1: has not confirmed yet that it stopped plan long; waiting 3 s more
-  dolphin: interrupted twice: ended at once; vehicles that were not told to stop yet run on
+  dolphin: interrupted twice: ended at once; vehicles not yet ordered to stop keep running
   $ kill -CONT $vehicles; kill $vehicles; wait $vehicles 2> wait.txt || true
 
 With the first one only, it does wait, and ends. What became of the plan nobody knows, and it says that.

@@ -55,7 +55,7 @@ let over : Durable_note.t = Over { request = 7 }
 let another = ("q", false)
 
 let nobody_knows =
-  "failed: the console died just as it asked for plan p, which the vehicle had run before: nobody knows whether it has \
+  "failed: the console died just as it asked for plan p, which the vehicle had run before: it is unknown whether it has \
    run again"
 
 let unnoted =

@@ -105,7 +105,7 @@ let clones =
       text "not to be picked" (Some "shares its IMC address 0x001a with another system") (unready ~now:14. "lauv-1" s);
       let told =
         [ "lauv-1: two systems have the IMC address 0x001a: lauv-1 at 127.0.0.1:6003, and lauv-1 at 127.0.0.1:6002; \
-           which of them speaks cannot be told, so it cannot be picked" ]
+           their messages cannot be told apart, so it cannot be picked" ]
       in
       strings "told, once" told (snd (other ~now:24. (one ~now:20. s)));
       let alone s now = hear ~now 0x1A ready (hear ~now 0x1A here (tick now (hear ~now 0x1A (announce "lauv-1" 6003) s))) in

@@ -22,4 +22,4 @@ let tests =
         (report 1. Ready);
       case "BLOCKED, the mode being older" (Some "cannot run plans now") ~mode:(1., Mode.Service) (report 2. Blocked);
       case "a vehicle that says no mode" None (report 1. Ready);
-      case "its plan is not known" (Some "has not said yet what it runs") ~mode:(1., Mode.Service) None ] )
+      case "its plan is not known" (Some "has not reported its plan state yet") ~mode:(1., Mode.Service) None ] )

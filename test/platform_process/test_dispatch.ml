@@ -360,7 +360,7 @@ let silent_adapter () =
     end
   in
   go 4;
-  check_out w "three pings without a word" [ "give up: it has said nothing for 15 seconds" ]
+  check_out w "three pings without a word" [ "give up: it has sent nothing for 15 seconds" ]
 
 let strangers () =
   let w = { d = D.create ~platform:"x" ~prefix:"r"; now = 0.; out = [] } in

@@ -103,7 +103,7 @@ let refusals () =
 let already_running () =
   let f = after 0. (single ~plans:"plan 'p', { duration 90 }\nplan 'q', { duration 20 }" "") in
   let f = Fleet.start "a" (task "q") (after 10. (Fleet.start "a" (task "p") f)) in
-  check_news "failed" [ "10 a failed: told to run 'q' while it ran 'p'" ] (fst (until 500. f))
+  check_news "failed" [ "10 a failed: ordered to run 'q' while it ran 'p'" ] (fst (until 500. f))
 
 (* {1 Silent links} *)
 

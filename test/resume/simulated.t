@@ -44,7 +44,7 @@ A run that is over, no run, no journal.
   [2]
   $ sed '/"i":3,/d' copy.run > gap.run
   $ dolphin exec --resume gap.run ../../examples/rendezvous.dol 2>&1 | head -1
-  dolphin: gap.run: line 9 is none of a run: transition 4, at 11:7: pick(1 vehicle of type 'UAV' in region (41.185000, -8.706200) ^ 2000 m)
+  dolphin: gap.run: line 9 does not belong to a run: transition 4, at 11:7: pick(1 vehicle of type 'UAV' in region (41.185000, -8.706200) ^ 2000 m)
   $ dolphin exec --resume missing.run ../../examples/rendezvous.dol
   dolphin: missing.run: No such file or directory
   [2]
@@ -65,12 +65,12 @@ A program that has changed is refused, unless what happened is the beginning of 
   program     says: All is done.
   program     ends
   $ dolphin trace check changed.dol a.run
-  dolphin: changed.dol is not the text that this run was of, or has changed since: places are not compared
+  dolphin: changed.dol is not the program of this run, or has changed since: places are not compared
   a.run: a run, of 35 transitions in 18:44; completed
   $ cp copy.run b.run
   $ sed 's/count 3/count 2/; s/type .UUV./type "USV"/' ../../examples/rendezvous.dol > changed.dol
   $ dolphin exec --resume b.run changed.dol --force-prefix 2>&1 | head -2
-  dolphin: b.run: line 5 is none of a run: transition 2, at 5:8: pick(3 vehicles of type 'UUV' with payload DVL, Sidescan in region (41.185000, -8.706200) ^ 2000 m)
+  dolphin: b.run: line 5 does not belong to a run: transition 2, at 5:8: pick(3 vehicles of type 'UUV' with payload DVL, Sidescan in region (41.185000, -8.706200) ^ 2000 m)
     no transition is like this one; the nearest differs: "label" should be "pick(2 vehicles of type 'USV' with payload DVL, Sidescan in region (41.185000, -8.706200) ^ 2000 m)", not "pick(3 vehicles of type 'UUV' with payload DVL, Sidescan in region (41.185000, -8.706200) ^ 2000 m)"
 
 So is another fleet, another seed, a network; and what does not go together.
@@ -145,7 +145,7 @@ A supplier is started anew. What it has answered it is not asked again, which it
   dolphin: died.run: this run has a supplier, which died with its console: name it again with --supplier
   [2]
   $ dolphin exec numbers.dol --resume died.run --supplier 'python3 supplier.py'
-  dolphin: the supplier is started anew: 2 calls that it has answered in this run are not made again
+  dolphin: the supplier is started again: 2 calls that it has answered in this run are not made again
      0:00  program     is told 3
      0:00  program     says: 3
      0:00  program     calls numbers.next

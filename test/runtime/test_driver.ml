@@ -112,7 +112,7 @@ let says_what_is_unknown () =
   run ~observer:{ Observer.nobody with unknown } mock
     (program ~reads_sensors:true ~globals:1 [ set_global 0 (pick 1); call Execute [ t ] ])
   |> outcome_is "end";
-  texts "said" [ "0 battery(v1) is unknown, since v1 has not told it: battery(v) ?: x takes x then" ] !said;
+  texts "said" [ "0 battery(v1) is unknown, since v1 has not reported it: battery(v) ?: x takes x then" ] !said;
   log_is mock [ "0 telemetry true"; "0 bind v1"; "30 start v1 home"; "40 release v1"; "40 close" ]
 
 (* The platform knows that the battery stays as it is. *)
@@ -274,7 +274,7 @@ let calls_the_host () =
 let without_host () =
   let mock = Mock_platform.make [] in
   run mock (program [ call Get_supplier [] ])
-  |> outcome_is "end: getSupplier: there is no host process to call: name one with --supplier"
+  |> outcome_is "end: getSupplier: no host process to call: name one with --supplier"
 
 (* {1 Inputs} *)
 

@@ -152,7 +152,7 @@ let broken_hosts =
     broken "a host that replies nothing" (reply "{\"id\":1}")
       "the host process replied \"{\\\"id\\\":1}\", which has neither a value nor an error";
     broken "a host that replies no value" (reply "{\"id\":1,\"value\":{\"task\":1}}")
-      "the host process replied \"{\\\"id\\\":1,\\\"value\\\":{\\\"task\\\":1}}\", which is no value for a program: \
+      "the host process replied \"{\\\"id\\\":1,\\\"value\\\":{\\\"task\\\":1}}\", which is not a value for a program: \
        the name of a task is expected, not 1";
     broken "a host that writes without end" "yes | tr -d '\\n'"
       "the host process's reply is longer than 1048576 bytes" ]

@@ -107,8 +107,8 @@ let inputs () =
   wrong "input 'a', 1, times 1.5" "times takes a whole number, as in times 3";
   wrong "input 'a', 1, after 'x'" "expected a time, as in 30.seconds, found the text 'x'";
   wrong "input 'a', 1, after 1, after 2" "after stands twice";
-  wrong "input 'a', fails" "fails is no input";
-  wrong "input 'a', [task('p')]" "what is posted has no tasks and objects in it"
+  wrong "input 'a', fails" "fails is not an input";
+  wrong "input 'a', [task('p')]" "tasks and objects cannot be posted"
 
 let replies_at () =
   let lines = List.map (fun (call, at) -> (call, Location.line at)) in

@@ -196,7 +196,7 @@ let value_of e =
   let run = run ~world:with_silent (begun ^ Printf.sprintf "message(%s)" e) in
   match Pure_run.said run with [ text ] -> text | _ -> Pure_run.ending run
 
-let is_unknown = "failed: battery(silent) is unknown, since silent has not told it: battery(v) ?: x takes x then"
+let is_unknown = "failed: battery(silent) is unknown, since silent has not reported it: battery(v) ?: x takes x then"
 
 (* Whether a task that waits for [guard] begins. *)
 let begins guard =

@@ -141,9 +141,9 @@ let tasks : example list =
       "unallocated task('q')[noptilus-2]" [];
     example Make_err "it does not only compute"
       ("def f(t) { post a: 1; t }\n" ^ task "watch { f(%p) } onError { message it; ignore() }")
-      "broken({ f task('p')[v] } makes a task, so it may only compute: it may not post, consume, assign or say anything)"
+      "broken({ f task('p')[v] } makes a task, so it may only compute: it must not post, consume, assign or print)"
       "MAKE-ERR, WATCH-IGNORE, EXECUTE-DONE" "script"
-      [ "say { f task('p')[v] } makes a task, so it may only compute: it may not post, consume, assign or say anything" ];
+      [ "say { f task('p')[v] } makes a task, so it may only compute: it must not post, consume, assign or print" ];
     example Make_err "it gives no task" (task "watch { 7 } onError { message it; ignore() }")
       "broken({ 7 }: expected a task, found a number, 7)" "MAKE-ERR, WATCH-IGNORE, EXECUTE-DONE" "script"
       [ "say { 7 }: expected a task, found a number, 7" ];
@@ -227,8 +227,7 @@ let tasks : example list =
       "ALLOC-ERR" "failed: division by zero" [ released; "end: division by zero" ];
     example Allocate_err "code of fresh does more than compute"
       ("def f(t) { post a: 1; t }\n" ^ task "watch { fresh { k -> f(%p) } } onError { ignore() }")
-      "cannot-execute({ f task('p')[v] } makes a task, so it may only compute: it may not post, consume, assign or say \
-       anything)"
+      "cannot-execute({ f task('p')[v] } makes a task, so it may only compute: it must not post, consume, assign or print)"
       "ALLOCATE-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [];
     example Idle_end "the time is up" (task "idle(5) >> idle(1)") "timeout" "IDLE-END, SEQ-2" "idle(1)"
       [ "set timer 2 to 1 s" ];

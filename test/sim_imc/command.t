@@ -27,7 +27,7 @@ Ctrl-C, or a request to terminate.
 Usage.
 
   $ dolphin sim two.fleet
-  dolphin: say --imc or --platform: which protocol the simulated vehicles are to speak
+  dolphin: give --imc or --platform, the protocol of the simulated vehicles
   [2]
   $ sim none.fleet
   dolphin: none.fleet: No such file or directory

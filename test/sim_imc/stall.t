@@ -67,7 +67,7 @@ it, and does not take it for idle.
   >    > second.txt 2> errors.txt; echo "status $?")
   status 1
   $ cut -c 10- second.txt
-  program     noptilus-1: may still run plan out: it still maneuvers 5 s after it was told to stop
+  program     noptilus-1: may still run plan out: it still maneuvers 5 s after the order to stop
   program     fails: could not pick 1 vehicle of type 'UUV': noptilus-1 may still run plan out
   program     noptilus-1: has not confirmed yet that it stopped plan out; waiting 3 s more
   program     noptilus-1: may still run plan out: it was not heard to have stopped

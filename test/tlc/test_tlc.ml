@@ -178,9 +178,9 @@ let broken_graphs () =
   check_problem "a state comes twice: p" [ {|"S\tp"|}; {|"S\tp"|} ];
   check_problem "a transition a leads to a state that does not come" [ {|"S\tp"|}; {|"E\ta\tq\t"|} ];
   check_problem "a transition leads from program 1 to program 2" [ {|"S\tp\t1"|}; {|"E\ta\tq\t"|}; {|"S\tq\t2"|} ];
-  check_problem {|this line tells of no state and no transition: "S\tp\tx"|} [ {|"S\tp\tx"|} ];
-  check_problem {|this line tells of no state and no transition: "E\ta\tq"|} [ {|"S\tp"|}; {|"E\ta\tq"|} ];
-  check_problem {|this line tells of no state and no transition: "S\tp|} [ {|"S\tp|} ]
+  check_problem {|this line has no state and no transition: "S\tp\tx"|} [ {|"S\tp\tx"|} ];
+  check_problem {|this line has no state and no transition: "E\ta\tq"|} [ {|"S\tp"|}; {|"E\ta\tq"|} ];
+  check_problem {|this line has no state and no transition: "S\tp|} [ {|"S\tp|} ]
 
 (* {1 Programs} *)
 
@@ -245,7 +245,7 @@ let installation () =
     (find ~jar:(in_root "other.jar") [ path; ("DOLPHIN_TLC", "/none.jar") ]);
   check "a jar that is not there" "/none.jar: there is no such file, which DOLPHIN_TLC names as the archive of TLC"
     (find [ home; path; ("DOLPHIN_TLC", "/none.jar") ]);
-  check "no Java" "TLC needs Java, 11 or later, and there is no program 'java' on the PATH"
+  check "no Java" "TLC needs Java, 11 or later, and the PATH has no program 'java'"
     (find [ home; ("PATH", "/nowhere") ]);
   check "no Java where it is said to be"
     "TLC needs Java, 11 or later, and there is no /nowhere/bin/java, though JAVA_HOME says so"

@@ -25,9 +25,9 @@ What no vehicle can have shown is not the line of a run, nor is what JSON does n
   $ check 's/"height":0,/"height":1e308,/' | head -n 1
   dolphin: changed.run:3: "height" is 1e+308, not from -20000 to 1e+06
   $ check 's/"time":0,/"time":1e999,/' | head -n 1
-  dolphin: changed.run:2: this is no JSON: a number in it is not finite, or too large
+  dolphin: changed.run:2: this is not JSON: a number in it is not finite, or too large
   $ sed 's/"type":"UUV"/"type":"UU\xff"/' pick.run > changed.run; dolphin trace check pick.dol changed.run
-  dolphin: changed.run:3: this is no JSON: a text in it is not UTF-8
+  dolphin: changed.run:3: this is not JSON: a text in it is not UTF-8
   [2]
 
 An export that fails leaves the file as it was, and nothing beside it.

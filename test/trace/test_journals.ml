@@ -130,13 +130,13 @@ let refused () =
     | verdict -> Alcotest.failf "%s: %s" why (show verdict)
   in
   expect "the journal is empty" "";
-  expect "this is no journal: its first line is not the header of one" "{}\n";
-  expect "this is no journal: its first line is not the header of one" "[]\n";
+  expect "this is not a journal: its first line is not the header of one" "{}\n";
+  expect "this is not a journal: its first line is not the header of one" "[]\n";
   expect "this journal is of version 2; version 1 is known here" "{\"format\":\"dolphin-journal\",\"version\":2}\n";
   let header = List.hd (Runs.lines r.journal) in
   expect "a second header" (Runs.text [ header; header ]);
   expect "\"time\" is missing" (Runs.text [ header; "{\"kind\":\"event\"}" ]);
-  expect "there are no lines of kind \"wish\"" (Runs.text [ header; "{\"kind\":\"wish\",\"time\":1}" ]);
+  expect "unknown kind of line: \"wish\"" (Runs.text [ header; "{\"kind\":\"wish\",\"time\":1}" ]);
   let deep = String.make 1_000_000 '[' in
   match Runs.check_text r (Runs.text [ header; deep ]) with
   | Unreadable { number = 2; _ } -> ()

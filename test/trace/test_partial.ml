@@ -56,16 +56,16 @@ let trace lines = Runs.text (header :: vehicle :: lines)
 let wrong () =
   impossible "b before a" program
     (trace [ label "start(v, b)" ])
-    [ "line 3 is not what a run can look like: start(v, b)"; "start(v, b) could not happen";
-      "what could come: start(v, a)"; "before it: 0 lines" ];
+    [ "line 3 does not fit any run: start(v, b)"; "start(v, b) could not happen";
+      "possible here: start(v, a)"; "before it: 0 lines" ];
   impossible "twice" program
     (trace [ label "start(v, a)"; label "done(v, a)"; label "start(v, a)" ])
-    [ "line 5 is not what a run can look like: start(v, a)"; "start(v, a) could not happen";
-      "what could come: start(v, b)"; "before it: 2 lines" ];
+    [ "line 5 does not fit any run: start(v, a)"; "start(v, a) could not happen";
+      "possible here: start(v, b)"; "before it: 2 lines" ];
   impossible "what it does not tell" program
     (trace [ label "timeout" ])
-    [ "line 3 is not what a run can look like: timeout"; "labels like timeout are not among those that this trace has";
-      "what could come: nothing"; "before it: 0 lines" ]
+    [ "line 3 does not fit any run: timeout"; "labels like timeout are not among those that this trace has";
+      "possible here: nothing"; "before it: 0 lines" ]
 
 let beginnings () =
   let check lines =

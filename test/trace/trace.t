@@ -100,7 +100,7 @@ A tuple that was never posted.
 
   $ sed 's/post ready:2/post ready:4/; s/"posted":\["ready:2"\]/"posted":["ready:4"]/' rendezvous.run > other.run
   $ dolphin trace check ../../examples/rendezvous.dol other.run
-  other.run: line 220 is none of a run: transition 12, at 26:1: act(post ready:4)
+  other.run: line 220 does not belong to a run: transition 12, at 26:1: act(post ready:4)
     no transition is like this one; the nearest differs: "label" should be "act(post ready:2)", not "act(post ready:4)"
     false then: when at 32:17, when at 34:17, when at 36:17
     enabled then: act(post ready:2)
@@ -113,7 +113,7 @@ A condition that did not hold: nothing was posted.
   $ sed '/"event":"done","vehicle":"noptilus-2"/,/start(noptilus-2, sk2)/d' rendezvous.run |
   >   python3 renumber.py > early.run
   $ dolphin trace check ../../examples/rendezvous.dol early.run
-  early.run: line 218 is none of a run: transition 11, at 26:1: check(consume ready:2)
+  early.run: line 218 does not belong to a run: transition 11, at 26:1: check(consume ready:2)
     nothing could happen by itself, so check(consume ready:2) could not
     false then: when at 32:17, when at 34:17, when at 36:17
     enabled then: nothing
@@ -125,7 +125,7 @@ An event that nobody waited for.
 
   $ sed 's/"event":"done","vehicle":"noptilus-2"/"event":"done","vehicle":"x8-02"/' rendezvous.run > nobody.run
   $ dolphin trace check ../../examples/rendezvous.dol nobody.run
-  nobody.run: line 219 is none of a run: transition 11, at 18:5: done(noptilus-2, survey2)
+  nobody.run: line 219 does not belong to a run: transition 11, at 18:5: done(noptilus-2, survey2)
     the end of x8-02's task makes no transition: it was not awaited
     false then: when at 32:17, when at 34:17, when at 36:17
     enabled then: nothing
@@ -136,8 +136,8 @@ An event that nobody waited for.
 A run of another program; and the same one, with a comment more.
 
   $ dolphin trace check ../../examples/sequence.dol rendezvous.run
-  dolphin: ../../examples/sequence.dol is not the text that this run was of, or has changed since: places are not compared
-  rendezvous.run: line 2 is none of a run: transition 0, at 2:5: ask(Radius of operation area? (km))
+  dolphin: ../../examples/sequence.dol is not the program of this run, or has changed since: places are not compared
+  rendezvous.run: line 2 does not belong to a run: transition 0, at 2:5: ask(Radius of operation area? (km))
     no transition is like this one; the nearest differs: "label" should be "pick(1 vehicle with id 'x8-02')", not "ask(Radius of operation area? (km))"
     enabled then: pick(1 vehicle with id 'x8-02')
     awaited then: nothing
@@ -145,13 +145,13 @@ A run of another program; and the same one, with a comment more.
   [1]
   $ (echo '// Rendezvous'; cat ../../examples/rendezvous.dol) > commented.dol
   $ dolphin trace check commented.dol rendezvous.run
-  dolphin: commented.dol is not the text that this run was of, or has changed since: places are not compared
+  dolphin: commented.dol is not the program of this run, or has changed since: places are not compared
   rendezvous.run: a run, of 35 transitions in 18:44; completed
 
 What is no journal.
 
   $ dolphin trace check ../../examples/rendezvous.dol ../../examples/rendezvous.fleet
-  dolphin: ../../examples/rendezvous.fleet:1: this is no journal: its first line is not the header of one
+  dolphin: ../../examples/rendezvous.fleet:1: this is not a journal: its first line is not the header of one
   [2]
   $ dolphin trace show /dev/null
   dolphin: /dev/null:1: the journal is empty
@@ -164,14 +164,14 @@ What is no journal.
   [2]
   $ (head -n 5 rendezvous.run; echo oops; tail -n 3 rendezvous.run) > hole.run
   $ dolphin trace check ../../examples/rendezvous.dol hole.run
-  dolphin: hole.run:6: this is no JSON: Line 1, bytes 0-4: Invalid token 'oops'
+  dolphin: hole.run:6: this is not JSON: Line 1, bytes 0-4: Invalid token 'oops'
   [2]
   $ dolphin trace show hole.run 2> told | head -4; cat told
       time  program
       0:00  asks: Radius of operation area? (km)
             is answered: 2
             looks for 3 vehicles of type 'UUV' with payload
-  dolphin: hole.run:6: this is no JSON: Line 1, bytes 0-4: Invalid token 'oops'
+  dolphin: hole.run:6: this is not JSON: Line 1, bytes 0-4: Invalid token 'oops'
 
 Pictures are whole documents that need nothing else.
 
@@ -217,10 +217,10 @@ very many corners is not more than what is seen of it.
   $ grep -o "<title>[^<]*</title>" layers.html | grep -c "the coast\|buoy\|work"
   3
   $ dolphin exec ../../examples/fences.dol --layer work.kml
-  dolphin: --layer goes with --draw: it is a map below the ways of the run
+  dolphin: --layer needs --draw: it is a map below the ways of the run
   [2]
   $ dolphin exec ../../examples/fences.dol --draw many.svg --runs 10 --layer work.kml
-  dolphin: --layer does not go with --runs or --until: they draw when runs are over, and no ways
+  dolphin: --layer excludes --runs and --until: these draw the ends of runs, and no ways
   [2]
   $ dolphin exec ../../examples/fences.dol --draw many.svg --layer nowhere.kml
   dolphin: nowhere.kml: No such file or directory
@@ -230,7 +230,7 @@ very many corners is not more than what is seen of it.
   [2]
   $ echo '{"type": "Feature"' > broken.geojson
   $ dolphin trace draw fences.run --layer broken.geojson -o layers.svg
-  dolphin: broken.geojson: line 2, bytes -1-0: this is no JSON: unexpected end of input
+  dolphin: broken.geojson: line 2, bytes -1-0: this is not JSON: unexpected end of input
   [2]
   $ dolphin trace draw fences.run --layer fences.run -o layers.svg
   dolphin: fences.run: a map ends in .geojson, .json, .kml, .kmz, .gpx, .plan, .nmap, .nmisz
@@ -315,7 +315,7 @@ A reader of the journal that goes away ends the run.
 Standard output has the log, and no journal beside it.
 
   $ dolphin exec long.dol --journal -
-  dolphin: standard output has the log, and no journal beside it: name a file (./- for one that is called so)
+  dolphin: standard output has the log, so the journal needs a file: name one (./- for a file called -)
   [2]
   $ test -e ./-
   [1]

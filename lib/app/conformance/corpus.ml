@@ -8,7 +8,7 @@ let ( let* ) = Result.bind
 let is_case path = Filename.check_suffix path ".json"
 
 let rec files path =
-  if not (Sys.file_exists path) then Error (Error.Bad_input (path ^ ": there is no such file or directory"))
+  if not (Sys.file_exists path) then Error (Error.Bad_input (path ^ ": no such file or directory"))
   else if not (Sys.is_directory path) then Ok [ path ]
   else
     let inside name =
@@ -29,7 +29,7 @@ let read path =
 let load paths =
   let* files = Results.concat_map files paths in
   let* cases = Results.map read files in
-  if cases = [] then Error (Error.Bad_input (String.concat ", " paths ^ ": there are no cases here")) else Ok cases
+  if cases = [] then Error (Error.Bad_input (String.concat ", " paths ^ ": no cases here")) else Ok cases
 
 (* {1 Implementations} *)
 

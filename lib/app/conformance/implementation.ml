@@ -49,10 +49,10 @@ let read_reply process id =
   | Line line ->
     Lwt.return
       (match Host_value.parse ~deepest line with
-       | Error why -> Error ("its reply is no JSON: " ^ why)
+       | Error why -> Error ("its reply is not JSON: " ^ why)
        | Ok (`Assoc members as reply) when List.assoc_opt "id" members = Some (`Int id) -> Ok reply
        | Ok (`Assoc _) -> Error (Printf.sprintf "its reply has not the id of the request, %d" id)
-       | Ok _ -> Error "its reply is no object")
+       | Ok _ -> Error "its reply is not an object")
 
 let exchange t process id line =
   let answered =

@@ -9,7 +9,7 @@ let called (program : Program_file.t) (v, (p : Core.platform_task)) =
 let line program (pair : Side_by_side.pair) =
   let both = Printf.sprintf "%s, beside %s" (called program pair.one) (called program pair.other) in
   match pair.nearness with
-  | Unknown -> both ^ ": nobody knows how near"
+  | Unknown -> both ^ ": distance unknown"
   | Near near ->
     Format.asprintf "%s: %.1f m between %s and %s, at %a" both near.metres near.maneuver near.other Position.pp
       near.place

@@ -58,7 +58,7 @@ let print_run program property (run : Search.run) =
   Run_columns.print ?decided:run.decided program ~steps:run.steps ~cycle:run.cycle;
   if property = Property.No_deadlock then Run_columns.print_waiting program run.steps;
   let tell call =
-    Format.printf "the fleet lacks an entry: reply %a, and what the supplier may reply@." Value.pp (String call) in
+    Format.printf "the fleet lacks an entry: reply %a, and the supplier's possible replies@." Value.pp (String call) in
   Option.iter tell (unanswered run)
 
 let print_unreached (program : Core.program) property pieces =

@@ -19,7 +19,7 @@ let tuples steps cycle =
   | Some c when not (Tuples.is_empty c.shared.tuples) -> [ Format.asprintf "tuples then: %a" Tuples.pp c.shared.tuples ]
   | Some _ | None -> []
 
-let decides = "decides the formula: what follows makes no difference"
+let decides = "decides the formula: the rest of the run does not matter"
 
 let lines ?columns ?decided (p : Program_file.t) ~steps ~cycle =
   let lines ~first ~before ~remarks = Columns.lines ~first ?columns ?before ~remarks ~source:p.source p.program in

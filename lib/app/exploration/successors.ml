@@ -60,7 +60,7 @@ let of_memory e =
          times (fun i -> `Int i) sent ])
 
 let memory text =
-  let amiss () = wrong "what the environment remembers is not written as dolphin writes it" in
+  let amiss () = wrong "the environment's memory is not written as dolphin writes it" in
   let list read = function `List items -> List.map read items | _ -> amiss () in
   let name = function `String name -> name | _ -> amiss () and whole = function `Int n -> n | _ -> amiss () in
   let times key = list (function `List [ x; `Int n ] -> (key x, n) | _ -> amiss ()) in
@@ -77,7 +77,7 @@ let with_memory (p : _ Portable.part) : _ Portable.part =
   let write (x, e) = of_memory e ^ "\n" ^ p.write x in
   let read text =
     match String.index_opt text '\n' with
-    | None -> wrong "what the environment remembers is missing"
+    | None -> wrong "the environment's memory is missing"
     | Some i ->
       let e = memory (String.sub text 0 i) in
       (p.read (String.sub text (i + 1) (String.length text - i - 1)), e)
@@ -269,9 +269,9 @@ let at_piece t (piece : Coverage.piece) =
 let guarded ~named f =
   match f () with
   | x -> Ok x
-  | exception Portable.Wrong why -> bad (Printf.sprintf "%s is no state of this program: %s" (named ()) why)
+  | exception Portable.Wrong why -> bad (Printf.sprintf "%s is not a state of this program: %s" (named ()) why)
   | exception (Invalid_argument _ | Not_found | Failure _) ->
-    bad (Printf.sprintf "%s is no state of this program: its parts do not belong together" (named ()))
+    bad (Printf.sprintf "%s is not a state of this program: its parts do not belong together" (named ()))
   | exception Parts.Too_large -> Error (Error.Inconclusive "a state is too large to be written down")
   | exception Portable.Ambiguous -> Error (Error.Inconclusive "two parts of states have the same digest")
   | exception Limits.Stop bound -> Error (Error.Inconclusive (Fmt.str "%a" Limits.pp_bound bound))
@@ -476,13 +476,13 @@ let serve t input output =
 
 let read_run t input =
   refused @@ fun () ->
-  if not (read_greeting t input) then bad "the input is empty: there is no run in it"
+  if not (read_greeting t input) then bad "the input is empty: it has no run"
   else
     match read_batch input with
     | Some { parts; states; _ } ->
       let* () = give t parts in
       run t (List.map (fun s -> s.text) states)
-    | None -> bad "the input has no batch of states: there is no run in it"
+    | None -> bad "the input has no batch of states, so no run"
 
 let print_run t input =
   let* steps = read_run t input in

@@ -97,7 +97,7 @@ let read path channel =
       | last -> (Option.fold ~none:0. ~some:Entry.time last, if is_written channel then Going_on else Broken_off)
     in
     Ok { name = Filename.remove_extension (Filename.basename path); path; header; time; state }
-  | Line _ | Torn _ | End_of_file | Wrong _ -> Error (Error.Bad_input (path ^ ": this is no journal"))
+  | Line _ | Torn _ | End_of_file | Wrong _ -> Error (Error.Bad_input (path ^ ": this is not a journal"))
 
 let files folder =
   if not (Sys.file_exists folder) then Ok []
@@ -123,7 +123,7 @@ let find name =
   match runs, List.find_opt (fun run -> run.name = name) runs, List.filter begins runs with
   | latest :: _, _, _ when name = "latest" -> Ok latest.path
   | _, Some run, _ | _, None, [ run ] -> Ok run.path
-  | _, None, [] -> Error (Error.Bad_input (Printf.sprintf "there is no run '%s': see dolphin runs" name))
+  | _, None, [] -> Error (Error.Bad_input (Printf.sprintf "no run '%s': dolphin runs lists them" name))
   | _, None, _ :: _ :: _ -> Error (Error.Bad_input (Printf.sprintf "several runs begin with '%s'" name))
 
 let journal name = if Filename.basename name <> name || Sys.file_exists name then Ok name else find name

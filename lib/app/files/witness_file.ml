@@ -50,7 +50,7 @@ let ending run : Request.ending =
     | [] -> ""
     | cycle ->
       let first = List.length run.steps + 1 in
-      Printf.sprintf "; steps %d to %d repeat for ever" first (first + List.length cycle - 1)
+      Printf.sprintf "; steps %d to %d repeat without end" first (first + List.length cycle - 1)
   in
   { how = "counterexample"; message = Some (run.description ^ repeats) }
 

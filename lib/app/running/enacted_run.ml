@@ -55,7 +55,7 @@ let start (front : Run.front) ~interruption ~speed ~follower program (fleet : Fl
     enact front recording ~interruption ~speed program fleet (steps core witness (taken @ cycle))
     >|= fun (time, outcome) ->
     let stuck = match outcome with Driver.Stuck _ | Spins _ -> true | Ended _ -> false in
-    if cycle <> [] then front.remark "from here it goes round for ever";
+    if cycle <> [] then front.remark "from here the run repeats without end";
     Result.map (fun () -> outcome) (Recording.finish recording ~time ~stuck)
   in
   Lwt.finalize run (fun () -> Recording.close recording; Lwt.return_unit)

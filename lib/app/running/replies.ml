@@ -20,7 +20,7 @@ let call ~past scenario =
     match next call with
     | Some reply -> Lwt.return (Result.map (Value.made_at site) reply)
     | None ->
-      let why = "there is no host process to call: name one with --supplier, or give the fleet a reply" in
+      let why = "no host process to call: name one with --supplier, or give the fleet a reply" in
       Lwt.return (Error (Format.asprintf "%s %a" why Value.pp (String call)))
 
 let are_of scenario history =

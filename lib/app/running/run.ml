@@ -114,7 +114,7 @@ let start_host r =
   | Some command ->
     if calls > 0 then
       r.front.notice
-        (Printf.sprintf "the supplier is started anew: %s that it has answered in this run %s not made again"
+        (Printf.sprintf "the supplier is started again: %s that it has answered in this run %s not made again"
            (Dolphin_trace.Phrase.count calls "call") (if calls = 1 then "is" else "are"));
     (match Host.start ?timeout:r.settings.supplier_timeout ~calls command with
      | Ok host -> Ok (Some host)
@@ -320,7 +320,8 @@ let unbegun r =
   match r.resumed with
   | None -> "interrupted before the run began: nothing was started"
   | Some { path; _ } ->
-    Printf.sprintf "interrupted before the run went on: no vehicle was told to stop; go on with it by --resume %s" path
+    Printf.sprintf "interrupted before the run went on: no vehicle was ordered to stop; go on with it by --resume %s"
+      path
 
 let go r ~interruption recording =
   Sys.set_signal Sys.sigpipe Signal_ignore;
@@ -378,7 +379,7 @@ let as_before (settings : settings) ~fleet (resumed : Resumed.t) =
     Result.map (fun fleet -> (fleet, { settings with speed = None })) (fleet_of_network ~named:fleet resumed)
   | platform, (true | false) ->
     refuse
-      (Printf.sprintf "this run was on vehicles of a network, which will move again: say %s"
+      (Printf.sprintf "this run was on vehicles of a network, which will move again: give %s"
          (String.concat " and " (Networks.options_of platform)))
 
 let resumption front settings ~changed ~fleet program path =

@@ -72,7 +72,7 @@ let perform t (line : Lines.line) =
   | Too_long -> bad "bad-request" (Printf.sprintf "the line is longer than %d bytes" longest_request)
   | Line text -> (
       match Host_value.parse text with
-      | Error why -> bad "no-json" ("this is no JSON: " ^ why)
+      | Error why -> bad "no-json" ("this is not JSON: " ^ why)
       | Ok (`Assoc found) -> (
           let id = List.assoc_opt "id" found in
           match List.assoc_opt "request" found with
@@ -81,11 +81,11 @@ let perform t (line : Lines.line) =
           | Some (`String "stop") ->
             t.run.stop ();
             Lwt.return (`Reply (done_ ?id []))
-          | Some (`String "follow") when t.journal = None -> bad ?id "no-journal" "the journal is no file"
+          | Some (`String "follow") when t.journal = None -> bad ?id "no-journal" "the journal is not a file"
           | Some (`String "follow") -> Lwt.return (`Follow (done_ ?id []))
           | Some (`String other) ->
             bad ?id "unknown-request"
-              (Printf.sprintf "there is no request '%s': there are post, status, follow and stop" other)
+              (Printf.sprintf "unknown request '%s': the requests are post, status, follow and stop" other)
           | Some _ | None -> bad ?id "bad-request" usage)
       | Ok _ -> bad "bad-request" usage)
 
@@ -187,7 +187,7 @@ let bind path =
       | Unix.Unix_error (error, _, _) -> Unix.error_message error
       | error -> Printexc.to_string error
     in
-    Error (Printf.sprintf "%s: nobody can post to this run: %s" path why)
+    Error (Printf.sprintf "%s: no values can be posted to this run: %s" path why)
 
 (* The journal is locked by now, so a socket that is there is that of a console that died. *)
 let open_ run ~journal =
@@ -242,7 +242,7 @@ let ask c request =
   | exception (End_of_file | Sys_error _) -> Error "the run has ended"
   | line -> (
       match Yojson.Safe.from_string line with
-      | exception Yojson.Json_error _ -> Error ("this is no reply: " ^ line)
+      | exception Yojson.Json_error _ -> Error ("this is not a reply: " ^ line)
       | `Assoc [ ("error", `Assoc why) ] -> (
           match List.assoc_opt "message" why with Some (`String text) -> Error text | Some _ | None -> Error line)
       | json -> Ok json)

@@ -3,7 +3,7 @@ open Dolphin_semantics
 module Reply = Dolphin_scenario.Reply
 
 let ( let* ) = Result.bind
-let usage = "what is posted is a key and a value, as in abort: true"
+let usage = "give a key and a value, as in abort: true"
 
 let why (d : Diagnostic.t) =
   match d.hint with Some hint -> Printf.sprintf "%s (%s)" d.message hint | None -> d.message
@@ -11,7 +11,7 @@ let why (d : Diagnostic.t) =
 let value (e : Ast.expression) =
   match e.it with
   | Variable name when Answer.confirmation name <> None -> Ok (Core.Boolean (Answer.confirmation name = Some true))
-  | Variable name -> Error (Printf.sprintf "'%s' is no value: a text stands in quotes, '%s'" name name)
+  | Variable name -> Error (Printf.sprintf "'%s' is not a value: put a text in quotes, '%s'" name name)
   | _ -> (
       match Reply.data e with
       | Ok [ x ] -> Ok x

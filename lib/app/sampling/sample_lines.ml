@@ -57,7 +57,7 @@ let to_cause members =
     let* vehicle = Field.get Field.text "vehicle" members in
     let* task = Field.get Field.text "task" members in
     Ok (Fault.Task { vehicle; task })
-  | cause -> Error (Printf.sprintf "'%s' is no cause of a failure" cause)
+  | cause -> Error (Printf.sprintf "'%s' is not a cause of a failure" cause)
 
 let to_ending members =
   let* kind = Field.get Field.text "end" members in
@@ -72,7 +72,7 @@ let to_ending members =
   | "stuck" ->
     let some json = Result.map Option.some (Field.whole json) in
     Result.map (fun site -> Sample.Stuck site) (Field.optional some ~default:None "site" members)
-  | kind -> Error (Printf.sprintf "'%s' is no way in which a run ends" kind)
+  | kind -> Error (Printf.sprintf "'%s' is not an ending of a run" kind)
 
 let to_task json =
   let* members = Field.members json in
@@ -112,7 +112,7 @@ let read_line ~header ~before ~add line =
   let* members =
     match Yojson.Safe.from_string line with
     | json -> Field.members json
-    | exception Yojson.Json_error _ -> Error "this is no JSON"
+    | exception Yojson.Json_error _ -> Error "this is not JSON"
   in
   if not (List.mem_assoc "dolphin" members) then
     let* seed, sample = to_sample members in
@@ -127,7 +127,7 @@ let read_all ~header ~add name input =
   let rec go n before =
     let bad why = Error (Error.Bad_input (Printf.sprintf "%s:%d: %s" name n why)) in
     match input_line input with
-    | exception End_of_file -> if before = Header || before = Nothing then bad "there are no runs" else Ok ()
+    | exception End_of_file -> if before = Header || before = Nothing then bad "it has no runs" else Ok ()
     | line -> (match read_line ~header ~before ~add line with Ok before -> go (n + 1) before | Error why -> bad why)
   in
   go 1 Nothing

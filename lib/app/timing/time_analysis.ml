@@ -35,7 +35,7 @@ let slacks ~interrupted ~progress s program fleet =
   Timing.slacks ~workers:s.workers (limits ~interrupted ~progress s) (options s program fleet)
 
 let duration text =
-  let wrong = Error (Printf.sprintf "'%s' is no time such as 40.min or 90.seconds" text) in
+  let wrong = Error (Printf.sprintf "'%s' is not a time such as 40.min or 90.seconds" text) in
   match Dolphin_syntax.Parse.expression ~file:"time" text with
   | Error _ -> wrong
   | Ok e -> (

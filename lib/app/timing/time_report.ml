@@ -35,7 +35,7 @@ let item (p : Program_file.t) (pending : Timed.pending) =
 let hint (pending : Timed.pending) =
   match pending.item, pending.task with
   | Task _, Some { plan = None; name; _ } -> Printf.sprintf "; in the fleet: plan '%s', { duration 3.min, 9.min }" name
-  | Task _, Some { plan = Some _; _ } -> "; nobody knows where the vehicle is when it starts"
+  | Task _, Some { plan = Some _; _ } -> "; the vehicle's position at its start is unknown"
   | Posting k, _ -> Printf.sprintf "; in the fleet: input '%s', with after" k
   | (Task _ | Timer _ | Question _ | Recruit _ | Answer | Reply | Links | Silence _ | Course _ | Date _), _ -> ""
 
@@ -127,9 +127,9 @@ let shown (o : Timing.outcome) =
   | None, None, None, None, (Some _ | None) -> None
 
 let what ?deadline = function
-  | Endless `Cycle -> "a run that may go on for ever"
-  | Endless `In_no_time -> "a run that may go round for ever in no time"
-  | Endless `Stuck -> "a run in which nothing happens any more"
+  | Endless `Cycle -> "a run that may never end"
+  | Endless `In_no_time -> "a run that may loop endlessly in no time"
+  | Endless `Stuck -> "a run in which nothing more happens"
   | Late ->
     "a run that is not over at the deadline" ^ Option.fold ~none:"" ~some:(fun n -> ", " ^ time n) deadline
   | Missed -> "a run in which a task is not done within its time"
@@ -187,7 +187,7 @@ let print_unknown p (o : Timing.outcome) =
     let line = item p u ^ hint u in
     if List.mem line found then found else line :: found
   in
-  List.iter (say "nobody knows how long it takes: %s") (List.rev (List.fold_left add [] o.unknown))
+  List.iter (say "duration unknown: %s") (List.rev (List.fold_left add [] o.unknown))
 
 (* To a tenth of a percent, rounded down: never more than there is. *)
 let share x = Printf.sprintf "%g %%" (Float.floor ((x *. 1000.) +. 1e-6) /. 10.)
@@ -214,7 +214,7 @@ let print_apart (a : Timing.apart) =
     match verdict, a.cut_short with
     | Violated, _ -> ": plans run side by side whose ways come nearer to each other"
     | Inconclusive, Some bound -> ", " ^ bound_text bound
-    | Inconclusive, None -> ", plans run side by side, nobody knows how near"
+    | Inconclusive, None -> ", plans run side by side at an unknown distance"
     | Holds, _ -> ""
   in
   say "%s: %s%s" a.fence (Dolphin_checker.Verdict.name verdict) why

@@ -51,7 +51,7 @@ let print_states (c : Outcome.counter_example) =
 (* All that the server of the distributed mode shows. *)
 let print_last_step (c : Outcome.counter_example) =
   print_endline
-    "some property is violated: TLC's distributed mode does not say which, and shows only the last step. To see a run: \
+    "some property is violated: TLC's distributed mode does not name it, and shows only the last step. To see a run: \
      --run alone.";
   let label (step : Outcome.step) = Option.bind (Event.variable "label" step.state) Quoted.unescape in
   match List.rev_map label c.steps with
@@ -73,7 +73,8 @@ let print_counter_example options (program : Program_file.t) world (c : Outcome.
     Run_columns.print program ~steps ~cycle;
     if name = "NoDeadlock" then Run_columns.print_waiting program steps
   | Error trouble ->
-    Format.printf "This is no run of the explorer: %a. --compare tells more. The states of TLC:@." Recovered.pp_trouble
+    Format.printf "The explorer does not have this run: %a. --compare shows the difference. The states of TLC:@."
+      Recovered.pp_trouble
       trouble;
     print_states c
 
@@ -83,10 +84,10 @@ let length (c : Outcome.counter_example) =
   let n = steps (List.length c.steps) in
   match c.repetition with
   | Once -> "after " ^ n
-  | Stays -> Printf.sprintf "after %s, for ever" n
-  | Back_to 0 -> Printf.sprintf "%s that can repeat for ever" (steps (List.length c.steps + 1))
+  | Stays -> Printf.sprintf "after %s, without end" n
+  | Back_to 0 -> Printf.sprintf "%s that can repeat without end" (steps (List.length c.steps + 1))
   | Back_to k ->
-    Printf.sprintf "after %s, %s that can repeat for ever" (steps k) (steps (List.length c.steps - k + 1))
+    Printf.sprintf "after %s, %s that can repeat without end" (steps k) (steps (List.length c.steps - k + 1))
 
 (* TLC stops at the first violation, except of temporal properties: these it checks when it has all states, and now
    and then before. Properties of the specification rather than of the program are only shown if they do not hold. *)

@@ -40,8 +40,8 @@ let judge space theirs : Exploration.verdict =
     Holds
   | Error difference ->
     Format.printf
-      "not isomorphic. Left is the explorer's graph, right TLC's; what is seen of a state counts as a transition that \
-       stays there, in parentheses.@.%a@."
+      "not isomorphic. Left is the explorer's graph, right TLC's; the observable part of a state counts as a \
+       transition that stays there, in parentheses.@.%a@."
       Isomorphism.pp_difference difference;
     (match difference.reason with
      | Undecided -> Inconclusive

@@ -99,7 +99,7 @@ let rec take_while_shown n (choices : Course.choice Seq.t) =
       (choice :: shown, is_more)
 
 let unclear s (fault : Dolphin_semantics.Fault.t) =
-  say s "What may happen here cannot be listed:";
+  say s "The possible steps here cannot be listed:";
   show s (String.split_on_char '\n' (Format.asprintf "%a" Error.pp (Program_file.unsettled s.program fault)))
 
 let show_choices ?(most = most) s r =
@@ -141,7 +141,7 @@ let nth n r =
 let take r n =
   match nth n r with
   | Some choice -> Ok (Course.take choice r)
-  | None -> Error (Printf.sprintf "there is no choice %d here" n)
+  | None -> Error (Printf.sprintf "no choice %d here" n)
 
 let enter r =
   match take_while_shown 2 (Course.choices r), Course.next r with
@@ -155,14 +155,14 @@ let goto r n =
   | Some r -> Ok r
   | None ->
     let last = Course.length r + List.length (Course.ahead r) in
-    Error (Printf.sprintf "there is no state %d: the last one is %d" n last)
+    Error (Printf.sprintf "no state %d: the last one is %d" n last)
 
 let forward r n =
   match Course.goto (Course.length r + n) r with
   | Some r -> Ok r
   | None ->
     let steps = Dolphin_trace.Phrase.count (List.length (Course.ahead r)) "step" in
-    Error (Printf.sprintf "so much is not ahead: %s" (if Course.ahead r = [] then "nothing is" else steps))
+    Error (Printf.sprintf "not as many steps ahead: %s" (if Course.ahead r = [] then "nothing is" else steps))
 
 let back r n =
   if n > Course.length r then Error "this is as far back as it goes"
@@ -172,7 +172,7 @@ let is_picture path =
   List.mem (String.lowercase_ascii (Filename.extension path)) [ ".svg"; ".html"; ".htm" ]
 
 let write s r path =
-  if is_picture path then say s (Printf.sprintf "'%s' is the name of a picture, and what is written is JSON" path)
+  if is_picture path then say s (Printf.sprintf "'%s' is the name of a picture, but JSON would be written" path)
   else
     let steps = Course.steps r in
     match

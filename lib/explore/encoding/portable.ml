@@ -21,7 +21,7 @@ module Names = Hashtbl.Make (struct
     let hash name = name
   end)
 
-(* Where components stand, read from a shape. *)
+(* Places of components, read from a shape. *)
 type stand = Component_of of Component.component Names.t * Component.path | Nest_in of Component.path * stand list
 
 type shape = {
@@ -30,7 +30,7 @@ type shape = {
   breadth : int;
 }
 
-(* Names by small numbers that count from 0: -1 where there is none yet. *)
+(* Names by small numbers that count from 0: -1 if not numbered yet. *)
 type numbered = { mutable names : int array }
 
 type t = {
@@ -40,7 +40,7 @@ type t = {
   components : Components.t;
   texts : string Names.t;  (* of all parts that are known *)
   mutable news : string list;  (* latest first *)
-  (* Written: by numbers of the frame, of the path, of the layout, of what is shared, of family and member. *)
+  (* Already written: by numbers of the frame, of the path, of the layout, of the shared part, of family and member. *)
   frames : numbered;
   contexts : numbered;
   layouts : numbered;
@@ -101,7 +101,7 @@ let numbered t n i write =
 
 (* {1 Shapes}
 
-   A state in which a task executes is a shape, and names for what stands in it. *)
+   A state in which a task executes is a shape, and names for the parts in it. *)
 
 type tree = Leaf | Nest of int * tree list  (* with the name of its contexts *)
 
@@ -236,7 +236,7 @@ let text_of t name = match Names.find_opt t.texts name with Some text -> text | 
 
 let written_otherwise () = wrong "a part of it is not written as dolphin writes it"
 
-(* What is written otherwise than here would be a second text of the same state. *)
+(* Any other spelling would be a second text of the same state. *)
 let read_part t (p : _ part) name =
   let text = text_of t name in
   let x = p.read text in
@@ -255,7 +255,7 @@ let inside t (path : Component.path) name =
   match Residual.decompose (read_part t t.codec.residual name) with
   | (_ :: _ as contexts), hole when Residual.equal hole Residual.hole ->
     Components.in_contexts t.components path contexts
-  | _, _ -> wrong "what stands around parts of it is none of contexts"
+  | _, _ -> wrong "the surroundings of its parts are not contexts"
 
 let members_at t (path : Component.path) =
   match Hashtbl.find_opt t.members_read path.id with

@@ -69,7 +69,7 @@ let rec globals (e : Core.expression) =
 
 let first_message : Dolphin_syntax.Diagnostic.t list -> string = function
   | d :: _ -> d.message
-  | [] -> "it is no expression"
+  | [] -> "it is not an expression"
 
 let of_string (program : Core.program) text =
   let own = Array.length program.global_names in
@@ -135,7 +135,7 @@ let eval_in program world t (c : Configuration.t) =
 let eval program world t c =
   match Decision.cases (eval_in program world t c) with
   | Ok ((_, answer) :: others) when List.for_all (fun (_, answer') -> answer' = answer) others -> answer
-  | Ok _ -> Broken "it depends on what sensors show, which may be this or that in one state"
+  | Ok _ -> Broken "it depends on sensor readings that may differ in one state"
   | Error fault -> Broken fault.message
 
 let running t =

@@ -17,7 +17,7 @@ let running = function Action _ | Ended_now -> [] | State condition -> Condition
 
 (* {1 Reading} *)
 
-(* The name before the parenthesis, and what is within. *)
+(* The name before the parenthesis, and the text inside. *)
 let split text =
   match String.index_opt text '(' with
   | None -> (text, None)
@@ -102,7 +102,7 @@ let of_string program text =
         | Some other -> Printf.sprintf "did you mean %s?" other
         | None -> Printf.sprintf "for a condition of the program write {%s}" text
       in
-      Error (Printf.sprintf "there is no proposition '%s' (%s)" name hint)
+      Error (Printf.sprintf "unknown proposition '%s' (%s)" name hint)
 
 (* {1 Asking} *)
 

@@ -27,8 +27,8 @@ let name = function
 
 let question = function
   | No_deadlock -> "nothing can happen any more, and the program has not ended"
-  | Termination -> "the program can go on for ever"
-  | No_error -> "an error that nobody handles ends the program"
+  | Termination -> "the program may never end"
+  | No_error -> "an unhandled error ends the program"
   | Assertions -> "an assertion fails"
   | Vehicles -> "vehicles are missing"
   | Allocation -> "a task cannot be executed"

@@ -89,14 +89,14 @@ let with_graph ?labelling ?phase x (options : options) f =
   let graph = State_graph.create ~compress ?spill ~workers ~fork_from ?monitor ?phase ~started limits space in
   Fun.protect ~finally:(fun () -> State_graph.close graph) (fun () -> f graph)
 
-let broken_condition why : Limits.bound = Unsettled ("the condition cannot be told: " ^ why)
+let broken_condition why : Limits.bound = Unsettled ("the condition cannot be evaluated: " ^ why)
 
 let of_verdict run : _ Breadth_first.verdict -> verdict = function
   | Holds -> Holds
   | Violated found -> Violated (run found)
   | Inconclusive bound -> Inconclusive bound
 
-(* A run that cannot be shown, for a bound is met or the disk fails, is not said to be. *)
+(* A run that cannot be shown, because a bound is met or the disk fails, is not reported. *)
 let told verdict =
   match verdict () with
   | verdict -> verdict
@@ -114,7 +114,7 @@ let termination_of_script graph ~shortest =
   in
   of_verdict run (State_graph.termination graph ~exact:(State_graph.is_exact graph))
 
-(* Where a task may go round for ever. *)
+(* The places where a task may run without end. *)
 let rec termination_of_rounds x (options : options) graph =
   let shown ({ stem; around } : Fair_cycles.lasso) =
     let steps, cycle = Replay.around graph ~stem around in
@@ -130,7 +130,7 @@ let rec termination_of_rounds x (options : options) graph =
       | By_design { repeats; retries; left_by } -> By_design { repeats; retries; left_by }
       | Unsure -> in_all_states x options)
 
-(* What partial order leaves out may be what is fair. *)
+(* Partial order reduction may omit the fair steps. *)
 and in_all_states x options =
   let options = { options with reduction = Whole; invariants = [] } in
   with_graph ~phase:"looking for cycles" { x with symmetry = Symmetry.none } options (fun graph ->
@@ -190,7 +190,7 @@ let shown graph = function
    several. *)
 let effort_of_state n = max 1 (n * n / 64)
 
-(* What a reduced search finds broken, the first of all states may show by a shortest run. *)
+(* A violation found by a reduced search is looked up among the first of all states, for a shortest run. *)
 let with_shortest_runs x (options : options) verdicts =
   let is_sought = function
     | (Property.Termination | Invariant _ | Formula _ | Apart _), _ -> false
@@ -219,7 +219,7 @@ let with_shortest_runs x (options : options) verdicts =
 
 (* {1 Formulas} *)
 
-(* States are explored anew in the product with the formula, until a violation shows. *)
+(* States are explored again in the product with the formula, until a violation shows. *)
 let formula x (options : options) f : verdict * int * int =
   let labelling = Labelling.create x.program x.world f in
   let judge graph =
@@ -269,7 +269,7 @@ let with_formulas x (options : options) found =
 
 (* {1 Plans side by side} *)
 
-(* What a search has seen. *)
+(* The observations of a search. *)
 type sight = {
   beside : Side_by_side.t;
   near : verdict option;  (* a run to the first state in which plans are near *)
@@ -328,7 +328,7 @@ let beside x (options : options) =
 let of_unknown (pairs : Side_by_side.pair list) =
   let is_unknown (p : Side_by_side.pair) = p.nearness = Unknown in
   let why { Side_by_side.one = _, p; other = _, q; _ } : Limits.bound =
-    Unsettled (Printf.sprintf "nobody knows how near %s comes to %s, which may run side by side"
+    Unsettled (Printf.sprintf "the distance between %s and %s, which may run side by side, is unknown"
                  (Side_by_side.name p) (Side_by_side.name q)) in
   Option.map why (List.find_opt is_unknown pairs)
 
@@ -392,20 +392,20 @@ let without_formulas x (options : options) =
     verdicts;
   }
 
-(* Begun anew with less symmetry where a state shows that it is broken. *)
+(* Restarted with less symmetry when a state breaks it. *)
 let rec explore x (options : options) =
   match without_formulas x options with
   | found -> found
   | exception Symmetry.Broken symmetry -> explore { x with symmetry } options
 
-(* What nobody can tell is not remembered, unless the graph is asked for as it is defined. *)
+(* Unobservable parts are not remembered, unless the graph is requested as it is defined. *)
 let relevant program (options : options) =
   match options.reduction with
   | Whole -> options
   | Partial_order | Symmetry | All ->
     { options with environment = Later_picks.forgetting program options.environment }
 
-(* What an interruption executes depends on all of the state that it comes in. *)
+(* The task of an interruption depends on the whole state at that time. *)
 let reducible program (options : options) =
   if Environment.may_leave options.environment program then { options with reduction = Whole } else options
 
@@ -415,7 +415,7 @@ let judged ?start (options : options) program world =
       Symmetry.find options.environment program ~asked:options.invariants world
     else Symmetry.none
   in
-  (* What is asked of every state cannot be judged by the representatives of a task's states. *)
+  (* Invariants cannot be judged by the representatives of a task's states. *)
   let options, symmetry =
     if options.invariants = [] then (options, symmetry)
     else ({ options with reduction = Whole }, Symmetry.without_tasks symmetry)
@@ -514,7 +514,7 @@ let pp_verdict (program : Core.program) ppf (property, verdict) =
   | Violated { steps = run; cycle = []; _ } ->
     print "violated after %s: %s" (steps (List.length run)) (Property.question property)
   | Violated { steps = run; cycle; _ } ->
-    print "violated: after %s, %s that can repeat for ever" (steps (List.length run)) (steps (List.length cycle))
+    print "violated: after %s, %s that can repeat without end" (steps (List.length run)) (steps (List.length cycle))
   | Unreached pieces ->
     let piece ppf (p : Coverage.piece) =
       match Fault.location program (Fault.make p.site "") with

@@ -41,7 +41,7 @@ let rec forest indent = function
     let siblings, rest = forest indent rest in
     ({ at = number; words; title; parts } :: siblings, rest)
   | { number; indent = i; _ } :: _ when i > indent ->
-    fail number "indented by %d blanks, where %d are the most" i indent
+    fail number "indented by %d blanks instead of at most %d" i indent
   | rest -> ([], rest)
 
 (* {1 Items} *)

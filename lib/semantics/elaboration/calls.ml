@@ -20,7 +20,7 @@ let without_keys env arguments =
 (* [if (!C()) ...]: the text is computed only if the condition does not hold. *)
 let assertion env at arguments =
   let not_code at =
-    error env Wrong_kind at "assert takes code { ... } that says what holds" ~hint:"write assert { CONDITION }, 'TEXT'"
+    error env Wrong_kind at "assert takes code { ... } with a condition" ~hint:"write assert { CONDITION }, 'TEXT'"
   in
   let failing text = apply env at (Builtin Assert) text in
   let holds (c : Ast.closure) closure_at =
@@ -312,7 +312,8 @@ let by_name env at name (callee : Ast.expression) arguments =
     to_builtin env at name builtin arguments
   | None, None, None when Chart_calls.is_call env.program name -> Chart_calls.elaborate env at arguments
   | None, None, None when name = fence && not (Scope.is_assigned env.program name) ->
-    error env Bad_fence at "fence declares what vehicles must keep to: it stands by itself at the top of the program";
+    error env Bad_fence at
+      "fence declares a limit that vehicles must keep: it stands by itself at the top of the program";
     null env at
   | None, None, None when name = locate && not (Scope.is_assigned env.program name) ->
     error env Misplaced_setting at

@@ -39,11 +39,11 @@ let did_you_mean name names =
 let sends_message = "sendMessage"
 
 let hint_for_message =
-  "programs send vehicles no messages: what is to be done is an item of mission { ... }, or part of a stored one: \
+  "programs send vehicles no messages: write an order as an item of mission { ... }, or part of a stored one: \
    stored 'name'"
 
 let hint_for_recruit =
-  "it takes one vehicle, and waits as long as it takes: recruit { ... } then { v -> T } within 10.minutes says how long"
+  "it takes one vehicle, and waits without limit: recruit { ... } then { v -> T } within 10.minutes limits the time"
 
 let hint_for_setting builder name =
   if builder = Ast.Mission && name = sends_message then Some hint_for_message
@@ -130,7 +130,7 @@ let hint_for_operand env symbol (e : Ast.expression) =
   | Call { callee = { it = Variable ("running" | "connected" as name); _ }; _ } when not (is_hidden env name) ->
     Some (Format.asprintf "a task that waits for it is condition { %a }" Dolphin_syntax.Print.expression e)
   | Call { callee = { it = Variable name; _ }; _ } when Builtins.is_deed name && not (is_hidden env name) ->
-    Some (Format.asprintf "what is done in a task is an action: action { %a }" Dolphin_syntax.Print.expression e)
+    Some (Format.asprintf "a task does this as an action: action { %a }" Dolphin_syntax.Print.expression e)
   | Call { callee = { it = Variable name; _ }; _ } when Builtins.is_of_script name && not (is_hidden env name) ->
     Some (Printf.sprintf "%s belongs to the script: do it before execute" name)
   | During (on_cut, d, _) when e.at.start.pos_cnum < d.at.start.pos_cnum && not (List.mem symbol [ ">>"; "|"; "&" ]) ->
@@ -320,7 +320,7 @@ let check_supplier env (subject : Ast.expression) member =
 let check_in_maker env what at =
   if Scope.purpose env.code = Maker then
     error env Deed_in_maker at "%s may not stand here: code in the place of a task makes it, and may only compute" what
-      ~hint:"what is done in a task is an action { ... }"
+      ~hint:"a task does this as an action { ... }"
 
 let check_place env (builtin : Builtins.t) name at =
   if Builtins.changes name then check_in_maker env name at;

@@ -111,7 +111,7 @@ let check_given env (c : Ast.closure) =
   match c.parameters with
   | Some (x :: _) ->
     error env Wrong_parameters x.at "no guard gives '%s' a value here" x.it
-      ~hint:"what a guard takes goes to code that is all of its branch: then { x -> T(x) >> U }, or \
+      ~hint:"the values of a guard go to code that is its whole branch: then { x -> T(x) >> U }, or \
              (waitFor { ... } then { x -> T(x) }) >> U"
   | Some [] | None -> ()
 

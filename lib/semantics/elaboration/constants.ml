@@ -33,7 +33,7 @@ let computes constants locals (e : Ast.expression) =
   | Call { callee = { it = Member { name; _ }; _ }; _ } when Methods.updates name.it ->
     Some (Printf.sprintf "%s(...) changes a variable" name.it)
   | Increment _ -> Some "this changes a variable"
-  | Builder (Pick, _) | Pick_else _ -> Some "whom a pick takes is not known before the program runs"
+  | Builder (Pick, _) | Pick_else _ -> Some "the vehicles of a pick are not known before the program runs"
   | _ -> None
 
 let unknown constants (e : Ast.expression) =

@@ -77,7 +77,7 @@ and statement p ~top ~value acc (s : statement) =
   let within = body p ~top:false in
   match s.it with
   | Expression e when (not value) && computes p e && not (is_task ~top e) ->
-    Diagnostic.warning ?hint:(hint e) No_effect e.at "this has no effect: nobody takes its value" :: acc
+    Diagnostic.warning ?hint:(hint e) No_effect e.at "this has no effect: its value is not used" :: acc
   | If (_, yes, no) -> within ~value (within ~value acc yes) no
   | While (_, b) | For (_, _, b) -> within ~value:false acc b
   | Block b when value && looks_like_code b ->

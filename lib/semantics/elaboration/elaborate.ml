@@ -250,7 +250,7 @@ let program_with_charts ~chart ~source_name ast = elaborated ~chart ~source_name
 let first_message = function
   | (d : Diagnostic.t) :: _ -> (
       match d.hint with Some hint -> Printf.sprintf "%s (%s)" d.message hint | None -> d.message)
-  | [] -> "it is no expression"
+  | [] -> "it is not an expression"
 
 let evaluated ?fallback ?(at_any_date = true) (p : Core.program) ~globals (e : Ast.expression) =
   (* Beyond the program's own sites: sites made here have no place in the program's text. *)

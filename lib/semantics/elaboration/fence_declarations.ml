@@ -31,7 +31,7 @@ let areas constants (e : Ast.expression) entries =
         | None -> error e.at "fence outside takes areas, and '%s' is %s" key (Value.kind x))
   in
   let* found = List.fold_left add (Ok []) entries in
-  match List.rev found with [] -> error e.at "fence outside takes areas, and there are none" | areas -> Ok areas
+  match List.rev found with [] -> error e.at "fence outside takes areas, but has none" | areas -> Ok areas
 
 let in_brackets key =
   Format.asprintf "[%a]" Dolphin_syntax.Print.expression { Ast.it = String key; at = Dolphin_syntax.Location.none }
@@ -67,7 +67,7 @@ let margin constants kind (arguments : Ast.argument list) =
   match arguments with
   | [] -> Ok 0.
   | [ Named ({ it = "margin"; at }, _) ] when kind = "distance" ->
-    error at "fence distance has no margin: the distance is what vehicles keep"
+    error at "fence distance takes no margin: vehicles keep the distance itself"
   | [ Named ({ it = "margin"; _ }, e) ] -> metres constants "the margin of a fence" ~least:0. e
   | Named ({ it = "margin"; _ }, _) :: Named ({ it = "margin"; at }, _) :: _ -> error at "fence has its margin twice"
   | Named (k, _) :: _ when k.it <> "margin" ->
@@ -102,9 +102,9 @@ let read constants at (arguments : Ast.argument list) =
     error at "fence %s takes one value" kind ~hint
   | Positional { it = Call { callee = { it = Variable kind; at }; _ }; _ } :: _ -> (
       match Diagnostic.suggest kind kinds with
-      | Some near -> error at "there is no fence '%s'" kind ~hint:(Printf.sprintf "did you mean '%s'?" near)
-      | None -> error at "there is no fence '%s'" kind ~hint)
-  | _ -> error at "fence declares what vehicles must keep to" ~hint
+      | Some near -> error at "unknown fence '%s'" kind ~hint:(Printf.sprintf "did you mean '%s'?" near)
+      | None -> error at "unknown fence '%s'" kind ~hint)
+  | _ -> error at "fence declares a limit that vehicles must keep" ~hint
 
 (* {1 Programs} *)
 

@@ -40,14 +40,14 @@ let member env (whole : Ast.expression) subject (name : string Ast.located) safe
       match Builtins.constant full with
       | Some x -> constant env at x
       | None ->
-        error env Unknown_name at "there is no '%s'" full ?hint:(did_you_mean full Builtins.constants);
+        error env Unknown_name at "unknown name '%s'" full ?hint:(did_you_mean full Builtins.constants);
         null env at)
   | Some _ | None ->
     check_supplier env subject name;
     if List.mem name.it sensor_members then Scope.note_sensor env.program;
     (match kind_of subject with
      | Number when Operators.unit_factor name.it = None ->
-       error env Unknown_unit name.at "there is no unit '%s'" name.it ~hint:(Operators.unit_hint name.it)
+       error env Unknown_unit name.at "unknown unit '%s'" name.it ~hint:(Operators.unit_hint name.it)
      | _ -> ());
     Chart_calls.check_member env subject name;
     let subject = Checks.elaborate env subject in

@@ -39,7 +39,7 @@ let with_offset env (arguments : Ast.argument list) =
       match List.filter_map Fun.id offsets with
       | _ :: _ as named when List.compare_lengths named offsets = 0 -> List.rev before @ named
       | _ ->
-        error env Wrong_value at "where to is north, south, east, west, up or down, each with its metres"
+        error env Wrong_value at "an offset is north, south, east, west, up or down, each with its metres"
           ~hint:"as in move p, { north 10; east 5 }";
         List.rev before)
   | _ -> arguments

@@ -71,7 +71,7 @@ let check_index env (subject : Ast.expression) (index : Ast.expression) =
    | Recruit _ ->
      Scope.report env.program
        (Diagnostic.warning No_effect index.at "this has no effect: recruit takes its vehicle itself"
-          ~hint:"say in its settings whom it asks for, as in recruit { id 'noptilus-1' } then { v -> T }")
+          ~hint:"name the requested vehicle in its settings, as in recruit { id 'noptilus-1' } then { v -> T }")
    | _ -> ());
   let found = known_kind env index in
   if known_kind env subject = Task && not (could_be Vehicles found) then
@@ -144,7 +144,7 @@ let rec elaborate env (e : Ast.expression) : expression =
   | Member { subject = { it = Variable error; _ }; name; _ }
     when Scope.has_fields env.code error && not (List.mem name.it members_of_text) ->
     Checks.error env Unknown_name name.at "an error has no property '%s'" name.it
-      ~hint:(Printf.sprintf "%s.message says what went wrong, %s.vehicle and %s.task where" error error error);
+      ~hint:(Printf.sprintf "%s.message is the error's text; %s.vehicle and %s.task have failed" error error error);
     null env at
   | Member { subject; name; safe } -> Names.member env e subject name safe
   | Index (subject, index) ->
@@ -300,7 +300,7 @@ and statement env (s : Ast.statement) : expression =
     else if not (Dolphin_syntax.Parameters.is_value value) then
       error env Wrong_value value.at "the value of a parameter is a number, a text, true, false, null, a place, or a \
                                       list or map of these"
-        ~hint:(Printf.sprintf "for what the program computes: %s = ..." name.it);
+        ~hint:(Printf.sprintf "for a computed value: %s = ..." name.it);
     Targets.set_global env at name.it e
   | Function { name; _ } ->
     if not (Scope.at_top env.code) then

@@ -21,7 +21,7 @@ let direction s what x =
   let* text = string s what x in
   match List.assoc_opt (String.uppercase_ascii text) directions with
   | Some direction -> Ok direction
-  | None -> fault s "'%s' is no %s: %s" text what (instead text (List.map fst directions) ~otherwise:"there are")
+  | None -> fault s "'%s' is not a %s: %s" text what (instead text (List.map fst directions) ~otherwise:"there are")
 
 let go_to _ (m : Plan.maneuver) = Ok { m with kind = Go_to }
 let launch _ (m : Plan.maneuver) = Ok { m with kind = Launch }

@@ -108,7 +108,7 @@ let unit_of known s what x =
       match List.find_opt (names text) known with
       | Some (_, unit) -> Ok unit
       | None ->
-        fault s "'%s' is no unit of %s: %s" text what (instead text (List.map fst known) ~otherwise:"units are"))
+        fault s "'%s' is not a unit of %s: %s" text what (instead text (List.map fst known) ~otherwise:"units are"))
   | x -> wrong s (Printf.sprintf "a unit of %s, as in %s" what (example known)) x
 
 (* [quantity known default s what xs] is the number and the unit that [xs] are, spread out or as a list. *)

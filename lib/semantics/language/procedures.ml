@@ -13,7 +13,7 @@ let rounds x =
   | x when Value.to_number x = None -> Operators.expected "how many rounds there are, as in repeat 3, T" x
   | x -> Error (Printf.sprintf "repeat takes a whole number of rounds, 1 or more, not %s" (Value.to_string x))
 
-let spins = "a round of this repeat never waits: it would go round for ever, and nothing else would happen"
+let spins = "a round of this repeat never waits: it would loop endlessly, and nothing else would happen"
 
 (* Whether a task is done without any wait. *)
 let rec never_waits = function
@@ -172,7 +172,7 @@ let sense context subject vs = looked context vs (fun world -> Reading.look worl
 let travel context (p : platform_task) quantity vs =
   match looked context vs (fun world -> Travel.of_plan world p quantity) with
   | Value (Number n) when n = infinity ->
-    Wrong (Printf.sprintf "plan '%s' goes on until it is stopped: nobody knows how long" p.name)
+    Wrong (Printf.sprintf "plan '%s' goes on until it is stopped: its length is unknown" p.name)
   | outcome -> outcome
 
 let minimum_connection_timeout = 5.

@@ -45,8 +45,8 @@ let is_reading = function Reading _ -> true | _ -> false
 let unclear at text =
   Fault.make at
     (Printf.sprintf
-       "what %s is, is open, and more than a comparison depends on it: a fleet may list what batteries, positions and \
-        measurements show"
+       "the value of %s is open, and more than a comparison depends on it: a fleet may list the values of batteries, \
+        positions and measurements"
        text)
 
 let settled at = function Reading r -> Error (unclear at r.text) | x -> Ok x

@@ -17,7 +17,7 @@ let length (p : platform_task) =
       | Some (place, _) -> Ok (Number (Inline_plan.extent ~from:place ~speed:1. plan).metres)
       | None when Inline_plan.is_fixed plan -> Ok (Number 0.)
       | None ->
-        let why = Printf.sprintf "the way of plan '%s' depends on where it begins" p.name in
+        let why = Printf.sprintf "the way of plan '%s' depends on its start" p.name in
         Error (why ^ ": write length(v), with its vehicle"))
 
 (* A number that is not certain is one that depends on a value that the vehicle has not reported. *)

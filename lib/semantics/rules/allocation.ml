@@ -160,7 +160,7 @@ let no_candidate world bound leaf =
     | _, [] when bound = [||] -> "no vehicle is bound to the program: pick one first"
     | Some [], _ -> "the vehicle set given to it is empty"
     | Some vs, [] -> Printf.sprintf "none of the vehicles given to it is bound to the program: %s" (names vs)
-    | None, [] -> "there is no vehicle for it"
+    | None, [] -> "no vehicle is eligible for it"
     | _, _ ->
       let why v = Option.map (Printf.sprintf "%s: %s" v) (lack leaf.task v (World.find v world)) in
       String.concat "; " (List.filter_map why some)

@@ -7,7 +7,7 @@ let fault (code : closure) format = Printf.ksprintf (fun m -> Error (Fault.make 
 let many n = Printf.sprintf "%d value%s" n (if n = 1 then "" else "s")
 
 let only_computes (code : closure) =
-  fault code "{ %s } makes a task, so it may only compute: it may not post, consume, assign or say anything"
+  fault code "{ %s } makes a task, so it may only compute: it must not post, consume, assign or print"
     code.lambda.label
 
 let task_of (code : closure) given ~depth (s : Shared.t) (after : Shared.t) x deeds =
@@ -15,7 +15,7 @@ let task_of (code : closure) given ~depth (s : Shared.t) (after : Shared.t) x de
   if parameters > n && not implicit then
     fault code "{ %s } takes %s, and its guard took %s" label (many parameters) (if n = 0 then "none" else many n)
   else if depth >= deepest then
-    fault code "closures in tasks that closures give nest more than %d deep: what goes on and on is a repeat" deepest
+    fault code "closures in tasks that closures give nest more than %d deep: write an endless loop as repeat" deepest
   else if deeds <> [] || Store.compare after.store s.store <> 0 then only_computes code
   else
     match x with

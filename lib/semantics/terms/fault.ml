@@ -9,7 +9,7 @@ let is_assertion fault = match fault.cause with Assertion -> true | Code | Unkno
 
 let unknown site ({ sensor; of_vehicle = v } : Core.unknown) =
   let message =
-    Printf.sprintf "%s(%s) is unknown, since %s has not told it: %s(v) ?: x takes x then" sensor v v sensor
+    Printf.sprintf "%s(%s) is unknown, since %s has not reported it: %s(v) ?: x takes x then" sensor v v sensor
   in
   { message; site; cause = Unknown }
 

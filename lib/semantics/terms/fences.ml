@@ -101,7 +101,7 @@ let vertical fence (leg, (vertical : Plan_room.vertical)) =
     | Depth limit, Below_surface depth -> over limit depth
     | Depth _, At_altitude _ -> Some (unknown leg fence "its z is above the ground, and how deep that is is not known")
     | Height limit, (Above height | At_altitude height) -> over limit height
-    | (Depth _ | Height _), Not_told -> Some (unknown leg fence "it does not say how deep or high it is")
+    | (Depth _ | Height _), Not_told -> Some (unknown leg fence "it has no depth or height")
     | Depth _, Above _ | Height _, Below_surface _ | (Inside _ | Outside _ | Distance _), _ -> None
   in
   Option.map (fun message -> { fence; maneuver = Some leg; place = None; message }) message

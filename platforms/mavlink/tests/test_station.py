@@ -144,7 +144,7 @@ class Protocol(Case):
         wires.run(10)
         before = wires.vehicle_said("mav-1")
         count = len(wires.reports)
-        wires.order(kind="refused", why="is no 'vehicle' as the protocol has it")
+        wires.order(kind="refused", why="is not a valid 'vehicle'")
         wires.run(1.5)
         [again] = [r for r in wires.reports[count:] if r["kind"] == "vehicle"]
         self.assertEqual(set(before), set(again))

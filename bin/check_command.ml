@@ -50,14 +50,14 @@ let run path set fleet adapters =
 
 let man =
   [ `S Manpage.s_description;
-    `P "$(tname) finds what can be known to be wrong with a program without running it: syntax, unknown names, numbers \
-        of arguments and kinds of literals, what belongs to the script inside of a task's code, one vehicle needed \
-        twice at once. It shows each fault with its line and, if known, what would be right. $(b,exec) checks \
-        the same before it starts.";
+    `P "$(tname) finds the faults of a program that show without running it: syntax, unknown names, numbers of \
+        arguments, kinds of literals, statements of the script inside a task's code, one vehicle needed twice at \
+        once. It shows each fault with its line and, if known, a correction. $(b,exec) makes the same checks before \
+        it starts.";
     `P "With $(b,--platform) adapters are asked what keeps their vehicles from running the program's plans: those that \
         vehicles are given in a run on the simulated fleet. Nothing moves.";
-    `P "The fleet that the program would run with is checked too, plans that the program seems to misspell, and \
-        endless loops whose rounds take no time in it.";
+    `P "The fleet that the program would run with is checked too. Plan names that look misspelt are reported, and \
+        endless loops whose rounds take no time with this fleet.";
     `S Manpage.s_files;
     `I ("$(i,PROG) with the ending $(b,.fleet)", "The fleet, unless $(b,--fleet) names another.");
     `S Manpage.s_examples;

@@ -1,8 +1,8 @@
 open Cmdliner
 open Dolphin_app
 
-(* On a network nobody answers for people or a supplier, unless that is asked for: of a fleet only the answers, the
-   replies, the fences and the place of plans are used then. *)
+(* On a network, a fleet that is given contributes only its answers, replies, fences and the place of plans; there
+   are no default ones. *)
 let fleet_of ~path ~sim ~named ~is_simulated =
   if is_simulated then Fleet_file.load_for ~program:path named
   else if sim <> None || named = None then Ok Fleet_file.nobody
@@ -114,7 +114,7 @@ let drawing_over ~sampling layers drawing =
     let* layers = Dolphin_results.Results.map Layer_file.read layers in
     Ok (Some (Drawing.over layers drawing))
 
-(* From so many vehicles on a run makes lists that a small nursery does not hold until they are garbage. *)
+(* From this number of vehicles on, the lists of a run outgrow a small nursery before they are garbage. *)
 let large_fleet = 200
 
 let run () show path set sim fleet network adapters definition speed seed answers supplier supplier_timeout journal keep

@@ -35,7 +35,7 @@ def main():
     fleet = a.fleet or files.beside(a.program)
     options = ["--set=" + text for text in a.set] + ["--answer=" + text for text in a.answer]
     command = [dolphin, "exec", a.program] + (["--fleet", fleet] if fleet else []) + options
-    # One run here: what is wrong with the program, the fleet or the options is told before Spark begins.
+    # One run here: faults of the program, the fleet or the options are reported before Spark begins.
     if subprocess.run(command + ["--runs=1", "--each"], stdout=subprocess.DEVNULL).returncode != 0:
         sys.exit(2)
     told = (["--json"] if a.json else []) + (["--draw", a.draw] if a.draw else [])
@@ -44,7 +44,7 @@ def main():
         make(a, dolphin, fleet, options, count.stdin)
         count.stdin.close()
         status = count.wait()
-    except BrokenPipeError:  # it has said why
+    except BrokenPipeError:  # it has printed the reason
         status = count.wait()
     except KeyboardInterrupt:
         status = 130

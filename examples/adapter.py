@@ -39,7 +39,7 @@ def show():
 
 
 def say(request, kind, **members):
-    """Reports on a request; after its end the rover is free, and nothing else is ever said of it."""
+    """Reports on a request; after its end the rover is free, and no further report follows."""
     global running
     with lock:
         if said.get(request, {}).get("kind") in ENDS:
@@ -73,7 +73,7 @@ def start(request, vehicle, plan):
 def stop(request):
     if said.get(request, {}).get("kind") in ENDS:
         report(request=request, **said[request])
-    else:  # it runs, or nobody knows what it did: now it does nothing
+    else:  # running, or in an unknown state: stopped now
         if running == request:
             rover.halt()
         say(request, "stopped")
@@ -86,7 +86,7 @@ for line in sys.stdin:
         if kind == "hello":
             report("hello", protocol=1, name="rover", plans=["name"], announce=1, patience=5)
             show()
-        elif kind == "refused":  # a line of ours was not understood: all that it may have said is said again
+        elif kind == "refused":  # a line of ours was refused: report again all that it may have contained
             show()
         elif kind == "ping":
             report("pong", id=order["id"])

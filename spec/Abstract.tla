@@ -1,7 +1,7 @@
 ------------------------------- MODULE Abstract -------------------------------
-(* Dolphin on one page: which vehicles a program holds, what they run, and what is *)
-(* in its tuple space; not why. Each transition of Dolphin.tla is a sequence of    *)
-(* these events: DolphinRefinement.tla states it.                                  *)
+(* Dolphin on one page: the vehicles that a program holds, their tasks, and the    *)
+(* tuple space, without the reasons for events. Each transition of Dolphin.tla is  *)
+(* a sequence of these events: DolphinRefinement.tla states it.                    *)
 (*                                                                                 *)
 (* TLC checks the theorems of this page in all states of three vehicles, two tasks *)
 (* and two pairs, each twice in N at most: models/SmallAbstract.tla.               *)

@@ -1,14 +1,14 @@
 -------------------------------- MODULE Dolphin --------------------------------
 (* The rules of Dolphin, to be read beside docs/semantics.md: one operator for    *)
-(* each inference rule, under the rule's name (PAR_ERR is [PAR-ERR]). What may    *)
-(* come from outside, and so the whole system, is in DolphinEnvironment.          *)
+(* each inference rule, under the rule's name (PAR_ERR is [PAR-ERR]). Events from *)
+(* outside, and so the whole system, are in DolphinEnvironment.                   *)
 (*                                                                                *)
 (* Letters as there: v, V vehicles; p a platform task; t a task; r a residual;    *)
 (* k, x a pair of N; g a guard; i a timer; m a message; M the script's machine;   *)
 (* l a label; w a world. Its kappa and sigma are the variables control and store. *)
-(* S is the shared part <store, A, B, N>, with what sensors have shown in the     *)
-(* step, with the residuals beside the part that takes it, with those that may    *)
-(* come after it, with the whole residual, and with who was recruited for it.     *)
+(* S is the shared part <store, A, B, N>, with the sensor readings of the step,   *)
+(* with the residuals beside the part that takes it, with those that may come     *)
+(* after it, with the whole residual, and with the vehicles recruited for it.     *)
 (*                                                                                *)
 (* Steps(S, r, E) is the steps of the residual r: those that need no event, and   *)
 (* those on the events E; the leftmost first. A step is a sequence of its         *)
@@ -34,7 +34,7 @@ VARIABLES
   A,        \* the allocation: which platform task each vehicle runs, for those that run one
   B,        \* the bound vehicles, in the order in which they were picked
   N,        \* the tuple space
-  outside   \* what the environment remembers: DolphinEnvironment says what; the date that code reads is among it
+  outside   \* the environment's memory, defined by DolphinEnvironment; the date that code reads is among it
 
 Shared == [ store |-> store, A |-> A, B |-> B, N |-> N, date |-> outside.date, sees |-> NothingSeen,
             beside |-> << >>, around |-> << >>, whole |-> << >>, recruits |-> << >> ]

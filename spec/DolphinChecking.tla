@@ -1,11 +1,12 @@
 ---------------------------- MODULE DolphinChecking ----------------------------
-(* What TLC needs to check a program: transitions computed once a state, a run      *)
-(* whose steps can be told apart, so that termination can be checked; an action for *)
-(* each rule, for TLC to count; and the printed graph. A model extends this module. *)
+(* The additions for checking a program by TLC: transitions computed once a state;  *)
+(* a run with distinguishable steps, so that termination can be checked; an action  *)
+(* for each rule, for TLC to count; and the printed graph. A model extends this     *)
+(* module.                                                                          *)
 EXTENDS DolphinEnvironment
 
 VARIABLES
-  label,  \* of the last transition, "" at the start. It tells a run, and is no part of a state: View leaves it out
+  label,  \* of the last transition, "" at the start. It belongs to runs, not to states: View leaves it out
   again   \* TRUE after an odd number of transitions that all left the state as it was
 
 View == << vars, again >>

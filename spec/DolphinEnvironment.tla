@@ -1,7 +1,7 @@
 -------------------------- MODULE DolphinEnvironment --------------------------
-(* What may come from outside, and so the whole system: which events and worlds    *)
-(* there are in each state, what the environment remembers of them, Init and Next, *)
-(* and what must hold. It is what Environment and Faults are in lib/environment.   *)
+(* The events from outside, and so the whole system: the events and worlds in each *)
+(* state, the environment's memory of them, Init and Next, and the properties.     *)
+(* Environment and Faults in lib/environment are its counterparts.                 *)
 EXTENDS Dolphin
 
 CONSTANTS

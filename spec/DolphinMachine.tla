@@ -1,7 +1,7 @@
 ---------------------------- MODULE DolphinMachine ----------------------------
 (* The machine that runs a program's code: the script between the steps that     *)
-(* others see, and the code of guards, actions and handlers in one go. It is     *)
-(* what Machine, Operation, Procedures and Methods are in lib/semantics; the     *)
+(* others see, and the code of guards, actions and handlers in one go. Machine,  *)
+(* Operation, Procedures and Methods in lib/semantics are its counterparts; the  *)
 (* judgements "M -> ..." and "S |- g => x, S', ds" of docs/semantics.md are Run  *)
 (* and RunCode here.                                                             *)
 EXTENDS DolphinValues, Bags

@@ -1,6 +1,6 @@
 ---------------------------- MODULE DolphinValues ----------------------------
-(* The values of Dolphin programs, and their texts: what Value and Operators     *)
-(* are in lib/semantics.                                                         *)
+(* The values of Dolphin programs, and their texts: the counterpart of Value and *)
+(* Operators in lib/semantics.                                                   *)
 (*                                                                               *)
 (* A value is a tuple that begins with its kind, so that any two values can be   *)
 (* compared:                                                                     *)

@@ -1,8 +1,8 @@
 ---------------------------------- MODULE Timed ----------------------------------
 (* Dolphin with time, by Lamport's old-fashioned recipe: a variable now, an action *)
-(* Tick that counts it up, and bounds before and after which nothing of what is    *)
-(* awaited may happen. What happens then is said by DolphinEnvironment alone:      *)
-(* take the times away, and a run is one of those there. Time is counted in ticks. *)
+(* Tick that counts it up, and bounds before and after which no awaited event may  *)
+(* happen. The effects of events are those of DolphinEnvironment: a run without    *)
+(* its times is one of those there. Time is counted in ticks.                      *)
 (* All bounds include their ends and are whole numbers of ticks, so the earliest   *)
 (* and latest dates of runs in continuous time are reached by runs in ticks.       *)
 (* docs/semantics.md has the same rules, "Runs with time"; lib/time runs them.     *)

@@ -59,7 +59,7 @@ class Random(unittest.TestCase):
         print("%d programs compared, of %d; %d levels on Spark" % (compared, number, levels))
 
     def agrees(self, program, options, number):
-        """How many levels were found on Spark; None where these, or states, are too many, or nobody can list them."""
+        """How many levels were found on Spark; None if these, or states, are too many, or cannot be listed."""
         asked = [DOLPHIN, "explore", program, "--json", "--max-states", str(MOST)] + options
         told = json.loads(subprocess.run(asked, stdout=subprocess.PIPE).stdout)
         if any(verdict["verdict"] == "inconclusive" for verdict in told["verdicts"]) or told["depth"] > 200:

@@ -62,7 +62,7 @@ class Partitions:
             self.depth += 1
 
     def expanded(self, index, item, told):
-        """What the task of one item of the frontier yields, in a process of its own."""
+        """The results of the task of one item of the frontier, in a process of its own."""
         if self.dying and index == self.depth % self.count:
             lost = self.filters[index]
             list(self.task(index, item, told))
@@ -195,7 +195,7 @@ class Agreement(unittest.TestCase):
         self.assertEqual(len([x for x in shown.stdout.splitlines() if x.lstrip()[:1].isdigit()]), len(states))
 
     def test_lost(self):
-        """Filters that die lose no part: what states name is told again by whoever expands them again."""
+        """Filters that die lose no part: the parts named by states are sent again when these are expanded again."""
         for name, options in (("rendezvous", []), ("parallel", []), ("photos", [])):
             program = os.path.join(EXAMPLES, name + ".dol")
             expected = explored(program, options + ["--reduction", "none"])
@@ -219,7 +219,7 @@ class Agreement(unittest.TestCase):
         self.assertEqual(found[0], found[1])
 
     def test_places(self):
-        """What no run reaches is called the same on all machines, wherever the program is there."""
+        """Unreached code has the same name on all machines, whatever the path of the program there."""
         with tempfile.TemporaryDirectory() as folder:
             found = []
             for name in ("here", "elsewhere"):
@@ -235,7 +235,7 @@ class Agreement(unittest.TestCase):
             self.assertEqual(found[0], found[1])
 
     def test_command(self):
-        """What the command prints without Spark; its answers are those of `dolphin explore`."""
+        """The output of the command without Spark; its answers are those of `dolphin explore`."""
         with tempfile.TemporaryDirectory() as folder:
             program = os.path.join(folder, "asking.dol")
             with open(program, "w") as text:
@@ -250,7 +250,7 @@ class Agreement(unittest.TestCase):
                 expected[what] for what in ("states", "transitions", "depth")), found.stdout)
 
     def test_unsettled(self):
-        """What nobody can list stops the search, and is told."""
+        """Successors that cannot be listed stop the search, and are reported."""
         with tempfile.TemporaryDirectory() as folder:
             program = os.path.join(folder, "open.dol")
             with open(program, "w") as text:
@@ -263,7 +263,7 @@ class Agreement(unittest.TestCase):
 
 class Parts(unittest.TestCase):
     def test_columns(self):
-        """Whatever is done with rows, a state keeps its own text."""
+        """A state keeps its own text under all operations on rows."""
         states = [(digest(b"%d" % i), b"%07d." % i, i % 200, b"x" * (i * 7 % 13) + b"%d" % i) for i in range(500)]
         whole = block(states)
         columns = blocks.Columns.of(whole)
@@ -281,7 +281,7 @@ class Parts(unittest.TestCase):
         self.assertEqual(items(blocks.NOTHING), [])
 
     def test_merge(self):
-        """What is new is new once, in order, with the least parent, whatever comes first."""
+        """A new state is new once, in order, with the least parent, in any order of arrival."""
         a, b, low, high = digest(b"a"), digest(b"b"), b"\0" * 8, b"\1" * 8
         found = [block([(a, high, 0, b"a")]), block([(a, low, 0, b"a"), (b, low, 0, b"b")])]
         for order in (found, found[::-1]):
@@ -290,7 +290,7 @@ class Parts(unittest.TestCase):
         self.assertEqual(blocks.merge([], []), blocks.NOTHING)
 
     def test_merge_many(self):
-        """Merging is what sets do, also of digests that begin alike."""
+        """Merging is union of sets, also for digests with the same beginning."""
         random.seed(20261125)
         for _ in range(200):
             firsts = [random.randbytes(8) for _ in range(4)]

@@ -63,14 +63,14 @@ class Spark(unittest.TestCase):
         self.assertEqual(found[0], found[1])
 
     def test_runs_of_nothing(self):
-        """What is wrong with a program is told by Dolphin, before Spark begins."""
+        """Dolphin reports the faults of a program before Spark begins."""
         run = subprocess.run([sys.executable, RUNS, "none.dol", "--runs", "10", "--dolphin", DOLPHIN],
                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.assertEqual((run.returncode, run.stdout), (2, ""))
         self.assertEqual(run.stderr, "dolphin: none.dol: No such file or directory\n")
 
     def test_cycles(self):
-        """Runs without end: what leads nowhere is taken away until cycles are left, or nothing."""
+        """Runs without end: states without successors are removed until cycles are left, or nothing."""
         for turns, verdict in (("true", "violated"), ("n < 4", "holds")):
             with self.subTest(turns), tempfile.TemporaryDirectory() as folder:
                 program = os.path.join(folder, "turns.dol")
@@ -86,7 +86,7 @@ class Spark(unittest.TestCase):
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True)
 
     def at_level(self, process, levels):
-        """Waits until the search has told of so many levels."""
+        """Waits until the search has reported this many levels."""
         for line in process.stderr:
             levels -= line.startswith("depth ")
             if levels == 0:

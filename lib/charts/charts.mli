@@ -5,8 +5,8 @@ open Dolphin_semantics
 type t
 
 val read : (string -> (string, string) result) -> Dolphin_syntax.Ast.program -> t
-(** [read file program] reads all files that [program] names so; [file path] is what the file [path] holds, or why it
-    cannot be read. *)
+(** [read file program] reads all files that [program] names so; [file path] is the content of the file [path], or
+    the reason why it cannot be read. *)
 
 val value : t -> string -> (Chart.t, string) result
 (** [value charts path] is a map from the names in the file [path] to positions, lists of positions and areas, [null]

@@ -10,7 +10,7 @@ type row = {
   actor : string;
   text : string;
   at : Location.t option;
-  words : string;  (* the log's words, where the label is short *)
+  words : string;  (* the log's words, if the label is short *)
   assumed : World.assumption list;
   changed : (string * string) list;
 }
@@ -38,7 +38,7 @@ let site_of_code (label : Label.t) before (t : Transition.t) =
   | Some site, _ | None, [ site ] -> Some site
   | None, ([] | _ :: _ :: _) -> None
 
-(* Where the code of a step that broke stands: of the steps that could be taken, the one that does so. *)
+(* The place of the code of a failed step: among the possible steps, the one that fails so. *)
 let site_of_broken program (c : Configuration.t) (t : Transition.t) =
   let code (type a) (offer : a Task_rules.offer) =
     match offer with
@@ -94,7 +94,7 @@ let condition program ~source (before : Configuration.t option) (t : Transition.
   | [ g ] -> Waiting.text program ~source g.lambda.code.site
   | [] | _ :: _ :: _ -> None
 
-(* The label of what broke gives the reason already. *)
+(* The label of a failed step gives the reason already. *)
 let words program ~source before (t : Transition.t) =
   match t.label, condition program ~source before t with
   | Check [], Some text -> Printf.sprintf "sees that %s holds" text
@@ -104,7 +104,7 @@ let words program ~source before (t : Transition.t) =
 (* Lists may hold their parts many times over: only short ones are printed. *)
 let shown_parts = 1_000
 
-(* What the step assigned, but for functions and tasks. *)
+(* The variables that the step assigned, except for functions and tasks. *)
 let changed (program : Core.program) (before : Configuration.t option) (t : Transition.t) =
   let before = Option.value before ~default:(Configuration.initial program) in
   let is_data : Core.value -> bool = function Closure _ | Task _ -> false | _ -> true in
@@ -146,7 +146,7 @@ let place row =
 
 let is_shown (t : Transition.t) = match t.label with Silent -> t.assumed <> [] | _ -> true
 
-(* What steps without a row assign is beside the next one. *)
+(* Assignments of steps without a row stand beside the next one. *)
 let rows ?before program ~source run =
   let add (before, shown, rows) (t : Transition.t) =
     if is_shown t then (Some t.next, Some t.next, row ?shown program ~source before t :: rows)
@@ -161,7 +161,7 @@ let shortened widest text =
 
 let width_of_all texts = List.fold_left (fun width text -> max width (Phrase.width text)) 0 texts
 
-(* Below the row, beside heads of [number] characters: what it assumes, and a remark. *)
+(* Below the row, beside heads of [number] characters: its assumptions, and a remark. *)
 let notes ~number (row, remark) =
   let line text = String.make (number + 3) ' ' ^ text in
   let assumed a = line ("if " ^ Phrase.one_line (Format.asprintf "%a" World.pp_assumption a)) in
@@ -172,7 +172,7 @@ let changes row = String.concat ", " (List.map (fun (name, x) -> Phrase.one_line
 let below ~number ~widest row =
   if row.changed = [] then [] else [ String.make (number + 3) ' ' ^ shortened widest (changes row) ]
 
-(* Where what a row assigned stands, if any row assigned anything. *)
+(* The place of a row's assignments, if any row has assignments. *)
 type beside = In_column | Below | Nowhere
 
 (* As a table whose cells have at most [widest] characters, with a last column of [words] characters, if any; each row

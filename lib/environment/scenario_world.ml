@@ -36,7 +36,7 @@ let is_empty (v : Scenario.vehicle) = v.battery <= 0. && v.drain > 0.
 let may_be_charged (scenario : Scenario.t) (v : Scenario.vehicle) =
   v.charge > 0. || List.exists (fun (p : Scenario.plan) -> p.charges <> None) scenario.plans
 
-(* The ending of what a vehicle with an empty battery is given: plans without duration succeed. *)
+(* The ending of a plan given to a vehicle with an empty battery: plans without duration succeed. *)
 let ending_when_empty scenario vehicle (plan : Scenario.plan option) : Environment.ending =
   match plan with
   | Some { duration = Some { most; _ }; ending = Succeeds; _ } when most <= 0. -> Succeeds

@@ -62,7 +62,7 @@ let through_its_square o a b =
 
 type meeting =
   | Apart
-  | Cut of point list * point list  (** points inside of the one side, and inside of the other, where they meet *)
+  | Cut of point list * point list  (** points inside of the one side, and inside of the other, at their contact *)
 
 (* A side is cut by each corner through whose unit square it goes: else rounding moved sides across corners again and
    again. In a larger square than that, sides that cross by a unit took each other's place again and again. *)

@@ -47,7 +47,7 @@ val displace : Position.t -> north:float -> east:float -> Position.t
 
 val towards : Position.t -> Position.t -> float -> Position.t
 (** [towards a b metres] is the position reached from [a] after [metres] over the ground on the shortest way to [b].
-    The height changes evenly on the way. It is [b] itself if [b] is no farther than that, and [a] if [metres] is not
+    The height changes evenly on the way. It is [b] itself if [b] is at most that far, and [a] if [metres] is not
     positive. *)
 
 val interpolate : Position.t -> Position.t -> float -> Position.t

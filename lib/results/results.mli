@@ -1,7 +1,7 @@
 (** Lists gone through by functions that may fail: from the first element on, and up to the first error. *)
 
 val map : ('a -> ('b, 'e) result) -> 'a list -> ('b list, 'e) result
-(** [map f xs] is what [f] gives for each of [xs], or its first error. *)
+(** [map f xs] is the results of [f] for each of [xs], or its first error. *)
 
 val map_values : ('a -> ('b, 'e) result) -> ('k * 'a) list -> (('k * 'b) list, 'e) result
 (** [map_values f entries] is {!map} of the value in each entry; the keys stay. *)

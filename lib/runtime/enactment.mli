@@ -17,5 +17,5 @@ val run :
   step list -> Driver.outcome Lwt.t
 (** [run (module P) platform ~observer ~interruption program steps] takes [steps], which are one after the other from
     the initial configuration, until they are over or [interruption] resolves. Tasks that still run then are stopped
-    and their vehicles released: the outcome is [Stuck] if the program cannot go on where the steps end. Resolves
-    once [platform] is closed. *)
+    and their vehicles released: the outcome is [Stuck] if the program cannot continue at the end of the steps.
+    Resolves once [platform] is closed. *)

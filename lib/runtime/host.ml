@@ -10,7 +10,7 @@ type t = {
   replies : Lines.t;
   timeout : float option;
   mutable last_id : int;
-  mutable broken : string option;  (* why it is no longer spoken to *)
+  mutable broken : string option;  (* the reason why no more requests are sent *)
 }
 
 let version = "1"

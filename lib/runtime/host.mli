@@ -46,7 +46,7 @@ val call :
     value of the property [member]; of object [subject], or without it of the host itself. Tasks in the reply come from
     [site]. Or the reason why there is none: the host's own reason; it ended, closed its output, or took too long; its
     reply is too long, or not JSON, or of another request, or not a value of programs. After any of these but the host's
-    own reason the host is no longer spoken to: later calls fail with the same reason.
+    own reason no more requests are sent: later calls fail with the same reason.
 
     One call at a time. It may be cancelled, which counts as a reason. *)
 

@@ -74,8 +74,8 @@ module type S = sig
 
   val look : t -> World.vehicle_state list
   (** [look p] is the present state of the vehicles that were stopped and have not been reported since, in virtual
-      time; [[]] if time passes by itself, where {!next} reports them. A driver looks before the program goes on: the
-      next allocation may depend on the places where they stopped. *)
+      time; [[]] if time passes by itself, since {!next} reports them then. A driver looks before the program goes
+      on: the next allocation may depend on the places where they stopped. *)
 
   val close : t -> unit Lwt.t
   (** Resolves once every stop is confirmed or given up, and the platform's resources are closed. *)

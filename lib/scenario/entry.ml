@@ -75,6 +75,7 @@ type t = {
   inputs : input list;
   samples : sample list;  (** of the fields of quantities *)
   fences : Dolphin_semantics.Fences.fence list;  (** the fences of every program's vehicles *)
-  plans_at : Dolphin_geo.Position.t option;  (** where inline plans are, if neither they nor their program say so *)
+  plans_at : Dolphin_geo.Position.t option;  (** the place of inline plans without one of their own or of their
+                                                 program *)
 }
 (** Vehicles, plans, prompts and calls are unique by their names; all are in the order of the file. *)

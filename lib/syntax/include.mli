@@ -1,5 +1,5 @@
 (** Programs of several files: [include 'lib.dol'] at the top of a program stands for the statements of that file,
-    which is named relative to the file that includes it. A file is included once, where it is named first. *)
+    which is named relative to the file that includes it. A file is included once, at its first mention. *)
 
 type whole = {
   text : string;

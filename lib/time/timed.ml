@@ -38,7 +38,7 @@ type state = {
   pending : pending list;
   elsewhere : (Core.vehicle * Dolphin_geo.Position.t option) list;
   patience : (Core.vehicle option * Bounds.t) list;
-  date : int;  (* that code has reached: what is pending says it, too *)
+  date : int;  (* reached by code; included in the pending events *)
   changes : int;  (* of links before this one are over, or do not matter *)
   settled : bool;  (* the program looks for no vehicles any more *)
 }
@@ -143,8 +143,8 @@ let may_do o s v : Dolphin_scenario.Battery.doing list =
   | Rests | Away -> at_rest o v
   | (Works | Charges _) as doing -> [ doing ]
 
-(* Who is there matters as long as the program may look for vehicles, and whose link is silent as long as it has the
-   vehicle. *)
+(* The presence of a vehicle matters as long as the program may look for vehicles, and a silent link as long as it
+   has the vehicle. *)
 let with_changes_that_matter o s =
   let links = links o in
   if s.changes = Links.count links then s
@@ -166,7 +166,7 @@ let patience o s v =
 
 let no_more item bounds = { item; bounds; task = None; prompt = None; progress = Under_way }
 
-(* What begins with an effect that leads to [s]. *)
+(* The events that begin with an effect that leads to [s]. *)
 let begun o s : Effect.t -> pending list =
   let timer timer bounds = [ no_more (Timer timer) bounds ] in
   function
@@ -225,15 +225,15 @@ let by_itself o s item =
   in
   no_more item bounds
 
-(* The clock of links goes on from the start; what it waits for changes. *)
+(* The clock of links runs from the start; the awaited change varies. *)
 let until_change o s p =
   match change o s with
   | Some (_, ms) ->
     { p with bounds = Within { least = ms; most = ms }; prompt = Some (Links.words (links o) s.changes) }
   | None -> p
 
-(* [s] with what is pending there, and of this what has begun with a transition that leads to [s], answers [over] and
-   asks for [effects], where [before] was pending before. *)
+(* [s] with its pending events, including those that begin with a transition that leads to [s], answers [over] and
+   requests [effects]; [before] was pending before. *)
 let with_pending o ~before ~over effects s =
   let s = with_changes_that_matter o s in
   let now = List.concat_map (begun o s) effects in
@@ -346,7 +346,7 @@ let comes_late (t : Transition.t) = List.exists (function World.Late _ -> true |
 let bounds_of s item =
   match List.find_opt (fun p -> is_same p.item item) s.pending with Some p -> p.bounds | None -> Some_time
 
-(* What comes within [bounds] if the link is heard of all the time, and else so much later. *)
+(* The bounds of an event within [bounds] when the link may be silent: later by the length of the silence. *)
 let put_off (silence : Bounds.t) (bounds : Bounds.t) : Bounds.t =
   match bounds, silence with
   | Within { least; most }, Within n -> Within { least; most = most + n.most }
@@ -366,7 +366,7 @@ let ends_of o s v =
   in
   (done_, failed, lost)
 
-(* Whoever is there is recruited at once, as if the program did it by itself. *)
+(* A vehicle in reach is recruited at once, like a step of the program itself. *)
 let is_event o s (choice : Environment.choice) =
   match choice.on with
   | None -> false

@@ -106,7 +106,7 @@ let note_step t execution zone (before : Timed.state) (step : Timed.step) =
   let date = date t zone in
   List.iter (fun (moment, task) -> note_task t execution date task moment) (Happening.tasks before step)
 
-(* What is inert ends within its bounds, whatever else happens. *)
+(* An inert event ends within its bounds, in any context. *)
 let note_begun t execution zone next begun =
   let after ms date = match date with At n -> At (n + ms) | Unbounded -> Unbounded in
   let note (i : Inert.item) =
@@ -170,7 +170,7 @@ let rec looks_between t m n =
 (* A run goes round in no time only if sensors show one thing all the way. *)
 let is_possible_in_no_time t looks = Looks.agree (Looks.at_one_moment t.options.program) looks
 
-(* A step from state [n] leads back to where an earlier state of the run to it was. *)
+(* A step from state [n] leads back to an earlier state of the run to it. *)
 let find_cycle t n move (place : Timed_place.t) zone =
   let comes_back m =
     let by = Zone.delayed t.nodes.(m).zone zone in
@@ -265,7 +265,7 @@ let note_reduced t =
   if t.cycle <> None then raise Broken;
   t.reduced <- true
 
-(* More take more memory than what they tell is worth. *)
+(* More would take more memory than their information is worth. *)
 let most_edges = 1_000_000
 
 let note_edge t source target by working passage =

@@ -18,7 +18,7 @@ type t = {
   run : string option;
   (** of a run on vehicles of a network: its identity in the world, which copies of the journal share *)
   fences : Dolphin_semantics.Fences.fence list;  (** that vehicles are kept to *)
-  place : Dolphin_geo.Position.t option;  (** where plans are that do not say so; of the program or its fleet *)
+  place : Dolphin_geo.Position.t option;  (** the place of plans without one; of the program or its fleet *)
 }
 
 val source : ?set:(string * string) list -> path:string -> string -> source

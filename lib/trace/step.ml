@@ -186,7 +186,7 @@ let of_members found =
 
 (* {1 Comparison} *)
 
-(* The path may lead to different files: through links, say. *)
+(* The path may lead to different files, for example through links. *)
 let same_place at at' =
   let in_file { line; column; file = _ } = (line, column) in
   Option.map in_file at = Option.map in_file at'

@@ -100,7 +100,7 @@ let rec steps program world c = function
 
 type misfit = { number : int; why : string }
 
-(* Why there is no such step: it does not fit, or sensors leave it open. *)
+(* The reason why the step is missing: it does not fit, or sensors leave it open. *)
 type obstacle = Unfit of string | Unsettled of string
 
 let chosen program world c i =

@@ -44,11 +44,11 @@ A vehicle that is out of contact then may stay away.
   from 5:00 of ./gone.run, after 6 transitions
   no deadlock: holds
   termination: holds
-  no unhandled error: violated after 1 step: an error that nobody handles ends the program
+  no unhandled error: violated after 1 step: an unhandled error ends the program
   assertions: holds
   vehicles for all tasks: holds
   
-  no unhandled error: a shortest run in which an error that nobody handles ends the program
+  no unhandled error: a shortest run in which an unhandled error ends the program
       program  a                              where  variables
   1            fails in out: connection lost         side = 'starboard', v = a
   dolphin: a is out of contact: its tasks may fail, and a pick may miss it
@@ -70,7 +70,7 @@ resumed with it.
   assertions: violated after 5 steps: changed.dol:7:41: assertion failed: the port side
   $ sed "s/task('out')/task('away')/" ride.dol > another.dol
   $ dolphin explore another.dol --from ./out.run
-  dolphin: ./out.run: line 9 is none of a run: transition 5, at 3:9: start(a, out)
+  dolphin: ./out.run: line 9 does not belong to a run: transition 5, at 3:9: start(a, out)
     no transition is like this one; the nearest differs: "label" should be "start(a, away)", not "start(a, out)"
     enabled then: start(a, away)
     awaited then: nothing
@@ -114,7 +114,7 @@ A run is named as for the other commands. A run that is over has nothing left; t
   dolphin: ./none.run: No such file or directory
   [2]
   $ dolphin explore ride.dol --from ./ride.dol
-  dolphin: ./ride.dol: line 1: this is no journal: its first line is not the header of one
+  dolphin: ./ride.dol: line 1: this is not a journal: its first line is not the header of one
   [2]
   $ dolphin explore ride.dol --from ./out.run --trace t.run
   dolphin: --trace, --draw and --cache are for runs from the beginning: leave them out with --from

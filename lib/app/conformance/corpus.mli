@@ -7,7 +7,7 @@ val load : string list -> (Case.t list, Error.t) result
     not cases. *)
 
 val with_implementation : name:string -> timeout:float -> string option -> (Dialogue.ask -> 'a) -> 'a
-(** [with_implementation ~name ~timeout command f] is [f ask], where [ask] asks the program of the shell command
+(** [with_implementation ~name ~timeout command f] is [f ask], where [ask] queries the program of the shell command
     [command], which has [timeout] seconds for each reply, or without it this implementation, by the name [name].
     Signals that ask to stop then raise [Sys.Break]. *)
 

@@ -17,7 +17,7 @@ let utc_now () =
 
 let is_wanted s = s.journal <> None || s.drawing <> None || s.follower <> None
 
-(* What a journal is written to. *)
+(* The destination of a journal. *)
 type file = { path : string; channel : out_channel; is_new : bool }
 
 type t = {
@@ -32,7 +32,7 @@ let trouble path why = Printf.sprintf "the journal cannot be written: %s: %s" pa
 let protected path f =
   try f () with Sys_error why -> raise (Broken ("the journal cannot be written: " ^ Text_file.named path why))
 
-(* Each line is out before what it tells of happens. *)
+(* Each line is written before its event takes effect. *)
 let write_line file numbering entry =
   protected file.path (fun () ->
       output_string file.channel (Journal.line numbering entry);
@@ -44,14 +44,14 @@ let same_file a b =
   | a, b -> a.st_dev = b.st_dev && a.st_ino = b.st_ino
   | exception Unix.Unix_error _ -> false
 
-(* A slip of the pen must not cost anybody a program. *)
+(* A mistyped path must not destroy a program. *)
 let would_overwrite settings (header : Header.t) =
   let fleet = Option.map (fun (s : Header.source) -> s.path) header.fleet in
   let sources = header.program.path :: Option.to_list fleet in
   let outputs = Option.to_list settings.journal @ Option.to_list (Option.map Drawing.path settings.drawing) in
   List.find_opt (fun output -> List.exists (same_file output) sources) outputs
 
-(* The lock lasts as long as the console lives, and tells others that it does. Not all files can be locked. *)
+(* The lock lasts as long as the console lives, so others can see that it does. Not all files can be locked. *)
 let lock path fd =
   match Unix.lockf fd F_TLOCK 0 with
   | () -> ()
@@ -59,8 +59,8 @@ let lock path fd =
     raise (Broken (path ^ ": another console is writing this journal"))
   | exception Unix.Unix_error _ -> ()
 
-(* A regular file is read before anything of it is overwritten. Of a pipe we must not hold the reading end: we would
-   never be told that its reader has gone. *)
+(* A regular file is read before anything of it is overwritten. We must not hold the reading end of a pipe: the exit
+   of its reader would go unnoticed. *)
 let open_mode path : Unix.open_flag =
   match (Unix.stat path).st_kind with
   | S_REG -> O_RDWR
@@ -78,8 +78,8 @@ let open_file path =
     { path; channel; is_new }
   | exception Unix.Unix_error (error, _, _) -> raise (Broken (trouble path (Unix.error_message error)))
 
-(* Whoever types a command once more after the console died must not lose what vehicles may still be doing. The channel
-   is never closed: to close any of its file would give the lock away. *)
+(* Repeating a command after the console died must not erase the record of vehicles that may still be moving. The
+   channel is never closed: to close any of its file would give the lock away. *)
 let spare_unfinished { path; channel; _ } =
   let fd = Unix.descr_of_out_channel channel in
   if (Unix.fstat fd).st_kind = S_REG && Journal.breaks_off (Unix.in_channel_of_descr fd) then
@@ -98,8 +98,8 @@ let guarded make =
   | r -> Ok r
   | exception (Broken why | Sys_error why) -> Error (Error.Unavailable why)
 
-(* The journal's file is ours from now on. What it has stays until it is begun: by [clear], which is given it, and by
-   what [make] writes. *)
+(* The journal's file is ours from now on. Its content stays until the journal begins: [clear] gets the content, and
+   the lines of [make] replace it. *)
 let opened ?(notes = 0) settings header summary ~check ~clear make =
   let with_file () =
     let open_checked path =

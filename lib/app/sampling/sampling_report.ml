@@ -98,7 +98,7 @@ let times ~columns (s : Sampling.t) =
     @ "" :: Histogram.lines ~columns (List.map bar (Distribution.bins ~most:most_bars s.completed))
   | _, _ -> []
 
-(* A column of nothing but zeros is left out; so are the places of tasks, if there is no room. *)
+(* A column of zeros only is left out; so are the places of tasks, if they do not fit. *)
 let tasks ~columns p (s : Sampling.t) =
   let number heading (f : Sampling.task -> int) = (heading, true, fun t -> string_of_int (f t)) in
   let text heading (f : Sampling.task -> string) = (heading, false, f) in

@@ -36,8 +36,8 @@ module Make (S : System.S) : sig
       {!run_bitstate}. [workers], 1 by default, is how many processes {!run} uses from [fork_from] states on, 100,000
       by default: then the numbers of states depend on which of them comes first, and so does which of several
       shortest runs is shown. It uses one where states are compressed or may go to disk, and with [look] or [enough].
-      Under a monitor there may be no state at all; nor is there one if the system cannot list its successors: then
-      the search is {!stopped}. [phase] is the present phase, in reports of progress. [started] is as for
+      Under a monitor the graph may be empty. It is empty, too, if the system cannot list its successors: then the
+      search is {!stopped}. [phase] is the present phase, in reports of progress. [started] is as for
       {!Limits.guard}. *)
 
   val close : t -> unit

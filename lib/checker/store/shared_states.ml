@@ -351,7 +351,7 @@ let reserved packed ~workers room =
   Shared_memory.write t.control slots_now slots;
   t
 
-(* As much as the machine has; where addresses are few, a part of them, for others need some, too. *)
+(* As much as the machine has; with few addresses, a part of them, since others need some, too. *)
 let rec reserved_for packed ~workers room =
   if room < 16 * Packed.words packed * (Packed.count packed + (workers * chunk_states)) then raise Out_of_memory;
   try reserved packed ~workers room with Out_of_memory -> reserved_for packed ~workers (room / 4)

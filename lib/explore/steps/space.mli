@@ -15,11 +15,11 @@ include
 val create :
   ?reduction:Reduction.t -> ?symmetry:Symmetry.t -> ?asked:Condition.t list -> ?observer:Observer.t ->
   ?spare_bits:int -> ?start:Configuration.t * Environment.t -> Environment.options -> Core.program -> World.t -> t
-(** The runs from [start] on, by default from the beginning of the program; with another [start] nothing is reduced by
-    [symmetry]. States are those up to [symmetry], by default {!Symmetry.none}; {!expand} raises {!Symmetry.Broken}
-    where a state shows that it is broken. Conditions that are [asked] have the same answer in all states that one
-    represents; none by default. [observer] gives actions their numbers; then [reduction] and [symmetry] must be none.
-    [spare_bits] is as for {!Layouts.create}. *)
+(** The runs from [start] on, by default from the beginning of the program; with another [start] nothing is reduced
+    by [symmetry]. States are those up to [symmetry], by default {!Symmetry.none}; {!expand} raises
+    {!Symmetry.Broken} where a state shows that it is broken. Conditions that are [asked] have the same answer in all
+    states that one represents; none by default. [observer] numbers actions; [reduction] and [symmetry] must then be
+    none. [spare_bits] is as for {!Layouts.create}. *)
 
 (** {1:states States} *)
 

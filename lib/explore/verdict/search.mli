@@ -97,9 +97,9 @@ val side_by_side : options -> Core.program -> World.t -> Side_by_side.pair list 
 
 val run : ?start:Configuration.t * Environment.t -> options -> Core.program -> World.t -> outcome
 (** [run ~start o p w] explores [p] in [w], from [start] on, by default from its beginning. With a [start], to which
-    some run of [p] must lead and which is not an end, nothing is reduced by symmetry, and formulas are of the runs from
-    there on. A property is said to hold only if all states were visited; a violation found before a bound was met is
-    one. *)
+    some run of [p] must lead and which is not an end, nothing is reduced by symmetry, and formulas are of the runs
+    from there on. A property holds only if all states were visited; violations found before a bound was met are
+    real. *)
 
 val reductions : outcome -> string list
 (** Those that were used: {!Reduction.names}, and ["symmetry of vehicles"] for [vehicle_symmetry],

@@ -285,7 +285,7 @@ let check_repeated env (builder : Ast.builder) (body : Ast.statement list) =
 (* Settings of a fence: {!Fence_declarations}. *)
 let fence = "fence"
 
-(* What declares where plans are: {!Default_place}. *)
+(* The declaration of the place of plans: {!Default_place}. *)
 let locate = "locate"
 
 let builder_name : Ast.builder -> string = function

@@ -118,7 +118,7 @@ val check_parameters : Scope.program -> string Ast.located list -> unit
 (** Reports a parameter that has the name of one before it. *)
 
 val check_repeated : env -> Ast.builder -> Ast.statement list -> unit
-(** Reports a second [type], say, among the statements of a [pick], which would replace the first one. *)
+(** Reports a second [type], for example, among the statements of a [pick], which would replace the first one. *)
 
 val fence : string
 (** The word that declares a fence. *)

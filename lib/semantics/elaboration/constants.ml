@@ -9,7 +9,7 @@ type t = {
   known : value String_map.t;
   own : String_set.t;
   chart : string -> (Chart.t, string) result;
-  place : Dolphin_geo.Position.t option;        (* of plans that do not say where they are *)
+  place : Dolphin_geo.Position.t option;        (* of plans without a place *)
   charted : (string * string) list;
 }
 

@@ -1,4 +1,4 @@
-(** Where inline plans are that have no place of their own: [locate P] at the top of a program. *)
+(** The place of inline plans without one of their own: [locate P] at the top of a program. *)
 
 module Ast = Dolphin_syntax.Ast
 module Diagnostic = Dolphin_syntax.Diagnostic
@@ -11,7 +11,7 @@ val is_declaration : Ast.statement -> bool
 
 val read : Constants.t -> Dolphin_syntax.Location.t -> Ast.argument list ->
   (Dolphin_geo.Position.t, Diagnostic.t list) result
-(** [read constants at arguments] is the place that [locate] declares; [at] is where [locate] stands. *)
+(** [read constants at arguments] is the place that [locate] declares; [at] is the site of [locate]. *)
 
 val of_program : Constants.t Lazy.t -> Ast.program -> (Dolphin_geo.Position.t option, Diagnostic.t list) result
 (** [of_program constants ast] is the place that [ast] declares, if it does, or what is wrong with that. The variables

@@ -155,7 +155,7 @@ let fences program constants ast =
       List.iter (Scope.report program) (Fence_declarations.broken fences plans);
       fences
 
-(* Plans of constants that cannot be built; where they are may be for the fleet to say. *)
+(* Plans of constants that cannot be built; their place may come from the fleet. *)
 let report_plans program ~constants ast =
   let plans found (e : Ast.expression) =
     match e.it with Builder ((Imc_plan | Mission), _) -> e :: found | _ -> found in

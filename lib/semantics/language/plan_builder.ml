@@ -237,7 +237,7 @@ let arguments s =
 let no_place name = Printf.sprintf "'%s' has no place: neither plan, program nor fleet has one" name
 let lacks_place s = fault s "%s; %s" (no_place s.setting) hint_for_place
 
-(* Of a maneuver that is done where the vehicle is, nobody looks at the location. *)
+(* The location of a maneuver at the vehicle's position is ignored. *)
 let nowhere : Position.t = { latitude = 0.; longitude = 0.; height = 0. }
 
 let is_done_anywhere s =

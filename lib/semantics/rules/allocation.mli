@@ -6,9 +6,9 @@ open Core
 val fresh : task -> closure list
 (** [fresh t] is the code of each [fresh] in [t], from left to right; not of those in tasks that such code gives. *)
 
-(** What {!Maker.opened} makes of the [fresh] in a task. [tasks] has the numbers of its keys and its task for each of
-    them, from left to right, followed by those inside of that task. [numbers] are left for timers, questions, recruits
-    and places. *)
+(** The result of {!Maker.opened} for the [fresh] in a task. [tasks] has the numbers of its keys and its task
+    for each of them, from left to right, followed by those inside of that task. [numbers] are left for timers,
+    questions, recruits and places. *)
 type opened = { tasks : (Residual.timer list * task) list; numbers : Residual.timer Seq.t }
 
 val allocate : World.t -> vehicle list -> opened -> task -> ((Residual.t, Fault.t) result, World.question) result

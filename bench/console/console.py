@@ -174,7 +174,7 @@ def count(path):
 
 
 def ask_until(port):
-    """What the run does, once one may connect again: idle connections are closed after a while."""
+    """The progress of the run, once connections are accepted again: idle connections are closed after a while."""
     for _ in range(90):
         try:
             return ask(port, "status")["run"]["state"]

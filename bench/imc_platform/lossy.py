@@ -56,7 +56,7 @@ def run(dolphin, folder, seed, speed):
 
 
 def compare(seed, said, deeds):
-    """What became of each plan, counted; and how often the console said that one began anew which did not."""
+    """The outcomes of plans, counted; and the number of restarts reported by the console that did not happen."""
     taken = collections.defaultdict(list)
     for deed in deeds:
         if deed["did"] == "started":

@@ -4,7 +4,7 @@ from . import blocks
 from .facts import Facts
 from .successors import Inconclusive
 
-# States that the filter is asked at a time: the more, the more of what is reached twice dies there.
+# States given to the filter at a time: the more, the more duplicates it removes.
 BATCH = 100_000
 
 PROPERTIES = {

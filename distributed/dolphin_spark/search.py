@@ -13,7 +13,7 @@ from . import blocks, worker
 from .facts import Facts
 from .successors import Inconclusive
 
-# Its own partitions tell where a state is: no shuffle follows.
+# Its own partitions determine the place of a state: no shuffle follows.
 KEPT = StorageLevel.MEMORY_AND_DISK
 
 

@@ -98,7 +98,7 @@ let find text part =
 
 let has text part = match find text part with _ -> true | exception Failure _ -> false
 
-(* What stands between backquotes and begins with a folder is a path to something. *)
+(* Text between backquotes that begins with a folder is a path. *)
 let wrong_paths folders page =
   let is_wrong quoted =
     let is_in folder =

@@ -3,7 +3,7 @@ module Wgs84 = Dolphin_geo.Wgs84
 
 (* {1 Ways} *)
 
-(* Metres north and east of where the maneuver is. *)
+(* Metres north and east of the maneuver's place. *)
 type point = { north : float; east : float }
 
 let place = Dolphin_geo.Place.apdl
@@ -60,7 +60,7 @@ let recorded path name =
 
 type mark = { from : point; upto : point; text : string }
 
-(* [circle] is the radius of what real vehicles do there and simulated ones do not. *)
+(* [circle] is the radius of the circles that only real vehicles make there. *)
 type panel = {
   title : string;
   from : point;
@@ -80,7 +80,7 @@ let escape text =
 (* A tenth of a pixel, the same on each machine: nothing lies on the edge between two tenths. *)
 let tenth x = x +. 1e-6
 
-(* Where points are drawn: all of them within the panel, north above. *)
+(* The positions of points in the drawing: all of them within the panel, north above. *)
 let scale points =
   let all f = List.map f points in
   let least xs = List.fold_left Float.min infinity xs and most xs = List.fold_left Float.max neg_infinity xs in

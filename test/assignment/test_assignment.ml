@@ -260,7 +260,7 @@ let is_best tree vehicles =
     && List.for_all (fun leaf -> not (conflict_is_real tree (List.filter (( <> ) leaf) leaves))) leaves
   | Error (No_candidate _), _ | Ok _, None | Error (Conflict _), Some _ -> false
 
-(* However early it is stopped, what is given is allowed, and the best if it claims to be. *)
+(* However early it is stopped, its result is allowed, and the best if it claims to be. *)
 let is_honest (tree, effort) vehicles =
   let leaves, pairs, _ = flatten 0 tree in
   match (solve_within ~effort ~vehicles tree, best tree) with

@@ -246,7 +246,7 @@ let test_strange () =
   | exception Strange -> nobody_is_left ()
   | _ -> Alcotest.fail "what a worker raises is lost"
 
-(* What a worker cannot do, the leader can. *)
+(* The leader can do the steps that a worker cannot. *)
 let test_left () =
   let search = searched ~workers:2 (among_two ~worker:(fun _ -> raise Strange) ~leader:(fun _ -> last)) in
   check_int "states" 102 (Search.count search);
@@ -343,7 +343,7 @@ let hashed ?(limits = Limits.none) ?look ?(bytes = 1 lsl 20) system =
 
 let bits search = match Search.bitstate search with Some s -> s | None -> Alcotest.fail "there were bits"
 
-(* Where bits are many, all states are found. *)
+(* With many bits, all states are found. *)
 let test_hashed () =
   let search = hashed (philosophers 6) and whole = searched (philosophers 6) in
   check_int "states" (tables 6) (bits search).states;
@@ -385,7 +385,7 @@ let test_hashed_reached () =
   (match Search.never search Too_large with
    | Violated path -> check_states "a run" (range 0 7) (numbers search path)
    | Holds | Inconclusive _ -> Alcotest.fail "it is reached");
-  (* What was left again is on no run. *)
+  (* Steps that were undone are on no run. *)
   let tree = function [ 0 ] -> range 1 3 | [ 1 ] -> [ [ 9 ] ] | _ -> [] in
   let search = hashed (Vectors.make ~is_end:true ~is_broken:(fun n -> n = 9) [ 0 ] tree) in
   (match Search.never search Too_large with
@@ -410,7 +410,7 @@ let test_hashed_bounds () =
   Alcotest.(check bool) "time" true (Search.stopped search = Some Time);
   Alcotest.(check bool) "amid the search" true (0 < (bits search).states && (bits search).states < tables 10)
 
-(* As many states are left out as it says, within a tenth, and a single bit more than said of them is set. *)
+(* The number of missed states is the reported one, within a tenth, and a single bit more than reported is set. *)
 let test_omitted () =
   let t = Bitstate.create ~bytes:16_384 in
   let omitted = ref 0 in
@@ -430,7 +430,7 @@ let test_omitted () =
   near "bits" (1. -. ((1. -. (1. /. bits)) ** (3. *. float_of_int s.states))) s.filled;
   Alcotest.(check (float 1e-6)) "some, for sure" 1. s.omission
 
-(* States are told apart by few and small numbers: no two of them have one hash. *)
+(* States differ in few and small numbers: no two of them have one hash. *)
 let test_hashes () =
   let t = Bitstate.create ~bytes:1 and seen = Hashtbl.create 5_000 in
   let rec longer numbers length =

@@ -95,7 +95,7 @@ let test_growth_after_rewriting () =
       Alcotest.failf "vector %d has lost its parent" i
   done
 
-(* What [tick] raises leaves all that was pushed where it is. *)
+(* An exception of [tick] leaves everything pushed in place. *)
 let test_interruption () =
   let exception Interrupted in
   let interrupts = ref false in

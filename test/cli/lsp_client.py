@@ -43,7 +43,7 @@ def with_places(json):
 
 
 def short(message):
-    """The message without what says nothing: ids, versions and the long lists of completion."""
+    """The message without uninformative parts: ids, versions and the long lists of completion."""
     if message is None:
         return "nothing"
     if "method" in message:
@@ -68,7 +68,7 @@ for line in sys.stdin:
     if line.startswith("{"):
         message = json.loads(line)
         message["jsonrpc"] = "2.0"
-        # Each open or changed document is told of, and each request answered.
+        # Each open or changed document gets its diagnostics, and each request its answer.
         answers = 1 if "id" in message or message["method"].startswith("textDocument/did") else 0
         send(json.dumps(message))
     else:

@@ -1,4 +1,4 @@
-# Signals to `dolphin exec --runs` while its runs go on for ever: what it says, and that its processes end with it.
+# Signals to `dolphin exec --runs` with endless runs: its output, and that its processes end with it.
 import re
 import signal
 import subprocess

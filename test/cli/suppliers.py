@@ -1,4 +1,4 @@
-"""Suppliers that misbehave, each in its own way: the first argument says how."""
+"""Suppliers that misbehave, each in its own way, selected by the first argument."""
 import json
 import os
 import signal

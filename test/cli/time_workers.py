@@ -1,5 +1,5 @@
 # time_workers.py NUMBER ARGUMENT...: signals to `dolphin time` while it, and as many processes as it makes then, search
-# for longer than anybody waits; and one to one of these: what it says, how it exits, and that no process is left.
+# for very long; and one to one of these: its output, its exit status, and that no process is left.
 import signal
 import subprocess
 import sys

@@ -2,14 +2,15 @@
    folders that are named. Equal values of an abstract type may differ in their parts: its module compares them. Each
    use is printed with its place and the abstract type; the exit status is then 1. *)
 
-(* Of what they compare, this argument. Tables and sets of the standard library are told by the type of their key. *)
+(* Of what they compare, this argument. Tables and sets of the standard library are recognised by the type of their
+   key. *)
 let compared =
   [ ("compare", 0); ("=", 0); ("<>", 0); ("<", 0); (">", 0); ("<=", 0); (">=", 0); ("min", 0); ("max", 0);
     ("List.mem", 0); ("List.assoc", 0); ("List.assoc_opt", 0); ("List.mem_assoc", 0); ("List.remove_assoc", 0);
     ("Array.mem", 0); ("Hashtbl.hash", 0); ("Hashtbl.add", 1); ("Hashtbl.replace", 1); ("Hashtbl.mem", 1);
     ("Hashtbl.find", 1); ("Hashtbl.find_opt", 1); ("Hashtbl.remove", 1) ]
 
-(* Their values are atoms, or compared part by part as anybody would. *)
+(* Their values are atoms, or compared part by part in the usual way. *)
 let transparent = [ "Unix.inet_addr"; "Unix.file_descr"; "S.property" ]
 
 let argument = function
@@ -77,7 +78,7 @@ let judge (e : Typedtree.expression) path n =
   let line = Printf.sprintf "%s:%d: %s of %s" at.pos_fname at.pos_lnum (Path.last path) (String.concat ", " found) in
   if found <> [] && not (List.mem line !uses) then uses := line :: !uses
 
-(* Nothing is looked at in what is compared with a constant, or with a constructor without arguments. *)
+(* Comparisons with a constant, or with a constructor without arguments, are allowed. *)
 let is_constant (_, argument) =
   match argument with
   | Some { Typedtree.exp_desc = Texp_construct (_, _, []) | Texp_constant _ | Texp_variant (_, None); _ } -> true

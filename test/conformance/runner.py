@@ -3,8 +3,8 @@
 
 Usage: runner.py CMD CASES...
 
-CMD is a program that speaks the step protocol, CASES are case files. A line for each case says whether it passed and
-what was wrong; the last line counts.
+CMD is a program that speaks the step protocol, CASES are case files. A line for each case has its result and its
+faults; the last line counts.
 """
 
 import json
@@ -17,7 +17,7 @@ MOST_PLACES = 20_000
 
 
 class Trouble(Exception):
-    """The implementation does not answer as the protocol has it."""
+    """The implementation violates the protocol."""
 
 
 class Wrong(Exception):
@@ -138,7 +138,7 @@ class Walker:
             raise Wrong("the run goes on")
 
     def follow(self, places, step):
-        """Where a step may lead from any of these places."""
+        """The places after a step from any of these places."""
         reached = {}
         for place in places:
             place, there = self.candidates(place, step)
@@ -172,7 +172,7 @@ class Walker:
         self.rules = before
 
     def events(self, configuration, awaited, environment):
-        """What the environment adds to the ends of tasks and the expiries of timers, which always come."""
+        """The environment's further events, besides ends of tasks and expiries of timers, which always come."""
         running, events = configuration["A"], []
         failing = environment.get("fails", []) + environment.get("mayFail", [])
         answers, replies = environment.get("answers", {}), environment.get("replies", [])
@@ -196,7 +196,7 @@ class Walker:
         return events
 
     def outcomes(self, environment):
-        """How runs end, each with what is left in N."""
+        """The ends of runs, each with the rest of N."""
         found, queue, known = [], [self.start], {json.dumps(self.start[0], sort_keys=True)}
         while queue:
             place = queue.pop()
@@ -295,7 +295,7 @@ def rejected(expected, seen):
 
 
 def judge(implementation, case):
-    """What kinds of expectation the case fails."""
+    """The kinds of expectation that the case fails."""
     failures, rules = set(), set()
     try:
         reply = implementation.ask("initial", program="\n".join(case["program"]), fleet="\n".join(case["fleet"]))

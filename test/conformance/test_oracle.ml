@@ -1,4 +1,4 @@
-(* What the oracle writes down is the configuration, whole; and no line makes it raise. *)
+(* The oracle writes the whole configuration; and no line makes it raise. *)
 
 open Dolphin_semantics
 open Dolphin_conformance
@@ -179,7 +179,7 @@ let hostile () =
   in
   let rec go n configuration =
     if n > 0 then begin
-      (* What is in the clear is not read. *)
+      (* Values in the clear are not read. *)
       (match configuration with
        | `Assoc members ->
          List.iter (fun state -> ask (`Assoc [ ("state", state) ])) (mutants (List.assoc "state" members))

@@ -352,7 +352,7 @@ let interruptions =
   let one (name, source) (kind, environment) = { (program (name ^ kind) source) with environment } in
   List.concat_map (fun program -> List.map (one program) kinds) programs
 
-(* Where pairs may come from outside at any time; one of them comes for certain. *)
+(* Programs with pairs from outside at any time; one of them comes for certain. *)
 let inputs =
   let posting = { answering with inputs = Test_support.Posts.inputs } in
   let programs =

@@ -107,7 +107,7 @@ let outcomes transitions =
   in
   List.sort compare (List.map outcome transitions)
 
-(* Where the program waits first. *)
+(* The first wait of the program. *)
 let waiting program world =
   let rec from (c : Configuration.t) =
     match c.control with

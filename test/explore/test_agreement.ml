@@ -78,7 +78,7 @@ let is_violated = function
   | Search.Violated _ -> true
   | Holds | By_design _ | Unreached _ | Inconclusive _ -> false
 
-(* Where the run is after some of its steps, each drawn among those that are possible. *)
+(* The state of the run after some of its steps, each drawn among the possible ones. *)
 let rec walk environment program world ((c, e) as start) = function
   | [] -> start
   | draw :: draws -> (

@@ -1,4 +1,4 @@
-"""Runs a command within limits, and finds what is wrong with how it ended and what it wrote."""
+"""Runs a command within limits, and finds faults in its exit status and its output."""
 
 import json
 import math
@@ -15,14 +15,14 @@ LIMITED = 'ulimit -S -t "$1"; ulimit -v "$2"; ulimit -c 0; shift 2; exec "$@"'
 
 
 class Ended:
-    """What a process did: its status (negative: the signal), what it wrote, whether it was killed as it went on."""
+    """The result of a process: its status (negative: the signal), its output, whether it was killed for running on."""
 
     def __init__(self, status, out, err, hangs):
         self.status, self.out, self.err, self.hangs = status, out, err, hangs
 
 
 class Running:
-    """A process that has `seconds` of the processor's time, and of other time what a loaded machine needs."""
+    """A process that has `seconds` of the processor's time, and as much other time as a loaded machine needs."""
 
     def __init__(self, command, cwd, seconds, stdin=b""):
         self.seconds = seconds
@@ -44,7 +44,7 @@ class Running:
         self.process.send_signal(signal.SIGINT)
 
     def end(self, interrupt_after=None):
-        """Waits until the process ends; interrupts it after so many seconds if it may go on until then."""
+        """Waits until the process ends; interrupts it after this number of seconds if it may run until then."""
         if interrupt_after is not None:
             for _ in range(2):
                 if not self.wait(interrupt_after):
@@ -137,7 +137,7 @@ def bad_output(name, form, data):
 
 
 def judge(ended, form):
-    """What is wrong with a process; or None. Its standard output has the form `form`."""
+    """The fault of a process; or None. Its standard output has the form `form`."""
     if ended.hangs:
         return "does not end"
     if ended.status not in (0, 1, 2, 3, 130):

@@ -73,7 +73,7 @@ let bearings () =
   check "west" 270. (Wgs84.bearing (at 0. 1.) (at 0. 0.));
   check "nowhere" 0. (Wgs84.bearing Place.apdl Place.apdl)
 
-(* The inverse formula does not converge here: the sphere stands in, and says so in the interface. *)
+(* The inverse formula does not converge here: the sphere is used instead, as the interface states. *)
 let opposite_points () =
   let half_meridian = 20_003_931.46 in
   List.iter
@@ -202,7 +202,7 @@ let bad_texts () =
         "the letter S of UTM is a band of latitudes, and these metres are not in it; write 34 south for the southern half" ) ];
   Alcotest.(check string) "long" "the text is too long for a position" (read (String.make 10_000 '1'))
 
-(* Whatever a text says, reading it ends. *)
+(* Reading ends for every text. *)
 let any_text = QCheck2.Gen.(string_size ~gen:(oneofl [ '4'; '1'; '.'; ' '; 'N'; 'W'; 's'; '-'; ','; '\''; '\xc2'; '\xb0' ]) (int_bound 12))
 let reads_anything text = match Coordinates.of_string text with Ok p -> Float.abs p.latitude <= 90. | Error _ -> true
 

@@ -6,7 +6,7 @@ let crown =
 
 let spread sizes = List.fold_left Float.max 0. sizes -. List.fold_left Float.min infinity sizes
 
-(* Parts on a grid of a millimetre: a point of a rim may be a millimetre away from where it should be. *)
+(* Parts on a grid of a millimetre: a point of a rim may be a millimetre away from its exact place. *)
 let are_parts ?(share = 1e-6) ~neck whole n parts =
   let sizes = List.map Area.size parts in
   let rims = 1e-3 *. List.fold_left (fun sum part -> sum +. rim part) 0. parts in

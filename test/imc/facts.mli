@@ -1,4 +1,4 @@
-(** What IMC says, for the tests: apart from the library's own definition page. *)
+(** IMC's own definitions, for the tests: separate from the library's definition page. *)
 
 type field = {
   name : string;
@@ -15,7 +15,7 @@ val groups : (string * string list) list Lazy.t
 val message : string -> message
 
 val admitted : string option -> message list
-(** What an inline message can be. *)
+(** The possible contents of an inline message. *)
 
 val number : field -> int -> Yojson.Safe.t
 (** How a number in this field is to be shown. *)

@@ -3,8 +3,7 @@
   imcpy_peer.py read FACTS < HEX          each line a packet in hexadecimal
   imcpy_peer.py make FACTS SEED COUNT     COUNT packets of each message in facts.jsonl, with any values
 
-Prints a line of JSON for each packet: what it says, field by field, and its bytes as imcpy writes them.
-"""
+Prints a line of JSON for each packet: its content, field by field, and its bytes as imcpy writes them. """
 import json
 import math
 import random

@@ -11,7 +11,7 @@ let each_vector f =
   check Alcotest.int "vectors" 330 (List.length vectors);
   List.iter f vectors
 
-(* Every vector says what it is stated to say, in both orders. *)
+(* Every vector has its stated content, in both orders. *)
 let content () =
   each_vector (fun { name; little; big; content } ->
       let expected = Facts.shown (member "message" content) in

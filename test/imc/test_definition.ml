@@ -95,7 +95,7 @@ let faults () =
 let sample () =
   Check.get ~pp:Imc_xml.pp_error "sample.xml" (Dolphin_imc.Definition.of_imc_xml "data/sample.xml")
 
-(* What the flood says in a message that the library does not have. *)
+(* The content of a message of the flood that the library does not have. *)
 let flood () =
   let definition = sample () in
   let show s =

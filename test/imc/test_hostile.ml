@@ -153,8 +153,8 @@ let mutate rand donors s =
 let rec mutate_often rand donors s n =
   if n = 0 then s else mutate_often rand donors (mutate rand donors s) (n - 1)
 
-(* What was accepted is a message: it can be written, and what is written is read as the same. (Not the
-   same bytes: a signalling NaN becomes a quiet one.) *)
+(* An accepted text is a message: it can be written, and the written text is read as the same. (Not the same bytes: a
+   signalling NaN becomes a quiet one.) *)
 let coherent p =
   match Packet.encode p with
   | Error e -> Alcotest.failf "accepted, and not written: %a" Error.pp_encode e

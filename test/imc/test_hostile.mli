@@ -1,3 +1,3 @@
-(** The codec against bytes that are no packet. *)
+(** The codec against bytes that are not a packet. *)
 
 val suite : unit Alcotest.test_case list

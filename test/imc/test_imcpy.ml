@@ -3,7 +3,7 @@ open Yojson.Safe.Util
 
 let check = Alcotest.check
 
-(* What imcpy, started with [arguments], says to [input]. *)
+(* The output of imcpy, started with [arguments], for [input]. *)
 let answers ~python arguments input =
   let file suffix = Filename.temp_file "dolphin" suffix in
   let asked = file ".hex" and said = file ".json" in
@@ -21,8 +21,8 @@ let answers ~python arguments input =
         (fun line -> if line = "" then None else Some (Yojson.Safe.from_string line))
         (String.split_on_char '\n' text))
 
-(* What imcpy 1.1.2 cannot tell: of the bytes of a text those that are not ASCII, and three fields of [Sample], for
-   which it lacks the type. The bytes that it writes are compared in any case. *)
+(* Limits of imcpy 1.1.2: the bytes of texts that are not ASCII, and three fields of [Sample], for which it lacks the
+   type. The bytes that it writes are compared in any case. *)
 let rec in_its_words ~said ours =
   match said, ours with
   | `Assoc [ ("unreadable", _) ], _ -> said
@@ -35,7 +35,7 @@ let rec in_its_words ~said ours =
     `List (List.map2 (fun said ours -> in_its_words ~said ours) said ours)
   | _, ours -> ours
 
-(* [p] says what imcpy said that it says, and has the addresses that it saw. *)
+(* [p] has the content that imcpy reports, and the addresses that it saw. *)
 let agrees (p : Packet.t) said =
   let message = member "message" said in
   (* Facts give numbers their names, imcpy the numbers. *)

@@ -1,4 +1,4 @@
-(* What is written is JSON whatever it is made of; what JSON does not have is not read. *)
+(* Every written text is JSON; texts that are not JSON are not read. *)
 
 open Dolphin_json
 module Utf8 = Dolphin_utf8.Utf8

@@ -1,4 +1,4 @@
-(* Random graphs, and what is wanted of them done in the simplest way: the yardstick for the library. *)
+(* Random graphs, and the simplest implementations of the library's functions: the yardstick for the library. *)
 
 open Dolphin_lts
 

@@ -1,4 +1,4 @@
-(* The formats: exact texts, what goes out comes back, and errors that say where. *)
+(* The formats: exact texts, round trips, and errors with their places. *)
 
 open Dolphin_lts
 open Generate

@@ -85,7 +85,7 @@ let isomorphism () =
     (Graph.of_list [ (0, "a", 1); (0, "a", 2); (1, "b", 3); (2, "b", 4) ])
     (Graph.of_list [ (0, "a", 1); (0, "a", 2); (1, "b", 3); (2, "b", 3) ])
 
-(* Graphs that colours cannot tell apart: a ring of six and two rings of three, hung on one initial state. *)
+(* Graphs that colours cannot distinguish: a ring of six and two rings of three, hung on one initial state. *)
 let symmetric () =
   let rings sizes =
     let start = ref 1 in
@@ -203,7 +203,7 @@ let tiny_near =
   let* p = permutation (Graph.states g) in
   return (g, permute p changed)
 
-(* What a difference says is so: the trace is one of the graph that it is said of. *)
+(* A difference is correct: its trace belongs to the graph that it names. *)
 let difference_is_so g h = function
   | { Isomorphism.reason = Enabled { trace; left; right }; _ } ->
     has_trace g trace && has_trace h trace && left <> right

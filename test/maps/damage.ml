@@ -66,7 +66,7 @@ let damaged_archives =
        let text = String.mapi (fun j old -> if i = j then Char.chr c else old) whole in
        let found = shown "m.kmz" text in
        found = good || String.starts_with ~prefix:"wrong: " found
-       || (* its name is no part of what is checked *) String.starts_with ~prefix:"note: " found)
+       || (* its name is not part of the checked content *) String.starts_with ~prefix:"note: " found)
 
 let deflated text =
   let b = Buffer.create 100 and read = ref 0 in

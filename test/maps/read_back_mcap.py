@@ -46,7 +46,7 @@ def read(data):
 
 
 def check(schema, content):
-    """What the schema says of objects, arrays, numbers and texts."""
+    """The schema's rules for objects, arrays, numbers and texts."""
     kinds = {"object": dict, "array": list, "number": (int, float), "integer": int, "string": str, "null": type(None)}
     allowed = schema["type"] if isinstance(schema["type"], list) else [schema["type"]]
     assert any(isinstance(content, kinds[kind]) for kind in allowed), (schema, content)

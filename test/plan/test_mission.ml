@@ -103,7 +103,7 @@ let faults =
     fault "spacing of surveyArea is too small: 0.01 m makes 10000 lines, more than 2000"
       [ set "surveyArea" [ corners [ home; moved 100. 0.; moved 100. 100.; moved 0. 100. ]; n 0.01 ] ] ]
 
-(* {1 What check says} *)
+(* {1 Reports of check} *)
 
 let literally what expected setting arguments =
   case what (fun () ->
@@ -168,7 +168,7 @@ let ways =
         let last = List.nth legs (List.length legs - 1) in
         Alcotest.(check (float 0.)) "dwell" infinity last.dwell);
     case "every word is carried out" (fun () ->
-        (* What takes neither way nor time. *)
+        (* Items that take neither way nor time. *)
         let still =
           [ "name"; "vehicles"; "arm"; "altitude"; "stored"; "home"; "speed"; "takeOff"; "takeOffWithYaw"; "capturePhoto";
             "captureSeveralPhotos"; "captureUntilStop"; "stopCapturing"; "jumpToItem" ]

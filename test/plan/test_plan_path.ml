@@ -40,7 +40,7 @@ let pop_ups () =
   check "wherever it is" (pop_up true false) [] 0.;
   check "at a place, waiting" (pop_up false true) here 180.
 
-(* The heights of a maneuver's places, where it stays, and how it goes up and down, with [z] of [unit]. *)
+(* The heights of a maneuver's places, of its stay, and of its ups and downs, with [z] of [unit]. *)
 let levels () =
   let check what kind z ?(above = 0.) places (stays_at, amplitude, pitch) =
     let m = { (maneuver kind) with z; location = { Place.apdl with height = above } } in

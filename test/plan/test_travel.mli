@@ -1,1 +1,1 @@
-(** What is asked of plans and vehicles before anybody moves: how far, how long, how much of a battery. *)
+(** Queries of plans and vehicles before any vehicle moves: length, duration, consumption. *)

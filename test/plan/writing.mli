@@ -1,4 +1,4 @@
-(** Settings as tests write them, and what {!Dolphin_semantics.Plan_builder} makes of them. *)
+(** Settings as tests write them, and the results of {!Dolphin_semantics.Plan_builder} for them. *)
 
 open Dolphin_semantics
 open Core
@@ -24,11 +24,11 @@ val go : setting
 (** [goTo] without arguments. *)
 
 val plan_site : site
-(** Where the plans of {!build} are. *)
+(** The place of the plans of {!build}. *)
 
 val build : ?name:string -> ?place:Dolphin_geo.Position.t option -> setting list -> (Plan.t, Fault.t) result
-(** [build settings] is the plan called ["p"]; the site of each setting is its place in the list. [place] is where it
-    begins, by default [Place.apdl]. *)
+(** [build settings] is the plan called ["p"]; the site of each setting is its place in the list. [place] is its
+    beginning, by default [Place.apdl]. *)
 
 val built : setting list -> Plan.t
 (** [built settings] is that plan; a fault fails the test. *)

@@ -85,7 +85,7 @@ class Mission:
 
 
 def is_open(path):
-    """Whether some process has the file open, as far as /proc tells."""
+    """Whether some process has the file open, by /proc."""
     wanted = os.path.realpath(path)
     for descriptor in glob.iglob("/proc/[0-9]*/fd/*"):
         try:

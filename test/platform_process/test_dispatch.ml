@@ -3,7 +3,7 @@ open Dolphin_platform_process
 open Dolphin_runtime
 module D = Dispatch
 
-(* {1 A dispatch, its time and what came out of it} *)
+(* {1 A dispatch, its time and its output} *)
 
 type world = { mutable d : D.t; mutable now : float; mutable out : D.output list (* latest first *) }
 
@@ -394,7 +394,7 @@ let resume_cases () =
   let check what history expected =
     let w = resumed history in
     step w (fun ~now d -> D.tick ~now d);
-    (* What a new request needs is durable at once. *)
+    (* The data of a new request is durable at once. *)
     check_out w what expected
   in
   check "asked: what became of it?" [ start; noted (asked "p" "r-1") ] [ "resume r-1 v []" ];
@@ -450,7 +450,7 @@ let is_end event = event = "v done" || (String.length event > 8 && String.sub ev
 let one_end_each actions =
   let w = fresh () in
   let running = ref false and is_alive = ref true in
-  (* Whether at most one end was told, of what runs. *)
+  (* Whether at most one end was reported, for a running task. *)
   let see () =
     match List.filter is_end (events w) with
     | [] -> true

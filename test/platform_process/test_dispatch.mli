@@ -1,1 +1,1 @@
-(** What is ordered of an adapter and concluded from its reports, without a process. *)
+(** Orders to an adapter and conclusions from its reports, without a process. *)

@@ -1,4 +1,4 @@
-(** What the tests of {!Dolphin_platform_sim} share. *)
+(** Functions shared by the tests of {!Dolphin_platform_sim}. *)
 
 open Dolphin_semantics
 
@@ -11,7 +11,7 @@ val scenario : string -> Dolphin_scenario.Scenario.t
 (** From the text of a fleet. *)
 
 val crowd : int -> Dolphin_scenario.Scenario.t
-(** So many vehicles, [v0], [v1] and on, and no plans. *)
+(** This number of vehicles, [v0], [v1] and on, and no plans. *)
 
 val task : ?plan:Plan.t -> string -> Core.platform_task
 

@@ -2,7 +2,7 @@ open Dolphin_platform_sim
 open Common
 module Platform = Dolphin_runtime.Platform
 
-(* Unreliable vehicles, and one that nobody knows. *)
+(* Unreliable vehicles, and an unknown one. *)
 let fleet =
   scenario
     "vehicle 'a', { type 'UUV'; drops 5, 15; drops 30, 40; drops 80, 12; drops 200, 100\n\
@@ -23,7 +23,7 @@ type command =
   | Let_go of string
   | Timeout of string option * float
   | Telemetry of bool
-  | Steps of int                                (* so many things happen *)
+  | Steps of int                                (* the number of events *)
 
 let show_command = function
   | Start (v, name) -> Printf.sprintf "start %s %s" v name
@@ -47,7 +47,7 @@ let command =
       (1, map (fun on -> Telemetry on) bool);
       (6, map (fun n -> Steps n) (int_range 1 8)) ]
 
-(* What the driver has a right to expect: the tasks and the timers that it is still to hear of. *)
+(* The driver's expectations: the tasks and the timers that it still waits for. *)
 type expectation = { fleet : Fleet.t; tasks : string list; timers : int list }
 
 exception Broken of string

@@ -1,2 +1,2 @@
-(** Laws of {!Dolphin_platform_sim.Fleet} under random commands: what a platform promises its driver. No value of its
+(** Laws of {!Dolphin_platform_sim.Fleet} under random commands: a platform's promises to its driver. No value of its
     own. *)

@@ -6,7 +6,7 @@ module Platform = Dolphin_runtime.Platform
 let make ?(seed = 1) source = Fleet.create ~seed (scenario source)
 let single ?(plans = "") settings = make (Printf.sprintf "vehicle 'a', { type 'UUV'; %s }\n%s" settings plans)
 
-(* [until time f] is what happens up to [time], in order, and the fleet then. *)
+(* [until time f] is the events up to [time], in order, and the fleet then. *)
 let until time f =
   let rec go reversed f =
     match Fleet.due f with
@@ -162,7 +162,7 @@ let stops () =
   check_news "started again" [ "120 a done" ] (fst (until 1000. again));
   check "of a free vehicle" [] (fst (until 1000. (Fleet.stop "a" (after 0. (single "")))))
 
-(* Between the end, which tells the position, and its report. *)
+(* Between the end, which determines the position, and its report. *)
 let stop_before_report () =
   let rec to_end f =
     match Fleet.step f with
@@ -265,7 +265,7 @@ let inline_plan () =
   let f = after 1000. (Fleet.stop "a" f) in
   Alcotest.(check (float 0.01)) "stays where it was stopped" 250. (Wgs84.distance start (position_of f))
 
-(* Where a vehicle of each type is after half a plan, and after it, that is to be at [z]. *)
+(* The position of a vehicle of each type after half a plan, and after it, that is to be at [z]. *)
 let levels () =
   let there = Wgs84.displace start ~north:300. ~east:400. in
   let check kind before z expected =

@@ -1,1 +1,1 @@
-(** Tests of {!Dolphin_platform_sim.Fleet}: what vehicles do, and what is told of it. No value of its own. *)
+(** Tests of {!Dolphin_platform_sim.Fleet}: the behaviour of vehicles, and their reports. No value of its own. *)

@@ -24,7 +24,7 @@ let whole_task () =
   Alcotest.(check (float 0.)) "now" 90. (Virtual.now p);
   Alcotest.(check int) "vehicles" 2 (List.length (Virtual.vehicles p))
 
-(* An idle platform says so, and goes on when it is commanded. *)
+(* An idle platform reports so, and continues on a command. *)
 let idle () =
   let p = Virtual.create ~seed:1 (scenario pair) in
   let next () = show (Lwt_main.run (Virtual.next p)) in
@@ -73,7 +73,7 @@ let paced () =
   Alcotest.(check bool) "a tenth of a second" true (seconds >= 0.09);
   Alcotest.(check bool) "now" true (Paced.now p >= 10.)
 
-(* What is commanded while [next] waits may come before what it waits for. *)
+(* Commands while [next] waits may take effect before the awaited event. *)
 let sooner () =
   let p = Paced.create ~speed:10. ~seed:1 (scenario pair) in
   ignore (Lwt_main.run (take (fun () -> Paced.next p) 2));
@@ -87,7 +87,7 @@ let sooner () =
   Paced.set_timer p 2 0.;
   Alcotest.(check string) "after a cancelled one" "timer 2" (show (Lwt_main.run (Paced.next p)))
 
-(* What is overdue comes in its order, at its time. *)
+(* Overdue events come in their order, at their time. *)
 let late () =
   let p = Paced.create ~speed:1000. ~seed:1 (scenario pair) in
   ignore (Lwt_main.run (take (fun () -> Paced.next p) 2));

@@ -1,4 +1,4 @@
-(* Work that is shared out among processes: what comes back, and how it ends. *)
+(* Work shared among processes: its results, and its end. *)
 
 module Limits = Dolphin_processes.Limits
 module Workers = Dolphin_processes.Workers
@@ -49,7 +49,7 @@ let test_interrupted () =
   let found = with_workers ~jobs:1 ~last:1 interrupt_oneself (fun workers -> all workers []) in
   Alcotest.check results "as before" [ (1, 1) ] found
 
-(* A process that nobody needs any more is ended in the midst of its work. *)
+(* An unneeded process is ended in the midst of its work. *)
 let rec for_ever n = Unix.sleepf 10.; for_ever n
 
 let test_stop () =

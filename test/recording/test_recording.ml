@@ -1,7 +1,6 @@
-(* What is kept or shown of a run never changes what happens: random programs on random fleets, with and without a
-   journal, a picture, a follower, telemetry for displays, debug messages. Transitions, their times and causes, the
-   outcome and the time of the end are compared. PROGRAMS in the environment is the number of programs, 150 by
-   default. *)
+(* Journals and displays never change a run: random programs on random fleets, with and without a journal, a picture,
+   a follower, telemetry for displays, debug messages. Transitions, their times and causes, the outcome and the time
+   of the end are compared. PROGRAMS in the environment is the number of programs, 150 by default. *)
 
 open Dolphin_semantics
 open Dolphin_runtime
@@ -51,7 +50,7 @@ let silent =
 
 let cause ppf = function None -> () | Some event -> Dolphin_trace.Event.(pp ppf (of_event event))
 
-(* What happened, a line for each transition, and how it ended. *)
+(* The run, a line for each transition, and its end. *)
 let happened (program : Program_file.t) scenario ~seed { recording; telemetry; messages; name = _ } =
   let lines = ref [] and left = ref most_transitions in
   let add line = lines := line :: !lines in
@@ -180,7 +179,7 @@ let known_programs =
     known "a recruit that cannot be met"
       "v = pick { type 'UUV' }\nexecute recruit { type 'ROV' } then { r -> task('home')[r] }\n" ]
 
-(* Where a stopped vehicle is decides the next allocation. *)
+(* The position of a stopped vehicle decides the next allocation. *)
 let allocation_after_a_stop =
   let fleet =
     "vehicle 'a', { type 'UUV'; at 41.185, -8.706; speed 20 }\n\

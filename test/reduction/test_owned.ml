@@ -1,7 +1,7 @@
-(* Tasks whose handlers give other tasks, each on a vehicle of its own or on any that is free: on random programs every
-   verdict of a search with partial order is that of the plain one, and tasks come to the same in both. Where each
-   vehicle has its own handler, states grow as vehicles do. PROGRAMS in the environment is how many programs are tried,
-   1,000 by default; SEED is where they start. *)
+(* Tasks whose handlers give other tasks, each on a vehicle of its own or on any that is free: on random programs
+   every verdict of a search with partial order is that of the plain one, and tasks come to the same in both. With a
+   handler for each vehicle, states grow as vehicles do. PROGRAMS in the environment is the number of programs, 1,000
+   by default; SEED is the first seed. *)
 
 open Dolphin_environment
 open Dolphin_explore

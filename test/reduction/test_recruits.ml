@@ -1,6 +1,6 @@
-(* On random programs whose tasks recruit, and hold vehicles, side by side, every verdict of a search with partial order
-   is that of the plain one, and tasks come to the same in both. PROGRAMS in the environment is how many programs are
-   tried, 1,000 by default; SEED is where they start. *)
+(* On random programs whose tasks recruit, and hold vehicles, side by side, every verdict of a search with partial
+   order is that of the plain one, and tasks come to the same in both. PROGRAMS in the environment is the number of
+   programs, 1,000 by default; SEED is the first seed. *)
 
 open Dolphin_environment
 open QCheck2.Gen

@@ -62,7 +62,7 @@ let test_agreement () =
   Printf.printf "%d pairs, %d programs skipped\n" !told !skipped;
   Alcotest.(check bool) "some plans run side by side" true (!told > 0)
 
-(* What both searches see is the same code's. *)
+(* Both searches use the same code for their observations. *)
 let test_three () =
   let task name : Core.platform_task = { name; plan = None; task_site = 0 } in
   let seen = Side_by_side.create (Fences.make [ distance ]) in

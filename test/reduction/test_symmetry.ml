@@ -1,7 +1,6 @@
 (* On random programs that execute copies of one task side by side, every verdict of a search with symmetry, with and
-   without partial
-   order, is that of the plain one, and every run that it shows is one of the semantics. PROGRAMS in the environment is
-   how many programs are tried, 2,000 by default; SEED is where they start. *)
+   without partial order, is that of the plain one, and every run that it shows is one of the semantics. PROGRAMS in
+   the environment is the number of programs, 2,000 by default; SEED is the first seed. *)
 
 open Dolphin_environment
 module Generate = Test_support.Generate

@@ -1,5 +1,5 @@
-(* Programs that tell apart vehicles that are alike, each in another way, and find something only with one that is not
-   picked first; and programs that do not, which must be explored with few states however large the fleet is. *)
+(* Programs that distinguish interchangeable vehicles, each in another way, and find something only with one that is
+   not picked first; and programs that do not, which must be explored with few states however large the fleet is. *)
 
 open Dolphin_semantics
 open Dolphin_environment
@@ -190,7 +190,7 @@ let by_what_is_made =
       (one ^ "execute watch task('p')[v] onError { e -> if (e.vehicle.id == 'C'.toLowerCase()) { halt 'h' }\nidle(1) }");
   ]
 
-(* [v] was there before, and may be recruited or another one: what knows it says [h] of one of the two. *)
+(* [v] was there before, and may be recruited, or another one: the part that knows it prints [h] for one of the two. *)
 let before = "v = pick { type 'UUV' }\nrelease v\n"
 let posting = "recruit { type 'UUV' } then { u -> action { post at: u } }"
 

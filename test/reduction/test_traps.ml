@@ -580,7 +580,7 @@ let copies =
         }|};
   ]
 
-(* What both searches take from the semantics: comparing them with each other would not show a mistake in it. *)
+(* Both searches share these parts of the semantics: comparing them with each other would not show a mistake there. *)
 let semantics =
   [
     breaks "a time below 0" [ No_error ] "execute during { -1 } run task('p')[a]";

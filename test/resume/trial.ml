@@ -40,7 +40,7 @@ let read path =
   let channel = open_in_bin path in
   Fun.protect ~finally:(fun () -> close_in channel) (fun () -> really_input_string channel (in_channel_length channel))
 
-(* What explains a failure stays there, the rest does not. *)
+(* The files of a failure stay there, the rest does not. *)
 let folder number =
   let root = Option.value (Sys.getenv_opt "DOLPHIN_KEPT") ~default:(Filename.get_temp_dir_name ()) in
   Printf.sprintf "%s/dolphin-kill-%d-%d" root (Unix.getpid ()) number

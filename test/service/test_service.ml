@@ -206,7 +206,7 @@ let examples =
   let is_source path = Filename.check_suffix path ".dol" || Filename.check_suffix path ".fleet" in
   List.map read_file (List.filter is_source (List.concat_map files folders))
 
-(* Any question about any part of a program is answered; what is named somewhere is found from there. *)
+(* Any query about any part of a program is answered; every name that occurs is found from its place. *)
 let answered (text, (length, at)) =
   let text = String.sub text 0 (length mod (String.length text + 1)) in
   let d = Service.read ~file:"m.dol" ~fleet text in

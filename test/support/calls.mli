@@ -4,7 +4,7 @@ open Dolphin_semantics
 
 val within : Dolphin_syntax.Ast.program QCheck2.Gen.t -> Dolphin_syntax.Ast.program QCheck2.Gen.t
 (** [within programs] is programs that call a supplier in between, after their picks: for values, truth values,
-    objects and tasks, in task code too, where calls are faulty. The global [g] must have a value. *)
+    objects and tasks, and, as a fault, in task code. The global [g] must have a value. *)
 
 val names : string list
 (** The calls that have replies. *)

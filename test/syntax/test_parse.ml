@@ -107,7 +107,7 @@ let tasks =
       "choose { a }", "oneOf { a }";
       "pick { type: 'UAV' }", "pick {\n type: 'UAV'\n}"; "pick { run: 1; then: 2 }", "pick {\nrun: 1\nthen: 2\n}" ]
 
-(* What stands behind a task binds tighter than every operator; so do its time and its condition. *)
+(* A suffix of a task binds tighter than every operator; so do its time and its condition. *)
 let limits =
   all "limits behind tasks"
     [ "execute a during 5.min | b", "execute((during 5.min run a) | b)";

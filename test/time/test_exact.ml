@@ -400,7 +400,8 @@ let test_linked_charging_plans =
     { o with durations = { o.durations with charges = (durations ~charges 0).charges } } in
   test_batteries_of ~charges linked_case ~print:print_linked_case options
 
-(* Where vehicles rest is not known to the analysis: its bound holds if all rest at a charger, and if none does. *)
+(* The analysis does not know the places where vehicles rest: its bound holds if all rest at a charger, and if none
+   does. *)
 let test_chargers ~programs () =
   let tally = { exact = 0; bounds = 0; worked = 0 } in
   let charger = "; charger Location.APDL, 30.m" in

@@ -36,7 +36,7 @@ module Environment = Dolphin_environment.Environment
 let translate ?(world = Pure_run.fleet) ?(environment = Environment.default) ?calls source =
   Model.of_program ~environment ?calls world (Pure_run.compile_exn source)
 
-(* Where all vehicles may be anywhere. *)
+(* With vehicles that may be anywhere. *)
 let open_world =
   List.fold_left
     (fun world (s : World.vehicle_state) -> World.open_position s.id [] world)

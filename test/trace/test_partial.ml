@@ -88,7 +88,7 @@ let failures () =
   possible (text {|["start","fail"]|} [ label "start(v, a)"; label "fail(v, a, no (more) fuel)" ]);
   possible (text {|["start","end"]|} [ label "start(v, a)"; label "end" ])
 
-(* With more possible hidden steps than can be searched, there is no result. *)
+(* With more possible hidden steps than can be searched, the check has no result. *)
 let unknown () =
   let branches = String.concat " | " (List.init 9 (fun i -> Printf.sprintf "(idle(1) >> action { post x%d: 1 })" i)) in
   let r = Runs.of_text (Printf.sprintf "execute %s\nmessage 'over'" branches) in

@@ -147,7 +147,7 @@ let equal_as_the_model (first, second) =
     && Int.compare 0 (Space.compare n n') = Space.compare n' n
   | None, _ | _, None -> false
 
-(* What [changed] leaves out is in both, and a posted value is kept as [kept] has it. *)
+(* The parts that [changed] leaves out are in both, and a posted value is stored in the form of [kept]. *)
 let changed_keeps_the_balance (first, second) =
   match run first with
   | None -> false

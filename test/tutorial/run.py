@@ -1,4 +1,4 @@
-"""Does what a page of documentation says: run.py DOLPHIN PAGE prints PAGE with what its commands print now.
+"""Runs the commands of a page of documentation: run.py DOLPHIN PAGE prints PAGE with what its commands print now.
 
 A fenced block "groovy NAME" is the file NAME from there on. In a block "console" a line "$ COMMAND" is run by one shell
 for the whole page, and the lines after it are what it prints. A line "..." stands for any lines, and at the end of a

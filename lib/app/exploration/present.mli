@@ -7,9 +7,9 @@ open Dolphin_environment
 type t
 
 val read : Program_file.t -> string -> (t, Error.t) result
-(** [read program path] is what the journal [path] of a run has led to. The program may have changed since the run
-    began, if what happened so far is the beginning of a run of [program] too. The error, {!Error.Bad_input}, is the
-    first line that no run of [program] has, or that the run is over. *)
+(** [read program path] is the state that the run with the journal [path] has reached. The program may have changed
+    since the run began, if what happened so far is the beginning of a run of [program] too. The error,
+    {!Error.Bad_input}, is the first line that no run of [program] has, or that the run is over. *)
 
 val load :
   string -> set:(string * string) list -> fleet:string option -> journal:string ->
@@ -30,7 +30,7 @@ val timed : t -> Dolphin_time.Timed.options -> Dolphin_time.Timed.options * Dolp
     vehicles at rest stand where they were seen last. *)
 
 val remarks : t -> Program_file.t -> Fleet_file.t -> string list
-(** Sentences on what differs from the run: a program or a fleet that has changed since, vehicles out of contact. *)
+(** Sentences on the differences from the run: a program or a fleet that has changed since, vehicles out of contact. *)
 
 val pp : Format.formatter -> t -> unit
 (** ["from 12:04 of mission.run, after 31 transitions"]. *)

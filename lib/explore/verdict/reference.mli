@@ -16,8 +16,8 @@ type t = {
 
 val explore :
   ?limit:int -> ?start:Configuration.t * Environment.t -> Environment.options -> Core.program -> World.t -> t option
-(** [explore ~start o p w] is the whole graph of what follows [start], by default the beginning of the program, or
-    [None] if it has more than [limit] states, 100,000 by default. *)
+(** [explore ~start o p w] is the whole graph of the states reachable from [start], by default from the beginning of
+    the program, or [None] if it has more than [limit] states, 100,000 by default. *)
 
 val transitions : t -> int
 val depth : t -> int

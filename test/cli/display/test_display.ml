@@ -180,7 +180,7 @@ let waits () =
     [ "   1:15  0 vehicles, 0 busy"; "         and waits for 2 more" ]
     (show ~rows:6 ~waiting Status.start)
 
-(* What the board says of a program that waits, by the program's own text. *)
+(* The board of a waiting program, by the program's own text. *)
 let guards () =
   let source = "x = 1\nexecute condition { poll(a: 1)\n  && x > 2 }" in
   let program =

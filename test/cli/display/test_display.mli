@@ -1,1 +1,1 @@
-(** What the log and the board show, and where they show it. *)
+(** The content of the log and the board, and its layout. *)

@@ -1,9 +1,9 @@
-(* Blocks of the manual, by what stands behind the three backquotes:
+(* Blocks of the manual, by the words after the three backquotes:
    - "groovy": a program, which has to end well;
-   - "groovy given": what stands before every further program of its chapter (##);
+   - "groovy given": the beginning of every further program of its chapter (##);
    - "groovy supplied": a program for the supplier of the examples;
    - "fleet": a fleet, for the programs that follow in its chapter;
-   - "text", right after one of these: what the program says, and the errors and warnings that it meets. *)
+   - "text", right after one of these: the output of the program, and its errors and warnings. *)
 
 type kind = Program | Given | Supplied | Fleet
 type block = {
@@ -84,7 +84,7 @@ let write path text =
   output_string channel text;
   close_out channel
 
-(* What stands behind [marker] in [line]. *)
+(* The rest of [line] after [marker]. *)
 let after marker line =
   let n = String.length marker in
   let rec at i =

@@ -183,8 +183,8 @@ let timeout = bound Arg.float "timeout" "SECONDS" "Stop after $(docv) seconds."
 
 let from =
   Options.from
-    "Explore what can still happen in the run $(docv), from where its journal ends. Vehicles stand where they were \
-     seen last; tasks of a vehicle out of contact may fail. Not with $(b,--trace), $(b,--draw) and $(b,--cache)."
+    "Explore the possible continuations of the run $(docv), from the end of its journal. Vehicles start where they \
+     were seen last; tasks of a vehicle out of contact may fail. Not with $(b,--trace), $(b,--draw) and $(b,--cache)."
 
 let answers =
   let doc =

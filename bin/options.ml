@@ -95,9 +95,9 @@ let see_also =
 let from doc =
   let doc =
     doc
-    ^ " $(docv) is a run by its name, how its name begins, $(b,latest), or the path of a journal; it may go on \
-       meanwhile. $(i,PROG) may differ from the program that the run began with, if what happened so far is the \
-       beginning of a run of $(i,PROG) too: so a change is checked before the run is resumed with it. By default the \
-       fleet is that of the run."
+    ^ " $(docv) is the run's name or a prefix of it, $(b,latest), or the path of a journal; the run may continue \
+       meanwhile. $(i,PROG) may differ from the run's program, if the run so far is the beginning of a run of \
+       $(i,PROG) too: so a change is checked before the run is resumed with it. By default the fleet is that of the \
+       run."
   in
   Arg.(value & opt (some string) None & info [ "from" ] ~docv:"RUN" ~doc)

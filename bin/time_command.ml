@@ -189,7 +189,8 @@ let man =
     `S Manpage.s_examples;
     `Pre "  $(mname) $(tname) examples/rendezvous.dol\n  $(mname) $(tname) examples/rendezvous.dol --deadline 20.min\n\
          \  $(mname) $(tname) mission.dol --from latest";
-    `P "How many vehicles it takes: of a program that says by a parameter how many it picks; or of the fleet's:";
+    `P "The number of vehicles needed, for a program with a parameter for the number that it picks, and for a part of \
+        the fleet:";
     `Pre "  $(mname) $(tname) mission.dol --set vehicles=1..8 --deadline 40.min\n\
          \  $(mname) $(tname) mission.dol --fewest --deadline 40.min" ]
   @ Options.see_also

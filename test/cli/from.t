@@ -173,7 +173,7 @@ A task that should be over already may take any time.
   dolphin: the fleet is not the one that the run began with, or it has changed since
   from 7:30 of ./later.run, after 4 transitions
   completed: 14:30 at the earliest, no latest time
-  nobody knows how long it takes: pair.dol:2:9: out on a; in the fleet: plan 'out', { duration 3.min, 9.min }
+  duration unknown: pair.dol:2:9: out on a; in the fleet: plan 'out', { duration 3.min, 9.min }
   $ dolphin time pair.dol --from ./later.run --slack
   dolphin: --slack, --fewest, --trace and --draw are for runs from the beginning: leave them out with --from
   [2]

@@ -8,7 +8,7 @@ bytes that are not UTF-8. None of them reaches the terminal.
   $ judged dolphin explore m.dol --faults="all$esc[2J$bad"; cat out
   0
   UTF-8
-  dolphin: option '--faults': there is no fault 'all?[2J?': there are fail,
+  dolphin: option '--faults': unknown fault 'all?[2J?': there are fail,
            loss, join, all and interrupt
   Usage: dolphin explore [OPTION]… PROG
   Try 'dolphin explore --help' or 'dolphin --help' for more information.

@@ -117,14 +117,24 @@ let drawing_over ~sampling layers drawing =
 (* From this number of vehicles on, the lists of a run outgrow a small nursery before they are garbage. *)
 let large_fleet = 200
 
-let run () show path set sim fleet network adapters definition speed seed answers supplier supplier_timeout journal keep
-    drawing layers recorded resumed changed no_socket sampling =
-  (* [--sim=FLEET] is a longer name for [--fleet FLEET]. *)
-  let named = match fleet, sim with Some _, _ -> fleet | None, (None | Some "") -> None | None, Some _ -> sim in
-  let settings : Run.settings =
-    { network; adapters; speed; seed; answers; people = false; supplier; supplier_timeout;
-      socket = not no_socket; recording = { journal; drawing; follower = None } }
-  in
+(* What is run, and how it is shown; [named] is the fleet. *)
+type asked = {
+  show : Terminal_run.show;
+  path : string;
+  set : (string * string) list;
+  sim : string option;
+  named : string option;
+  definition : string option;
+  keep : bool;
+  layers : string list;
+  recorded : string option;
+  resumed : string option;
+  changed : bool;
+  sampling : Sampling_options.t option;
+}
+
+let run () { show; path; set; sim; named; definition; keep; layers; recorded; resumed; changed; sampling } settings =
+  let { Recording.journal; drawing; _ } = settings.Run.recording in
   let is_simulated = Run.is_simulated settings in
   Report.result
     (let* drawing = drawing_over ~sampling layers drawing in
@@ -142,7 +152,8 @@ let run () show path set sim fleet network adapters definition speed seed answer
      let* journal = journal_of ~path ~is_simulated ~keep ~follow:recorded ~resumed journal in
      let settings = { settings with recording = { settings.recording with journal } } in
      let* definition = Definition_file.load definition in
-     let settings = { settings with network = Option.map (Imc_options.with_names definition) network } in
+     let network = Option.map (Imc_options.with_names definition) settings.network in
+     let settings = { settings with network } in
      let* () = if resumed = None then check_only settings fleet show.Terminal_run.only else Ok () in
      let on_terminal = on_terminal { show with journal = (if journal = None then resumed else journal) } in
      Report.diagnostics ~source:program.source program.warnings;
@@ -321,14 +332,43 @@ let man =
     `Pre "  $(mname) $(tname) mission.dol --resume mission.run" ]
   @ Options.see_also
 
+let asked =
+  let open Options.Syntax in
+  let+ show = show
+  and+ path = Options.program
+  and+ set = Options.set
+  and+ sim = sim
+  and+ fleet = fleet
+  and+ definition = Imc_options.definition
+  and+ keep = keep
+  and+ layers = Options.layers
+  and+ recorded = follow
+  and+ resumed = resumed
+  and+ changed = changed
+  and+ sampling = Sampling_options.wanted in
+  (* [--sim=FLEET] is a longer name for [--fleet FLEET]. *)
+  let named = match fleet, sim with Some _, _ -> fleet | None, (None | Some "") -> None | None, Some _ -> sim in
+  { show; path; set; sim; named; definition; keep; layers; recorded; resumed; changed; sampling }
+
+let settings =
+  let open Options.Syntax in
+  let+ network = Imc_options.chosen
+  and+ adapters = Platform_options.adapters
+  and+ speed = speed
+  and+ seed = seed
+  and+ answers = answers
+  and+ supplier = supplier
+  and+ supplier_timeout = supplier_timeout
+  and+ journal = journal
+  and+ drawing = drawing
+  and+ no_socket = no_socket in
+  { Run.network; adapters; speed; seed; answers; people = false; supplier; supplier_timeout; socket = not no_socket;
+    recording = { journal; drawing; follower = None } }
+
 let command =
   let info =
     Cmd.info "exec" ~docs:Options.s_run ~doc:"run a program, on a simulated fleet or on vehicles of a network" ~man
       ~exits:(Options.exits [ Done; Failed; Bad_input; Platform_trouble; Bug; Interrupted ])
   in
   Cmd.v info
-    Term.(
-      const run $ Verbosity.setup $ show $ Options.program $ Options.set $ sim $ fleet $ Imc_options.chosen
-      $ Platform_options.adapters $ Imc_options.definition $ speed $ seed $ answers $ supplier
-      $ supplier_timeout $ journal $ keep $ drawing $ Options.layers $ follow $ resumed $ changed $ no_socket
-      $ Sampling_options.wanted)
+    Term.(const run $ Verbosity.setup $ asked $ settings)

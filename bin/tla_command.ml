@@ -48,9 +48,19 @@ let perform jar task program ({ files; environment; world } : Tla_model.t) =
     Result.map Exit_status.of_verdict
       (Tlc_compare.run installation ~directory ~limit ~coverage files environment program world)
 
-let run path set fleet answers faults tick directory check compare strict limit jar workers distributed coverage =
+(* The model that is asked for. *)
+type asked = {
+  path : string;
+  set : (string * string) list;
+  fleet : string option;
+  answers : string list;
+  faults : Dolphin_environment.Faults.t;
+  tick : int option;
+}
+
+let run { path; set; fleet; answers; faults; tick } jar task =
   Report.result
-    (let* task = task directory ~check ~compare ~strict ~limit ~workers ~distributed ~coverage in
+    (let* task = task in
      let* program, fleet = Program_file.load_with_fleet ~set ~fleet path in
      let* model = Tla_model.make ?tick ~answers ~faults program fleet in
      perform jar task program model)
@@ -127,14 +137,32 @@ let man =
          \  $(mname) $(tname) examples/rendezvous.dol --compare" ]
   @ Options.see_also
 
+let asked =
+  let open Options.Syntax in
+  let+ path = Options.program
+  and+ set = Options.set
+  and+ fleet = Options.fleet
+  and+ answers = Explore_command.answers
+  and+ faults = Explore_command.faults
+  and+ tick = tick in
+  { path; set; fleet; answers; faults; tick }
+
+let task =
+  let open Options.Syntax in
+  let+ directory = directory
+  and+ check = check
+  and+ compare = compare
+  and+ strict = strict
+  and+ limit = limit
+  and+ workers = Tlc_options.workers
+  and+ distributed = Tlc_options.distributed
+  and+ coverage = Tlc_options.coverage in
+  task directory ~check ~compare ~strict ~limit ~workers ~distributed ~coverage
+
 let command =
   let info =
     Cmd.info "tla" ~docs:Options.s_prove ~doc:"write a program as a model in TLA+, and have TLC check it" ~man
       ~exits:(Options.exits [ Done; Violated; Bad_input; Inconclusive; Platform_trouble; Bug ])
   in
   Cmd.v info
-    Term.(
-      const run $ Options.program $ Options.set $ Options.fleet $ Explore_command.answers $ Explore_command.faults
-      $ tick $ directory
-      $ check $ compare $ strict $ limit $ Tlc_options.jar $ Tlc_options.workers $ Tlc_options.distributed
-      $ Tlc_options.coverage)
+    Term.(const run $ asked $ Tlc_options.jar $ task)

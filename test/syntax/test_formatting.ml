@@ -40,7 +40,7 @@ let disarranged =
   let open QCheck2.Gen in
   let insertion = pair (int_bound 1_000_000) (oneofl ([ "\n"; "\n"; "\n\n\n"; "  "; "\t"; ";"; "; "; "\r\n"; "//c\n" ] @ comments)) in
   let insert text (at, what) =
-    (* Where a blank is: elsewhere it rarely is a program still. *)
+    (* At a blank: elsewhere the result is rarely a program. *)
     let length = String.length text in
     let rec blank i fuel =
       if fuel = 0 then i

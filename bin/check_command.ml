@@ -54,8 +54,8 @@ let man =
         arguments, kinds of literals, statements of the script inside a task's code, one vehicle needed twice at \
         once. It shows each fault with its line and, if known, a correction. $(b,exec) makes the same checks before \
         it starts.";
-    `P "With $(b,--platform) adapters are asked what keeps their vehicles from running the program's plans: those that \
-        vehicles are given in a run on the simulated fleet. Nothing moves.";
+    `P "With $(b,--platform), adapters report the problems that keep their vehicles from running the program's plans: \
+        the plans given to vehicles in a run on the simulated fleet. Nothing moves.";
     `P "The fleet that the program would run with is checked too. Plan names that look misspelt are reported, and \
         endless loops whose rounds take no time with this fleet.";
     `S Manpage.s_files;

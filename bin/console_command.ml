@@ -117,10 +117,10 @@ let tiles =
 
 let listen =
   let doc =
-    "Serve the address $(docv) of this machine, for other machines, instead of 127.0.0.1: $(b,0.0.0.0) is all of them. \
-     Two links are printed, each with a token: one to steer, one to watch. Connections are encrypted by TLS, by a \
-     certificate that signs itself, made by $(b,openssl) and kept: its fingerprint stands at the end of the links, and \
-     in the browser's warning about it."
+    "Serve the address $(docv) of this machine, for other machines, instead of 127.0.0.1: $(b,0.0.0.0) is all of \
+     them. Two links are printed, each with a token: one to steer, one to watch. Connections are encrypted by TLS, by \
+     a self-signed certificate, made by $(b,openssl) and kept: its fingerprint is at the end of the links, and in the \
+     browser's warning about it."
   in
   let parse text =
     match Unix.inet_addr_of_string text with

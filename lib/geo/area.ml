@@ -152,8 +152,10 @@ let polygon ?(holes = []) corners =
       Ok (hole :: before)
     in
     let numbered = List.mapi (fun i hole -> (i + 1, left_turning hole)) hole_rings in
-    let* _ = List.fold_left fits (Ok []) numbered in
-    Ok (Shape (shape plane (turning ~left:true corners ring :: List.map2 (turning ~left:false) holes hole_rings)))
+    let* holes_inside = List.fold_left fits (Ok []) numbered in
+    let left hole rest = rest - Arrangement.doubled_area hole in
+    if List.fold_right left holes_inside (Arrangement.doubled_area (left_turning ring)) <= 0 then Error Empty
+    else Ok (Shape (shape plane (turning ~left:true corners ring :: List.map2 (turning ~left:false) holes hole_rings)))
 
 (* Rims that cross, or turn the wrong way, enclose another area than the sum of theirs. *)
 let well_formed rings =

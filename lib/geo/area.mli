@@ -34,7 +34,7 @@ val circle : Position.t -> float -> (t, error) result
 val polygon : ?holes:Position.t list list -> Position.t list -> (t, error) result
 (** [polygon ~holes corners] is the area enclosed by the shortest lines from corner to corner, and from the last to
     the first, without [holes]. A corner that follows itself counts once. In either order of corners it is the same
-    area. *)
+    area. Holes that leave nothing of it are an error. *)
 
 val most_corners : int
 (** 20,000. *)

@@ -158,6 +158,22 @@ Areas that are none, and those that would take all day.
   endless.geojson: the geometry: a number of that size or kind is not known
   lattice.geojson: the geometry: an area has 20000 corners at most, not 40000
 
+Nor is it an area if its holes leave nothing of it: as a fence it would keep no vehicle out.
+
+  $ python3 - <<'EOF'
+  > import json
+  > square = lambda x, d: [[x, 41.1], [x + d, 41.1], [x + d, 41.11], [x, 41.11], [x, 41.1]]
+  > whole = square(-8.7, 0.01)
+  > for name, holes in (("covered", [whole]), ("turned", [whole[::-1]])):
+  >     json.dump({"type": "Polygon", "coordinates": [whole, *holes]}, open(name + ".geojson", "w"))
+  > EOF
+  $ for file in covered turned; do
+  >   echo "fence outside map '$file.geojson'" > hostile.dol
+  >   dolphin check hostile.dol 2>&1 | head -1
+  > done
+  hostile.dol:1:19: error: the map cannot be read: covered.geojson: the geometry: nothing is left: the area is empty
+  hostile.dol:1:19: error: the map cannot be read: turned.geojson: the geometry: nothing is left: the area is empty
+
 A feature that is wrong does not hide the others: it is null, and an error where it is used.
 
   $ cat > some.geojson <<'EOF'

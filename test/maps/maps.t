@@ -129,7 +129,7 @@ Hostile files: nothing is expanded, followed or written, and memory is bounded.
   torn.kmz: this ZIP archive is broken
   overlap.kmz: the files in this archive overlap
   encrypted.kmz: 'doc.kml' in it is encrypted
-  none.kmz: there is no *.kml in this archive
+  none.kmz: this archive has no *.kml
   entity.kml: line 2, column 26: this is not XML: unknown entity reference (b)
   external.kml: line 2, column 32: this is not XML: unknown entity reference (x)
   laughs.kml: line 2, column 27: this is not XML: unknown entity reference (l9)

@@ -81,6 +81,7 @@ module Make (P : Platform.S) = struct
     call : call;
     observer : Observer.t;
     always_telemetry : bool;
+    breakable : Breakable.t;
     inputs : Inputs.t;
     mutable interruptions : news Lwt.t list;  (* those to come, the next one first *)
     mutable configuration : Configuration.t;
@@ -431,6 +432,15 @@ module Make (P : Platform.S) = struct
       f s
     end
 
+  (* The transition that the configuration makes by itself, with the event that it takes. *)
+  let next_transition s =
+    match Transition.internal s.program s.world s.configuration () with
+    | Seq.Cons (t, _) -> Some (None, t)
+    | Seq.Nil ->
+      let recruited (event, t) = (Some event, t) in
+      Option.map recruited (Transition.recruited s.program s.world s.configuration)
+
+  (* A step that was broken off is taken again, unless the interruption that broke it off has come. *)
   let rec advance s =
     look_at_clock s;
     match s.configuration.control with
@@ -444,12 +454,10 @@ module Make (P : Platform.S) = struct
     | Executing _ when s.restless <> None -> give_up s (Spins (Option.value s.restless ~default:Fault.unknown_site))
     | Script _ | Waiting _ | Executing _ -> (
         look s;
-        match Transition.internal s.program s.world s.configuration () with
-        | Seq.Cons (t, _) -> take s ~cause:None t; continue s advance
-        | Seq.Nil -> (
-            match Transition.recruited s.program s.world s.configuration with
-            | Some (event, t) -> take s ~cause:(Some event) t; continue s advance
-            | None -> pass s))
+        match Breakable.attempt s.breakable (fun () -> next_transition s) with
+        | Some (Some (cause, t)) -> take s ~cause t; continue s advance
+        | Some None -> pass s
+        | None -> Lwt.pause () >>= fun () -> advance s)
 
   (* The program cannot go on; it executes what it declares by onInterrupt, which may fail in its own way. *)
   and give_up s outcome =
@@ -533,10 +541,11 @@ module Make (P : Platform.S) = struct
     attempt (fun () -> stop s.configuration);
     Lwt.catch (fun () -> finish s) (fun _ -> Lwt.return_unit)
 
-  let run platform ~always_telemetry ~observer ~call ~inputs ~console ~interruptions ~(beginning : beginning) program =
+  let run platform ~always_telemetry ~observer ~call ~inputs ~console ~interruptions ~breakable
+      ~(beginning : beginning) program =
     let interruption promise = Lwt.protected promise >|= fun () -> Event (Ok Interruption) in
     let s =
-      { platform; program; console; call; observer; always_telemetry; inputs;
+      { platform; program; console; call; observer; always_telemetry; inputs; breakable;
         interruptions = List.map interruption interruptions;
         configuration = beginning.configuration;
         world = beginning.world;
@@ -558,16 +567,19 @@ end
 
 let run (type platform) (module P : Platform.S with type t = platform) (platform : platform)
     ?(always_telemetry = false) ?(observer = Observer.nobody) ?(host = no_host) ?inputs ?beginning ?fenced ~console
-    ~interruption ?again (program : Core.program) =
+    ~interruption ?again ?breakable (program : Core.program) =
   let inputs = match inputs with Some inputs -> inputs | None -> Inputs.create () in
   let interruptions = interruption :: Option.to_list again in
+  let breakable = match breakable with Some breakable -> breakable | None -> Breakable.make () in
   let beginning = Option.value beginning ~default:(afresh program P.order) in
   if Fences.is_none program.fences then
     let module Driver = Make (P) in
-    Driver.run platform ~always_telemetry ~observer ~call:host ~inputs ~console ~interruptions ~beginning program
+    Driver.run platform ~always_telemetry ~observer ~call:host ~inputs ~console ~interruptions ~breakable ~beginning
+      program
   else
     let module Fenced = Fenced.Make (P) in
     let module Driver = Make (Fenced) in
     let past : Fence_guard.past = Option.value fenced ~default:(Fence_guard.replay program.fences []) in
     let platform = Fenced.make past.guard ~untold:past.untold platform in
-    Driver.run platform ~always_telemetry ~observer ~call:host ~inputs ~console ~interruptions ~beginning program
+    Driver.run platform ~always_telemetry ~observer ~call:host ~inputs ~console ~interruptions ~breakable ~beginning
+      program

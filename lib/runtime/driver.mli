@@ -52,11 +52,15 @@ val run :
   console:Console.t ->
   interruption:unit Lwt.t ->
   ?again:unit Lwt.t ->
+  ?breakable:Breakable.t ->
   Core.program ->
   outcome Lwt.t
 (** [run (module P) platform ~console ~interruption program] runs [program] until it ends, closes [platform], and is
     the outcome. When [interruption] resolves, the program is interrupted, whatever it is doing: it executes what it
     declares by [onInterrupt], or ends. When [again] resolves (by default never), it is interrupted once more, and ends.
+
+    Transitions that the program makes by itself are computed within [breakable], by default one that nothing breaks
+    off: a handler of a signal that breaks it off makes [interruption] or [again] resolve.
 
     The platform's telemetry is on while it may matter to the program, or with [~always_telemetry:true] (by default
     false), for displays and journals, all the time; in virtual time, a run is the same with and without it. Without

@@ -18,42 +18,50 @@ let read_beginning text =
   let* line = members (try Yojson.Safe.from_string text with Yojson.Json_error _ -> `Null) in
   get number "began" line
 
-let lines path =
+(* The lines that end, and the length of the text up to there. A line is written with its end: one without is torn, and
+   its order was not carried out. *)
+let whole_lines text =
+  match String.rindex_opt text '\n' with
+  | None -> ([], 0)
+  | Some last -> (String.split_on_char '\n' (String.sub text 0 last), last + 1)
+
+let contents path =
   let channel = open_in_bin path in
-  let rec go read = match input_line channel with line -> go (line :: read) | exception End_of_file -> List.rev read in
-  Fun.protect ~finally:(fun () -> close_in_noerr channel) (fun () -> go [])
+  let read () = really_input_string channel (in_channel_length channel) in
+  Fun.protect ~finally:(fun () -> close_in_noerr channel) read
 
-(* A torn last line is of an order that was not carried out. *)
-let rec orders = function
-  | [] -> Ok []
-  | [ last ] -> (match read_line last with Ok one -> Ok [ one ] | Error _ -> Ok [])
-  | line :: later ->
-    let* one = read_line line in
-    let* later = orders later in
-    Ok (one :: later)
-
+(* The beginning and the orders, if there are any, and the length of what they were read from. *)
 let read path =
-  match lines path with
-  | exception Sys_error why -> Error why
-  | [] -> Ok None
-  | first :: later ->
+  match whole_lines (contents path) with
+  | [], _ -> Ok (None, 0)
+  | first :: later, length ->
     let* began = read_beginning first in
-    let* later = orders later in
-    Ok (Some (began, later))
+    let* orders = Dolphin_results.Results.map read_line later in
+    Ok (Some (began, orders), length)
 
-let append path = open_out_gen [ Open_append; Open_creat; Open_binary ] 0o666 path
+(* What follows a torn line is on a line of its own. *)
+let append path ~length =
+  let descriptor = Unix.openfile path [ O_WRONLY; O_APPEND; O_CREAT; O_CLOEXEC ] 0o666 in
+  if (Unix.fstat descriptor).st_size > length then Unix.ftruncate descriptor length;
+  Unix.out_channel_of_descr descriptor
+
+let opened path =
+  let no_state why = Printf.sprintf "%s: this is not the state of a simulated fleet: %s" path why in
+  let is_file = (not (Sys.file_exists path)) || (Unix.stat path).st_kind = S_REG in
+  let* () = if is_file then Ok () else Error (no_state "it is not a file") in
+  let* past, length = if Sys.file_exists path then Result.map_error no_state (read path) else Ok (None, 0) in
+  let channel = append path ~length in
+  match past with
+  | Some (began, orders) -> Ok (channel, began, orders)
+  | None ->
+    let began = Unix.gettimeofday () in
+    write channel (`Assoc [ ("began", `Float began) ]);
+    Ok (channel, began, [])
 
 let open_ path =
-  let told why = Printf.sprintf "%s: this is not the state of a simulated fleet: %s" path why in
-  let* past = if Sys.file_exists path then Result.map_error told (read path) else Ok None in
-  match append path with
-  | exception Sys_error why -> Error why
-  | channel -> (
-      match past with
-      | Some (began, orders) -> Ok (channel, began, orders)
-      | None ->
-        let began = Unix.gettimeofday () in
-        write channel (`Assoc [ ("began", `Float began) ]);
-        Ok (channel, began, []))
+  match opened path with
+  | result -> result
+  | exception Sys_error why -> Error (path ^ ": " ^ why)
+  | exception Unix.Unix_error (error, _, _) -> Error (path ^ ": " ^ Unix.error_message error)
 
 let add channel ~time order = write channel (`Assoc [ ("time", `Float time); ("order", Order.to_json order) ])

@@ -105,6 +105,62 @@ Code inside of a task that has no end is an error of the program.
       |                ^^^^^^^^^^^^^^^^^^^^
   [1]
 
+Nor does an interruption wait for a step that takes long. Which of these vehicles do what is a question of Boolean
+satisfiability with 200 variables and 1,201 clauses.
+
+  $ for i in $(seq 0 399); do echo "vehicle 'v$i', { type 'UUV' }"; done > hard.fleet
+  $ echo "plan 'p', { duration 1.min }" >> hard.fleet
+  $ cat > hard.dol <<'EOF'
+  > vs = pick { count 400; type 'UUV' }
+  > left = task('p')[vs[0] + vs[1]]
+  > for (i in 1..199) { left = left >> task('p')[vs[2 * i] + vs[2 * i + 1]] }
+  > x = 12345
+  > right = task('p')[vs[5] + vs[8] + vs[17]]
+  > for (i in 1..1200) {
+  >   three = vs[x % 400]
+  >   for (j in 1..2) {
+  >     x = (x * 16807) % 2147483647
+  >     three = three + vs[x % 400]
+  >   }
+  >   right = right >> task('p')[three]
+  > }
+  > message 'allocates'
+  > execute left | right
+  > EOF
+  $ for signal in INT TERM XCPU; do
+  >   rm -f hard.txt; dolphin exec hard.dol --fleet hard.fleet --journal hard.run > hard.txt & run=$!
+  >   until grep -qs allocates hard.txt || ! kill -0 $run; do sleep 0.05; done
+  >   sleep 1; kill -$signal $run; (sleep 20; kill -KILL $run) > killer.txt 2>&1 & killer=$!
+  >   wait $run; echo "$signal $?"; kill $killer; cut -c 10-40 hard.txt | tail -3
+  >   rm hard.run
+  > done
+  INT 130
+  program     says: allocates
+  program     releases v0, v1, v2
+  program     is interrupted
+  TERM 130
+  program     says: allocates
+  program     releases v0, v1, v2
+  program     is interrupted
+  XCPU 130
+  program     says: allocates
+  program     releases v0, v1, v2
+  program     is interrupted
+
+The program still executes what it declares for that.
+
+  $ sed -i "1i onInterrupt task('p')" hard.dol
+  $ rm -f hard.txt; dolphin exec hard.dol --fleet hard.fleet > hard.txt & run=$!
+  $ until grep -qs allocates hard.txt || ! kill -0 $run; do sleep 0.05; done
+  $ sleep 1; kill -INT $run; (sleep 20; kill -KILL $run) > killer.txt 2>&1 & killer=$!
+  $ wait $run; kill $killer; cut -c 10-40 hard.txt | grep -v ' releases'
+  program     picks v0, v1, v2, v
+  program     says: allocates
+  program     is interrupted: exe
+  v0          starts p
+  v0          ends p
+  program     is interrupted
+
 The second interruption ends the process at once. Here a supplier that ignores the end of its input keeps the first one
 waiting.
 

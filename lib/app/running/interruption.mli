@@ -17,6 +17,9 @@ val promise : t -> unit Lwt.t
 val again : t -> unit Lwt.t
 (** [again i] resolves when [i] happens a second time. *)
 
+val breakable : t -> Dolphin_runtime.Breakable.t
+(** [breakable i] is what the signals of {!on_signals} break off. *)
+
 val happened : t -> bool
 (** Whether it has happened. *)
 

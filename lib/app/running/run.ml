@@ -284,7 +284,7 @@ let drive r recording host ~interruption (Platform ((module P), { platform; esti
       ~host:(match host with Some host -> Host.call host | None -> Replies.call ~past:(history r) r.scenario)
       ~inputs ?beginning:(beginning r.resumed news) ?fenced:r.fenced
       ~console ~interruption:(Interruption.promise interruption)
-      ~again:(Interruption.again interruption) r.program.program
+      ~again:(Interruption.again interruption) ~breakable:(Interruption.breakable interruption) r.program.program
   in
   let finish (outcome : Driver.outcome) =
     let outcome = as_it_began r outcome in

@@ -17,20 +17,21 @@ let rec make_directory path =
     Unix.mkdir path 0o777
   end
 
-let write_file directory (name, text) =
-  let channel = open_out_bin (Filename.concat directory name) in
-  Fun.protect ~finally:(fun () -> close_out_noerr channel) (fun () -> output_string channel text; close_out channel)
+let not_written why = unavailable ("the model cannot be written: " ^ why)
 
 let write ~directory model =
+  let write_file (name, text) =
+    match Text_file.write (Filename.concat directory name) (fun channel -> output_string channel text) with
+    | Ok () -> Ok ()
+    | Error error -> not_written (String.concat "; " (Error.sentences error))
+  in
   match
     make_directory directory;
-    List.iter (write_file directory) model
+    List.fold_left (fun result file -> Result.bind result (fun () -> write_file file)) (Ok ()) model
   with
-  | () -> Ok ()
-  | exception Sys_error why -> unavailable ("the model cannot be written: " ^ why)
-  | exception Unix.Unix_error (error, _, path) ->
-    unavailable
-      (Printf.sprintf "the model cannot be written: %s: %s" path (Unix.error_message error))
+  | result -> result
+  | exception Sys_error why -> not_written why
+  | exception Unix.Unix_error (error, _, path) -> not_written (path ^ ": " ^ Unix.error_message error)
 
 let rec remove path =
   match Unix.lstat path with

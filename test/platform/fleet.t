@@ -46,3 +46,14 @@ The programs that ran did what the semantics allows.
   $ for run in fenced free; do dolphin trace check m.dol $run.run | sed "s/, of [^;]*//"; done
   fenced.run: a run; completed
   free.run: a run; completed
+
+A simulated fleet that was killed in the middle of a line goes on from the line before. A state that cannot be written is
+named.
+
+  $ dolphin sim vehicles.fleet --platform --state torn.state < /dev/null
+  $ cp torn.state whole.state; printf '{"time":1,"ord' >> torn.state
+  $ dolphin sim vehicles.fleet --platform --state torn.state < /dev/null; cmp torn.state whole.state
+  $ dolphin sim vehicles.fleet --platform --state /dev/full < /dev/null
+  {"kind":"error","why":"/dev/full: this is not the state of a simulated fleet: it is not a file"}
+  dolphin: /dev/full: this is not the state of a simulated fleet: it is not a file
+  [2]

@@ -180,7 +180,13 @@ let caused r (step : Step.t) event =
           | None when step.choice > 0 ->
             mismatch r (Printf.sprintf "%s makes one transition, so it has no choice %d" by step.choice)
           | None ->
-            let is_left () = Transition.internal r.program r.world r.configuration () <> Seq.Nil in
+            (* A script always goes on; how, perhaps by a long allocation, does not matter. *)
+            let is_left () =
+              match r.configuration.control with
+              | Script _ -> true
+              | Waiting _ | Executing _ | Ended _ ->
+                Transition.internal r.program r.world r.configuration () <> Seq.Nil
+            in
             let idle = match event with Interruption _ -> r.idle || not (is_left ()) | _ -> r.idle in
             let stuck =
               match event, r.configuration.control with

@@ -80,7 +80,7 @@ let isomorphism () =
   shows "what can be told by counting only"
     "left: 5 states, 4 transitions; right: 4 states, 4 transitions\n\
      After a b the left one is in a state\n\
-     with 2 similar states on the left and 0 on the right,\n\
+     with 2 similar states on the left and 0 on the right, \
      compared over 1 steps."
     (Graph.of_list [ (0, "a", 1); (0, "a", 2); (1, "b", 3); (2, "b", 4) ])
     (Graph.of_list [ (0, "a", 1); (0, "a", 2); (1, "b", 3); (2, "b", 3) ])

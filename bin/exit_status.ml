@@ -26,4 +26,7 @@ let meaning = function
   | Interrupted ->
     "the run was interrupted by Ctrl-C, by a request to terminate, or because its log has no reader any more."
 
-let info statuses = List.map (fun s -> Cmdliner.Cmd.Exit.info (code s) ~doc:(meaning s)) statuses
+(* Every command has an output that may fail. *)
+let info statuses =
+  let statuses = if List.mem Platform_trouble statuses then statuses else Platform_trouble :: statuses in
+  List.map (fun s -> Cmdliner.Cmd.Exit.info (code s) ~doc:(meaning s)) statuses

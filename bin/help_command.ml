@@ -11,11 +11,14 @@ let of_program path =
      List.iter print_endline (Program_help.lines program);
      Ok Exit_status.Done)
 
+(* A pager would have the output, and the error if it cannot be written. *)
+let form () = if Unix.isatty Unix.stdout then `Auto else `Plain
+
 let run commands topic =
   match topic with
   | Some topic when is_program topic -> `Ok (of_program topic)
-  | None -> `Help (`Auto, None)
-  | Some topic when List.mem topic commands -> `Help (`Auto, Some topic)
+  | None -> `Help (form (), None)
+  | Some topic when List.mem topic commands -> `Help (form (), Some topic)
   | Some topic ->
     let hint = Option.map (Printf.sprintf ": did you mean '%s'?") (Dolphin_syntax.Diagnostic.suggest topic commands) in
     Report.complain

@@ -20,4 +20,4 @@ The table of exit statuses in docs/command.md is that of the manual pages.
   $ for command in check conform console doctor exec explore fleet fmt help lsp lts new parse plan "platform check" post sim step successors time tla walk runs "runs show" "trace check" "trace show" "trace draw" "trace export"; do
   >   grep -E '^\| [0-9]+ \|' ../../docs/command.md | grep -e '| all |' -e "\`$command\`" | sed "s/^| \([0-9]*\) .*/$command \1/"
   > done | sort -u | diff in-manuals - && wc -l < in-manuals
-  121
+  128

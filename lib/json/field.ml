@@ -6,13 +6,18 @@ let ( let* ) = Result.bind
 
 let within name read json = Result.map_error (fun why -> Printf.sprintf "%S is %s" name why) (read json)
 
+(* Journals of long runs have millions of members: names are compared as strings, not as any values. *)
+let rec find name = function
+  | [] -> None
+  | (name', json) :: rest -> if String.equal name name' then Some json else find name rest
+
 let get read name members =
-  match List.assoc_opt name members with
+  match find name members with
   | Some json -> within name read json
   | None -> Error (Printf.sprintf "%S is missing" name)
 
 let optional read ~default name members =
-  match List.assoc_opt name members with Some json -> within name read json | None -> Ok default
+  match find name members with Some json -> within name read json | None -> Ok default
 
 let wrong json what = Error (Printf.sprintf "%s, not %s" (Canonical.shortened 40 json) what)
 let text : Yojson.Safe.t -> _ = function `String text -> Ok text | json -> wrong json "a text"

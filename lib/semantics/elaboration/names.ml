@@ -25,7 +25,7 @@ let elaborate env name at =
           ~hint:(Printf.sprintf "write %s()" name)
       else
         error env No_value at "'%s' is a procedure: it needs its arguments" name
-          ~hint:(Printf.sprintf "write %s(...)" name);
+          ~hint:(Printf.sprintf "write %s(...), or its arguments on the same line" name);
       null env at
     end
     else variable env name at

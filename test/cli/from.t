@@ -181,3 +181,7 @@ A task that should be over already may take any time.
 Of runs of the examples, cut off at drawn lines, the answers hold.
 
   $ python3 from.py ../../examples
+
+  $ dolphin trace check pair.dol whole.run; dolphin trace check ride.dol gone.run
+  whole.run: a run, of 11 transitions in 16:25; completed
+  gone.run: the beginning of a run, of 6 transitions in 5:00; it breaks off

@@ -8,8 +8,8 @@ bytes that are not UTF-8. None of them reaches the terminal.
   $ judged dolphin explore m.dol --faults="all$esc[2J$bad"; cat out
   0
   UTF-8
-  dolphin: option '--faults': unknown fault 'all?[2J?': there are fail,
-           loss, join, all and interrupt
+  dolphin: option '--faults': unknown fault 'all?[2J?': there are fail, loss,
+           join, all and interrupt
   Usage: dolphin explore [OPTION]… PROG
   Try 'dolphin explore --help' or 'dolphin --help' for more information.
   $ judged dolphin lts m.dol --set="$esc$bad"

@@ -204,10 +204,10 @@ What goes wrong.
   dolphin: TLC failed: Error: Could not find or load main class tlc2.TLC
   [3]
   $ dolphin tla round.dol --run --tlc none.jar
-  dolphin: none.jar: there is no such file, which --tlc names as the archive of TLC
+  dolphin: none.jar: no such file, named by --tlc as the archive of TLC
   [3]
   $ JAVA_HOME=/nowhere dolphin tla round.dol --run
-  dolphin: TLC needs Java, 11 or later, and there is no /nowhere/bin/java, though JAVA_HOME says so
+  dolphin: TLC needs Java, 11 or later, and /nowhere/bin/java, named by JAVA_HOME, does not exist
   [3]
   $ HOME=/nowhere DOLPHIN_TLC= dolphin tla round.dol --run 2>&1 | cut -c 1-60
   dolphin: TLC was not found. Name its archive (tla2tools.jar,

@@ -305,7 +305,7 @@ let no_escape folder port =
        let typed = Printf.sprintf {|{"path": "names.dol", "text": "include '%s'\nx = map '%s'\n"}|} name name in
        Client.ask ~body:typed ~port "/api/check" >|= fun r ->
        status name 200 r.status;
-       holds (name ^ ": " ^ r.body) true (has_text "there is no such file" r.body && not (has_text "secret" r.body)))
+       holds (name ^ ": " ^ r.body) true (has_text "no such file" r.body && not (has_text "secret" r.body)))
     [ ".env"; "_env.dol"; "notes.txt"; ".x.dol"; "hard.dol"; "pipe.dol"; "none.dol" ]
   >>= fun () ->
   Lwt_list.iter_s

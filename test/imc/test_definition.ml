@@ -80,7 +80,7 @@ let faults () =
   in
   fails "message x A" "line 1: x is not a number";
   fails "message 1 A\n  x u9" "line 2: u9 is not a type that can stand here";
-  fails "message 1 A\n   x u8" "line 2: indented by 3 blanks, where 2 are the most";
+  fails "message 1 A\n   x u8" "line 2: indented by 3 blanks instead of at most 2";
   fails "\nmessage 1 A\n  x u8 enum E" "line 3: no set of values is named E";
   fails "message 1 A\n  x text\n    1 ONE" "line 2: nothing can be indented under this line";
   fails "thing" "line 1: expected enum NAME, bits NAME, group NAME, or message ID NAME";

@@ -112,7 +112,7 @@ assert "left out, since only vehicles know their way: by, name" in told[1], told
 # What cannot be written.
 for arguments, words in [
     (("trace", "export", run), "give --to FORMAT or -o FILE; the formats are csv, geojson, kml, gpx, mcap"),
-    (("trace", "export", run, "-o", folder / "run.txt"), "ends in none of the formats csv, geojson, kml, gpx, mcap"),
+    (("trace", "export", run, "-o", folder / "run.txt"), "has no extension of a known format, csv, geojson, kml, gpx, mcap"),
     (("trace", "export", run, "--to", "bag"), "'bag' is not one of the formats csv, geojson, kml, gpx, mcap"),
     (("plan", "export", here / "survey.dol", "nothing", "--to", "csv"), "no vehicle is given a plan 'nothing'"),
     (("plan", "export", here / "survey.dol", "by, name", "--to", "csv"), "nothing here has a place on a map"),

@@ -192,7 +192,7 @@ A plan as vehicles get it.
   <         "pitch": 0.2617993877991494,
   >         "pitch": 0.2617993950843811,
   $ dolphin plan plan.dol survey
-  dolphin: 'survey' is a plan that vehicles know by name: the program does not describe it
+  dolphin: 'survey' is a plan known to vehicles by name: the program does not describe it
   [1]
   $ dolphin plan plan.dol nothing
   dolphin: no vehicle is given a plan 'nothing'; inline plans are P

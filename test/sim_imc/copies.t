@@ -27,6 +27,7 @@ PORT + 4, and prints which plans it started, and how often.
   >   await . vehicles.txt
   >   "$@"
   >   kill $vehicles; wait $vehicles || true
+  >   for run in *.run; do dolphin trace check ../mission.dol $run > verdict.txt 2>&1 || cat verdict.txt; done
   >   grep '"did":"started"' log.jsonl | grep -o '"plan":"[^"]*"' | sort | uniq -c | sed 's/^ *//'
   > }
   $ begin() {

@@ -55,7 +55,7 @@ let refused ?world source line part () =
 let refusals =
   [ case "locations that the program computes" (refused "x = 41\np = location x, -8" 2 "coordinates are not constants");
     case "plans that it computes"
-      (refused "n = 5\np = imcPlan { planName 'p'; locate Location.APDL\n loiter radius:n }" 3 "depends on what the program computes");
+      (refused "n = 5\np = imcPlan { planName 'p'; locate Location.APDL\n loiter radius:n }" 3 "depends on computed values");
     case "code in plans" (refused "p = imcPlan {\nif (1) { speed 2 }\nlocate Location.APDL; goTo() }" 2 "code among its settings");
     case "large numbers" (refused "message 'a'\nmessage 10000000000" 2 "beyond TLC's whole numbers");
     case "trigonometry" (refused "x = 2\ny = Math.sin(x)" 2 "Math.sin");

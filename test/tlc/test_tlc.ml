@@ -243,12 +243,12 @@ let installation () =
     (find [ home; path; ("DOLPHIN_TLC", in_root "other.jar") ]);
   check "by the option" (in_root "bin/java" ^ " " ^ in_root "other.jar")
     (find ~jar:(in_root "other.jar") [ path; ("DOLPHIN_TLC", "/none.jar") ]);
-  check "a jar that is not there" "/none.jar: there is no such file, which DOLPHIN_TLC names as the archive of TLC"
+  check "a jar that is not there" "/none.jar: no such file, named by DOLPHIN_TLC as the archive of TLC"
     (find [ home; path; ("DOLPHIN_TLC", "/none.jar") ]);
   check "no Java" "TLC needs Java, 11 or later, and the PATH has no program 'java'"
     (find [ home; ("PATH", "/nowhere") ]);
   check "no Java where it is said to be"
-    "TLC needs Java, 11 or later, and there is no /nowhere/bin/java, though JAVA_HOME says so"
+    "TLC needs Java, 11 or later, and /nowhere/bin/java, named by JAVA_HOME, does not exist"
     (find [ home; path; ("JAVA_HOME", "/nowhere") ])
 
 let () =

@@ -371,7 +371,14 @@ let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _
     | Ended _ -> ()
     | Script _ | Waiting _ | Executing _ ->
       let transitions = List.map (fun ((choice : Environment.choice), _) -> choice.transition) timed in
-      if (not changes_later) && (not is_dated)
+      (* A failure of which nothing is heard, and one more than may come since another one was heard of: that is not a
+         run. *)
+      let is_too_many (v, errand) =
+        let fails (choice : Environment.choice) =
+          match choice.on with Some (Vehicle_failed (w, _)) -> String.equal v w | _ -> false in
+        errand = Ended_badly && not (List.exists fails choices)
+      in
+      if (not changes_later) && (not (List.exists is_too_many s.errands)) && (not is_dated)
          && Environment.only_recruits o.environment s.e transitions
          && not (Environment.owes o.environment o.program s.e)
       then never_over := true

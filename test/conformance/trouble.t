@@ -160,6 +160,8 @@ Both commands have a manual.
          2   a case cannot be read, or the implementation does not speak the
              step protocol.
   
+         3   the platform or the output failed, not the program.
+  
          125 a fault of dolphin itself. Please report it.
   
          130 the run was interrupted by Ctrl-C, by a request to terminate, or

@@ -166,6 +166,13 @@ It is known when the run will be over, in times since its start: what is under w
   "inTime":"violated"
   "from":{"journal":"./later.run","time":450.0,"transitions":4}
 
+The last line may be an event whose transition was not written: it has happened, at its time.
+
+  $ upto '"event":"done"' done; tail -n 1 done.run | cut -c 1-40; dolphin time pair.dol --from ./done.run | head -n 2
+  {"kind":"event","time":565.4453094291505
+  from 9:25 of ./done.run, after 4 transitions
+  completed: 16:25.445 at the earliest, 16:25.445 at the latest
+
 A task that should be over already may take any time.
 
   $ sed 's/6.min, 10.min/6.min, 7.min/' pair.fleet > short.fleet

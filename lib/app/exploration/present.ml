@@ -10,6 +10,7 @@ type t = {
   path : string;
   past : Resumption.t;
   configuration : Configuration.t;
+  time : float;
   happened : (Configuration.t * Transition.event) list;  (* each with the configuration that it came in *)
   lines : (float * line) list;
 }
@@ -17,17 +18,23 @@ type t = {
 (* An event whose transition was not written has happened too. *)
 let finish path (past : Resumption.t) program ~happened ~lines =
   let c = Replay.configuration past.replay and world = Replay.world past.replay in
+  (* It is the last of the history. *)
+  let time =
+    match past.pending, List.rev past.history with
+    | Some _, { History.time; _ } :: _ -> time
+    | Some _, [] | None, _ -> Replay.time past.replay
+  in
   let accepted event = Result.to_option (Transition.accept program world c event) in
   let configuration, happened, lines =
     match past.pending, Option.bind past.pending accepted with
     | Some event, Some (t : Transition.t) ->
-      (t.next, (c, event) :: happened, (Replay.time past.replay, Took (Some event, t)) :: lines)
+      (t.next, (c, event) :: happened, (time, Took (Some event, t)) :: lines)
     | None, _ | Some _, None -> (c, happened, lines)
   in
   match configuration.control with
   | Ended _ -> Error (Error.Bad_input (path ^ ": this run is over"))
   | Script _ | Waiting _ | Executing _ -> 
-    Ok { path; past; configuration; happened = List.rev happened; lines = List.rev lines }
+    Ok { path; past; configuration; time; happened = List.rev happened; lines = List.rev lines }
 
 let read (program : Program_file.t) path =
   let latest = ref (Configuration.initial program.program) and happened = ref [] and lines = ref [] in
@@ -94,7 +101,7 @@ let timed p (options : Dolphin_time.Timed.options) =
   let recorded = List.fold_left take (Recorded.start ~tolerance:0 options) p.lines in
   let environment, (_, outside) = start p options.environment options.program in
   let seen = List.map (fun (s : World.vehicle_state) -> (s.id, s.position)) (known p) in
-  let date = milliseconds (Replay.time p.past.replay) in
+  let date = milliseconds p.time in
   let options, state = Recorded.onwards recorded ~outside ~date ~seen in
   ({ options with environment }, { Timing.state; date })
 
@@ -119,13 +126,11 @@ let remarks p (program : Program_file.t) (fleet : Fleet_file.t) =
     (fun (s : World.vehicle_state) -> s.id ^ " is out of contact: its tasks may fail, and a pick may miss it")
     (out_of_contact p)
 
-let time p = Replay.time p.past.replay
-
 let pp ppf p =
-  Format.fprintf ppf "from %s of %s, after %s" (Phrase.time (time p)) p.path
+  Format.fprintf ppf "from %s of %s, after %s" (Phrase.time p.time) p.path
     (Phrase.count (Replay.transitions p.past.replay) "transition")
 
 let to_json p : Yojson.Safe.t =
   `Assoc
-    [ ("journal", `String p.path); ("time", `Float (time p));
+    [ ("journal", `String p.path); ("time", `Float p.time);
       ("transitions", `Int (Replay.transitions p.past.replay)) ]

@@ -46,14 +46,16 @@ let check program_path set path fleet most timed tolerance =
     match status with Done when timed -> check_times program_path set path fleet tolerance | status -> Ok status in
   Report.result
     (let* world = if timed then Ok Dolphin_semantics.World.empty else world_of fleet in
-     Fun.flip Result.bind times @@ Journal_file.with_reader path (fun reader ->
-         let* p = Program_file.load_recorded ~set ~recorded:(Journal_file.settings_of reader) program_path in
-         let hash = (Program_file.header p).hash in
-         let header, verdict = Verdict.check ~world ~most p.program ~hash reader in
-         Option.iter (tell_change program_path p) header;
-         let status = status path verdict in
-         if Result.is_ok status then Format.printf "@[<v 2>%s: %a@]@." path Verdict.pp verdict;
-         status))
+     let* p, header, verdict =
+       Journal_file.with_reader path (fun reader ->
+           let* p = Program_file.load_recorded ~set ~recorded:(Journal_file.settings_of reader) program_path in
+           let header, verdict = Verdict.check ~world ~most p.program ~hash:(Program_file.header p).hash reader in
+           Ok (p, header, verdict))
+     in
+     Option.iter (tell_change program_path p) header;
+     let* status = status path verdict in
+     Format.printf "@[<v 2>%s: %a@]@." path Verdict.pp verdict;
+     times status)
 
 let check_exits =
   [ Cmd.Exit.info 0 ~doc:"the journal belongs to a run of the program, or to the beginning of one.";

@@ -5,8 +5,7 @@ let ( let* ) = Result.bind
 
 let secret () =
   let channel = open_in_bin "/dev/urandom" in
-  let bytes = Fun.protect ~finally:(fun () -> close_in channel) (fun () -> really_input_string channel 16) in
-  String.concat "" (List.map (fun c -> Printf.sprintf "%02x" (Char.code c)) (List.of_seq (String.to_seq bytes)))
+  Digest.to_hex (Fun.protect ~finally:(fun () -> close_in channel) (fun () -> really_input_string channel 16))
 
 let anonymous () =
   [ { name = None; role = Steers; token = secret () }; { name = None; role = Watches; token = secret () } ]

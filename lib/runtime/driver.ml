@@ -209,8 +209,7 @@ module Make (P : Platform.S) = struct
   let lets_wait ~time s : Transition.event option -> bool = function
     | None | Some (Recruited _) -> false
     | Some (Input _ | Interruption) -> true
-    | Some (Vehicle_done _ | Vehicle_failed _ | Timer_expired _) ->
-      P.virtual_time && time > s.round_began
+    | Some (Vehicle_done _ | Vehicle_failed _ | Timer_expired _) -> P.virtual_time && time > s.round_began
     | Some (Confirmed _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _) ->
       (not P.virtual_time) || time > s.round_began
 

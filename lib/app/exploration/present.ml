@@ -11,12 +11,11 @@ type t = {
   past : Resumption.t;
   configuration : Configuration.t;
   time : float;
-  happened : (Configuration.t * Transition.event) list;  (* each with the configuration that it came in *)
   lines : (float * line) list;
 }
 
 (* An event whose transition was not written has happened too. *)
-let finish path (past : Resumption.t) program ~happened ~lines =
+let finish program { Resumed.path; past; _ } ~lines =
   let c = Replay.configuration past.replay and world = Replay.world past.replay in
   (* It is the last of the history. *)
   let time =
@@ -25,34 +24,26 @@ let finish path (past : Resumption.t) program ~happened ~lines =
     | Some _, [] | None, _ -> Replay.time past.replay
   in
   let accepted event = Result.to_option (Transition.accept program world c event) in
-  let configuration, happened, lines =
+  let configuration, lines =
     match past.pending, Option.bind past.pending accepted with
-    | Some event, Some (t : Transition.t) ->
-      (t.next, (c, event) :: happened, (time, Took (Some event, t)) :: lines)
-    | None, _ | Some _, None -> (c, happened, lines)
+    | Some event, Some (t : Transition.t) -> (t.next, (time, Took (Some event, t)) :: lines)
+    | None, _ | Some _, None -> (c, lines)
   in
   match configuration.control with
   | Ended _ -> Error (Error.Bad_input (path ^ ": this run is over"))
-  | Script _ | Waiting _ | Executing _ -> 
-    Ok { path; past; configuration; time; happened = List.rev happened; lines = List.rev lines }
+  | Script _ | Waiting _ | Executing _ -> Ok { path; past; configuration; time; lines = List.rev lines }
+
+let ( let* ) = Result.bind
 
 let read (program : Program_file.t) path =
-  let latest = ref (Configuration.initial program.program) and happened = ref [] and lines = ref [] in
+  let lines = ref [] in
   let add time line = lines := (time, line) :: !lines in
   let tell (entry : Entry.t) replay =
     (match entry with Vehicle { time; state } -> add time (Heard (state.id, state.connected)) | _ -> ());
-    (match Replay.latest replay with
-     | Some (cause, t) ->
-       Option.iter (fun event -> happened := (!latest, event) :: !happened) cause;
-       add (Replay.time replay) (Took (cause, t))
-     | None -> ());
-    latest := Replay.configuration replay
+    Option.iter (fun (cause, t) -> add (Replay.time replay) (Took (cause, t))) (Replay.latest replay)
   in
-  let { Header.hash; _ } = Program_file.header program in
-  Text_file.with_channel path (fun channel ->
-      match Resumption.read ~tell ~changed:true program.program ~hash (Journal.of_channel channel) with
-      | Ok past -> finish path past program.program ~happened:!happened ~lines:!lines
-      | Error trouble -> Error (Error.Bad_input (Format.asprintf "@[<v 2>%s: %a@]" path Resumption.pp_trouble trouble)))
+  let* resumed = Resumed.read ~changed:true ~tell program path in
+  finish program.program resumed ~lines:!lines
 
 let fleet p ~program ~named =
   match named, p.past.header.fleet with
@@ -60,8 +51,6 @@ let fleet p ~program ~named =
   | None, Some source -> Fleet_file.load (Some source.path)
   | None, None when p.past.header.platform = "sim" -> Fleet_file.load None
   | None, None -> Fleet_file.load_for ~program None
-
-let ( let* ) = Result.bind
 
 let load path ~set ~fleet:named ~journal =
   let* journal = Run_folder.journal journal in
@@ -78,8 +67,13 @@ let known p = World.vehicles (Replay.world p.past.replay)
 let out_of_contact p = List.filter (fun (s : World.vehicle_state) -> not s.connected) (known p)
 
 let start p options program =
-  let count e (c, event) = Environment.after options program c event e in
-  let counted = List.fold_left count Environment.initial p.happened in
+  let count (c, e) (_, line) =
+    match line with
+    | Heard _ -> (c, e)
+    | Took (cause, (t : Transition.t)) ->
+      (t.next, Option.fold cause ~none:e ~some:(fun event -> Environment.after options program c event e))
+  in
+  let _, counted = List.fold_left count (Configuration.initial program, Environment.initial) p.lines in
   let lost = List.map (fun (s : World.vehicle_state) -> s.id) (out_of_contact p) in
   let options, outside = Environment.without_contact lost (options, counted) in
   (options, (p.configuration, outside))

@@ -24,11 +24,7 @@ let with_channel path f =
     let channel = open_in_bin path in
     Fun.protect ~finally:(fun () -> close_in_noerr channel) (fun () -> f channel)
   in
-  match read () with
-  | result -> result
-  | exception Sys_error why -> (
-      (* Of a full disk it may be the standard output, to which [f] prints: then that fails again. *)
-      match flush stdout with () -> bad path why | exception Sys_error why -> raise (Sys_error why))
+  match read () with result -> result | exception Sys_error why -> bad path why
 
 let read path =
   if path = "" then Error (Error.Bad_input "the name of the file is empty")

@@ -19,8 +19,7 @@ val named : string -> string -> string
 
 val with_channel : string -> (in_channel -> ('a, Error.t) result) -> ('a, Error.t) result
 (** [with_channel path f] is [f] of the file [path], open for reading, in binary. A [Sys_error] of [f] is an error, as
-    not to be able to open the file is: {!Error.Bad_input}. One of the standard output, to which [f] may print, is
-    raised again. *)
+    not to be able to open the file is: {!Error.Bad_input}. *)
 
 val check : string -> (unit, Error.t) result
 (** [check path] fails with {!Error.Unavailable} if it is clear already that {!write} will. It writes nothing. *)

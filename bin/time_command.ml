@@ -107,10 +107,10 @@ let run { path; set; fleet; from; slack; fewest; json; trace; drawing } (setting
 
 let from =
   Options.from
-    "Ask when the run $(docv) will be over, from where its journal ends, in times since its start: what is under way \
-     has gone on since it began, and vehicles at rest stand where they were seen last. What should be over already \
-     may take any time. Vehicles neither join nor leave by the fleet any more, and batteries are left out. Not with \
-     $(b,--slack), $(b,--fewest), $(b,--trace) and $(b,--draw)."
+    "Ask when the run $(docv) will be over, from where its journal ends, in times since its start: tasks and timers \
+     have gone on since they began, and vehicles at rest stand where they were seen last. A task that should be over \
+     already may take any time. Vehicles neither join nor leave by the fleet any more, and batteries are left out. \
+     Not with $(b,--slack), $(b,--fewest), $(b,--trace) and $(b,--draw)."
 
 let fewest =
   let doc =

@@ -54,14 +54,14 @@ A vehicle that is out of contact then may stay away.
   dolphin: a is out of contact: its tasks may fail, and a pick may miss it
   dolphin: by the fleet these leave, or lose their links: a; here they stay, unless --faults has loss
 
-The program may have changed, if what happened is the beginning of a run of it. So a change is checked before the run is
+The program may have changed, if the run so far is the beginning of a run of it. So a change is checked before the run is
 resumed with it.
 
   $ sed "s/task('home').v.$/& >> action { assert({ side == 'port' }, 'the port side') }/" ride.dol > changed.dol; tail -n 2 changed.dol
       execute task('home')[v] >> action { assert({ side == 'port' }, 'the port side') }
   }
   $ dolphin explore changed.dol --from ./out.run 2>&1 | head -n 7
-  dolphin: changed.dol: this program is not the one that the run began with; what happened so far is the beginning of a run of this one, too
+  dolphin: changed.dol: this program is not the one that the run began with; the run so far is the beginning of a run of this one, too
   dolphin: by the fleet these leave, or lose their links: a; here they stay, unless --faults has loss
   from 0:00 of ./out.run, after 6 transitions
   no deadlock: holds
@@ -123,7 +123,7 @@ A run is named as for the other commands. A run that is over has nothing left; t
   dolphin: --trace, --draw and --cache are for runs from the beginning: leave them out with --from
   [2]
 
-It is known when the run will be over, in times since its start: what is under way has gone on since it began.
+It is known when the run will be over, in times since its start: tasks and timers have gone on since they began.
 
   $ cat > pair.dol << 'END'
   > v = pick { type 'UUV' }

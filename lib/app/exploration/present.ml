@@ -3,7 +3,7 @@ open Dolphin_environment
 open Dolphin_runtime
 open Dolphin_trace
 
-(* What bears on the time that things take. *)
+(* A line of the journal, as far as it bears on the rest of the run. *)
 type line = Took of Transition.event option * Transition.t | Heard of Core.vehicle * bool
 
 type t = {
@@ -113,8 +113,8 @@ let remarks p (program : Program_file.t) (fleet : Fleet_file.t) =
   in
   let if_so holds text = if holds then [ text ] else [] in
   if_so program_changed
-    (program.path ^ ": this program is not the one that the run began with; what happened so far is the beginning of \
-                     a run of this one, too")
+    (program.path ^ ": this program is not the one that the run began with; the run so far is the beginning of a run \
+                     of this one, too")
   @ if_so fleet_changed "the fleet is not the one that the run began with, or it has changed since"
   @ List.map
     (fun (s : World.vehicle_state) -> s.id ^ " is out of contact: its tasks may fail, and a pick may miss it")

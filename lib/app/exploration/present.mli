@@ -6,17 +6,14 @@ open Dolphin_environment
 
 type t
 
-val read : Program_file.t -> string -> (t, Error.t) result
-(** [read program path] is the state that the run with the journal [path] has reached. The program may have changed
-    since the run began, if what happened so far is the beginning of a run of [program] too. The error,
-    {!Error.Bad_input}, is the first line that no run of [program] has, or that the run is over. *)
-
 val load :
   string -> set:(string * string) list -> fleet:string option -> journal:string ->
   (t * Program_file.t * Fleet_file.t, Error.t) result
 (** [load path ~set ~fleet ~journal] is the present of the run [journal] ({!Run_folder.journal}) for the program in the
     file [path], that program, and the fleet. By default the program's parameters are set as those of the run were, and
-    the fleet is that of the run, or if it had none, {!Fleet_file.load_for} the program. *)
+    the fleet is that of the run, or if it had none, {!Fleet_file.load_for} the program. The program may have changed
+    since the run began, if the run so far is the beginning of one of its runs. The error, {!Error.Bad_input}, is the
+    first line of the journal that no run of the program has, or that the run is over. *)
 
 val start : t -> Environment.options -> Core.program -> Environment.options * (Configuration.t * Environment.t)
 (** [start p options program] is the state to explore from, and the options to explore it by: questions, calls and
@@ -26,8 +23,8 @@ val world : t -> Dolphin_scenario.Scenario.t -> World.t
 (** [world p s] is {!Scenario_world.seen} of [s] and the vehicles that the run knows. *)
 
 val timed : t -> Dolphin_time.Timed.options -> Dolphin_time.Timed.options * Dolphin_time.Timing.start
-(** [timed p options] is the same for {!Dolphin_time.Timing.run}: what is under way has gone on since it began, and
-    vehicles at rest stand where they were seen last. *)
+(** [timed p options] is the same for {!Dolphin_time.Timing.run}: tasks and timers have gone on since they began,
+    and vehicles at rest stand where they were seen last. *)
 
 val remarks : t -> Program_file.t -> Fleet_file.t -> string list
 (** Sentences on the differences from the run: a program or a fleet that has changed since, vehicles out of contact. *)

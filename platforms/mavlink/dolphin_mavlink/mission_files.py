@@ -201,6 +201,17 @@ def _check_home(number, item):
         )
 
 
+# Ground stations count the rows again when they read a file, and upload jumps as they are.
+def _check_rows_of_jumps(items, numbers):
+    for n, item in enumerate(items, 1):
+        target = item.params[0]
+        if item.command == JUMP and numbers.count(target) == 1 and numbers.index(target) + 1 != target:
+            raise Unreadable(
+                f"item {n} jumps to number {target:g}, and that row is number {numbers.index(target) + 1} if rows are "
+                "counted from the home position, 0: number the rows one after another"
+            )
+
+
 def _of_waypoints(text):
     """A `.waypoints`: a first line `QGC WPL 110`, then rows of twelve columns; a row 0 is the home position. A file
     that begins with another row, a take-off, has none."""
@@ -218,7 +229,8 @@ def _of_waypoints(text):
             values = [_column(c) for c in columns[4:11]]
         except ValueError:
             raise Unreadable(f"{what} has a column that is not a number") from None
-        if not items and number == 0 and command == WAYPOINT:
+        if not items and number == 0 and command in (0, WAYPOINT):  # Mission Planner may write 0
+            command = WAYPOINT
             values = [value or 0.0 for value in values]  # the home position is not flown
         items.append(_item(command, frame, values, columns[11] != "0", what))
         numbers.append(number)
@@ -226,6 +238,7 @@ def _of_waypoints(text):
         _check_home(numbers[0], items[0])
     if numbers and numbers[0] == 0:
         del items[0], numbers[0]
+    _check_rows_of_jumps(items, numbers)
     return _with_jumps(items, numbers)
 
 

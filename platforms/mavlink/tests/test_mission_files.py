@@ -97,7 +97,7 @@ class Damaged(unittest.TestCase):
                         if draw.random() < 0.2:
                             del inner[last]
                         else:
-                            inner[last] = draw.choice(STRANGE)
+                            inner[last] = copy.deepcopy(draw.choice(STRANGE))
                     except (KeyError, TypeError, IndexError):
                         continue
                 text = json.dumps(damaged)
@@ -162,6 +162,7 @@ class Written(unittest.TestCase):
             plain.replace("\t", "  \t"),
             plain.rstrip("\n"),
             plain + "\n \n\t\n",
+            plain.replace("0\t1\t0\t16\t", "0\t1\t0\t0\t"),  # a home position as Mission Planner may write it
             comments,
             "\ufeff" + comments.replace("\n", "\r\n"),
         ):
@@ -190,6 +191,29 @@ class Written(unittest.TestCase):
                 items[2:5] = [{"type": "ComplexItem", "complexItemType": "survey", "Items": items[2:5]}]
             found = mission_files.of_file("a.plan", json.dumps({"mission": {"items": items}}))
             self.assertEqual(found[int(found[-1].params[0]) - 1].place[0], 41 + target / 100)
+
+
+    def test_jumps_by_rows_lead_to_the_same_item_however_rows_are_counted(self):
+        """Rows that lack a number, as after one was deleted by hand: ground stations count them again. A jump over
+        the gap is refused, for it means one item or the next one; others lead where they led."""
+        for seed in seeds(20):
+            draw = random.Random(seed)
+            count = draw.randrange(4, 9)
+            numbers = list(range(1, count + 1))
+            gap = draw.choice((None, draw.randrange(count)))
+            if gap is not None:
+                numbers = [n + (n > gap) for n in numbers]
+            target = draw.randrange(count)
+            lines = [f"{n}\t0\t3\t16\t0\t0\t0\t0\t{41 + k / 100}\t-8\t30\t1" for k, n in enumerate(numbers)]
+            lines.append(f"{numbers[-1] + 1}\t0\t3\t177\t{numbers[target]}\t2\t0\t0\t0\t0\t0\t1")
+            text = rows([ROWS[0], *lines])
+            with self.subTest(seed=seed, text=text):
+                if numbers[target] == target + 1:
+                    found = mission_files.of_file("a.waypoints", text)
+                    self.assertEqual(found[-1].params[:2], (target + 1.0, 2.0))
+                else:
+                    with self.assertRaisesRegex(Unreadable, f"jumps to number {target + 2}, and that row is number"):
+                        mission_files.of_file("a.waypoints", text)
 
 
 class Refused(unittest.TestCase):

@@ -34,11 +34,11 @@ let print_named definition name found outcome : Exit_status.t =
 
 let print_all fences found outcome : Exit_status.t =
   tell_end outcome;
-  let told (b : Dolphin_semantics.Fences.breach) = "\n  " ^ b.message in
+  let told (b : Dolphin_plans.Fences.breach) = "\n  " ^ b.message in
   let line (f : Inline_plans.found) =
     match f.plan with
     | Some plan ->
-      Format.asprintf "%a%s" Dolphin_semantics.Inline_plan.pp plan
+      Format.asprintf "%a%s" Dolphin_plans.Inline_plan.pp plan
         (Option.fold ~none:"" ~some:told (Inline_plans.broken fences f))
     | None -> f.name ^ " (by name)"
   in

@@ -1,3 +1,4 @@
+open Dolphin_plans
 open Dolphin_semantics
 module Wgs84 = Dolphin_geo.Wgs84
 

@@ -1,5 +1,6 @@
 (** The plans that a program gives to vehicles, inline ones and those that vehicles know by name. *)
 
+open Dolphin_plans
 open Dolphin_semantics
 
 type found = {

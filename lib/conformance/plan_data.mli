@@ -1,10 +1,10 @@
 (** Inline plans, written down whole. *)
 
-val of_inline : Dolphin_semantics.Inline_plan.t -> Data.json
+val of_inline : Dolphin_plans.Inline_plan.t -> Data.json
 (** Of a plan of maneuvers: its name, its description, and its maneuvers in order. Of a mission, in an object: its
     name, its vehicles and its items in order. *)
 
-val inline : Data.json -> Dolphin_semantics.Inline_plan.t
+val inline : Data.json -> Dolphin_plans.Inline_plan.t
 (** @raise Data.Wrong if it is not one. *)
 
 val position : Data.json -> Dolphin_geo.Position.t

@@ -1,3 +1,4 @@
+open Dolphin_plans
 open Dolphin_semantics
 module On_map = Dolphin_json.On_map
 

@@ -41,7 +41,7 @@ let get (w : Workspace.t) r =
   let* program = Workspace.program w path in
   let* fleet = Workspace.fleet w ~program:program.path (Request.parameter r "fleet") in
   let fleet_path = Option.bind fleet.path (Folder.inside w.folder) in
-  let fences = Dolphin_semantics.Fences.list program.program.fences @ fleet.scenario.fences in
+  let fences = Dolphin_plans.Fences.list program.program.fences @ fleet.scenario.fences in
   Ok
     (`Assoc
        [ ("inputs", texts program.program.inputs);

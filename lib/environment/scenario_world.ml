@@ -1,3 +1,4 @@
+open Dolphin_plans
 open Dolphin_semantics
 module Scenario = Dolphin_scenario.Scenario
 

@@ -1,4 +1,4 @@
-open Dolphin_semantics
+open Dolphin_plans
 open Dolphin_geo
 open Field
 

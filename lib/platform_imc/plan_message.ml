@@ -1,4 +1,4 @@
-open Dolphin_semantics
+open Dolphin_plans
 open Dolphin_imc
 open Dolphin_geo.Angle
 

@@ -1,9 +1,9 @@
-(** Inline plans as vehicles take them: {!Dolphin_semantics.Plan.t} as a PlanSpecification.
+(** Inline plans as vehicles take them: {!Dolphin_plans.Plan.t} as a PlanSpecification.
 
     Source: IMC, PlanSpecification, PlanManeuver, PlanTransition and the maneuvers; measured with DUNE 2026.01, which
     follows the first transition of a maneuver with any condition, and ends the plan after the last one. *)
 
-open Dolphin_semantics
+open Dolphin_plans
 open Dolphin_imc
 
 val of_plan : Plan.t -> Message.t Message.Plan_specification.t

@@ -25,7 +25,7 @@ val make :
 
     - A task that is only named has the duration of [plan]. If the plan has a place, the vehicle goes there, stays and
       comes back; if the plan has none, it goes round in a circle.
-    - An inline plan takes as long as the vehicle needs for {!Plan.path} at the speeds of the maneuvers, which are the
-      vehicle's own where a maneuver does not give metres per second.
+    - An inline plan takes as long as the vehicle needs for {!Dolphin_plans.Plan.path} at the speeds of the maneuvers,
+      which are the vehicle's own where a maneuver does not give metres per second.
     - A failure happens on the way, at any time. A vehicle that does not know the plan, or may not run it, refuses at
       once. *)

@@ -1,6 +1,7 @@
 (** The guard of a program's fences: the known state of vehicles, and the tasks that must not go on. Pure; {!Fenced}
     is the shell around it. *)
 
+open Dolphin_plans
 open Dolphin_semantics
 
 type t

@@ -74,7 +74,7 @@ type t = {
   replies : reply list;
   inputs : input list;
   samples : sample list;  (** of the fields of quantities *)
-  fences : Dolphin_semantics.Fences.fence list;  (** the fences of every program's vehicles *)
+  fences : Dolphin_plans.Fences.fence list;  (** the fences of every program's vehicles *)
   plans_at : Dolphin_geo.Position.t option;  (** the place of inline plans without one of their own or of their
                                                  program *)
 }

@@ -1,4 +1,5 @@
 open Dolphin_syntax
+open Dolphin_plans
 open Dolphin_semantics
 open Ast
 open Entry

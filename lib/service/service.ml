@@ -1,7 +1,7 @@
 open Dolphin_syntax
 module Elaborate = Dolphin_semantics.Elaborate
 module Fence_declarations = Dolphin_semantics.Fence_declarations
-module Fences = Dolphin_semantics.Fences
+module Fences = Dolphin_plans.Fences
 module Scenario = Dolphin_scenario.Scenario
 
 type span = Occurrences.span = { start : int; stop : int }

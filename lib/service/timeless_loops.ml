@@ -1,4 +1,5 @@
 open Dolphin_syntax.Ast
+open Dolphin_plans
 open Dolphin_semantics
 module Diagnostic = Dolphin_syntax.Diagnostic
 module Scenario = Dolphin_scenario.Scenario

@@ -1,4 +1,5 @@
 open Dolphin_platform_sim
+open Dolphin_plans
 open Dolphin_semantics
 
 type maneuver = { id : string; kind : int; ends : float }

@@ -1,5 +1,5 @@
 open Dolphin_imc
-open Dolphin_semantics
+open Dolphin_plans
 open Dolphin_geo.Angle
 
 type t = { plan : Plan.t; kinds : int list }

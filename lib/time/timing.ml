@@ -1,3 +1,4 @@
+open Dolphin_plans
 open Dolphin_semantics
 module Limits = Dolphin_checker.Limits
 module Scenario = Dolphin_scenario.Scenario

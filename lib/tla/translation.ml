@@ -1,3 +1,4 @@
+open Dolphin_plans
 open Dolphin_semantics
 open Core
 module Diagnostic = Dolphin_syntax.Diagnostic

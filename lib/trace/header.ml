@@ -11,7 +11,7 @@ type t = {
   speed : float option;
   started : string;
   run : string option;
-  fences : Dolphin_semantics.Fences.fence list;
+  fences : Dolphin_plans.Fences.fence list;
   place : Dolphin_geo.Position.t option;
 }
 

@@ -17,7 +17,7 @@ type t = {
   started : string;  (** by the clock of the console, in UTC: ["2026-03-01T12:00:00Z"] *)
   run : string option;
   (** of a run on vehicles of a network: its identity in the world, which copies of the journal share *)
-  fences : Dolphin_semantics.Fences.fence list;  (** that vehicles are kept to *)
+  fences : Dolphin_plans.Fences.fence list;  (** that vehicles are kept to *)
   place : Dolphin_geo.Position.t option;  (** the place of plans without one; of the program or its fleet *)
 }
 

@@ -1,3 +1,4 @@
+open Dolphin_plans
 open Dolphin_semantics
 
 (* A vehicle as it was last written, and its reports since. *)

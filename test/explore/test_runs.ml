@@ -4,6 +4,7 @@
    among those, with the same label and the same result. PROGRAMS in the environment is how many programs are tried
    of each kind, 300 by default. *)
 
+open Dolphin_plans
 open Dolphin_semantics
 open Dolphin_runtime
 open Dolphin_environment

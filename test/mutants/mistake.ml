@@ -731,13 +731,13 @@ let fences =
         {|to band empty w.box.high do|},
         {|to band empty w.box.low do|} );
     ]
-  @ in_file "lib/semantics/terms/plan_room.ml" ~noticed_by:"runtime/test_runtime"
+  @ in_file "lib/plans/plan_room.ml" ~noticed_by:"runtime/test_runtime"
     [
       ( "nobody looks at ways to plans",
         {|  | Some here -> parts_of_legs from (Inline_plan.path ~from:here ~speed:1. p)|},
         {|  | Some _ -> anywhere p|} );
     ]
-  @ in_file "lib/semantics/terms/fences.ml" ~noticed_by:"runtime/test_runtime"
+  @ in_file "lib/plans/fences.ml" ~noticed_by:"runtime/test_runtime"
     [
       ( "the least of the least distances holds",
         {|when metres > least -> Some fence|},
@@ -1112,7 +1112,7 @@ let missions =
       ("what an item lacks is not told", {|p.is_required && not|}, {|p.is_required && false && not|});
       ("jumps go anywhere", {|n > float_of_int count|}, {|n > 99. +. float_of_int count|});
     ]
-  @ in_file "lib/semantics/terms/mission_plan.ml" ~noticed_by:"plan/test_mission"
+  @ in_file "lib/plans/mission_plan.ml" ~noticed_by:"plan/test_mission"
     [
       ("photos need no camera", {|"captureUntilStop" ]|}, {|"captureUntilstop" ]|});
       ("arm counts in jumps", {|[ "arm"; "altitude" ]|}, {|[ "altitude" ]|});
@@ -1528,7 +1528,7 @@ let durations =
         {|((moving *. (1. +. tolerance)) +. staying)|},
         {|(moving +. staying)|} );
     ]
-  @ in_file "lib/semantics/terms/inline_plan.ml" ~noticed_by:"time/test_missions"
+  @ in_file "lib/plans/inline_plan.ml" ~noticed_by:"time/test_missions"
     [ ("stays take no time", {|staying = e.staying +. leg.dwell|}, {|staying = e.staying|}) ]
 
 let share =
@@ -1651,12 +1651,12 @@ let heights =
       ("divers fly", {|(Depth | Height) -> Some (Float.min 0.)|}, {|(Depth | Height) -> Some Fun.id|});
       ("planes dive", {|"UAV", Depth -> None|}, {|"UAV", Depth -> Some Fun.id|});
     ]
-  @ in_file "lib/semantics/terms/plan.ml" ~noticed_by:"plan/test_plan_path"
+  @ in_file "lib/plans/plan.ml" ~noticed_by:"plan/test_plan_path"
     [
       ("paths go up instead of down", {|0. -. (z +. down)|}, {|0. -. (z -. down)|});
       ("who pops up stays below", {|measured_from = Depth; stays_at = 0. }|}, {|measured_from = Depth }|});
     ]
-  @ in_file "lib/semantics/terms/mission_plan.ml" ~noticed_by:"plan/test_mission"
+  @ in_file "lib/plans/mission_plan.ml" ~noticed_by:"plan/test_mission"
     [ ("who lands stays in the air", {|[ "returnHomeAndLand"; "landingPoint" ]|}, {|[ "landingPoint" ]|}) ]
   @ in_file "lib/geo/polyline.ml" ~noticed_by:"geo/test_polyline"
     [

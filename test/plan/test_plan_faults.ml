@@ -187,9 +187,9 @@ let total =
     | Error fault -> fault.message <> "" && (fault.site = plan_site || fault.site < List.length settings)
     | Ok plan ->
       incr plans;
-      let ids = List.map (fun (m : Plan.maneuver) -> m.id) plan.maneuvers in
+      let ids = List.map (fun (m : Dolphin_plans.Plan.maneuver) -> m.id) plan.maneuvers in
       List.length (List.sort_uniq String.compare ids) = List.length ids
-      && List.length (Plan.path plan) = List.length ids
+      && List.length (Dolphin_plans.Plan.path plan) = List.length ids
   in
   let name = "random settings give a plan or a fault" in
   [ Test_support.Property.case ~count:20_000 name ~print random_settings holds;

@@ -1,4 +1,4 @@
-open Dolphin_semantics
+open Dolphin_plans
 module Position = Dolphin_geo.Position
 module Place = Dolphin_geo.Place
 module Wgs84 = Dolphin_geo.Wgs84

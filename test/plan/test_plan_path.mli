@@ -1,1 +1,1 @@
-(** Tests of the ways that plans take, in {!Dolphin_semantics.Plan}. No value of its own. *)
+(** Tests of the ways that plans take, in {!Dolphin_plans.Plan}. No value of its own. *)

@@ -1,4 +1,4 @@
-open Dolphin_semantics
+open Dolphin_plans
 module Wgs84 = Dolphin_geo.Wgs84
 
 let case name run = Alcotest.test_case name `Quick run

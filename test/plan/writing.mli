@@ -1,5 +1,6 @@
 (** Settings as tests write them, and the results of {!Dolphin_semantics.Plan_builder} for them. *)
 
+open Dolphin_plans
 open Dolphin_semantics
 open Core
 

@@ -31,7 +31,7 @@ let missions =
       in
       let s = List.fold_left hear (Station.create settings)
           [ (0., vehicle, announce "lauv-1" Uuv 6002); (0.5, vehicle, says Ready "q") ] in
-      let mission = { Dolphin_semantics.Mission_plan.name = "p"; vehicles = []; items = [] } in
+      let mission = { Dolphin_plans.Mission_plan.name = "p"; vehicles = []; items = [] } in
       let s, sent = Station.start ~now:1. "lauv-1" { name = "p"; plan = Some (Mission mission); task_site = 0 } s in
       let rec failures s =
         match Station.take s with

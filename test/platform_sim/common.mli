@@ -1,5 +1,6 @@
 (** Functions shared by the tests of {!Dolphin_platform_sim}. *)
 
+open Dolphin_plans
 open Dolphin_semantics
 
 val case : string -> (unit -> unit) -> unit Alcotest.test_case

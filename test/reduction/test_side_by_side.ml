@@ -2,6 +2,7 @@
    partial order, which plans there are, and that exchanges vehicles. PROGRAMS in the environment is how many programs
    are tried, 1,000 by default. *)
 
+open Dolphin_plans
 open Dolphin_semantics
 open Dolphin_environment
 open Dolphin_explore

@@ -59,7 +59,7 @@ let program ?(reads_sensors = false) ?(reads_now = false) ?(globals = 0) script 
     reads_sensors;
     reads_now;
     asks_running = false;
-    fences = Dolphin_semantics.Fences.none;
+    fences = Dolphin_plans.Fences.none;
     place = None }
 
 let on_interrupt t program =

@@ -1,4 +1,5 @@
 open Dolphin_geo
+open Dolphin_plans
 open Dolphin_semantics
 open Dolphin_runtime
 module Mock = Mock_platform

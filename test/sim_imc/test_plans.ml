@@ -206,7 +206,7 @@ let read () =
   let check name expected plan =
     let got =
       match Specification.read plan with
-      | Ok s -> Ok (List.map (fun (m : Dolphin_semantics.Plan.maneuver) -> m.id) s.plan.maneuvers)
+      | Ok s -> Ok (List.map (fun (m : Dolphin_plans.Plan.maneuver) -> m.id) s.plan.maneuvers)
       | Error why -> Error why
     in
     Alcotest.(check (result (list string) string)) name expected got

@@ -2,6 +2,7 @@
    and some run never ends in one if it does in the other; each run that is shown, with its dates, is one of the timed
    semantics. PROGRAMS in the environment is how many programs are tried, 600 by default. *)
 
+open Dolphin_plans
 open Dolphin_semantics
 open Dolphin_environment
 open Dolphin_time

@@ -1,3 +1,4 @@
+open Dolphin_plans
 open Dolphin_semantics
 open Dolphin_runtime
 open Dolphin_trace

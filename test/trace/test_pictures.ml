@@ -97,7 +97,7 @@ let header ~platform : Header.t =
 (* Areas are lines of the map, with their meaning below it; the pointer shows their declarations. *)
 let fences () =
   let area metres = Result.get_ok (Dolphin_geo.Area.circle { latitude = 41.; longitude = -8.; height = 0. } metres) in
-  let fence rule text : Dolphin_semantics.Fences.fence =
+  let fence rule text : Dolphin_plans.Fences.fence =
     { rule; margin = 0.; text; at = Dolphin_syntax.Location.none } in
   let picture fences =
     let builder = Summary.create () in

@@ -1,3 +1,4 @@
+open Dolphin_plans
 open Dolphin_syntax
 open Dolphin_charts
 
@@ -10,7 +11,7 @@ type t = {
   program : Dolphin_semantics.Core.program;
   warnings : Diagnostic.t list;
   without_place : Diagnostic.t list Lazy.t;
-  plans : place:Dolphin_geo.Position.t option -> (Ast.expression * Dolphin_semantics.Inline_plan.t) list;
+  plans : place:Dolphin_geo.Position.t option -> (Ast.expression * Dolphin_plans.Inline_plan.t) list;
 }
 
 let ( let* ) = Result.bind

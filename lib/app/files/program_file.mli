@@ -13,7 +13,7 @@ type t = {
   warnings : Diagnostic.t list;
   without_place : Diagnostic.t list Lazy.t;
   (** {!Dolphin_semantics.Elaborate.plans_without_place}: wrong unless program or fleet have a place *)
-  plans : place:Dolphin_geo.Position.t option -> (Ast.expression * Dolphin_semantics.Inline_plan.t) list;
+  plans : place:Dolphin_geo.Position.t option -> (Ast.expression * Dolphin_plans.Inline_plan.t) list;
   (** {!Dolphin_semantics.Elaborate.known_plans} *)
 }
 

@@ -1,3 +1,4 @@
+open Dolphin_plans
 open Dolphin_semantics
 open Dolphin_trace
 module Scenario_world = Dolphin_environment.Scenario_world

@@ -1,5 +1,5 @@
 open Dolphin_geo
-open Dolphin_semantics
+open Dolphin_plans
 open Dolphin_trace
 module Feature = Dolphin_maps.Feature
 module Map_text = Dolphin_maps.Map_text

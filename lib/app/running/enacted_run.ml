@@ -21,7 +21,7 @@ let steps (program : Core.program) (witness : Witness.t) transitions =
 let header (program : Program_file.t) fleet ~speed : Header.t =
   { program = Program_file.header program; fleet = Fleet_file.header fleet; platform = "sim";
     order = Simulator.Virtual.order; seed = 0; speed; started = Recording.utc_now (); run = None;
-    fences = Dolphin_semantics.Fences.list program.program.fences;
+    fences = Dolphin_plans.Fences.list program.program.fences;
     place = program.program.place }
 
 let enact (front : Run.front) recording ~interruption ~speed (program : Program_file.t) (fleet : Fleet_file.t) steps =

@@ -1,3 +1,4 @@
+open Dolphin_plans
 open Dolphin_semantics
 open Dolphin_runtime
 open Dolphin_trace
@@ -135,7 +136,7 @@ let header r (fleet : Fleet_file.t) : Header.t =
     speed = r.settings.speed;
     run = r.run;
     started = Recording.utc_now ();
-    fences = Dolphin_semantics.Fences.list r.program.program.fences;
+    fences = Dolphin_plans.Fences.list r.program.program.fences;
     place = r.program.program.place }
 
 (* {1 Platforms} *)

@@ -1,3 +1,4 @@
+open Dolphin_plans
 open Dolphin_semantics
 
 type nearness = Near of Fences.near | Unknown

@@ -1,8 +1,9 @@
 (** Plans that run at the same time, on different vehicles, and the known distance between their ways
-    ({!Dolphin_semantics.Fences.near}). Ways to plans are left aside: they begin wherever vehicles are.
+    ({!Dolphin_plans.Fences.near}). Ways to plans are left aside: they begin wherever vehicles are.
 
     docs/explorer.md describes how they are found. *)
 
+open Dolphin_plans
 open Dolphin_semantics
 
 (** How near two plans come. *)

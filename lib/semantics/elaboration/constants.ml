@@ -1,3 +1,4 @@
+open Dolphin_plans
 open Core
 module Ast = Dolphin_syntax.Ast
 module Diagnostic = Dolphin_syntax.Diagnostic

@@ -1,3 +1,4 @@
+open Dolphin_plans
 module Ast = Dolphin_syntax.Ast
 module Location = Dolphin_syntax.Location
 module Diagnostic = Dolphin_syntax.Diagnostic

@@ -35,7 +35,7 @@ val plans_without_place :
 
 val known_plans :
   chart:(string -> (Chart.t, string) result) -> place:Dolphin_geo.Position.t option -> Dolphin_syntax.Ast.program ->
-  (Dolphin_syntax.Ast.expression * Inline_plan.t) list
+  (Dolphin_syntax.Ast.expression * Dolphin_plans.Inline_plan.t) list
 (** [known_plans ~chart ~place ast] is the plans that are known before the program runs, where [place] is that of plans
     which have none: {!Fence_declarations.plans}. *)
 

@@ -1,3 +1,4 @@
+open Dolphin_plans
 open Dolphin_results
 open Core
 open Plan_values

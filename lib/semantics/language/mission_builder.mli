@@ -14,6 +14,6 @@ val literal_fault : string -> (string option * value option) list -> string opti
 (** [literal_fault name arguments] is the fault of the setting [name] of [arguments], each with its name if it has
     one, for any values of those that are [None]: their number, their names, and the known values. *)
 
-val build : name:string -> site -> setting list -> (Mission_plan.t, Fault.t) result
+val build : name:string -> site -> setting list -> (Dolphin_plans.Mission_plan.t, Fault.t) result
 (** [build ~name site settings] is the mission that [settings] (first one first) describe, called [name] unless it
     has a name. A fault names the value that is unknown, of the wrong kind or out of range, and its place. *)

@@ -31,7 +31,12 @@ val hint_for_place : string
 val located : setting -> (Dolphin_geo.Position.t, Fault.t) result
 (** The position after [locate]: of the settings of a plan, and of a program. *)
 
-val build : name:string -> place:Dolphin_geo.Position.t option -> site -> setting list -> (Plan.t, Fault.t) result
+val build :
+  name:string ->
+  place:Dolphin_geo.Position.t option ->
+  site ->
+  setting list ->
+  (Dolphin_plans.Plan.t, Fault.t) result
 (** [build ~name ~place site settings] is the plan that [settings] (first one first) describe, called [name] unless
     [planName] gives another; it begins at [place] unless [settings] give a place. A fault names the value
     that is unknown, of the wrong kind or out of range, and its place: the setting, or [site] without any maneuver. *)

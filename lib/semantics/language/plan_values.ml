@@ -1,3 +1,4 @@
+open Dolphin_plans
 open Dolphin_results
 open Core
 module Position = Dolphin_geo.Position

@@ -67,16 +67,17 @@ val units : string list
 (** The units of speeds and of z, by their full names, as in ["Speed.Units.METERS_PS"]. Read are also the last of the
     names, and strings in any case. *)
 
-val speed : Plan.speed_unit -> setting -> value list -> (float * Plan.speed_unit, Fault.t) result
+val speed :
+  Dolphin_plans.Plan.speed_unit -> setting -> value list -> (float * Dolphin_plans.Plan.speed_unit, Fault.t) result
 (** [speed default s xs] is the speed that [xs] are: a number and a unit, spread out or as one list. Without a unit, it
     has [default]. *)
 
-val z : Plan.z_unit -> setting -> value list -> (float * Plan.z_unit, Fault.t) result
+val z : Dolphin_plans.Plan.z_unit -> setting -> value list -> (float * Dolphin_plans.Plan.z_unit, Fault.t) result
 (** [z default s xs] is the z that [xs] are, as in {!speed}. *)
 
 (** {1:payload Payload} *)
 
-val devices : Plan.payload list reader
+val devices : Dolphin_plans.Plan.payload list reader
 (** Devices, as strings or as maps with a [name]; one alone, or a list. Names of devices and parameters are
     capitalised as DUNE has them, and a device is active by default. *)
 

@@ -1,3 +1,4 @@
+open Dolphin_plans
 open Core
 module Wgs84 = Dolphin_geo.Wgs84
 

@@ -1,6 +1,6 @@
 (** How far vehicles go, how long that takes and how much of their batteries: [plan.length], [plan.duration(v)],
-    [plan.energy(v)], [eta(v, p)]. The way is the one that the simulator flies ({!Inline_plan.path}), at the speed of
-    the plan or the vehicle; without one, the answer is {!Core.Unknown}. *)
+    [plan.energy(v)], [eta(v, p)]. The way is the one that the simulator flies ({!Dolphin_plans.Inline_plan.path}), at
+    the speed of the plan or the vehicle; without one, the answer is {!Core.Unknown}. *)
 
 open Core
 

@@ -1,3 +1,4 @@
+open Dolphin_plans
 open Dolphin_results
 open Core
 module Assignment = Dolphin_assignment.Assignment

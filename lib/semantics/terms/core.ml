@@ -89,7 +89,7 @@ and duration = Seconds of float | Given_by of closure
 
 and platform_task = {
   name : string;                                (* the plan's identifier *)
-  plan : Inline_plan.t option;                  (* [None]: the vehicle knows the plan by name *)
+  plan : Dolphin_plans.Inline_plan.t option;    (* [None]: the vehicle knows the plan by name *)
   task_site : site;
 }
 
@@ -208,6 +208,6 @@ type program = {
   reads_sensors : bool;                         (* some code may read sensors, places included *)
   reads_now : bool;                             (* some code may read the date *)
   asks_running : bool;                          (* some code may ask which vehicles run a task *)
-  fences : Fences.t;                            (* the limits that platforms enforce on vehicles: no rule asks *)
+  fences : Dolphin_plans.Fences.t;              (* the limits that platforms enforce on vehicles: no rule asks *)
   place : Dolphin_geo.Position.t option;        (* of inline plans without a [locate] *)
 }

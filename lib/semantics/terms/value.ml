@@ -1,3 +1,4 @@
+open Dolphin_plans
 open Core
 module Position = Dolphin_geo.Position
 module Area = Dolphin_geo.Area

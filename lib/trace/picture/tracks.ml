@@ -192,7 +192,7 @@ let names m vehicles ~x ~width ~y ~height =
 
 let fences summary = match summary.header with Some (h : Header.t) -> h.fences | None -> []
 
-let rims (fence : Dolphin_semantics.Fences.fence) =
+let rims (fence : Dolphin_plans.Fences.fence) =
   match fence.rule with
   | Inside (Circle _ as area) | Outside (Circle _ as area) -> [ Area.corners area ]
   | Inside (Shape shape) | Outside (Shape shape) -> Area.rings shape
@@ -220,7 +220,7 @@ let draw_below m summary ~x ~y ~width ~height =
     let point (x, y) = Svg.number x ^ "," ^ Svg.number y in
     "M" ^ String.concat " L" (List.map point (thin (List.map (project m) rim))) ^ " Z"
   in
-  let shape (fence : Dolphin_semantics.Fences.fence) =
+  let shape (fence : Dolphin_plans.Fences.fence) =
     match fence.rule, rims fence with
     | (Depth _ | Height _ | Distance _), _ | _, [] -> []
     | rule, rims ->
@@ -273,10 +273,10 @@ let meanings summary =
 
 (* Fences that are areas have a line each way; the others are nowhere on the map. *)
 let meanings_of_fences summary =
-  let has is_it = List.exists (fun (f : Dolphin_semantics.Fences.fence) -> is_it f.rule) (fences summary) in
-  let inside : Dolphin_semantics.Fences.rule -> bool = function
+  let has is_it = List.exists (fun (f : Dolphin_plans.Fences.fence) -> is_it f.rule) (fences summary) in
+  let inside : Dolphin_plans.Fences.rule -> bool = function
     | Inside _ -> true | Outside _ | Depth _ | Height _ | Distance _ -> false in
-  let outside : Dolphin_semantics.Fences.rule -> bool = function
+  let outside : Dolphin_plans.Fences.rule -> bool = function
     | Outside _ -> true | Inside _ | Depth _ | Height _ | Distance _ -> false in
   (if has inside then [ ("fence", "fence: stay inside") ] else [])
   @ if has outside then [ ("fence no-go", "fence: stay outside") ] else []

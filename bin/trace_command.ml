@@ -121,7 +121,7 @@ let worth_showing () =
       Hashtbl.replace silent state.id (not state.connected);
       was_silent = state.connected
     | Note _ -> false
-    | Header _ | Partial _ | Label _ | Event _ | Transition _ | Resumed _ | End _ -> true
+    | Header _ | Partial _ | Label _ | Event _ | Transition _ | Act _ | Resumed _ | End _ -> true
 
 let show transitions path =
   let read () =

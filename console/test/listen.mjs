@@ -82,7 +82,7 @@ export default async function listen({ dolphin, home, folder, environment, brows
     same(await rui.locator("#run").isDisabled() && await rui.locator("#stop").isDisabled(), true, "disabled");
     await rui.fill("#answer", "2");
     await rui.click("#give");
-    await ana.waitForSelector("#log pre >> text=/rui-.* answers, without the helm/");
+    await ana.waitForSelector("#log pre >> text=/rui \\(answer\\) answers .*: 2/");
     await ana.click("#stop");
     await rui.waitForSelector(".outcome.interrupted");
     manned.kill("SIGINT");

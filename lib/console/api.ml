@@ -27,7 +27,7 @@ let force h client =
   let before = Helm.holder (Hall.helm h) in
   let* () = take h client Helm.force in
   match Hall.run h, before with
-  | Some run, Some other when other <> client && Live_run.goes_on run ->
+  | Some run, Some other when other <> client && Live_run.goes_on run && Hall.operator h client = None ->
     Ok (Live_run.remark run (Printf.sprintf "%s takes the helm from %s" client other))
   | (Some _ | None), _ -> Ok ()
 

@@ -72,6 +72,12 @@ let analysis h subject = Option.map (fun a -> a.analysis) (List.assoc_opt subjec
 let analyses h = List.map (fun (_, a) -> a.analysis) h.analyses
 let helm h = h.helm
 let name h = Visitors.name h.visitors
+let operator h client : Live_run.operator option =
+  let owner = Visitors.owner client in
+  let is_owner (o : Operators.operator) = o.name = Some owner in
+  let named (o : Operators.operator) : Live_run.operator = { name = owner; role = Operators.role_word o.role } in
+  Option.map named (List.find_opt is_owner h.access.operators)
+
 let streams_of h client = List.length (List.filter (fun (other, _) -> other = client) h.watching)
 let watchers h role = List.length (List.filter (fun (_, of_client) -> of_client = role) h.watching)
 
@@ -111,9 +117,21 @@ let set_analysis h subject started =
   h.analyses <- (subject, { number = h.begun; analysis = started }) :: List.remove_assoc subject h.analyses;
   changed h
 
+(* The journal of a run has each change of the helm. *)
+let keep_change h ~before ~now =
+  let keep run deed client = Live_run.acted run (operator h client) deed in
+  let name client = Option.map (fun (o : Live_run.operator) -> o.name) (operator h client) in
+  match h.run, before, now with
+  | Some run, Some client, None -> keep run Leave_helm client
+  | Some run, before, Some client when before <> Some client ->
+    keep run (Take_helm (Option.bind before name)) client
+  | (Some _ | None), _, _ -> ()
+
 let set_helm h helm =
   if not (Helm.equal helm h.helm) then begin
+    let before = Helm.holder h.helm in
     h.helm <- helm;
+    keep_change h ~before ~now:(Helm.holder helm);
     changed h
   end
 

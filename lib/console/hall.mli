@@ -67,6 +67,9 @@ val close : t -> unit
 
 (** {1 The helm} *)
 
+val operator : t -> string -> Live_run.operator option
+(** [operator h client] is the operator whose client has this name, if operators have names. *)
+
 val name : t -> ?operator:string -> Access.role -> string -> string
 (** {!Visitors.name}: clients are known by it here. *)
 

@@ -12,6 +12,7 @@ type question = {
   give : (string, string) result Lwt.u;
 }
 
+type operator = { name : string; role : string }
 type state = Running | Stopping | Over of (Driver.outcome, Error.t) result
 
 type t = {
@@ -34,6 +35,7 @@ type t = {
   mutable refused : string option;
   mutable state : state;
   mutable stale : bool;  (* the message [waiting] is due *)
+  mutable early : Dolphin_trace.Act.t list;  (* of operators, before the journal began; latest first *)
 }
 
 let id r = r.id
@@ -80,6 +82,25 @@ let remark r text =
   Narrator.remark r.narrator ~time:(now r) text;
   r.changed ()
 
+(* {1 Operators} *)
+
+let keep r act = match r.view.acted act with Ok () -> () | Error why -> remark r why
+
+(* Whatever becomes of the journal, the deed is done: Stop must not fail. *)
+let acted r by deed =
+  let one { name; role } =
+    let act = { Dolphin_trace.Act.operator = name; role; deed } in
+    if Lwt.is_sleeping r.opened then r.early <- act :: r.early else keep r act;
+    remark r (Dolphin_trace.Act.words act)
+  in
+  if goes_on r then Option.iter one by
+
+let begun r view =
+  r.view <- view;
+  List.iter (keep r) (List.rev r.early);
+  r.early <- [];
+  Lwt.wakeup_later r.open_ ()
+
 (* {1 The person} *)
 
 let asked r prompt =
@@ -107,9 +128,11 @@ let person r : Questions.person =
          r.refused <- Some why;
          remark r ("cannot take this answer: " ^ why)) }
 
-let answer r number text =
+let answer ?by r number text =
   match r.question with
-  | Some q when q.number = number -> r.question <- None; Lwt.wakeup_later q.give (Ok text); Ok ()
+  | Some q when q.number = number ->
+    acted r by (Answer { question = q.prompt; text });
+    r.question <- None; Lwt.wakeup_later q.give (Ok text); Ok ()
   | Some _ | None -> Error "this question is not open any more"
 
 (* {1 The run} *)
@@ -120,7 +143,7 @@ let front r : Run.front =
          r.last <- Dolphin_trace.Entry.time entry;
          Narrator.replayed r.narrator entry replay);
     notice = remark r;
-    opened = (fun view -> r.view <- view; Lwt.wakeup_later r.open_ ());
+    opened = begun r;
     remark = remark r; observer = observer r; person = person r; wants_telemetry = true }
 
 let follower r entry = Narrator.entry r.narrator entry
@@ -141,12 +164,12 @@ let begin_ ~id ~changed ?journal ?enacts order go =
   let finished, finish = Lwt.wait () and opened, open_ = Lwt.wait () in
   let view : Run.view =
     { now = (fun () -> 0.); estimates = (fun () -> []); post = (fun _ _ -> Lwt.return_false);
-      questions = (fun () -> []) } in
+      questions = (fun () -> []); acted = (fun _ -> Ok ()) } in
   let r =
     { id; order; journal; enacts; feed;
       narrator = Narrator.make order.program (fun ~event data -> Feed.add feed ~event data);
       interruption = Interruption.make (); changed; finished; finish; opened; open_; view; last = 0.; question = None;
-      questions = 0; refused = None; state = Running; stale = false }
+      questions = 0; refused = None; state = Running; stale = false; early = [] }
   in
   let whole () =
     Lwt.catch
@@ -159,13 +182,17 @@ let begin_ ~id ~changed ?journal ?enacts order go =
   Lwt.async (fun () -> Lwt.pause () >>= whole);
   r
 
-let start ~id ~changed ~journal order =
-  begin_ ~id ~changed ~journal order (fun r front ~interruption ->
+let began by deed r =
+  acted r by deed;
+  r
+
+let start ?by ~id ~changed ~journal order =
+  began by Start @@ begin_ ~id ~changed ~journal order (fun r front ~interruption ->
       Run.start front ~interruption (settings r) order.program order.fleet)
 
-let resume ~id ~changed ~journal order =
+let resume ?by ~id ~changed ~journal order =
   let fleet = order.fleet.path in
-  begin_ ~id ~changed ~journal order (fun r front ~interruption ->
+  began by Resume @@ begin_ ~id ~changed ~journal order (fun r front ~interruption ->
       let settings = settings r in
       let settings = { settings with recording = { settings.recording with journal = None } } in
       Run.resume front ~interruption settings ~changed:false ~fleet order.program journal)
@@ -177,16 +204,17 @@ let enact ~id ~changed ~speed program fleet witness =
 
 type stopping = Next | Program | All
 
-let stop r stopping =
+let stop ?by r stopping =
   let was_stopping = r.state = Stopping in
   if goes_on r && not (was_stopping && stopping = Program) then begin
+    acted r by (Stop { all = was_stopping || stopping = All });
     r.state <- Stopping;
     Interruption.once_more r.interruption;
     if stopping = All && not was_stopping then Interruption.once_more r.interruption;
     r.changed ()
   end
 
-let post r pairs =
+let post ?by r pairs =
   let program = r.order.program.program in
   let why (key, x) =
     let declared = Typed_input.declared program ~questions:(r.view.questions ()) key in
@@ -196,6 +224,7 @@ let post r pairs =
   let rec each = function
     | [] -> Lwt.return (Ok (now r))
     | (key, x) :: rest -> (
+        acted r by (Post (Format.asprintf "%a" Dolphin_semantics.Value.pp_tuple (key, x)));
         r.view.post key x >>= function
         | true -> each rest
         | false when goes_on r -> Lwt.return (Error "this question is not open any more")

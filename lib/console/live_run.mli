@@ -7,11 +7,14 @@ type t
 (** The program, fleet and settings of a run. *)
 type order = { program : Program_file.t; fleet : Fleet_file.t; settings : Run.settings }
 
-val start : id:string -> changed:(unit -> unit) -> journal:string -> order -> t
+type operator = { name : string; role : string }
+(** An operator with a name. Where one is given below, the journal and the log have its deed before it takes effect. *)
+
+val start : ?by:operator -> id:string -> changed:(unit -> unit) -> journal:string -> order -> t
 (** [start ~id ~changed ~journal order] begins the run, which is kept in the file [journal]. [changed] is called
     whenever {!feed} or {!to_json} has changed. *)
 
-val resume : id:string -> changed:(unit -> unit) -> journal:string -> order -> t
+val resume : ?by:operator -> id:string -> changed:(unit -> unit) -> journal:string -> order -> t
 (** Resumes the run with the journal [journal], after its console died. *)
 
 val enact :
@@ -41,15 +44,18 @@ type stopping =
   | Program  (** the program alone: nothing if it is being stopped already *)
   | All  (** its task of [onInterrupt], too *)
 
-val stop : t -> stopping -> unit
+val stop : ?by:operator -> t -> stopping -> unit
 
 val remark : t -> string -> unit
 (** A line of its log. *)
 
-val answer : t -> int -> string -> (unit, string) result
+val acted : t -> operator option -> Dolphin_trace.Act.deed -> unit
+(** [acted r by deed] has the deed of the operator [by] in the journal and in the log, if it has a name. *)
+
+val answer : ?by:operator -> t -> int -> string -> (unit, string) result
 (** [answer r n text] answers the question with the number [n]. The error: another client has answered it. *)
 
-val post : t -> (string * Dolphin_semantics.Core.value) list -> (float, string) result Lwt.t
+val post : ?by:operator -> t -> (string * Dolphin_semantics.Core.value) list -> (float, string) result Lwt.t
 (** [post r pairs] posts them, one after the other. It resolves when the run has taken them, and the journal has them:
     to the time then. *)
 

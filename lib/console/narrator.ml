@@ -113,4 +113,5 @@ let replayed n (e : Entry.t) replay =
   | Transition { time; _ }, Some (_, t) ->
     transition n ~stuck:(Replay.was_stuck replay) ~time t;
     waiting n ~time
+  | Act { time; act }, _ -> remark n ~time (Act.words act)
   | (Header _ | Partial _ | Label _ | Event _ | Transition _ | Note _ | Resumed _ | End _), _ -> ()

@@ -10,6 +10,7 @@ let secret () =
 let anonymous () =
   [ { name = None; role = Steers; token = secret () }; { name = None; role = Watches; token = secret () } ]
 
+let role_word = function Watches -> "watch" | Answers -> "answer" | Steers -> "steer"
 let role_name = function Watches -> "watches" | Answers -> "answers" | Steers -> "steers"
 
 (* {1 The file} *)

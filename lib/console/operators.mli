@@ -26,5 +26,8 @@ val read : string -> (operator list, string) result
 val load : string -> (operator list, Dolphin_app.Error.t) result
 (** [load path] is {!read} of the file [path], which only its owner may read or write. *)
 
+val role_word : role -> string
+(** As files and journals have it: [watch], [answer], [steer]. *)
+
 val role_name : role -> string
 (** [watches], [answers], [steers]. *)

@@ -41,7 +41,7 @@ let options found =
   let* people = optional truth "people" found in
   Ok { speed; seed; answers = Option.value answers ~default:[]; people = people = Some true }
 
-let begin_ h found { speed; seed; answers; people } =
+let begin_ h ~client found { speed; seed; answers; people } =
   let* () = not_busy h in
   let* path = get Field.text "program" found in
   let* named = optional Field.text "fleet" found in
@@ -54,7 +54,8 @@ let begin_ h found { speed; seed; answers; people } =
   let* journal = Result.map_error unavailable (Run_folder.fresh ~program:program.path) in
   let settings = { settings with speed; seed; answers; people; socket = true } in
   let order = { Live_run.program; fleet; settings } in
-  Ok (started (Hall.begin_run h (fun ~id ~changed -> Live_run.start ~id ~changed ~journal order)))
+  let by = Hall.operator h client in
+  Ok (started (Hall.begin_run h (fun ~id ~changed -> Live_run.start ?by ~id ~changed ~journal order)))
 
 (* The program is read here, too, but only once a worker has read it within its limits, and while no run goes on. *)
 let start h ~client (r : Request.t) found =
@@ -71,7 +72,7 @@ let start h ~client (r : Request.t) found =
   | Ok options ->
     let query = if simulated then [] else [ ("network", "true") ] in
     prepared h Steers ~client "start" ~query r.body >|= fun checked ->
-    Result.bind checked (fun _ -> of_refused (begin_ h found options))
+    Result.bind checked (fun _ -> of_refused (begin_ h ~client found options))
 
 let resume h ~client (r : Request.t) found =
   let go_on kept =
@@ -82,7 +83,8 @@ let resume h ~client (r : Request.t) found =
     let fleet = { Fleet_file.nobody with path = None } in
     let settings = { (Hall.settings h).run with speed; seed = None; people = people = Some true; socket = true } in
     let order = { Live_run.program; fleet; settings } in
-    Ok (started (Hall.begin_run h (fun ~id ~changed -> Live_run.resume ~id ~changed ~journal order)))
+    let by = Hall.operator h client in
+    Ok (started (Hall.begin_run h (fun ~id ~changed -> Live_run.resume ?by ~id ~changed ~journal order)))
   in
   match not_busy h with
   | Error r -> Lwt.return (Error (of_refusal r))
@@ -118,9 +120,9 @@ let going_on h =
   | Some run when Live_run.goes_on run -> Ok run
   | Some _ | None -> refuse 409 "no-run" "no run goes on"
 
-(* All clients see who did it. *)
+(* All clients see who did it: of operators with names the journal has it, too. *)
 let without_helm h run client what =
-  if Helm.holder (Hall.helm h) <> Some client then
+  if Hall.operator h client = None && Helm.holder (Hall.helm h) <> Some client then
     Live_run.remark run (Printf.sprintf "%s %s, without the helm" client what)
 
 (* Without [all], each Stop goes one step further: two people who press it at once would end what the first one has
@@ -129,7 +131,7 @@ let stop h client found =
   let* all = optional truth "all" found in
   let* run = going_on h in
   let stopping : Live_run.stopping = match all with None -> Next | Some false -> Program | Some true -> All in
-  Live_run.stop run stopping;
+  Live_run.stop ?by:(Hall.operator h client) run stopping;
   without_helm h run client "stops it";
   Ok (`Assoc [])
 
@@ -137,7 +139,7 @@ let answer h client found =
   let* run = going_on h in
   let* number = get whole "question" found in
   let* text = get Field.text "text" found in
-  let* () = Result.map_error (refusal 409 "answered") (Live_run.answer run number text) in
+  let* () = Result.map_error (refusal 409 "answered") (Live_run.answer ?by:(Hall.operator h client) run number text) in
   without_helm h run client "answers";
   Ok (`Assoc [])
 
@@ -156,7 +158,7 @@ let post h client found =
   match Result.bind (going_on h) (fun run -> Result.map (fun pairs -> (run, pairs)) (pairs found)) with
   | Error r -> Lwt.return (Error r)
   | Ok (run, pairs) ->
-    Live_run.post run pairs >|= function
+    Live_run.post ?by:(Hall.operator h client) run pairs >|= function
     | Ok time ->
       without_helm h run client ("posts " ^ String.concat ", " (List.map fst pairs));
       Ok (`Assoc [ ("time", Canonical.number time) ])

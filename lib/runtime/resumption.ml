@@ -31,7 +31,7 @@ type reading = {
 let remember (entry : Entry.t) replay history =
   let add what = { History.time = Entry.time entry; what } :: history in
   match entry with
-  | Header _ | Partial _ | Label _ | Resumed _ | End _ -> history
+  | Header _ | Partial _ | Label _ | Act _ | Resumed _ | End _ -> history
   | Vehicle { state; _ } -> add (Saw state)
   | Note { vehicle; note; _ } -> add (Noted (vehicle, note))
   | Event _ -> Option.fold (Replay.event replay) ~none:history ~some:(fun event -> add (Happened event))
@@ -45,13 +45,13 @@ let take tell reader r (entry : Entry.t) after =
   let r' = { r with after; reversed = remember entry after r.reversed } in
   match entry with
   | Event _ -> { r' with held = Some (entry, r.after) }
-  | Header _ | Partial _ | Label _ | Vehicle _ | Transition _ | Note _ | Resumed _ | End _ ->
+  | Header _ | Partial _ | Label _ | Vehicle _ | Transition _ | Note _ | Act _ | Resumed _ | End _ ->
     Option.iter (fun (event, _) -> tell event r.after) r.held;
     tell entry after;
     let r' = { r' with held = None; whole = Journal.whole reader; notes_of_whole = Journal.notes reader } in
     (match entry with
      | Resumed { time; at; program } -> { r' with its_clock = (time, at); ran = program.hash }
-     | Header _ | Partial _ | Label _ | Vehicle _ | Event _ | Transition _ | Note _ | End _ -> r')
+     | Header _ | Partial _ | Label _ | Vehicle _ | Event _ | Transition _ | Note _ | Act _ | End _ -> r')
 
 (* The last event is a request to end, whose transition was not written. *)
 let is_interrupted r =

@@ -13,14 +13,14 @@ type t =
   | Event of { time : float; event : Event.t }
   | Transition of { time : float; index : int; step : Step.t; ways : (Core.vehicle * way) list }
   | Note of { time : float; vehicle : Core.vehicle; note : Yojson.Safe.t }
+  | Act of { time : float; act : Act.t }
   | Resumed of { time : float; program : Header.source; at : string }
   | End of { time : float; transitions : int; ending : Request.ending }
 
 let time = function
   | Header _ | Partial _ -> 0.
   | Label { time; _ } | Vehicle { time; _ } | Event { time; _ } | Transition { time; _ } | Note { time; _ }
-  | Resumed { time; _ }
-  | End { time; _ } -> time
+  | Act { time; _ } | Resumed { time; _ } | End { time; _ } -> time
 
 (* {1 Writing} *)
 
@@ -63,6 +63,7 @@ let to_json entry : Yojson.Safe.t =
   | Transition { time; index; step; ways } ->
     line "transition" time (("i", `Int index) :: Step.members step @ unless_empty "ways" of_ways ways)
   | Note { time; vehicle; note } -> line "platform" time [ ("vehicle", `String vehicle); ("note", note) ]
+  | Act { time; act } -> line "operator" time (Act.members act)
   | Resumed { time; program; at } ->
     line "resumed" time [ ("program", Header.of_source program); ("at", `String at) ]
   | End { time; transitions; ending } ->
@@ -140,6 +141,7 @@ let of_members found =
     let* vehicle = get text "vehicle" found in
     let* note = get members "note" found in
     Ok (Note { time; vehicle; note = `Assoc note })
+  | "operator" -> Result.map (fun act -> Act { time; act }) (Act.of_members found)
   | "resumed" ->
     let* program = get Header.to_source "program" found in
     let* at = get text "at" found in

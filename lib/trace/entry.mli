@@ -21,6 +21,7 @@ type t =
     }
   | Note of { time : float; vehicle : Core.vehicle; note : Yojson.Safe.t }
   (** The platform's data about a vehicle for a resumption of the run: an object. It means nothing to the semantics. *)
+  | Act of { time : float; act : Act.t }  (** an operator's; it means nothing to the semantics *)
   | Resumed of { time : float; program : Header.source; at : string  (** in UTC *) }
   (** The console died, and another one resumed the run here, with this program. *)
   | End of { time : float; transitions : int; ending : Request.ending }  (** the last line of a run that ended *)

@@ -220,5 +220,5 @@ let feed p (entry : Entry.t) =
     | Label { label = text; _ } -> label p text
     | Event { event; _ } -> cause p event
     | End { ending; _ } -> finish p ending
-    | Header _ | Partial _ | Note _ | Resumed _ -> Ok p
+    | Header _ | Partial _ | Note _ | Act _ | Resumed _ -> Ok p
     | Transition _ -> Error (Impossible { reason = "transitions are lines of whole journals"; possible = [] })

@@ -223,13 +223,13 @@ let feed r (entry : Entry.t) =
     let r = if r.program.reads_now then { r with world = World.at (Exactly (World.whole time)) r.world } else r in
     match entry, r.event with
     | (Partial _ | Label _), _ -> mismatch r "such lines are those of a partial trace"
-    | (Header _ | Vehicle _ | Event _ | Note _ | Resumed _ | End _), Some event ->
+    | (Header _ | Vehicle _ | Event _ | Note _ | Act _ | Resumed _ | End _), Some event ->
       mismatch r (Format.asprintf "the transition on %a is missing" Event.pp event)
     | Header { program; order; place; _ }, None ->
       let place = match r.program.place with Some _ as own -> own | None -> place in
       Ok { r with places = program.hash = r.hash; world = World.nobody order; program = { r.program with place } }
     | Resumed { program; _ }, None -> Ok { r with places = program.hash = r.hash }
-    | Note _, None -> Ok r
+    | (Note _ | Act _), None -> Ok r
     | Vehicle { state; _ }, None -> Ok { r with world = World.add state r.world }
     | Event { event; _ }, None -> Ok { r with event = Some event }
     | Transition { index; step; _ }, event ->

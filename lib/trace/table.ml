@@ -135,6 +135,7 @@ let of_entry t (entry : Entry.t) =
   | Transition { time; step; _ } -> of_step t time step
   | Vehicle { time; state } -> of_link t time state; of_readiness t time state
   | Note _ -> ()
+  | Act { time; act } -> add t time [ (Program, Act.words act) ]
   | Resumed { time; at; _ } -> add t time [ (Program, "is resumed, at " ^ at) ]
   | End { time; ending; _ } ->
     let text = match ending.message with None | Some "" -> ending.how | Some text -> ending.how ^ ": " ^ text in
@@ -221,4 +222,4 @@ let print_transitions ppf (entry : Entry.t) =
     let place = Option.fold ~none:"" ~some:Step.text_of_place step.at in
     Format.fprintf ppf "%6d  %*s  %-7s  %s  %s@\n" index clock_width (Phrase.time time) place
       (String.concat ", " step.rules) (Phrase.one_line step.label)
-  | Header _ | Partial _ | Label _ | Vehicle _ | Event _ | Note _ | Resumed _ | End _ -> ()
+  | Header _ | Partial _ | Label _ | Vehicle _ | Event _ | Note _ | Act _ | Resumed _ | End _ -> ()

@@ -67,6 +67,7 @@ let describe (entry : Entry.t) =
     let at = Option.fold ~none:"" ~some:(fun at -> ", at " ^ Step.text_of_place at) step.at in
     Printf.sprintf "transition %d%s: %s" index at step.label
   | Note { vehicle; _ } -> "the platform's note on " ^ vehicle
+  | Act { act; _ } -> Act.words act
   | Resumed _ -> "a resumption"
   | End { ending; _ } -> Format.asprintf "the end: %a" pp_ending ending
 

@@ -34,7 +34,7 @@ let writer ?(notes = 0) fd death ~from =
     let line = Journal.line numbering entry ^ "\n" in
     match entry with
     | Vehicle _ -> write_all fd line
-    | Header _ | Partial _ | Label _ | Event _ | Transition _ | Note _ | Resumed _ | End _ ->
+    | Header _ | Partial _ | Label _ | Event _ | Transition _ | Note _ | Act _ | Resumed _ | End _ ->
       let i = !count in
       incr count;
       if death = Before i then die ();

@@ -19,7 +19,7 @@ let kind line =
   | Ok (Event _) -> `Event
   | Ok (Transition _) -> `Transition
   | Ok (End _) -> `End
-  | Ok (Partial _ | Label _ | Note _ | Resumed _) -> `Other
+  | Ok (Partial _ | Label _ | Note _ | Act _ | Resumed _) -> `Other
   | Error _ -> `Nothing
 
 let pick random xs = xs.(Random.State.int random (Array.length xs))
@@ -67,7 +67,7 @@ let alter random lines =
     | Ok (Transition t) -> Some (Entry.to_string (Transition { t with time = 0.; ways = [] }))
     | Ok (Event e) -> Some (Entry.to_string (Event { e with time = 0. }))
     | Ok (End e) -> Some (Entry.to_string (End { e with time = 0. }))
-    | Ok (Header _ | Partial _ | Label _ | Vehicle _ | Note _ | Resumed _) -> Some ""
+    | Ok (Header _ | Partial _ | Label _ | Vehicle _ | Note _ | Act _ | Resumed _) -> Some ""
     | Error _ -> None
   in
   (* The reason of a vehicle's failure is its own affair, but later lines repeat it; the same holds for answers. *)

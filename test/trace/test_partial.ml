@@ -21,7 +21,7 @@ let partial ~observed journal =
       if caused <> [] then caused else if is_observed step.label then [ Label { time; label = step.label } ] else []
     | Vehicle _ as vehicle -> [ vehicle ]
     | End _ as last -> [ last ]
-    | Event _ | Partial _ | Label _ | Note _ | Resumed _ -> []
+    | Event _ | Partial _ | Label _ | Note _ | Act _ | Resumed _ -> []
   in
   Runs.text (List.map (fun entry -> Entry.to_string entry) (List.concat_map line (Runs.lines journal)))
 

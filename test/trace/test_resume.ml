@@ -8,7 +8,7 @@ let story journal =
   let is_told line =
     match Entry.of_string line with
     | Ok (Header _ | Event _ | Transition _ | End _) -> true
-    | Ok (Partial _ | Label _ | Vehicle _ | Note _ | Resumed _) | Error _ -> false
+    | Ok (Partial _ | Label _ | Vehicle _ | Note _ | Act _ | Resumed _) | Error _ -> false
   in
   List.filter is_told (Runs.lines journal)
 
@@ -121,7 +121,47 @@ let missing_notes () =
   done;
   if !refused < 100 then Alcotest.failf "only %d runs were refused" !refused
 
+(* {1 Acts of operators} *)
+
+let draw_act random : Act.t =
+  let deeds =
+    [| Act.Start; Resume; Answer { question = "how many?"; text = "2" }; Post "go:1"; Stop { all = false };
+       Stop { all = true }; Take_helm None; Take_helm (Some "rui"); Leave_helm |]
+  in
+  { operator = "ana"; role = "steer"; deed = deeds.(Random.State.int random (Array.length deeds)) }
+
+(* The lines with acts of operators among them, wherever no event waits for its transition, and not after the end. *)
+let with_acts random lines =
+  let rec go = function
+    | line :: rest -> (
+        match Entry.of_string line with
+        | Ok ((Header _ | Vehicle _ | Transition _ | Note _ | Act _ | Resumed _) as entry) ->
+          let act _ = Entry.to_string (Act { time = Entry.time entry; act = draw_act random }) in
+          (line :: List.init (Random.State.int random 3) act) @ go rest
+        | Ok (Partial _ | Label _ | Event _ | End _) | Error _ -> line :: go rest)
+    | [] -> []
+  in
+  go lines
+
+(* A run with the acts of operators in its journal is the same run: it checks, and goes on as the one without. *)
+let with_operators () =
+  let one random name =
+    let r = Runs.run ~period:60. name in
+    let lines = Runs.lines r.journal in
+    let whole = Runs.text (with_acts random lines) in
+    (match Runs.check_text r whole with
+     | Run _ -> ()
+     | verdict -> Alcotest.failf "%s with operators: %s" name (show verdict));
+    if not (has_supplier r) then begin
+      let at = 1 + Random.State.int random (List.length lines - 1) in
+      resumes r ~at (Runs.text (with_acts random (List.filteri (fun i _ -> i < at) lines)))
+    end
+  in
+  let with_seed seed = List.iter (one (Random.State.make [| seed |])) Runs.examples in
+  List.iter with_seed (Test_support.Property.seeds ~usual:35)
+
 let () = Alcotest.run "resume" 
     [ ( "resume",
         [ case "after a sample of the lines of all examples" examples; case "cut at each byte" at_each_byte;
-          case "without some notes of the platform" missing_notes ] ) ]
+          case "without some notes of the platform" missing_notes;
+          case "with acts of operators" with_operators ] ) ]

@@ -25,6 +25,7 @@ type t = {
   file : file option;
   summary : Summary.builder;
   recorder : Recorder.t option Lazy.t;  (* if anything is to be kept; forced, it has begun the journal *)
+  mutable is_over : bool;
 }
 
 let trouble path why = Printf.sprintf "the journal cannot be written: %s: %s" path why
@@ -118,7 +119,7 @@ let opened ?(notes = 0) settings header summary ~check ~clear make =
       Option.iter (fun file -> clear (Unix.descr_of_out_channel file.channel)) file;
       if is_wanted settings then Some (make write) else None
     in
-    { settings; file; summary; recorder = Lazy.from_fun begun }
+    { settings; file; summary; recorder = Lazy.from_fun begun; is_over = false }
   in
   match would_overwrite settings header, Option.fold settings.drawing ~none:(Ok ()) ~some:Drawing.check with
   | Some path, _ -> Error (Error.Unavailable (path ^ ": the run was to be written over its own program or fleet"))
@@ -167,6 +168,14 @@ let note r ~time ~vehicle note =
   let line ~time = Entry.Note { time; vehicle; note } in
   Option.iter (fun recorder -> Recorder.write recorder ~time line) (Lazy.force r.recorder)
 
+let act r ~time act =
+  let line ~time = Entry.Act { time; act } in
+  if r.is_over then Ok ()
+  else
+    match Option.iter (fun recorder -> Recorder.write recorder ~time line) (Lazy.force r.recorder) with
+    | () -> Ok ()
+    | exception Broken why -> Error why
+
 let sync r =
   let sync file =
     let fd = Lwt_unix.of_unix_file_descr ~blocking:true ~set_flags:false (Unix.descr_of_out_channel file.channel) in
@@ -196,6 +205,7 @@ let close r =
   Option.iter give_up r.file
 
 let finish r ~time ~stuck =
+  r.is_over <- true;
   let close () =
     Option.iter (fun recorder -> Recorder.finish recorder ~time ~stuck) (Lazy.force r.recorder);
     Option.iter (fun file -> protected file.path (fun () -> close_out file.channel)) r.file

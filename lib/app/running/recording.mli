@@ -38,6 +38,10 @@ val begin_ : t -> (unit, Error.t) result
 val note : t -> time:float -> vehicle:string -> Yojson.Safe.t -> unit
 (** [note r ~time ~vehicle json] keeps what the platform wants to find again of a vehicle. It may raise {!Broken}. *)
 
+val act : t -> time:float -> Act.t -> (unit, string) result
+(** [act r ~time a] keeps the act of an operator, unless {!finish} was called. The error is the reason why it cannot be
+    written. *)
+
 val sync : t -> (unit -> unit Lwt.t) option
 (** Resolves once all earlier lines are on the disk, and may fail with {!Broken}; [None]: no journal is kept. *)
 

@@ -40,6 +40,7 @@ type view = {
   estimates : unit -> estimate list;
   post : string -> Core.value -> bool Lwt.t;
   questions : unit -> string list;
+  acted : Act.t -> (unit, string) result;
 }
 
 type front = {
@@ -263,7 +264,8 @@ let drive r recording host ~interruption (Platform ((module P), { platform; esti
   let inputs = Inputs.create () in
   let socket = open_socket r recording ~interruption ~inputs ~now ~virtual_time:P.virtual_time in
   r.front.opened { now; estimates; post = Inputs.post inputs;
-                   questions = (fun () -> Inputs.questions inputs) };
+                   questions = (fun () -> Inputs.questions inputs);
+                   acted = (fun act -> Recording.act recording ~time:(now ()) act) };
   let console =
     Questions.console r.front.person ~answered:(History.answers (history r)) ~answers:r.settings.answers
       ~scenario:(if r.settings.people then { r.scenario with answers = [] } else r.scenario)

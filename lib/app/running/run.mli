@@ -42,6 +42,7 @@ type view = {
   estimates : unit -> estimate list;  (** of the vehicles that give one *)
   post : string -> Dolphin_semantics.Core.value -> bool Lwt.t;  (** {!Inputs.post} *)
   questions : unit -> string list;  (** {!Inputs.questions} *)
+  acted : Act.t -> (unit, string) result;  (** keeps an operator's act in the journal: {!Recording.act} *)
 }
 
 type front = {

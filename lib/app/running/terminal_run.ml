@@ -86,7 +86,7 @@ let replayed t (entry : Entry.t) replay =
   | Transition { time; _ }, Some (_, transition) ->
     t.log <- fst (Log.transition ~stuck:(Replay.was_stuck replay) t.log ~time transition);
     see_transition t ~time transition
-  | (Header _ | Partial _ | Label _ | Event _ | Transition _ | Note _ | Resumed _ | End _), _ -> ()
+  | (Header _ | Partial _ | Label _ | Event _ | Transition _ | Note _ | Act _ | Resumed _ | End _), _ -> ()
 
 (* How far vehicles are with their plans. *)
 let estimate estimates v =
@@ -216,7 +216,7 @@ let make show program interruption ~on_closed =
     world = World.empty;
     view =
       { now = (fun () -> 0.); estimates = (fun () -> []); post = (fun _ _ -> Lwt.return_false);
-        questions = (fun () -> []) };
+        questions = (fun () -> []); acted = (fun _ -> Ok ()) };
     keyboard = None; answered = false }
 
 let run ~notice ~again show program f =

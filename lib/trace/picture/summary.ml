@@ -175,7 +175,7 @@ let add b (entry : Entry.t) =
   | Vehicle { state; _ } -> see b state
   | Event { event; _ } -> b.cause <- Some event
   | Transition { step; ways; _ } -> take b step ways
-  | Partial _ | Label _ | Note _ | Resumed _ -> ()
+  | Partial _ | Label _ | Note _ | Act _ | Resumed _ -> ()
   | End { ending; _ } -> b.its_ending <- Some ending
 
 (* {1 The end} *)

@@ -1,0 +1,21 @@
+(** Acts of operators on a run, by name. They mean nothing to the semantics: a run with them is the same without. *)
+
+type deed =
+  | Start
+  | Resume
+  | Answer of { question : string;  (** its prompt *) text : string }
+  | Post of string  (** the pair, ["ready:1"] *)
+  | Stop of { all : bool }  (** [all]: the task of [onInterrupt], too *)
+  | Take_helm of string option  (** from the operator who had it *)
+  | Leave_helm  (** to no other operator *)
+
+type t = { operator : string;  (** the name *) role : string; deed : deed }
+
+val members : t -> Dolphin_json.Field.members
+(** As journals have it. *)
+
+val of_members : Dolphin_json.Field.members -> (t, string) result
+(** Reads the output of {!members}, or gives the reason why it cannot. *)
+
+val words : t -> string
+(** ["ana (steer) answers 'Begin now?': yes"]. *)

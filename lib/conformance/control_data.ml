@@ -28,13 +28,13 @@ let rec of_residual budget (r : Residual.t) : json =
   | Parallel rs -> tagged "parallel" (List.map part rs)
   | All_of (a, bs) -> tagged "allOf" (of_option part a :: List.map branch bs)
   | One_of bs -> tagged "oneOf" (List.map branch bs)
-  | Until (Completes, c, a) -> tagged "until" [ code c; part a ]
+  | Until (Completes _, c, a) -> tagged "until" [ code c; part a ]
   | Until (Fails site, c, a) -> tagged "assure" [ `Int site; code c; part a ]
-  | Idle { timer; seconds } -> tagged "idle" [ `Int timer; of_float seconds ]
+  | Idle { timer; seconds; site = _ } -> tagged "idle" [ `Int timer; of_float seconds ]
   | Confirm { question; prompt; site } -> tagged "confirm" [ `Int site; `Int question; `String prompt ]
   | During { on_cut; timer; duration; started; body } ->
     let parts = [ `Int timer; of_duration budget duration; `Bool started; part body ] in
-    (match on_cut with Completes -> tagged "during" parts | Fails site -> tagged "within" (`Int site :: parts))
+    (match on_cut with Completes _ -> tagged "during" parts | Fails site -> tagged "within" (`Int site :: parts))
   | Watch (a, { code = c; anew = None }) -> tagged "watch" [ part a; code c ]
   | Watch (a, { code = c; anew = Some (t, request) }) ->
     tagged "watch" [ part a; code c; of_task budget t; of_made request ]
@@ -67,12 +67,14 @@ let rec residual nodes (json : json) : Residual.t =
   | `List (`String "parallel" :: (_ :: _ :: _ as rs)) -> Parallel (List.map part rs)
   | `List (`String "allOf" :: a :: (_ :: _ as bs)) -> All_of (option part a, List.map branch bs)
   | `List (`String "oneOf" :: (_ :: _ as bs)) -> One_of (List.map branch bs)
-  | `List [ `String "until"; c; a ] -> Until (Completes, code c, part a)
+  | `List [ `String "until"; c; a ] -> Until (Completes Fault.unknown_site, code c, part a)
   | `List [ `String "assure"; site; c; a ] -> Until (Fails (whole site), code c, part a)
-  | `List [ `String "idle"; timer; seconds ] -> Idle { timer = whole timer; seconds = float seconds }
+  | `List [ `String "idle"; timer; seconds ] ->
+    Idle { timer = whole timer; seconds = float seconds; site = Fault.unknown_site }
   | `List [ `String "confirm"; site; question; prompt ] ->
     Confirm { question = whole question; prompt = text prompt; site = whole site }
-  | `List [ `String "during"; timer; d; started; body ] -> during Completes timer d started body
+  | `List [ `String "during"; timer; d; started; body ] ->
+    during (Completes Fault.unknown_site) timer d started body
   | `List [ `String "within"; site; timer; d; started; body ] -> during (Fails (whole site)) timer d started body
   | `List [ `String "watch"; a; c ] -> Watch (part a, { code = code c; anew = None })
   | `List [ `String "watch"; a; c; t; request ] ->

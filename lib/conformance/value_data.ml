@@ -61,11 +61,11 @@ and of_task budget (t : task) : json =
   | Allocated (a, vs) -> tagged "allocated" [ part a; of_vehicles vs ]
   | All_of branches -> tagged "allOf" (List.map (of_branch budget) branches)
   | One_of branches -> tagged "oneOf" (List.map (of_branch budget) branches)
-  | Until (Completes, c, a) -> tagged "until" [ code c; part a ]
+  | Until (Completes _, c, a) -> tagged "until" [ code c; part a ]
   | Until (Fails site, c, a) -> tagged "assure" [ `Int site; code c; part a ]
-  | Idle seconds -> tagged "idle" [ of_float seconds ]
+  | Idle { seconds; site = _ } -> tagged "idle" [ of_float seconds ]
   | Confirm { prompt; site } -> tagged "confirm" [ `Int site; `String prompt ]
-  | During (Completes, d, a) -> tagged "during" [ of_duration budget d; part a ]
+  | During (Completes _, d, a) -> tagged "during" [ of_duration budget d; part a ]
   | During (Fails site, d, a) -> tagged "within" [ `Int site; of_duration budget d; part a ]
   | Watch (a, c) -> tagged "watch" [ part a; code c ]
   | Repeat { rounds; until; body; site } ->
@@ -157,11 +157,12 @@ and task nodes (json : json) : task =
   | `List [ `String "allocated"; a; vs ] -> Allocated (part a, list text vs)
   | `List (`String "allOf" :: (_ :: _ as branches)) -> All_of (List.map (branch nodes) branches)
   | `List (`String "oneOf" :: (_ :: _ as branches)) -> One_of (List.map (branch nodes) branches)
-  | `List [ `String "until"; c; a ] -> Until (Completes, code c, part a)
+  | `List [ `String "until"; c; a ] -> Until (Completes Fault.unknown_site, code c, part a)
   | `List [ `String "assure"; site; c; a ] -> Until (Fails (whole site), code c, part a)
-  | `List [ `String "idle"; seconds ] -> Idle (float seconds)
+  | `List [ `String "idle"; seconds ] -> Idle { seconds = float seconds; site = Fault.unknown_site }
   | `List [ `String "confirm"; site; prompt ] -> Confirm { prompt = text prompt; site = whole site }
-  | `List [ `String "during"; d; a ] -> During (Completes, duration nodes d, part a)
+  | `List [ `String "during"; d; a ] ->
+    During (Completes Fault.unknown_site, duration nodes d, part a)
   | `List [ `String "within"; site; d; a ] -> During (Fails (whole site), duration nodes d, part a)
   | `List [ `String "watch"; a; c ] -> Watch (part a, code c)
   | `List [ `String "repeat"; site; rounds; until; body ] ->

@@ -65,8 +65,36 @@ let site_of_broken program (c : Configuration.t) (t : Transition.t) =
     Seq.fold_left first None (Task_rules.internal_steps r)
   | Script _ | Waiting _ | Ended _ -> None
 
+(* The waits that a step with such a label may end or begin, by number, with their places. *)
+let waits_for (label : Label.t) (c : Configuration.t) =
+  let wait : Residual.t -> (Residual.timer * Core.site) option = fun r ->
+    match label, r with
+    | Time_out, Idle { timer; site; _ } -> Some (timer, site)
+    | Time_out, During { started = true; timer; on_cut = Completes site | Fails site; _ }
+    | Set_time _, During { started = false; timer; on_cut = Completes site | Fails site; _ } -> Some (timer, site)
+    | (Answer _ | No_answer), Confirm { question; site; _ } -> Some (question, site)
+    | Recruit _, Recruit { number; site; _ } -> Some (number, site)
+    | _, _ -> None
+  in
+  match c.control with
+  | Executing (_, r) ->
+    List.rev (Residual.fold_active (fun found r -> match wait r with Some w -> w :: found | None -> found) [] r)
+  | Script _ | Waiting _ | Ended _ -> []
+
+(* The place of the wait that the step ends: it is gone, or begins again in the next round of a [repeat]; waits that
+   the step gives up are cancelled. *)
+let site_of_wait (label : Label.t) before (t : Transition.t) =
+  let numbers number = List.filter_map number t.effects in
+  let begun = numbers (function Effect.Set_timer (n, _) | Put_question (n, _) -> Some n | _ -> None) in
+  let ceased = numbers (function Effect.Cancel_timer n | Withdraw_question n -> Some n | _ -> None) in
+  let left = Hashtbl.create 16 in
+  List.iter (fun (n, _) -> Hashtbl.replace left n ()) (waits_for label t.next);
+  let is_ended (n, _) = (List.mem n begun || not (Hashtbl.mem left n)) && not (List.mem n ceased) in
+  Option.map snd (List.find_opt is_ended (waits_for label before))
+
 let site_of_step program (label : Label.t) before (t : Transition.t) =
   match label, before with
+  | (Time_out | Set_time _ | Answer _ | No_answer | Recruit _), Some c -> site_of_wait label c t
   | Broken _, Some c -> site_of_broken program c t
   | _, _ -> site_of_code label before t
 

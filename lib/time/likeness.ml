@@ -42,13 +42,16 @@ type head =
   | One_of
   | Branch
   | Some_of
-  | Until of Core.on_cut
+  | Until of cut
   | Seconds of float
   | Confirm of int * string
-  | During of Core.on_cut * bool
+  | During of cut * bool
   | Watch
   | Fresh
   | Repeat of int option
+
+(* As tasks are compared: without the places of people. *)
+and cut = Cut_done | Cut_failed of Core.site
 
 and takes = Milliseconds of int * int | As_its_plan of label
 
@@ -108,6 +111,7 @@ let code s ?(handler = false) kind c =
   tree s ~names:(List.map (place s.pairs) (Array.to_list skeleton.pairs)) (kind skeleton.number) []
 
 let part n = Part n
+let cut : Core.on_cut -> cut = function Completes _ -> Cut_done | Fails site -> Cut_failed site
 let label_of v (p : Core.platform_task) = { name = p.name; vehicle = v; site = p.task_site }
 
 let platform_task s ~runs v (p : Core.platform_task) =
@@ -130,13 +134,13 @@ let rec spell s (r : Residual.t) =
   | Parallel rs -> tree s ~ordered:false Parallel (List.map (spell s) rs)
   | All_of (a, bs) -> tree s All_of [ optional s (spell s) a; branches s bs ]
   | One_of bs -> tree s One_of [ branches s bs ]
-  | Until (e, c, a) -> tree s (Until e) [ code s part c; spell s a ]
-  | Idle { timer; seconds } -> waiting s (Timer timer) (Seconds seconds)
+  | Until (e, c, a) -> tree s (Until (cut e)) [ code s part c; spell s a ]
+  | Idle { timer; seconds; site = _ } -> waiting s (Timer timer) (Seconds seconds)
   | Confirm { question; prompt; _ } -> waiting s (Question question) (Confirm (question, prompt))
   | During { on_cut; timer; duration; started; body } ->
     let time =
       match duration with Seconds x -> waiting s (Timer timer) (Seconds x) | Given_by c -> code s part c in
-    tree s (During (on_cut, started)) [ time; spell s body ]
+    tree s (During (cut on_cut, started)) [ time; spell s body ]
   | Watch (a, { code = c; _ }) -> tree s Watch [ code s ~handler:true part c; spell s a ]
   | Repeat { round; again = { left; until; each; site = _ } } ->
     tree s (Repeat left) [ optional s (code s part) until; optional s (spell s) round; spell s each ]

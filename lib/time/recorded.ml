@@ -11,7 +11,7 @@ type t = {
   back : (Core.vehicle * int) list;  (* since when there is a link again *)
 }
 
-type finding = { pending : Timed.pending; began : int; seen : int; too_early : bool }
+type finding = { pending : Timed.pending; at : Core.site option; began : int; seen : int; too_early : bool }
 
 (* A run itself records the news of its vehicles. *)
 let start ~tolerance (options : Timed.options) =
@@ -67,7 +67,7 @@ let judged (on : Transition.event option) (item : Timed.item) =
 let compare_with (r : t) ~date ~on (p : Timed.pending) =
   let began = List.assoc p.item r.began in
   let must_be_over, must_have_run = judged on p.item in
-  let finding too_early = Some { pending = p; began; seen = date; too_early } in
+  let finding too_early = Some { pending = p; at = Timed.site r.state p.item; began; seen = date; too_early } in
   match p.bounds with
   | Within { most; _ } when must_be_over && date - r.tolerance > heard_by r p.item (began + most) -> finding false
   | Within { least; _ } when must_have_run && date - began < least - r.tolerance -> finding true

@@ -8,6 +8,7 @@ type t
 (** Something that ended before it could, or went on for longer than it may. *)
 type finding = {
   pending : Timed.pending;
+  at : Core.site option;  (** the place of a timer in the program *)
   began : int;  (** milliseconds since the start *)
   seen : int;  (** when it ended, or when it should have *)
   too_early : bool;

@@ -1,4 +1,11 @@
-type link = { pending : Timed.pending; from : int; until : int; lasts : int }
+type link = {
+  pending : Timed.pending;
+  at : Dolphin_semantics.Core.site option;
+  from : int;
+  until : int;
+  lasts : int;
+}
+
 type t = { dates : int array; chain : link list }
 
 let find item (s : Timed.state) = List.find_opt (fun (p : Timed.pending) -> p.item = item) s.pending
@@ -36,12 +43,14 @@ let all successors start steps =
   let _, _, found = List.fold_left add (1, set_out start, []) steps in
   List.rev found
 
-let chain last n =
+(* [state k] is the state after step [k]. *)
+let chain ~state last n =
   let rec back links k =
     match last.(k) with
     | None -> links
-    | Some { Dates.sooner; by; due_to = Some pending; later } when by > 0 ->
-      back ({ pending; from = sooner; until = later; lasts = by } :: links) sooner
+    | Some { Dates.sooner; by; due_to = Some (pending : Timed.pending); later } when by > 0 ->
+      let at = Timed.site (state sooner) pending.item in
+      back ({ pending; at; from = sooner; until = later; lasts = by } :: links) sooner
     | Some { sooner; _ } -> back links sooner
   in
   back [] n
@@ -52,10 +61,12 @@ let of_steps n dates = Array.sub dates 1 n
 let make (goal : Timed_system.goal) successors start steps =
   let n = List.length steps in
   let bounds = all successors start steps in
+  let states = Array.of_list (start :: List.map (fun (step : Timed.step) -> step.next) steps) in
   match goal with
   | Latest ->
     let dates, last = Dates.latest n bounds in
-    Option.map (fun dates -> { dates = of_steps n dates; chain = chain last n }) (all_known dates)
+    let make dates = { dates = of_steps n dates; chain = chain ~state:(Array.get states) last n } in
+    Option.map make (all_known dates)
   | Earliest -> Option.map (fun dates -> { dates = of_steps n dates; chain = [] }) (all_known (Dates.earliest n bounds))
 
 let stretched successors start steps spans =

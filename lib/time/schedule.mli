@@ -3,6 +3,7 @@
 (** The cause of a date: the duration of an awaited event. *)
 type link = {
   pending : Timed.pending;
+  at : Dolphin_semantics.Core.site option;  (** the place of a timer in the program *)
   from : int;  (** it began with this step, from 1; 0: at the start *)
   until : int;  (** and ended with this one, or would have *)
   lasts : int;  (** milliseconds *)

@@ -45,6 +45,12 @@ type state = {
 
 (* {1 States} *)
 
+let site s item =
+  match item, s.configuration.control with
+  | Timer 0, (Script _ | Waiting _) -> Some (Configuration.site s.configuration)
+  | Timer n, Executing (_, r) -> Residual.site_of_timer n r
+  | _, _ -> None
+
 let compare_pending a b = Stdlib.compare (a.item, a.bounds, a.progress) (b.item, b.bounds, b.progress)
 let rest s = (s.elsewhere, s.patience, s.changes, s.settled)
 

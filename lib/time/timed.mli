@@ -83,6 +83,9 @@ module Table : Hashtbl.S with type key = state
 
 (** The possible steps. Three steps are not transitions of the semantics, which knows no time: a link comes or goes,
     a task is over whose end is not heard, and a date passes that code names. They leave the configuration as it is. *)
+val site : state -> item -> Core.site option
+(** [site s i] is the place in the program of timer [i]. *)
+
 type step = {
   transition : Transition.t;
   next : state;

@@ -140,7 +140,7 @@ not fit. The place of an error that a handler takes is that of the code that bro
    6   broken(division by zero)                  decided.dol:4
    7   act                                       decided.dol:7
        count = 1
-   8   timeout                                   decided.dol:4
+   8   timeout                                   decided.dol:7
    9   end
   $ COLUMNS=100 explore decided.dol --ltl 'G !done(p)' | tail -n +8
   
@@ -154,7 +154,7 @@ not fit. The place of an error that a handler takes is that of the code that bro
        decides the formula: the rest of the run does not matter
    6   broken(division by zero)                   decided.dol:4
    7   act                                        decided.dol:7  count = 1
-   8   timeout                                    decided.dol:4
+   8   timeout                                    decided.dol:7
    9   end
   $ COLUMNS=200 explore decided.dol --ltl 'G !done(p)' | tail -n +8
   
@@ -168,7 +168,7 @@ not fit. The place of an error that a handler takes is that of the code that bro
        decides the formula: the rest of the run does not matter
    6   broken(division by zero)                   decided.dol:4
    7   act                                        decided.dol:7  count = 1
-   8   timeout                                    decided.dol:4                  idled long enough
+   8   timeout                                    decided.dol:7                  idled long enough
    9   end
   $ explore decided.dol --ltl 'G !done(p)' --json | python3 -c 'import json, sys; print([v["decided"] for v in json.load(sys.stdin)["verdicts"] if "decided" in v])'
   [5]

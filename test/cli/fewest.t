@@ -169,7 +169,7 @@ The least part of a fleet: the lanes are shared by all that are there.
     50:10                                     starts lane  all.dol:6
   1:00:10                                     ends lane    all.dol:6
   1:00:10   end
-  its end depends on: a timer of the program (0:10), then all.dol:6:76: lane on b (10:00), then all.dol:6:76: lane on b (10:00), then all.dol:6:76: lane on b (10:00), then all.dol:6:76: lane on b (10:00), then all.dol:6:76: lane on b (10:00), then all.dol:6:76: lane on b (10:00)
+  its end depends on: all.dol:2:6: a timer of the program (0:10), then all.dol:6:76: lane on b (10:00), then all.dol:6:76: lane on b (10:00), then all.dol:6:76: lane on b (10:00), then all.dol:6:76: lane on b (10:00), then all.dol:6:76: lane on b (10:00), then all.dol:6:76: lane on b (10:00)
   
   with a, b:
   a run that ends last:
@@ -190,7 +190,7 @@ The least part of a fleet: the lanes are shared by all that are there.
   30:10                                     ends lane                 all.dol:6
   30:10                                                  ends lane    all.dol:6
   30:10   end
-  its end depends on: a timer of the program (0:10), then all.dol:6:76: lane on b (10:00), then all.dol:6:76: lane on b (10:00), then all.dol:6:76: lane on b (10:00)
+  its end depends on: all.dol:2:6: a timer of the program (0:10), then all.dol:6:76: lane on b (10:00), then all.dol:6:76: lane on b (10:00), then all.dol:6:76: lane on b (10:00)
   $ dolphin time all.dol --fleet lanes.fleet --fewest --deadline 35.min --json | python3 -c '
   > import json, sys
   > o = json.load(sys.stdin)

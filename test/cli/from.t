@@ -157,7 +157,7 @@ It is known when the run will be over, in times since its start: tasks and timer
   12:00               starts home  pair.dol:4
   17:00               ends home    pair.dol:4
   17:00   end
-  its end depends on: pair.dol:2:9: out on a (2:30), then a timer of the program (2:00), then pair.dol:4:9: home on a (5:00)
+  its end depends on: pair.dol:2:9: out on a (2:30), then pair.dol:3:1: a timer of the program (2:00), then pair.dol:4:9: home on a (5:00)
   $ upto '"label":"pause' paused; dolphin time pair.dol --from ./paused.run --deadline 16.min | head -n 3
   from 9:25 of ./paused.run, after 6 transitions
   completed: 16:25.445 at the earliest, 16:25.445 at the latest

@@ -1500,8 +1500,8 @@ let schedule =
   @ in_file "lib/time/schedule.ml" ~noticed_by:"time/test_missions"
     [
       ( "the chain has no links",
-        {|due_to = Some pending; later } when by > 0|},
-        {|due_to = Some pending; later } when by > max_int - 1|} );
+        {|due_to = Some (pending : Timed.pending); later } when by > 0|},
+        {|due_to = Some (pending : Timed.pending); later } when by > max_int - 1|} );
     ]
 
 let recorded =

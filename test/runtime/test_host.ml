@@ -32,7 +32,7 @@ let writes_values () =
 
 let keeps_values () =
   json_is "error: nan is not a number that JSON has" (Number Float.nan);
-  json_is "error: of tasks, only platform tasks can be sent to the host" (Task (Idle 1.));
+  json_is "error: of tasks, only platform tasks can be sent to the host" (Task (Idle { seconds = 1.; site = 0 }));
   json_is "error: a range of more than 100000 numbers is too long to send" (Range (min_int, max_int));
   json_is ("error: " ^ Value.kind Wildcard ^ " cannot be sent to the host") (list [ Wildcard ]);
   let rec nested n : Core.value = if n = 0 then Null else list [ nested (n - 1) ] in

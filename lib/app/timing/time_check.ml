@@ -6,7 +6,7 @@ let text p (f : Recorded.finding) =
   let time = Fmt.to_to_string Bounds.pp_time in
   let least, most =
     match f.pending.bounds with Within { least; most } -> (least, most) | Some_time | Never -> (0, 0) in
-  let what = Time_report.item p f.pending in
+  let what = Time_report.item ?at:f.at p f.pending in
   if f.too_early then
     Printf.sprintf "%s: %s was over after %s, and takes %s at least" (time f.seen) what (time (f.seen - f.began))
       (time least)

@@ -14,14 +14,15 @@ let time ms = Format.asprintf "%a" Bounds.pp_time ms
 let moments : Timed_system.moment list = [ Starts; Ends; Fails; Stopped ]
 
 (* The awaited events, and the party that defines their durations. *)
-let item (p : Program_file.t) (pending : Timed.pending) =
+let item ?at (p : Program_file.t) (pending : Timed.pending) =
+  let place = Option.fold (Option.bind at (Program_file.at p)) ~none:"" ~some:(fun at -> at ^ ": ") in
   match pending.item, pending.task with
   | Task v, Some task ->
     let place = match Program_file.at p task.task_site with Some place -> place ^ ": " | None -> "" in
     Printf.sprintf "%s%s on %s" place task.name v
   | Task v, None -> v
-  | Timer 0, _ -> "a timer of the program"
-  | Timer i, _ -> Printf.sprintf "timer %d" i
+  | Timer 0, _ -> place ^ "a timer of the program"
+  | Timer i, _ -> if place = "" then Printf.sprintf "timer %d" i else place ^ "a timer"
   | (Question _ | Answer), _ ->
     "an answer" ^ Option.fold pending.prompt ~none:"" ~some:(fun prompt -> Printf.sprintf " to '%s'" prompt)
   | Recruit _, _ -> "a vehicle to recruit"
@@ -83,7 +84,7 @@ let print_columns (p : Program_file.t) (run : Timing.run) =
   end
 
 let print_chain p (run : Timing.run) =
-  let link (l : Schedule.link) = Printf.sprintf "%s (%s)" (item p l.pending) (time l.lasts) in
+  let link (l : Schedule.link) = Printf.sprintf "%s (%s)" (item ?at:l.at p l.pending) (time l.lasts) in
   if run.chain <> [] then
     say "its end depends on: %s" (String.concat ", then " (List.map link run.chain))
 
@@ -251,7 +252,8 @@ let json_of_window (w : Timing.window) : Yojson.Safe.t =
 
 let json_of_run p (run : Timing.run) : Yojson.Safe.t =
   let label (t : Transition.t) = `String (Format.asprintf "%a" Label.pp t.label) in
-  let link (l : Schedule.link) = `Assoc [ ("what", `String (item p l.pending)); ("seconds", seconds l.lasts) ] in
+  let link (l : Schedule.link) =
+    `Assoc [ ("what", `String (item ?at:l.at p l.pending)); ("seconds", seconds l.lasts) ] in
   `Assoc
     [ ("run", `List (List.map label run.steps)); ("dates", `List (List.map seconds run.dates));
       ("cycle", `List (List.map label run.cycle)); ("chain", `List (List.map link run.chain)) ]

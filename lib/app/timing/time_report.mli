@@ -21,8 +21,8 @@ val window : Timing.window -> string
 
 val moments : Dolphin_time.Timed_system.moment list
 
-val item : Program_file.t -> Dolphin_time.Timed.pending -> string
-(** The awaited event: ["mission.dol:3:10: survey on noptilus-1"]. *)
+val item : ?at:Dolphin_semantics.Core.site -> Program_file.t -> Dolphin_time.Timed.pending -> string
+(** The awaited event: ["mission.dol:3:10: survey on noptilus-1"]; [at] is the place of a timer. *)
 
 val write_shown :
   ?deadline:int -> Program_file.t -> Fleet_file.t -> string -> Timing.outcome -> (unit, Error.t) result

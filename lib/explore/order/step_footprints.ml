@@ -82,11 +82,11 @@ let rec future c (r : Residual.t) =
   | Parallel rs -> all (List.map (future c) rs)
   | All_of (running, bs) -> all (Option.to_list (Option.map (future c) running) @ List.map (of_branch c) bs)
   | One_of bs -> all (List.map (of_branch c) bs)
-  | Until (Completes, g, r) -> union (Footprint.of_guard c.code g) (future c r)
+  | Until (Completes _, g, r) -> union (Footprint.of_guard c.code g) (future c r)
   | Until (Fails _, g, r) -> union (of_refuted c g) (future c r)
   | Idle _ -> Footprint.empty
   | Confirm { prompt; _ } -> answering c prompt
-  | During { on_cut = Completes; duration = Seconds _; body; _ } -> future c body
+  | During { on_cut = Completes _; duration = Seconds _; body; _ } -> future c body
   | During { on_cut = Fails _; duration = Seconds _; body; _ } -> union breaking (future c body)
   | During { duration = Given_by d; body; _ } -> all [ breaking; Footprint.of_code c.code d; future c body ]
   | Watch (r, handler) -> handled c (future c r) handler
@@ -119,7 +119,7 @@ and of_term c (t : task) =
   | Allocated (a, _) -> of_term c a
   | All_of bs | One_of bs ->
     all (List.map (fun (b : Core.branch) -> union (Footprint.of_guard c.code b.guard) (of_term c b.body)) bs)
-  | Until (Completes, g, a) -> union (Footprint.of_guard c.code g) (of_term c a)
+  | Until (Completes _, g, a) -> union (Footprint.of_guard c.code g) (of_term c a)
   | Until (Fails _, g, a) -> union (of_refuted c g) (of_term c a)
   | Idle _ -> Footprint.empty
   | Confirm { prompt; _ } -> answering c prompt

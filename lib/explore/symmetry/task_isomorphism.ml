@@ -86,7 +86,7 @@ let key context ~sorted ~pair ~label r = spell { context; sorted; pair; name = l
 (* {1 Matching} *)
 
 let ends_alike e e' =
-  match e, e' with Completes, Completes | Fails _, Fails _ -> true | (Completes | Fails _), _ -> false
+  match e, e' with Completes _, Completes _ | Fails _, Fails _ -> true | (Completes _ | Fails _), _ -> false
 
 exception Different
 

@@ -166,8 +166,8 @@ let binary (op : Ast.binary) x y =
   | Subtract, x, y -> arithmetic op subtract ( -. ) x y
   | Multiply, x, y -> arithmetic op multiply ( *. ) x y
   | Power, x, y -> arithmetic op integer_power Float.pow x y
-  | Divide, Closure t, Closure c -> Ok (Task (Until (Completes, c, Made t)))
-  | Divide, Task t, Closure c -> Ok (Task (Until (Completes, c, t)))
+  | Divide, Closure t, Closure c -> Ok (Task (Until (Completes Fault.unknown_site, c, Made t)))
+  | Divide, Task t, Closure c -> Ok (Task (Until (Completes Fault.unknown_site, c, t)))
   | Divide, x, y -> (
       match x, y, Value.to_number x, Value.to_number y with
       | _, _, Some _, Some 0. -> Error "division by zero"

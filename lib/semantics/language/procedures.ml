@@ -5,7 +5,7 @@ let of_result = function Ok x -> Value x | Error message -> Wrong message
 
 let expected what x = of_result (Operators.expected what x)
 
-let on_cut at : Dolphin_syntax.Ast.on_cut -> on_cut = function Completes -> Completes | Fails -> Fails at
+let on_cut at : Dolphin_syntax.Ast.on_cut -> on_cut = function Completes -> Completes at | Fails -> Fails at
 
 let rounds x =
   match Value.canonical x with
@@ -66,7 +66,7 @@ let make_task context at = function
     Value (Vehicles (List.filter is_idle vs))
   | Make_idle, [ x ] -> (
       match Value.to_number x with
-      | Some seconds when Time.is_one seconds -> Value (Task (Idle seconds))
+      | Some seconds when Time.is_one seconds -> Value (Task (Idle { seconds; site = at }))
       | Some seconds -> Wrong (Time.none "idle" seconds)
       | None -> expected "a time after idle, as in idle(10.seconds)" x)
   | Make_confirm, [ x ] -> Value (Task (Confirm { prompt = Value.to_string x; site = at }))

@@ -208,7 +208,7 @@ let rec residual supply allowed t : Residual.t =
   | All_of branches -> Residual.all_of None (List.map (branch supply allowed) branches)
   | One_of branches -> One_of (List.map (branch supply allowed) branches)
   | Until (on_cut, c, a) -> Until (on_cut, c, recurse a)
-  | Idle seconds -> Idle { timer = supply.next_timer (); seconds }
+  | Idle { seconds; site } -> Idle { timer = supply.next_timer (); seconds; site }
   | Confirm { prompt; site } -> Confirm { question = supply.next_timer (); prompt; site }
   | During (on_cut, duration, a) ->
     let timer = supply.next_timer () in

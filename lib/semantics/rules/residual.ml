@@ -18,7 +18,7 @@ type t =
   | All_of of t option * branch list
   | One_of of branch list
   | Until of on_cut * closure * t
-  | Idle of { timer : timer; seconds : float }
+  | Idle of { timer : timer; seconds : float; site : site }
   | Confirm of { question : timer; prompt : string; site : site }
   | During of { on_cut : on_cut; timer : timer; duration : duration; started : bool; body : t }
   | Watch of t * handler
@@ -368,7 +368,7 @@ let rec activate r =
   | Fresh (ns, a) ->
     let a, begun = activate a in
     (Fresh (ns, a), List.map (fun n -> Key n) ns @ begun)
-  | Idle { timer; seconds } -> (r, [ Wait (timer, Time seconds) ])
+  | Idle { timer; seconds; _ } -> (r, [ Wait (timer, Time seconds) ])
   | Confirm { question; prompt; _ } -> (r, [ Wait (question, Answer prompt) ])
   | Sequence (a, rest) ->
     let a, timers = activate a in
@@ -410,10 +410,19 @@ let running = collect (function Running (_, v) -> Some v | _ -> None)
 
 let waits =
   collect (function
-      | Idle { timer; seconds } | During { started = true; timer; duration = Seconds seconds; _ } ->
+      | Idle { timer; seconds; _ } | During { started = true; timer; duration = Seconds seconds; _ } ->
         Some (timer, Time seconds)
       | Confirm { question; prompt; _ } -> Some (question, Answer prompt)
       | _ -> None)
+
+let site_of_timer number r =
+  let site found r =
+    match found, r with
+    | None, (Idle { timer; site; _ } | During { started = true; timer; on_cut = Completes site | Fails site; _ })
+      when timer = number -> Some site
+    | _, _ -> found
+  in
+  fold_active site None r
 
 let recruits = collect (function Recruited (v, _) -> Some v | _ -> None)
 
@@ -497,7 +506,7 @@ let makes_tasks =
 
 type surrounding = Beside of t list | Inside of context | Around of t list
 
-let hole = Idle { timer = script_timer; seconds = 0. }
+let hole = Idle { timer = script_timer; seconds = 0.; site = Fault.unknown_site }
 
 let held around =
   let beside found = function

@@ -33,7 +33,7 @@ type t =
   (** the branch that runs and at least one other; or none, and at least two *)
   | One_of of branch list
   | Until of on_cut * closure * t
-  | Idle of { timer : timer; seconds : float }
+  | Idle of { timer : timer; seconds : float; site : site }
   | Confirm of { question : timer; prompt : string; site : site }  (** waits for yes *)
   | During of { on_cut : on_cut; timer : timer; duration : duration; started : bool; body : t }
   | Watch of t * handler
@@ -148,6 +148,10 @@ val activate : t -> t * begun list
 
 val running : t -> vehicle list
 (** [running r] is the vehicles that run a task of [r]. *)
+
+val site_of_timer : timer -> t -> site option
+(** [site_of_timer n r] is the place in the program of the [idle], [during] or [within] of [r] that has begun and whose
+    timer is [n]. *)
 
 val recruits : t -> vehicle list
 (** [recruits r] is the vehicles that [r] has recruited and has still. *)

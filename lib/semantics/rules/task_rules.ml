@@ -239,7 +239,7 @@ let cut context body =
   let cut change = undoing (Cut [ body ]) change in
   match context with
   | Before _ | Branch_of _ | Watched_by _ | Round_of _ | Holding _ | Having _ | With_keys _ -> None
-  | Body_until (Completes, condition) ->
+  | Body_until (Completes _, condition) ->
     let continue = function
       | Ok deeds -> cut (change (Label.Cut deeds) Rule.Until_cut Finished)
       | Error fault -> cut (broke Rule.Until_err fault)
@@ -254,7 +254,7 @@ let cut context body =
   | Body_during (on_cut, timer, duration) ->
     let rule, outcome =
       match on_cut with
-      | Completes -> (Rule.During_cut, Finished)
+      | Completes _ -> (Rule.During_cut, Finished)
       | Fails site -> (Rule.Within_cut, Failed (Fault.make site (too_late duration)))
     in
     let continue () = cut (change Label.Time_out rule outcome) in

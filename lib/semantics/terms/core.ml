@@ -68,7 +68,7 @@ and task =
   | All_of of branch list
   | One_of of branch list                       (* [waitFor { C } then T] is a [One_of] with one branch *)
   | Until of on_cut * closure * task
-  | Idle of float                               (* seconds *)
+  | Idle of { seconds : float; site : site }
   | Confirm of { prompt : string; site : site } (* a question that takes yes or no *)
   | During of on_cut * duration * task
   | Watch of task * closure
@@ -81,9 +81,10 @@ and task =
 
 and branch = { guard : closure; body : task }
 
-(** The state of a task that is cut off: done, by [until] and [during]; failed, by [assure] and [within], at a place
-    in the program. *)
-and on_cut = Completes | Fails of site
+(** The state of a task that is cut off: done, by [until] and [during]; failed, by [assure] and [within]. The place in
+    the program is that of the whole expression. A failure has it, so tasks that fail at other places differ; the
+    places of [Completes] and [Idle] are for people only: no step depends on them, and tasks are compared without. *)
+and on_cut = Completes of site | Fails of site
 
 and duration = Seconds of float | Given_by of closure
 

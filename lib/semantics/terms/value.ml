@@ -41,10 +41,10 @@ let keep_task m pair = m.tasks <- latest pair m.tasks
 
 let compare_on_cut e e' =
   match e, e' with
-  | Completes, Completes -> 0
+  | Completes _, Completes _ -> 0
   | Fails site, Fails site' -> Int.compare site site'
-  | Completes, Fails _ -> -1
-  | Fails _, Completes -> 1
+  | Completes _, Fails _ -> -1
+  | Fails _, Completes _ -> 1
 
 let rec order m x y =
   m.steps <- m.steps + 1;
@@ -102,7 +102,7 @@ and order_parts m t t' =
   | Until (e, c, a), Until (e', c', a') ->
     Order.both (compare_on_cut e e') (fun () -> Order.both (order_closure m c c') (fun () -> order_task m a a'))
   | Watch (a, c), Watch (a', c') -> Order.both (order_closure m c c') (fun () -> order_task m a a')
-  | Idle d, Idle d' -> Float.compare d d'
+  | Idle a, Idle b -> Float.compare a.seconds b.seconds
   | Confirm a, Confirm b -> Order.both (Int.compare a.site b.site) (fun () -> String.compare a.prompt b.prompt)
   | During (e, d, a), During (e', d', a') ->
     Order.both (compare_on_cut e e') (fun () -> Order.both (order_duration m d d') (fun () -> order_task m a a'))
@@ -181,7 +181,7 @@ and hash_task left depth t =
     | All_of bs | One_of bs ->
       List.fold_left (fun h b -> Order.mix (Order.mix h (hash_code left b.guard)) (part b.body)) (rank_task t) bs
     | Until (_, c, a) | Watch (a, c) -> Order.mix (Order.mix (rank_task t) (hash_code left c)) (part a)
-    | Idle d -> Order.mix 9 (Hashtbl.hash d)
+    | Idle { seconds; _ } -> Order.mix 9 (Hashtbl.hash seconds)
     | Confirm { prompt; _ } -> Order.mix 14 (Hashtbl.hash prompt)
     | During (_, _, a) -> Order.mix 10 (part a)
     | Repeat { rounds; body; _ } -> Order.mix (Order.mix 12 (Option.value rounds ~default:0)) (part body)
@@ -407,8 +407,8 @@ let rec print ~bare ppf x =
   | Reading r -> text r.text
   | Unknown _ -> text "unknown"
 
-and until = function Completes -> "until" | Fails _ -> "assure"
-and during = function Completes -> "during" | Fails _ -> "within"
+and until = function Completes _ -> "until" | Fails _ -> "assure"
+and during = function Completes _ -> "during" | Fails _ -> "within"
 
 and pp_task ppf t =
   let left = ref shown_parts in
@@ -434,7 +434,7 @@ and print_task left level ppf t =
     | All_of bs -> print "allOf { %a }" (Format.pp_print_list ~pp_sep:comma branch) bs
     | One_of bs -> print "oneOf { %a }" (Format.pp_print_list ~pp_sep:comma branch) bs
     | Until (e, _, a) -> prefixed (until e ^ " { ... }") a
-    | Idle d -> print "idle(%s.seconds)" (amount d)
+    | Idle { seconds; _ } -> print "idle(%s.seconds)" (amount seconds)
     | Confirm { prompt; _ } -> print "confirm(%s)" (quoted prompt)
     | During (e, Seconds d, a) -> prefixed (Printf.sprintf "%s %s.seconds" (during e) (amount d)) a
     | During (e, Given_by _, a) -> prefixed (during e ^ " { ... }") a

@@ -13,7 +13,7 @@ let tell_end : Driver.outcome -> unit = function
   | Ended Completed -> ()
   | (Ended (Halted _ | Failed _ | Interrupted) | Stuck _ | Spins _) as outcome ->
     let why = Format.asprintf "%a" Driver.pp_outcome outcome in
-    Report.complain ("the run that determines the plans did not complete:" ^ why)
+    Report.complain ("the run that determines the plans did not complete: " ^ why)
 
 let print_named definition name found outcome : Exit_status.t =
   let inline = List.filter (fun (f : Inline_plans.found) -> f.plan <> None) found in

@@ -47,6 +47,11 @@ let most_without_pause = 100
    and on the tasks that one vehicle begins at one instant. *)
 let most_rounds = 10_000
 
+(* Limit on visible transitions at one instant of virtual time, whatever they are: loops of the script have no rounds
+   that could be counted. Missions of thousands of vehicles take some 100,000 at one instant. Where time passes by
+   itself, timers of many vehicles may well follow each other without a wait. *)
+let most_steps = 1_000_000
+
 (* Where time passes by itself, a round takes some even if it does not wait: a vehicle that refuses a plan does, and so
    does a busy machine. There, [most_rounds] must take less on average than [instant] (s), and in the machine's time,
    of which a simulation may have several seconds in one, than [moment] (s). *)
@@ -105,6 +110,8 @@ module Make (P : Platform.S) = struct
     mutable counted_since : float * float;  (* a time of the run, and the same by the machine's clock *)
     starts : (Core.vehicle, int) Hashtbl.t;  (* of tasks, in the same way *)
     mutable restless : Core.site option;  (* the place of the task that one vehicle began too often *)
+    mutable steps : int;  (* visible transitions at this instant of virtual time *)
+    mutable stepped : float;  (* the instant *)
   }
 
   let is_resolved promise = match Lwt.state promise with Lwt.Sleep -> false | Return _ | Fail _ -> true
@@ -242,12 +249,21 @@ module Make (P : Platform.S) = struct
     if s.rounds >= most_rounds && not (is_restless s) then forget_rounds s;
     if begins || start <> None then s.round_began <- time
 
+  let count_steps s ~time ~cause (t : Transition.t) =
+    (match cause with
+     | Some (Transition.Input _ | Interruption) -> s.steps <- 0
+     | Some (Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Recruited _ | Confirmed _ | Answered _)
+     | Some (Nobody_answers _ | Replied _ | Host_failed _) | None -> if time > s.stepped then s.steps <- 0);
+    s.stepped <- time;
+    match t.label with Silent -> () | _ -> s.steps <- s.steps + 1
+
   let take s ~cause (t : Transition.t) =
     s.since_pause <- (match t.label with Silent -> most_without_pause | _ -> s.since_pause + 1);
     let is_news = match cause with Some (Transition.Recruited _) | None -> false | Some _ -> true in
     if is_news then s.alarms <- 0;
     let time = time_of s in
     count_rounds s ~time ~cause t;
+    if P.virtual_time then count_steps s ~time ~cause t;
     Log.transition ~time ~cause t;
     s.observer.transition ~time ~cause t;
     s.configuration <- t.next;
@@ -452,6 +468,8 @@ module Make (P : Platform.S) = struct
     | Executing (_, r) when s.rounds >= most_rounds ->
       give_up s (Spins (Option.value (first_repeat r) ~default:Fault.unknown_site))
     | Executing _ when s.restless <> None -> give_up s (Spins (Option.value s.restless ~default:Fault.unknown_site))
+    | Script _ | Waiting _ | Executing _ when s.steps >= most_steps ->
+      give_up s (Spins (Configuration.site s.configuration))
     | Script _ | Waiting _ | Executing _ -> (
         look s;
         match Breakable.attempt s.breakable (fun () -> next_transition s) with
@@ -553,7 +571,7 @@ module Make (P : Platform.S) = struct
         telemetry = Off; upcoming = None; reply = None; questions = Task_questions.create (); posted = None;
         input_before = false; unknown = []; since_pause = 0; rounds = 0;
         round_began = beginning.time; counted_since = (beginning.time, Clock.system.elapsed ());
-        starts = Hashtbl.create 16; restless = None }
+        starts = Hashtbl.create 16; restless = None; steps = 0; stepped = beginning.time }
     in
     let whole () =
       switch_telemetry s ~sensitive:false;

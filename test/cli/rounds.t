@@ -72,6 +72,29 @@ Nor do tasks that end or fail at the instant at which they begin let a round wai
   program     is stuck
   idle.dol:1:9: error: the program is stuck in rounds that begin here: they follow each other
 
+Loops of the script have no rounds. They are stopped after a million steps at one instant, whatever they are made of;
+a loop that ends is not.
+
+  $ cat > picks.dol << 'END'
+  > while (true) { v = pick { type 'UUV' }; release v }
+  > END
+  $ cat > calls.dol << 'END'
+  > execute idle(5)
+  > def go() { execute idle(0); go() }
+  > go()
+  > END
+  $ for p in picks calls; do cp idle.fleet $p.fleet; dolphin exec -q --sim=$p.fleet $p.dol > log 2> error; echo $?; sed -n '1s/, and.*//p' error; done
+  1
+  picks.dol:1:20: error: the program is stuck in rounds that begin here: they follow each other
+  1
+  calls.dol:2:12: error: the program is stuck in rounds that begin here: they follow each other
+  $ cat > many.dol << 'END'
+  > n = 0
+  > while (n < 100000) { post k: n; n = n + 1 }
+  > END
+  $ dolphin exec -q --sim=idle.fleet many.dol > log; echo $?
+  0
+
 All of these are known before they run; no example of a mission is such a loop.
 
   $ for p in empty only popup script idle; do dolphin check $p.dol 2>&1 | grep warning: ; done

@@ -186,7 +186,7 @@ let total =
     match build settings with
     | Error fault -> fault.message <> "" && (fault.site = plan_site || fault.site < List.length settings)
     | Ok plan ->
-      incr plans;
+      Test_support.Property.count plans;
       let ids = List.map (fun (m : Dolphin_plans.Plan.maneuver) -> m.id) plan.maneuvers in
       List.length (List.sort_uniq String.compare ids) = List.length ids
       && List.length (Dolphin_plans.Plan.path plan) = List.length ids

@@ -13,16 +13,19 @@ let create () = { skipped = 0; whole = 0; reduced = 0; smaller = 0; broken = Has
 let note t property =
   Hashtbl.replace t.broken property (1 + Option.value (Hashtbl.find_opt t.broken property) ~default:0)
 
-let agrees t = function
-  | Error what -> QCheck2.Test.fail_report what
-  | Ok None ->
-    t.skipped <- t.skipped + 1;
-    true
-  | Ok (Some (found : Agreement.t)) ->
+let count t (found : Agreement.t option) =
+  match found with
+  | None -> t.skipped <- t.skipped + 1
+  | Some found ->
     t.whole <- t.whole + found.whole;
     t.reduced <- t.reduced + found.reduced;
     if found.reduced < found.whole then t.smaller <- t.smaller + 1;
-    List.iter (note t) found.broken;
+    List.iter (note t) found.broken
+
+let agrees t = function
+  | Error what -> QCheck2.Test.fail_report what
+  | Ok found ->
+    if Test_support.Property.is_usual () then count t found;
     true
 
 let print_broken t = Hashtbl.iter (fun p n -> Printf.printf "%s: broken by %d\n" (Property.name p) n) t.broken

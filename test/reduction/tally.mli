@@ -13,7 +13,8 @@ type t = private {
 val create : unit -> t
 
 val agrees : t -> (Agreement.t option, string) result -> bool
-(** [agrees t found] counts what a comparison has [found]; if it is an error, the property that is tested fails. *)
+(** [agrees t found] counts what a comparison has [found] on an input of the usual seed; if it is an error, the property
+    that is tested fails. *)
 
 val print_broken : t -> unit
 

@@ -55,10 +55,10 @@ let skipped = ref 0
 let alike ?named x t t' =
   match graph x t, graph x t' with
   | Some g, Some g' ->
-    incr compared;
+    Property.count compared;
     Bisimulation.equivalent ?named ~observed:Bisimulation.shared g g'
   | None, _ | _, None ->
-    incr skipped;
+    Property.count skipped;
     true
 
 let law ?named ?(count = 500) name left right =
@@ -200,10 +200,10 @@ let allocation_law name left right =
   Property.case ~count:400 name ~print generator (fun x ->
       match explored left x, explored right x with
       | Some g, Some g' ->
-        incr compared;
+        Property.count compared;
         Bisimulation.equivalent ~observed:Bisimulation.shared g g'
       | None, _ | _, None ->
-        incr skipped;
+        Property.count skipped;
         true)
 
 let allocation_laws =

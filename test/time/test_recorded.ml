@@ -113,7 +113,7 @@ let check name ~seeds ~fleet source =
      | { pending; began; seen; _ } :: _ ->
        let what = match pending.task with Some p -> p.name | None -> "a timer" in
        Alcotest.failf "%s, seed %d: %s from %d to %d ms is outside of its bounds" name seed what began seen);
-    if o.stopped = None then begin incr compared; check_dates name o run end
+    if o.stopped = None then begin Test_support.Property.count compared; check_dates name o run end
   done
 
 let check_example name () =

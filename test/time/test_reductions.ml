@@ -52,7 +52,7 @@ let check_batteries (outcomes : Timing.outcome list) =
   in
   let count (b : Timing.battery) =
     let is_close = Option.fold b.lowest ~none:false ~some:(fun (lowest, _) -> lowest -. b.least < 1e-9) in
-    incr (if is_close then close else loose)
+    Test_support.Property.count (if is_close then close else loose)
   in
   List.iter (fun b -> count b; List.iter (check b) all) all
 
@@ -60,7 +60,7 @@ let agrees case =
   let options = options case in
   let run reduction limits = Timing.run ~reduction ~vehicles:batteries limits options in
   let plain = run Timing.Nothing few in
-  if plain.stopped <> None then incr skipped
+  if plain.stopped <> None then Test_support.Property.count skipped
   else begin
     let check name reduction =
       let found = run reduction Dolphin_checker.Limits.none in
@@ -78,8 +78,10 @@ let agrees case =
     let inert = check "inert ends" Timing.Inert_ends in
     let all = check "inert ends and likeness" Inert_ends_and_likeness in
     check_batteries [ plain; inert; all ];
-    if inert.reduction <> Nothing && inert.states <> plain.states then incr with_inert;
-    if all.reduction = Inert_ends_and_likeness && all.states <> inert.states then incr with_likeness
+    if inert.reduction <> Nothing && inert.states <> plain.states then
+      Test_support.Property.count with_inert;
+    if all.reduction = Inert_ends_and_likeness && all.states <> inert.states then
+      Test_support.Property.count with_likeness
   end;
   true
 

@@ -1,6 +1,8 @@
 let variable name = Option.bind (Sys.getenv_opt name) int_of_string_opt
 let with_new usual = usual :: Option.to_list (variable "DOLPHIN_SEED")
 
+let seeds ~usual = match variable "SEED" with Some seed -> [ seed ] | None -> with_new usual
+
 let usual = ref true
 let is_usual () = !usual
 let count n = if is_usual () then incr n
@@ -27,4 +29,4 @@ let on_each_seed ~usual ~programs test =
     Printf.printf "SEED=%d PROGRAMS=%d\n%!" seed programs;
     QCheck2.Test.check_exn ~rand:(Random.State.make [| seed |]) test
   in
-  on_each (match variable "SEED" with Some seed -> [ seed ] | None -> with_new usual) compare
+  on_each (seeds ~usual) compare

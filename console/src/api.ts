@@ -3,13 +3,14 @@
 export type Json = any;
 
 export interface Question { number: number; prompt: string; kind: "value" | "truth"; at: string | null; refused: string | null }
+export interface OpenQuestion { prompt: string; of: "task" | "script"; at: string | null; until: number | null }
 export interface Diagnostic {
   from: number; to: number; line: number; column: number; severity: "error" | "warning";
   message: string; code: string; hint?: string; file?: string;
 }
 export interface RunStatus {
   id: string; state: "running" | "stopping" | "over"; speed: number | null; simulated: boolean; inputs: string[];
-  question: Question | null; outcome: { how: string; text: string; diagnostics: Diagnostic[] } | null;
+  question: Question | null; questions: OpenQuestion[]; outcome: { how: string; text: string; diagnostics: Diagnostic[] } | null;
   program: string | null; journal: string | null; counterexample: string | null;
 }
 export interface Going { number: number; state: string; progress: string }

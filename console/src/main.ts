@@ -1,6 +1,6 @@
 // The page: it shows the messages of the server and sends a person's commands.
 
-import { type Diagnostic, type Json, type LogLine, type Status, Refusal, ask, get, listen, post, replay } from "./api";
+import { type Diagnostic, type Json, type LogLine, type OpenQuestion, type Status, Refusal, ask, get, listen, post, replay } from "./api";
 import { choose } from "./choice";
 import { HelmView } from "./helm";
 import { Stop } from "./stop";
@@ -422,7 +422,7 @@ const placeOf = (d: Diagnostic) => `${d.file ? d.file + ":" : ""}${d.line}:${d.c
 let nowKey = "";
 function renderNow() {
   const run = status?.run, going = !past && run !== null && run !== undefined && run.state !== "over";
-  const key = JSON.stringify([shown.waiting, shown.tuples, [...shown.allocation], [...shown.bound], run?.inputs, going, run?.question?.number,
+  const key = JSON.stringify([shown.waiting, shown.tuples, [...shown.allocation], [...shown.bound], run?.inputs, going, run?.question?.number, run?.questions,
     run?.outcome?.text, parameters, suggested, past !== null, shown.ending, run?.id]);
   if (key === nowKey) return;
   nowKey = key;
@@ -432,8 +432,7 @@ function renderNow() {
       run.journal !== null ? h("button", { click: attempt(() => replayRun(run.journal!, run.program ?? "run")) }, "Replay") : null));
   if (!past && run?.outcome?.diagnostics.length)
     parts.push(...run.outcome.diagnostics.map((d) => h("button", { class: "link trouble", click: () => goTo(placeOf(d), run.program) }, `${inWords(placeOf(d))}: ${d.message}`)));
-  if (going && run.question) parts.push(h("p", { class: "outcome asks" }, run.question.prompt,
-    h("button", { class: "main", click: () => dialog.open() }, "Answer")));
+  if (going) parts.push(...run.questions.map(openQuestion));
   if (going && run.inputs.length) parts.push(inputs(run.inputs));
   if (!going && !past && parameters.length) parts.push(fields());
   parts.push(list("Waits for", shown.waiting.map((w) => h("button", { class: "link", click: () => goTo(w.at, shownProgram()) }, w.what,
@@ -450,6 +449,24 @@ function renderNow() {
     if (!field || (id.startsWith("parameter-") && !settings.has(field.name))) continue;
     field.value = value;
     if (focused === id) { field.focus(); field.setSelectionRange(from, to); }
+  }
+}
+
+// All questions that are open: those of tasks are answered here, that of the script in its dialog.
+function openQuestion(q: OpenQuestion) {
+  const give = (name: string, value: boolean) => h("button", { class: "main", "aria-label": `${name}: ${q.prompt}`,
+    click: attempt(() => post("run/post", { key: q.prompt, value })) }, name);
+  const left = h("small", { class: "left" });
+  if (q.until !== null) left.dataset.until = String(q.until);
+  return h("p", { class: "outcome asks" }, h("button", { class: "link", click: () => goTo(q.at ?? undefined, shownProgram()) }, q.prompt), left,
+    ...(q.of === "task" ? [give("Yes", true), give("No", false)] : [h("button", { class: "main", click: () => dialog.open() }, "Answer")]));
+}
+
+// The time that is left passes although nothing happens.
+function renderTimeLeft() {
+  for (const el of document.querySelectorAll<HTMLElement>("#now .left[data-until]")) {
+    const text = ` ${clock(Math.max(0, Number(el.dataset.until) - live.time))} left `;
+    if (el.textContent !== text) el.textContent = text;
   }
 }
 
@@ -547,6 +564,7 @@ function changed() {
     map.render(shown);
     table.show(shown, past?.steps ?? false);
     renderNow();
+    renderTimeLeft();
     renderAbout();
     renderLog();
     renderHead();
@@ -583,7 +601,8 @@ listen({
     layers.tiles(s.tiles);
     renderHead();
     if (!watches || answers) dialog.show(s.run?.id ?? "", s.run?.question ?? null);
-    markTitle("question", s.run?.question ? "● " + s.run.question.prompt : "");
+    const open = s.run?.questions ?? [];
+    markTitle("question", open.length > 1 ? `● ${open.length} questions` : s.run?.question ? "● " + s.run.question.prompt : "");
     renderNow();
     verdicts.status(s);
     for (const subject of over) attempt(async () => verdicts.result(subject, await get(subject)))();

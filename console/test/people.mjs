@@ -15,6 +15,10 @@ vehicle 'lauv-xplore-2', { type 'UUV'; at 41.1838, -8.7051 }
 plan 'survey', { duration 30.seconds; fails }
 input 'over', true
 `);
+  writeFileSync(join(folder, "several.dol"), `execute (confirm('Left?') within 1.hour) | confirm('Right?')
+x = ask 'How many?'
+message x
+`);
 
   await test("confirm has two buttons, and tells where the program asks", async () => {
     await page.reload();
@@ -50,6 +54,29 @@ input 'over', true
 
   await test("an input has a button for each value of the fleet", async () => {
     await page.click("[aria-label='post over: true']");
+    await over(page);
+  });
+
+  await test("all open questions are in one list, with the time that is left; Later hides none", async () => {
+    await choose(page, "several.dol");
+    await page.selectOption("#speed", "1");
+    await page.click("#run");
+    await page.waitForSelector("dialog[open] >> text=Left?");
+    await page.click("#later");
+    await page.waitForSelector("#now .asks:has-text('Left?') >> text=/59:\\d\\d left/");
+    same(await text(page, "#now .asks:has-text('Right?') .left"), "", "no limit");
+    same(await page.title().then((t) => t.includes("● 2 questions")), true, "the title");
+    await page.click("[aria-label='Yes: Right?']");
+    await page.waitForSelector("#now .asks:has-text('Right?')", { state: "detached" });
+    await page.click("[aria-label='Yes: Left?']");
+    await page.waitForSelector("dialog[open] >> text=How many?");
+    await page.fill("#answer", "1 +");
+    await page.click("#give");
+    await page.waitForSelector("#refused:not(:empty)");
+    same(await page.inputValue("#answer"), "1 +", "the refused answer stays");
+    await page.fill("#answer", "1 + 1");
+    await page.click("#give");
+    await page.waitForSelector("#log pre >> text=says: 2");
     await over(page);
   });
 }

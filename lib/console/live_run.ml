@@ -35,6 +35,7 @@ type t = {
   mutable refused : string option;
   mutable state : state;
   mutable stale : bool;  (* the message [waiting] is due *)
+  expiries : (Dolphin_semantics.Residual.timer, float) Hashtbl.t;  (* the times of the timers that run *)
   mutable early : Dolphin_trace.Act.t list;  (* of operators, before the journal began; latest first *)
 }
 
@@ -59,9 +60,19 @@ let will_tell_waiting r =
     Lwt.async (fun () -> Lwt.pause () >|= fun () -> tell_waiting r; r.changed ())
   end
 
+let note_timers r ~time (t : Dolphin_semantics.Transition.t) =
+  let note : Dolphin_semantics.Effect.t -> unit = function
+    | Set_timer (timer, seconds) -> Hashtbl.replace r.expiries timer (time +. seconds)
+    | Cancel_timer timer -> Hashtbl.remove r.expiries timer
+    | Start _ | Stop _ | Put_question _ | Withdraw_question _ | Look_for _ | Bind _ | Release _
+    | Set_connection_timeout _ | Say _ | Ask _ | Call_host _ | End _ -> ()
+  in
+  List.iter note t.effects
+
 let observer r : Observer.t =
   let transition ~time ~cause:_ t =
     r.last <- time;
+    note_timers r ~time t;
     let stuck = Interruption.is_unasked r.interruption (Narrator.configuration r.narrator) in
     Narrator.transition r.narrator ~stuck ~time t;
     will_tell_waiting r;
@@ -141,6 +152,7 @@ let front r : Run.front =
   { replayed =
       (fun entry replay ->
          r.last <- Dolphin_trace.Entry.time entry;
+         Option.iter (fun (_, t) -> note_timers r ~time:r.last t) (Dolphin_trace.Replay.latest replay);
          Narrator.replayed r.narrator entry replay);
     notice = remark r;
     opened = begun r;
@@ -169,7 +181,7 @@ let begin_ ~id ~changed ?journal ?enacts order go =
     { id; order; journal; enacts; feed;
       narrator = Narrator.make order.program (fun ~event data -> Feed.add feed ~event data);
       interruption = Interruption.make (); changed; finished; finish; opened; open_; view; last = 0.; question = None;
-      questions = 0; refused = None; state = Running; stale = false; early = [] }
+      questions = 0; refused = None; state = Running; stale = false; early = []; expiries = Hashtbl.create 8 }
   in
   let whole () =
     Lwt.catch
@@ -214,6 +226,13 @@ let stop ?by r stopping =
     r.changed ()
   end
 
+(* A pair may answer the question of a task, by its prompt. *)
+let deed_of_post r (key, x) : Dolphin_trace.Act.deed =
+  match Dolphin_semantics.Answer.confirmation_of_value x with
+  | Some yes when not (List.mem key r.order.program.program.inputs) ->
+    Answer { question = key; text = (if yes then "yes" else "no") }
+  | Some _ | None -> Post (Format.asprintf "%a" Dolphin_semantics.Value.pp_tuple (key, x))
+
 let post ?by r pairs =
   let program = r.order.program.program in
   let why (key, x) =
@@ -224,7 +243,7 @@ let post ?by r pairs =
   let rec each = function
     | [] -> Lwt.return (Ok (now r))
     | (key, x) :: rest -> (
-        acted r by (Post (Format.asprintf "%a" Dolphin_semantics.Value.pp_tuple (key, x)));
+        acted r by (deed_of_post r (key, x));
         r.view.post key x >>= function
         | true -> each rest
         | false when goes_on r -> Lwt.return (Error "this question is not open any more")
@@ -268,6 +287,15 @@ let to_json r : Yojson.Safe.t =
              ("at", Field.of_option (fun at -> `String at) q.place.at);
              ("refused", Field.of_option (fun why -> `String why) q.refused) ]
   in
+  let until timers =
+    let times = List.filter_map (Hashtbl.find_opt r.expiries) timers in
+    List.fold_left (fun least time -> Some (Option.fold least ~none:time ~some:(Float.min time))) None times
+  in
+  let open_question ((q : Dolphin_display.Open_question.t), at) : Yojson.Safe.t =
+    `Assoc [ ("prompt", `String q.prompt); ("of", `String (if q.is_of_task then "task" else "script"));
+             ("at", Field.of_option (fun at -> `String at) at);
+             ("until", Field.of_option Canonical.number (until q.timers)) ]
+  in
   let state, outcome =
     match r.state with
     | Running -> ("running", `Null)
@@ -280,4 +308,6 @@ let to_json r : Yojson.Safe.t =
       ("simulated", `Bool (Run.is_simulated r.order.settings));
       ("counterexample", Field.of_option (fun property -> `String property) r.enacts);
       ("inputs", Field.texts (if r.enacts = None then r.order.program.program.inputs else []));
-      ("question", Field.of_option question r.question); ("outcome", outcome) ]
+      ("question", Field.of_option question r.question);
+      ("questions", `List (List.map open_question (if goes_on r then Narrator.open_questions r.narrator else [])));
+      ("outcome", outcome) ]

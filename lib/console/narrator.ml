@@ -97,6 +97,11 @@ let place_of_question n prompt =
   let found = Waiting.question program ~source n.configuration prompt in
   { at = Option.map (place n) found.at; is_confirm = found.is_confirm }
 
+let open_questions n =
+  let location site = Fault.location n.program.program (Fault.make site "") in
+  let located (q : Open_question.t) = (q, Option.map (place n) (location q.site)) in
+  List.map located (Open_question.list n.configuration)
+
 let waiting n ~time =
   let { Program_file.program; source; _ } = n.program in
   let world = World.at (Exactly (World.whole time)) n.world in

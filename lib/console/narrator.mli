@@ -3,6 +3,7 @@
 
 open Dolphin_semantics
 open Dolphin_trace
+open Dolphin_display
 
 type t
 
@@ -39,6 +40,9 @@ type place_of_question = {
 val place_of_question : t -> string -> place_of_question
 (** [place_of_question n prompt] is where the program, or a task that it executes, asks [prompt] now, and whether by
     [confirm]. *)
+
+val open_questions : t -> (Open_question.t * string option) list
+(** The questions that are open now, each with its place. *)
 
 val waiting : t -> time:float -> unit
 (** The message [waiting], with the events that the program waits for, if they have changed. *)

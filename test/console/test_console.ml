@@ -564,6 +564,36 @@ let what_is_asked folder port =
   text "what may come" {|{"go":["'north'","'south'","1"]}|}
     (Yojson.Safe.to_string (member [ "suggested" ] (Client.json r)))
 
+(* All questions that are open, with the time at which the innermost and the outer time limits end them. *)
+let open_questions folder port =
+  write (Filename.concat folder "open.dol")
+    ("execute ((confirm('Left?') | (confirm('Middle?') within 2.hour)) within 1.hour)\n"
+     ^ "  | (confirm('Right?') during 3.hour)\nx = ask 'And now?'\n");
+  let listed (m : Client.message) =
+    match member [ "run"; "questions" ] (Yojson.Safe.from_string m.data) with
+    | `List found when m.event = "status" -> Yojson.Safe.to_string (`List found)
+    | _ -> ""
+  in
+  let post body = Client.ask ~body ~port "/api/run/post" in
+  Client.watch ~port "first" >>= fun first ->
+  Client.ask ~body:{|{"program": "open.dol", "people": true, "speed": 1}|} ~port "/api/run" >>= fun r ->
+  status "it starts" 200 r.status;
+  Client.until first (fun m -> has_text "Right?" (listed m)) >>= fun seen ->
+  text "three questions"
+    ({|[{"prompt":"Left?","of":"task","at":"1:11","until":3600},{"prompt":"Middle?","of":"task","at":"1:31","until":3600},|}
+     ^ {|{"prompt":"Right?","of":"task","at":"2:6","until":10800}]|})
+    (listed (List.hd (List.rev seen)));
+  post {|{"key": "Right?", "value": true}|} >>= fun r ->
+  status "any of them is answered" 200 r.status;
+  Client.until first (fun m -> has_text "Left?" (listed m) && not (has_text "Right?" (listed m))) >>= fun _ ->
+  post {|{"key": "Middle?", "value": true}|} >>= fun _ ->
+  post {|{"key": "Left?", "value": true}|} >>= fun _ ->
+  Client.until first (fun m -> has_text {|"And now?","of":"script"|} (listed m)) >>= fun _ ->
+  Client.ask ~body:"{}" ~port "/api/run/stop" >>= fun _ ->
+  Client.until first is_over >>= fun seen ->
+  text "none at the end" "[]" (listed (List.hd (List.rev seen)));
+  Client.leave first
+
 (* What the program's variables are on the map, and the way of a plan that it describes. *)
 let on_the_map folder port =
   write (Filename.concat folder "chart.dol")
@@ -1214,6 +1244,7 @@ let () =
                   slow "many constants" (with_limits Fun.id many_constants) ]);
       ("runs",
        [ slow "threads" threads_interrupt_nothing; slow "a run" (console a_run); slow "journals of the folder" (console journals); slow "answers and posts" (console answers_and_posts);
-         slow "what is asked" (console what_is_asked); slow "on the map" (console on_the_map);
+         slow "what is asked" (console what_is_asked);
+         slow "open questions" (console open_questions); slow "on the map" (console on_the_map);
          slow "stopped" (console stopped); slow "stuck" (console stuck);
          slow "interrupted is not stuck" (console interrupted_is_not_stuck); slow "faults" (console faults) ]) ]

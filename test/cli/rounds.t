@@ -156,11 +156,11 @@ So it is in paced time.
 
   $ dolphin exec empty.dol --fleet empty.fleet --speed 1 > log 2> error
   [1]
-  $ tail -n 1 log | cut -c 10-
+  $ tail -n 1 log | sed 's/^ *[0-9:]* *//'
   program     is stuck
   $ dolphin exec empty.dol --fleet empty.fleet --speed 1000 --journal empty.run > log 2> error
   [1]
-  $ tail -n 1 log | cut -c 10-
+  $ tail -n 1 log | sed 's/^ *[0-9:]* *//'
   program     is stuck
 
 Rounds in which something happens are not counted: these are 20,000.

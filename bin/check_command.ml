@@ -35,6 +35,7 @@ let run path set fleet adapters =
     | Some p, Some f ->
       Dolphin_service.Plan_names.misspelt p.program f.scenario
       @ Dolphin_service.Timeless_loops.found ~plans:(p.plans ~place:p.program.place) p.ast f.scenario
+      @ Dolphin_service.Foreseen.found ~own_fleet:(f.path <> None) p.program f.scenario
     | _, _ -> []
   in
   Option.iter
@@ -44,7 +45,9 @@ let run path set fleet adapters =
        verdict path found)
     program;
   Option.iter (fun (f : Fleet_file.t) -> Option.iter (fun path -> verdict path []) f.path) fleet;
+  let is_error (d : Dolphin_syntax.Diagnostic.t) = d.severity = Error in
   match program, fleet with
+  | Some _, Some _ when List.exists is_error of_plans -> Exit_status.Bad_input
   | Some program, Some fleet -> checked_plans program fleet adapters
   | None, _ | _, None -> Exit_status.Bad_input
 
@@ -52,8 +55,10 @@ let man =
   [ `S Manpage.s_description;
     `P "$(tname) finds the faults of a program that show without running it: syntax, unknown names, numbers of \
         arguments, kinds of literals, statements of the script inside a task's code, one vehicle needed twice at \
-        once. It shows each fault with its line and, if known, a correction. $(b,exec) makes the same checks before \
-        it starts.";
+        once. It shows each fault with its line and, if known, a correction. $(b,exec) makes these checks before it \
+        starts.";
+    `P "It also follows the program for as long as only one thing can happen. If the program ends with an error there, \
+        that is an error if nothing of the outside took part in it, else a warning about its fleet.";
     `P "With $(b,--platform), adapters report the problems that keep their vehicles from running the program's plans: \
         the plans given to vehicles in a run on the simulated fleet. Nothing moves.";
     `P "The fleet that the program would run with is checked too. Plan names that look misspelt are reported, and \

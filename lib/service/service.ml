@@ -84,7 +84,8 @@ let of_program d =
   match elaborated d with
   | Error found -> found
   | Ok (program, warnings, text) ->
-    let of_fleet s = of_fleet program text s @ Plan_names.misspelt program s in
+    let of_fleet s =
+      of_fleet program text s @ Plan_names.misspelt program s @ Foreseen.found ~own_fleet:true program s in
     warnings @ without_place program text d.scenario @ Option.fold d.scenario ~none:[] ~some:of_fleet
 
 let diagnostics d =

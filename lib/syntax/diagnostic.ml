@@ -13,7 +13,7 @@ type code =
   | Deed_in_maker
   | Vehicle_twice
   | Unused_task | No_effect | Assigned_condition | Wide_value | Unknown_plan | Unread_input | Other_meaning
-  | Partial_map | No_end | No_time
+  | Partial_map | No_end | No_time | Ends_here
 
 let codes =
   [ (Syntax, "syntax"); (Unknown_name, "unknown-name"); (Unknown_unit, "unknown-unit");
@@ -31,7 +31,8 @@ let codes =
     (Vehicle_twice, "vehicle-twice"); (Unused_task, "unused-task");
     (No_effect, "no-effect"); (Assigned_condition, "assigned-condition"); (Wide_value, "wide-value");
     (Unknown_plan, "unknown-plan"); (Unread_input, "unread-input"); (Other_meaning, "other-meaning");
-    (Partial_map, "partial-map"); (No_end, "no-end"); (No_time, "no-time") ]
+    (Partial_map, "partial-map"); (No_end, "no-end"); (No_time, "no-time");
+    (Ends_here, "ends-here") ]
 
 let code_name code = List.assoc code codes
 

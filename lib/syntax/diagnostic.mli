@@ -38,6 +38,7 @@ type code =
   | Partial_map  (** a warning: features of a map are flawed, left out or repaired *)
   | No_end  (** a warning: a repeat without an end of its own beside a task that ends *)
   | No_time  (** a warning: a loop whose rounds take no time *)
+  | Ends_here  (** code fails in every run, or as a warning in each run of the fleet in which all goes well *)
 
 val codes : (code * string) list
 (** Every code with its name, which does not change: ["unknown-name"]. *)

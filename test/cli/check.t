@@ -3,10 +3,34 @@
   rendezvous.dol: no errors
   rendezvous.fleet: no errors
 
-Every example is free of faults.
+Every example is free of faults. Two of them end with an error on purpose, which is foreseen.
 
   $ for program in *.dol; do dolphin check "$program" 2>&1; done | grep -v ': no errors$'
-  [1]
+  errors.dol:26:21: warning: a run ends here: index 2 is out of range: a list has 2 elements
+    26 | message "deepest: ${depths[2]}"
+       |                     ^^^^^^^^^
+       hint: found by following the program in its fleet, where no fault happens
+  errors.dol: no errors, 1 warning
+  release.dol:11:5: warning: a run ends here: could not pick 1 vehicle of type 'UAV': x8-02 is already bound; x8-03 is already bound
+    11 | c = pick { type 'UAV'; timeout 30.seconds }
+       |     ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+       hint: found by following the program in its fleet, where no fault happens
+  release.dol: no errors, 1 warning
+
+An error of every run is refused, by check alone: exec ends where it comes.
+
+  $ cat > $OLDPWD/far.dol <<'END'
+  > def third(xs) { xs[2] }
+  > for (n in 1..2) { post first: n }
+  > message third([1, 2])
+  > END
+  $ dolphin check $OLDPWD/far.dol 2>&1 | sed 's|.*/far|far|'
+  far.dol:1:17: error: index 2 is out of range: a list has 2 elements
+    1 | def third(xs) { xs[2] }
+      |                 ^^^^^
+  far.dol: 1 error
+  $ dolphin check $OLDPWD/far.dol > /dev/null 2>&1
+  [2]
 
 Faults of the program and of the fleet are told together.
 

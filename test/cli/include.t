@@ -121,7 +121,8 @@ The prelude comes with the command. A program may have its name; a function that
   $ cat > prelude <<'END'
   > include 'prelude'
   > execute par([action { message 1 }, action { message 2 }])
-  > execute par(3)
+  > three = [3][0]
+  > execute par(three)
   > END
   $ dolphin exec prelude --fleet one.fleet
      0:00  program     says: 1

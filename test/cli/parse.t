@@ -16,8 +16,9 @@ What it prints means the same.
 
 Limits behind a command stay there, where they belong to its argument.
 
-  $ echo "execute (task('a')) until { poll('k') } within 5.min" > limits.dol
+  $ echo "v = pick { type 'UUV' }; execute (task('a')) until { poll('k') } within 5.min" > limits.dol
   $ dolphin parse limits.dol
+  v = pick { type 'UUV' }
   execute(task('a')) until { poll 'k' } within 5.min
   $ dolphin parse limits.dol > printed.dol && dolphin check printed.dol
   printed.dol: no errors

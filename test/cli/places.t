@@ -89,8 +89,12 @@ What code decides is a fault where the plan is built.
   > execute v: go(2)
   > execute v: go(1)
   > END
-  $ dolphin check code.dol
-  code.dol: no errors
+  $ dolphin check code.dol 2>&1 | cut -c 1-99
+  code.dol:2:53: warning: a run ends here: 'goTo' has no place: neither plan, program nor fleet has o
+    2 | def go(n) { imcPlan { if (n > 1) { locate 43, -8 }; goTo() } }
+      |                                                     ^^^^^^
+      hint: found by following the program in its fleet, where no fault happens
+  code.dol: no errors, 1 warning
   $ dolphin exec code.dol --fleet far.fleet
      0:00  program     picks a
      0:00  a           starts plan-2

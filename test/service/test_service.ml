@@ -225,8 +225,60 @@ let anywhere =
     (pair (oneofl examples) (pair (int_bound 5000) (int_bound 5000)))
     answered
 
+(* {1 Diagnostics} *)
+
+let reported ?fleet source =
+  let fleet = Option.map (fun text : Service.fleet -> { path = "m.fleet"; text }) fleet in
+  let show (d : Dolphin_syntax.Diagnostic.t) =
+    let kind = match d.severity with Error -> "error" | Warning -> "warning" in
+    Printf.sprintf "%d: %s: %s" (Dolphin_syntax.Location.line d.at) kind d.message in
+  List.map show (Service.diagnostics (Service.read ~file:"m.dol" ?fleet source))
+
+let diagnoses ?fleet source expected () = Alcotest.(check strings) source expected (reported ?fleet source)
+
+let of_prelude call expected =
+  case call (diagnoses ("include 'prelude'\nv = pick { type 'UUV'; count 2 }\nn = 2\nexecute " ^ call) expected)
+
+let preludes =
+  [ of_prelude "seq(task('a') >> task('b'))" [ "4: error: seq takes a list here, this is a task" ];
+    of_prelude "forall(v, task('a'))" [ "4: error: forall takes code { ... } here, this is a task" ];
+    of_prelude "every(task('a'), 5.min)"
+      [ "4: error: every takes a number here, this is a task"; "4: error: every takes a task here, this is a number" ];
+    of_prelude "barrier(2, 'meet')"
+      [ "4: error: barrier takes a string here, this is a number";
+        "4: error: barrier takes a number here, this is a string" ];
+    of_prelude "team(1, 2, v, 'a') { g -> task(g) }" [ "4: error: team takes a list here, this is a string" ];
+    of_prelude "race([task('a'), retrying(n, { task('b') })]) >> every(5.min, { task('c') })" [];
+    of_prelude "team(1, n, v, v) { g -> task('d') } >> patrol([task('a')] + [task('b')])" [] ]
+
+let two = "vehicle 'a', { type 'UUV' }\nvehicle 'b', { type 'UUV' }\n"
+
+let foreseen =
+  let case name ?(fleet = two) source expected = case name (diagnoses ~fleet source expected) in
+  [ case "code of every run" "xs = [1, 2]\nmessage xs[2]" [ "2: error: index 2 is out of range: a list has 2 elements" ];
+    case "by way of a function and a loop" "def f(x) { x / (2 - x) }\nfor (i in 1..3) { post k: f(i) }"
+      [ "1: error: division by zero" ];
+    case "a task without vehicles" "execute task('a')"
+      [ "1: error: no vehicle can run task 'a': no vehicle is bound to the program: pick one first" ];
+    case "after a pick" "v = pick { type 'UUV' }\nm = [x: 1]\nexecute task('a')\nn = m[v.id] * 2"
+      [ "4: warning: a run ends here: * takes two numbers, not null and a number" ];
+    case "vehicles that the fleet does not have" "v = pick { type 'UUV'; count 3 }"
+      [ "1: warning: a run ends here: could not pick 3 vehicles of type 'UUV': a fits; b fits" ];
+    case "tasks after a release" "v = pick { type 'UUV' }\nrelease v\nexecute v: task('a')"
+      [ "3: warning: a run ends here: no vehicle can run task 'a': no vehicle is bound to the program: pick one first" ];
+    case "an assertion" "assert { 1 > 2 }, 'never'" [ "1: error: assertion failed: never" ];
+    case "an end that is meant" "fail 'not yet written'" [];
+    case "a halt" "v = pick { type 'UUV' }\nhalt 'enough'" [];
+    case "a reading decides" "v = pick { type 'UUV' }\nif (battery(v) < 0.5) { xs = []; message xs[1] }" [];
+    case "an order decides"
+      "v = pick { count 2 }\nn = 0\nexecute task('a') >> action { n = 1 } | task('b') >> action { n = n / n }" [];
+    case "an answer decides" ~fleet:(two ^ "answer 'n?', 0, 1\nanswer 'm?', either(0, 1)") "n = ask 'm?'\nx = 1 / n" [];
+    case "an endless loop" "while (true) { x = 1 }" [];
+    case "a handler" "v = pick { type 'UUV' }\nexecute watch action { x = 1 / 0 } onError { ignore() }" [] ]
+
 let () =
   Alcotest.run "service"
     [ "places", [ case "there and back" positions ]; "names", names; "completion", completion; "calls", calls; "allocations", allocations;
+      "arguments of the prelude", preludes; "foreseen", foreseen;
       "prelude", [ case "completion and hover" prelude ];
       "reference", [ case "is whole" documented; case "is highlighted" highlighted ]; "everywhere", [ anywhere ] ]

@@ -284,10 +284,9 @@ let misspells_builder env name arguments =
   | _ -> false
 
 (* The page of its arguments is another one: near(v, 500.m) lacks the set that is searched. *)
-let form_in_prelude env name (lambda : lambda) =
+let entry_in_prelude env name (lambda : lambda) =
   match Scope.location env.program lambda.lambda_site with
-  | Some at when Location.file at = Prelude.file ->
-    Option.map (fun (e : Prelude.entry) -> "write " ^ e.form) (Prelude.find name)
+  | Some at when Location.file at = Prelude.file -> Prelude.find name
   | Some _ | None -> None
 
 let by_name env at name (callee : Ast.expression) arguments =
@@ -303,7 +302,9 @@ let by_name env at name (callee : Ast.expression) arguments =
     if n <> lambda.parameters then
       error env Wrong_arity at "%s takes %d argument%s, not %d" name lambda.parameters
         (if lambda.parameters = 1 then "" else "s")
-        n ?hint:(form_in_prelude env name lambda);
+        n ?hint:(Option.map (fun (e : Prelude.entry) -> "write " ^ e.form) (entry_in_prelude env name lambda))
+    else
+      Option.iter (fun entry -> Member_check.prelude_call env entry arguments) (entry_in_prelude env name lambda);
     Scope.note_call env.code name callee.at;
     called_value ()
   | None, None, Some _ when Builtins.is_geometry name && Scope.is_assigned env.program name -> called_value ()
@@ -325,6 +326,7 @@ let by_name env at name (callee : Ast.expression) arguments =
     error env Unknown_name callee.at "unknown name '%s'" name ?hint:(did_you_mean name Builtins.builder_names);
     null env at
   | None, None, None ->
+    if Scope.settings env.code = None then Member_check.callee env callee;
     (match Scope.settings env.code with
      | Some (((Pick | Recruit | Imc_plan | Mission | Pos) as builder), _) ->
        error env Unknown_setting callee.at "%s has no setting '%s'" (builder_name builder) name
@@ -335,6 +337,7 @@ let by_name env at name (callee : Ast.expression) arguments =
 
 let to_method env at subject name safe arguments =
   check_supplier env subject name;
+  if not safe then Member_check.member env ~called:true ~arguments subject name;
   let asks_how_far = arguments <> [] && Travel.quantity name.Ast.it <> None in
   if List.mem name.it sensor_members || asks_how_far then Scope.note_sensor env.program;
   let keys = keys_of arguments in
@@ -387,5 +390,6 @@ let call env at (callee : Ast.expression) arguments =
     apply env at (Builtin (Math name.it)) (values env arguments)
   | Member { subject; name; safe } -> to_method env at subject name safe arguments
   | _ ->
+    Member_check.callee env callee;
     let callee = elaborate env callee in
     apply env at (Call (keys_of arguments)) (callee :: values env arguments)

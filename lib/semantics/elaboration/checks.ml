@@ -57,6 +57,13 @@ let hint_for_setting builder name =
 
 (* {1 What is known of an expression before it runs} *)
 
+let kind_of_vehicles : string -> Builtins.kind = function
+  | "battery" -> Number
+  | "position" -> Position
+  | "id" | "type" -> String
+  | "first" | "last" | "head" | "tail" -> Vehicles
+  | _ -> Any
+
 let rec kind_by variable (e : Ast.expression) : Builtins.kind =
   let kind_of = kind_by variable in
   match e.it with
@@ -74,6 +81,8 @@ let rec kind_by variable (e : Ast.expression) : Builtins.kind =
   | Null | List _ | Map _ | Range _ -> Other
   | Member { subject; name; safe = false } when kind_of subject = Number && Operators.unit_factor name.it <> None ->
     Number
+  | Member { subject; name; safe = false } when kind_of subject = Vehicles -> kind_of_vehicles name.it
+  | Index (a, _) when kind_of a = Vehicles -> Vehicles
   | Unary (Negate, e) -> kind_of e
   | Binary ((Sequence | Parallel | Divide), a, _) when kind_of a = Task -> Task
   | Binary ((Sequence | Parallel | Divide), { it = Call { callee = { it = Variable "confirm"; _ }; _ }; _ }, _)
@@ -139,6 +148,14 @@ let hint_for_operand env symbol (e : Ast.expression) =
             Dolphin_syntax.Print.expression d symbol)
   | _ -> None
 
+(* "50%" is meant as 50.percent, "3" as 3. *)
+let hint_for_number text =
+  let digits = String.concat "" (String.split_on_char '%' text) in
+  match float_of_string_opt digits with
+  | Some _ when digits <> text -> Some (Printf.sprintf "a share is a number: %s.percent" digits)
+  | Some _ -> Some (Printf.sprintf "a number stands without quotes: %s" text)
+  | None -> None
+
 let describe_kind env e = Builtins.describe (operand_kind env e)
 
 (* The first of [operands] that surely is of none of these kinds. *)
@@ -173,6 +190,19 @@ let check_operator env (op : Ast.binary) (a : Ast.expression) (b : Ast.expressio
     let e = if operand_kind env a = Task then a else b in
     let hint = if found = other then Some "tasks one after the other are a >> b, tasks at once a | b" else None in
     wrong e ?hint "%s takes no task" symbol
+  | (Less | Less_equal | Greater | Greater_equal), found, other
+    when not (List.exists (fun kind -> could_be kind found && could_be kind other) [ Builtins.Number; String ]) ->
+    let e = if List.mem found [ Builtins.Number; String ] then b else a in
+    let hint = match e.it, found with String text, Number -> hint_for_number text | _ -> None in
+    error env ?hint Wrong_kind e.at "%s compares two numbers or two strings, and this is %s beside %s" symbol
+      (describe_kind env e) (describe_kind env (if e == a then b else a))
+  | (Subtract | Multiply | Divide | Remainder | Power), _, _ ->
+    let wanted : Builtins.kind list = if op = Subtract then [ Number; Vehicles; Other ] else [ Number ] in
+    let hint (e : Ast.expression) = match e.it with String text -> hint_for_number text | _ -> None in
+    let takes = if op = Subtract then "numbers, lists, areas or vehicle sets" else "two numbers" in
+    let complain (e : Ast.expression) =
+      error env ?hint:(hint e) Wrong_kind e.at "%s takes %s, and this is %s" symbol takes (describe_kind env e) in
+    check_operands env wanted [ a; b ] ~complain
   | _, _, _ -> ()
 
 (* {1 Places of names} *)

@@ -130,7 +130,7 @@ let without_unused_prelude (ast : Ast.program) =
 let kinds_of_variables ast =
   let of_kind kind =
     List.map (fun name -> (name, kind)) (Assigned.once (fun e -> Checks.kind_of e = kind) ast) in
-  List.concat_map of_kind [ Builtins.Task; Number; String; Vehicles ]
+  List.concat_map of_kind [ Builtins.Task; Number; String; Vehicles; Position ]
 
 let no_chart _ = Error "no file can be read here"
 

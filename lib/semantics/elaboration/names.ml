@@ -48,7 +48,7 @@ let member env (whole : Ast.expression) subject (name : string Ast.located) safe
     (match kind_of subject with
      | Number when Operators.unit_factor name.it = None ->
        error env Unknown_unit name.at "unknown unit '%s'" name.it ~hint:(Operators.unit_hint name.it)
-     | _ -> ());
+     | _ -> Member_check.member env ~called:false subject name);
     Chart_calls.check_member env subject name;
     let subject = Checks.elaborate env subject in
     if safe then unless_null env at subject (fun e -> apply env at (Property name.it) [ e ])

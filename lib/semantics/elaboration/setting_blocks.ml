@@ -89,7 +89,10 @@ let add env at slot name arguments =
      Option.iter
        (fun fault ->
           let hint =
-            if name = "surveyArea" then Some "the area is a list of corners: surveyArea [a, b, c], 20.m" else None in
+            let about = List.hd (String.split_on_char ' ' fault) in
+            if name <> "surveyArea" || List.mem about [ "spacing"; "bearing" ] then None
+            else Some "the area is a list of corners: surveyArea [a, b, c], 20.m"
+          in
           error env ?hint Wrong_value at "%s" fault)
        (Literal_check.fault_of_mission name (List.map argument arguments))
    | Some ((Pick | Recruit), _) when arguments <> [] && not (List.exists is_named arguments) ->

@@ -378,6 +378,15 @@ let known x =
   in
   [ "equals"; "toString" ] @ own
 
+let may_have x name =
+  let gets name = getter World.empty x name <> None in
+  let other_names = [ "filter"; "distanceTo"; "bearingTo"; "getAt" ] in
+  List.exists (List.mem name) [ known x; properties x; other_names ] || updates name || gets name
+  || Option.fold (property_of_getter name) ~none:false ~some:gets
+  || specific x name [] <> None
+
+let like x name = Suggest.suggest name (known x @ properties x)
+
 (* Such a range, or number of times, is not gone through by methods; loops take any range. *)
 let too_many x name =
   match x with

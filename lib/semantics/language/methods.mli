@@ -13,6 +13,13 @@ val property : World.t -> value -> string -> (value, string) result
 val call : World.t -> value -> string -> value list -> (value, string) result
 (** [call w x name arguments] is [x.name(arguments)]. *)
 
+val may_have : value -> string -> bool
+(** [may_have x name] is false if [x] has neither a property nor a method [name], whatever its value is among those of
+    its kind. *)
+
+val like : value -> string -> string option
+(** [like x name] is the member of [x] whose name is most like [name], if one is. *)
+
 val updates : string -> bool
 (** [updates name] is whether method [name] changes the variable that it is called on, as [xs.add(x)] does. The value
     of {!call} is then the variable's new value. *)

@@ -95,7 +95,7 @@ let several at v n what =
     ~hint:(Printf.sprintf "the first is %s[0]; %s.every { x -> ... } and %s.any { x -> ... } ask of all" v v v)
 
 let beyond at v n i =
-  Diagnostic.error ~code:Wrong_value at (Printf.sprintf "'%s' is %s: there is no %s[%d]" v (vehicles n) v i)
+  Diagnostic.error ~code:Wrong_value at (Printf.sprintf "'%s' is %s: %s[%d] does not exist" v (vehicles n) v i)
     ~hint:(Printf.sprintf "the first is %s[0], the last %s[%d]" v v (n - 1))
 
 let look_at_one counts functions acc (e : expression) =

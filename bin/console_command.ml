@@ -63,14 +63,33 @@ let certificate_of listen files no_tls =
   | Some _, None, false -> Result.map Option.some (Certificate.own ~name:(Console.name listen))
   | Some _, Some (certificate, key), false -> Result.map Option.some (Certificate.load ~certificate ~key)
 
-let run () folder sim fleet network adapters definition supplier supplier_timeout tiles
-    (listen, files, no_tls, operators) port no_browser =
+(* Who may connect, and how. *)
+type listening = {
+  listen : Unix.inet_addr option;  (** [None]: 127.0.0.1 *)
+  certificate : (string * string) option;  (** and its key, in files *)
+  no_tls : bool;
+  operators : string option;  (** a file *)
+}
+
+type asked = {
+  folder : string;
+  sim : string option;
+  fleet : string option;
+  run : Run.settings;  (** the names of its network are those of [definition] once it is read *)
+  definition : string option;
+  tiles : string option;
+  listening : listening;
+  port : int;
+  browser : bool;
+}
+
+let run () { folder; sim; fleet; run; definition; tiles; listening; port; browser } =
+  let { listen; certificate = files; no_tls; operators } = listening in
   let fleet = match fleet, sim with Some _, _ -> fleet | None, sim -> sim in
   Report.result
     (let* folder = trouble (Folder.make folder) in
      let* definition = Definition_file.load definition in
-     let network = Option.map (Imc_options.with_names definition) network in
-     let run = { Run.simulated with network; adapters; supplier; supplier_timeout } in
+     let run = { run with network = Option.map (Imc_options.with_names definition) run.network } in
      let* () =
        if sim <> None && not (Run.is_simulated run) then
          Error
@@ -88,7 +107,7 @@ let run () folder sim fleet network adapters definition supplier supplier_timeou
        { Console.folder; run; fleet; dolphin = Sys.executable_name; page = Page.load (Page.folder ()); tiles; listen;
          certificate; operators; version = Version.number; workers = Dolphin_console.Worker_pool.limits }
      in
-     serve settings ~port ~browser:(not no_browser))
+     serve settings ~port ~browser)
 
 let folder =
   let doc = "The folder whose programs, fleets and journals are shown, by default the current one." in
@@ -152,8 +171,9 @@ let operators =
   Arg.(value & opt (some file) None & info [ "operators" ] ~docv:"FILE" ~doc)
 
 let listening =
-  let together listen certificate no_tls operators = (listen, certificate, no_tls, operators) in
-  Term.(const together $ listen $ certificate $ no_tls $ operators)
+  let open Options.Syntax in
+  let+ listen = listen and+ certificate = certificate and+ no_tls = no_tls and+ operators = operators in
+  { listen; certificate; no_tls; operators }
 
 let no_browser =
   let doc = "Open no browser." in
@@ -166,6 +186,23 @@ let supplier =
 let supplier_timeout =
   let doc = "Give the supplier $(docv) seconds for each reply." in
   Arg.(value & opt (some (Options.positive ~docv:"SECONDS")) None & info [ "supplier-timeout" ] ~docv:"SECONDS" ~doc)
+
+let asked =
+  let open Options.Syntax in
+  let+ folder = folder
+  and+ sim = sim
+  and+ fleet = Options.fleet
+  and+ network = Imc_options.chosen
+  and+ adapters = Platform_options.adapters
+  and+ definition = Imc_options.definition
+  and+ supplier = supplier
+  and+ supplier_timeout = supplier_timeout
+  and+ tiles = tiles
+  and+ listening = listening
+  and+ port = port
+  and+ no_browser = no_browser in
+  let run = { Run.simulated with network; adapters; supplier; supplier_timeout } in
+  { folder; sim; fleet; run; definition; tiles; listening; port; browser = not no_browser }
 
 let man =
   [ `S Manpage.s_description;
@@ -197,7 +234,4 @@ let command =
     Cmd.info "console" ~docs:Options.s_run ~doc:"show and steer runs in a browser" ~man
       ~exits:(Options.exits [ Done; Bad_input; Platform_trouble; Bug; Interrupted ])
   in
-  Cmd.v info
-    Term.(
-      const run $ Verbosity.setup $ folder $ sim $ Options.fleet $ Imc_options.chosen $ Platform_options.adapters
-      $ Imc_options.definition $ supplier $ supplier_timeout $ tiles $ listening $ port $ no_browser)
+  Cmd.v info Term.(const run $ Verbosity.setup $ asked)

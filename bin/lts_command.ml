@@ -27,8 +27,16 @@ let load world path =
   Sys.set_signal Sys.sigint Signal_default;
   found
 
-let run path other set fleet answers faults workers max_states max_memory timeout format quotient output =
-  let world : State_graph.world = { set; fleet; answers; faults; workers; max_states; max_memory; timeout } in
+type asked = {
+  path : string;
+  other : string option;  (** to compare with *)
+  world : State_graph.world;
+  format : State_graph.format;
+  quotient : equivalence option;
+  output : string option;
+}
+
+let run { path; other; world; format; quotient; output } =
   Nursery.make_room ();
   Report.result
     (let* graph = load world path in
@@ -76,6 +84,28 @@ let max_states =
   let doc = "Give up after $(docv) states." in
   Arg.(value & opt int 1_000_000 & info [ "max-states" ] ~docv:"N" ~doc)
 
+let world =
+  let open Options.Syntax in
+  let+ set = Options.set
+  and+ fleet = Options.fleet
+  and+ answers = Explore_command.answers
+  and+ faults = Explore_command.faults
+  and+ workers = workers
+  and+ max_states = max_states
+  and+ max_memory = Explore_command.max_memory
+  and+ timeout = Explore_command.timeout in
+  { State_graph.set; fleet; answers; faults; workers; max_states; max_memory; timeout }
+
+let asked =
+  let open Options.Syntax in
+  let+ path = graph
+  and+ other = compare_with
+  and+ world = world
+  and+ format = format
+  and+ quotient = quotient
+  and+ output = output in
+  { path; other; world; format; quotient; output }
+
 let man =
   [ `S Manpage.s_description;
     `P "$(tname) writes the labelled transition system of a program in its world: its states are the configurations, \
@@ -95,7 +125,4 @@ let command =
     Cmd.info "lts" ~docs:Options.s_prove ~doc:"write the state graph of a program, or compare graphs" ~man
       ~exits:(Options.exits [ Done; Violated; Bad_input; Inconclusive; Bug ])
   in
-  Cmd.v info
-    Term.(
-      const run $ graph $ compare_with $ Options.set $ Options.fleet $ Explore_command.answers $ Explore_command.faults
-      $ workers $ max_states $ Explore_command.max_memory $ Explore_command.timeout $ format $ quotient $ output)
+  Cmd.v info Term.(const run $ asked)

@@ -84,8 +84,21 @@ let write_map (export : Export_options.t) path name found : (Exit_status.t, Erro
 
 (* {1 The command} *)
 
-let run () (is_export, path, name) set fleet seed answers json adapters definition (export : Export_options.t) =
-  let is_export = is_export || export.format <> None || export.path <> None in
+type asked = {
+  path : string;
+  name : string option;  (** the plan's; [None]: all are listed *)
+  is_export : bool;
+  export : Export_options.t;
+  set : (string * string) list;
+  fleet : string option;
+  seed : int;
+  answers : string list;
+  json : bool;
+  adapters : string list;
+  definition : string option;
+}
+
+let run () { path; name; is_export; export; set; fleet; seed; answers; json; adapters; definition } =
   Report.result
     (let* program, fleet = Program_file.load_with_fleet ~set ~fleet path in
      let* definition = Definition_file.load definition in
@@ -137,6 +150,20 @@ let json =
   in
   Arg.(value & flag & info [ "json" ] ~doc)
 
+let asked =
+  let open Options.Syntax in
+  let+ named_export, path, name = arguments
+  and+ export = Export_options.term
+  and+ set = Options.set
+  and+ fleet = Options.fleet
+  and+ seed = seed
+  and+ answers = answers
+  and+ json = json
+  and+ adapters = Platform_options.checking
+  and+ definition = Imc_options.definition in
+  let is_export = named_export || export.format <> None || export.path <> None in
+  { path; name; is_export; export; set; fleet; seed; answers; json; adapters; definition }
+
 let man =
   [ `S Manpage.s_synopsis;
     `P "$(mname) $(tname) [$(i,OPTION)]... $(i,PROG) [$(i,NAME)]";
@@ -168,7 +195,4 @@ let command =
     Cmd.info "plan" ~docs:Options.s_run ~doc:"print an inline plan as IMC vehicles get it" ~man
       ~exits:(Options.exits [ Done; Failed; Bad_input; Platform_trouble; Bug; Interrupted ])
   in
-  Cmd.v info
-    Term.(
-      const run $ Verbosity.setup $ arguments $ Options.set $ Options.fleet $ seed $ answers $ json
-      $ Platform_options.checking $ Imc_options.definition $ Export_options.term)
+  Cmd.v info Term.(const run $ Verbosity.setup $ asked)

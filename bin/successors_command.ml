@@ -9,12 +9,20 @@ let load set fleet settings path =
 
 let done_ result = Result.map (fun () -> Exit_status.Done) result
 
-let run path set fleet answers faults reduction invariants show_greeting show_run =
+type asked = {
+  path : string;
+  set : (string * string) list;
+  fleet : string option;
+  settings : Successors.settings;
+  show_greeting : bool;
+  show_run : bool;
+}
+
+let run { path; set; fleet; settings; show_greeting; show_run } =
   Sys.set_signal Sys.sigint (Signal_handle (fun _ -> Exit_status.exit_interrupted ()));
   Nursery.make_room ();
   Report.result
-    (let settings : Successors.settings = { answers; faults; reduction; invariants } in
-     let* successors = load set fleet settings path in
+    (let* successors = load set fleet settings path in
      set_binary_mode_in stdin true;
      set_binary_mode_out stdout true;
      match show_greeting, show_run with
@@ -47,6 +55,19 @@ let show_run =
   in
   Arg.(value & flag & info [ "run" ] ~doc)
 
+let asked =
+  let open Options.Syntax in
+  let+ path = Options.program
+  and+ set = Options.set
+  and+ fleet = Options.fleet
+  and+ answers = Explore_command.answers
+  and+ faults = Explore_command.faults
+  and+ reduction = reduction
+  and+ invariants = invariants
+  and+ show_greeting = show_greeting
+  and+ show_run = show_run in
+  { path; set; fleet; settings = { answers; faults; reduction; invariants }; show_greeting; show_run }
+
 let man =
   [ `S Manpage.s_description;
     `P "$(tname) is for programs that search a state space themselves, on many machines for example \
@@ -65,7 +86,4 @@ let command =
     Cmd.info "successors" ~docs:Options.s_others ~doc:"compute successors of states, for searches by other programs"
       ~man ~exits:(Options.exits [ Done; Bad_input; Inconclusive; Platform_trouble; Bug; Interrupted ])
   in
-  Cmd.v info
-    Term.(
-      const run $ Options.program $ Options.set $ Options.fleet $ Explore_command.answers $ Explore_command.faults
-      $ reduction $ invariants $ show_greeting $ show_run)
+  Cmd.v info Term.(const run $ asked)

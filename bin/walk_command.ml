@@ -20,7 +20,16 @@ let read prompt =
   | line -> echo line; Some line
   | exception End_of_file -> print_newline (); None
 
-let run path set fleet answers faults trace =
+type asked = {
+  path : string;
+  set : (string * string) list;
+  fleet : string option;
+  answers : string list;
+  faults : Dolphin_environment.Faults.t;
+  trace : string option;  (** the file of a run that is stepped through *)
+}
+
+let run { path; set; fleet; answers; faults; trace } =
   Report.result
     (let recorded = Option.bind trace Witness_file.settings in
      let* program, fleet = Program_file.load_with_fleet ~set ?recorded ~fleet path in
@@ -34,6 +43,16 @@ let trace =
      forward. The world has to allow it: give the same $(b,--faults)."
   in
   Arg.(value & opt (some string) None & info [ "trace" ] ~docv:"FILE" ~doc)
+
+let asked =
+  let open Options.Syntax in
+  let+ path = Options.program
+  and+ set = Options.set
+  and+ fleet = Options.fleet
+  and+ answers = Explore_command.answers
+  and+ faults = Explore_command.faults
+  and+ trace = trace in
+  { path; set; fleet; answers; faults; trace }
 
 let man =
   let typed (what, meaning) = `I ("$(b," ^ what ^ ")", meaning ^ ".") in
@@ -57,7 +76,4 @@ let command =
     Cmd.info "walk" ~docs:Options.s_prove ~doc:"take a run of a program step by step, by hand" ~man
       ~exits:(Options.exits [ Done; Bad_input; Bug ])
   in
-  Cmd.v info
-    Term.(
-      const run $ Options.program $ Options.set $ Options.fleet $ Explore_command.answers $ Explore_command.faults
-      $ trace)
+  Cmd.v info Term.(const run $ asked)

@@ -174,6 +174,16 @@ let default_place program ~chart ast =
   | Ok place -> place
   | Error found -> List.iter (Scope.report program) found; None
 
+(* Functions, each with its code that is not filled in yet. *)
+let functions_of program (ast : Ast.program) =
+  let defined (s : Ast.statement) =
+    match s.it with
+    | Function { name; parameters; body } ->
+      Some (name, Lambdas.shell program name.at name.it (List.length parameters), parameters, body, s.at)
+    | _ -> None
+  in
+  List.filter_map defined ast
+
 let elaborated ?(chart = no_chart) ~source_name (ast : Ast.program) =
   let ast = without_unused_prelude ast in
   let program =
@@ -183,15 +193,7 @@ let elaborated ?(chart = no_chart) ~source_name (ast : Ast.program) =
       ~chart ~functions:[] ~globals:[] ()
   in
   List.iter (Chart_calls.note program) (Chart_calls.assigned ast);
-  let defined =
-    List.filter_map
-      (fun (s : Ast.statement) ->
-         match s.it with
-         | Function { name; parameters; body } ->
-           Some (name, Lambdas.shell program name.at name.it (List.length parameters), parameters, body, s.at)
-         | _ -> None)
-      ast
-  in
+  let defined = functions_of program ast in
   List.iter (declare_function program) defined;
   declare_parameters program ast;
   let at = match ast with first :: _ -> first.at | [] -> Location.none in

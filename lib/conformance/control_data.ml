@@ -25,7 +25,7 @@ let rec of_residual budget (r : Residual.t) : json =
   | Action c -> tagged "action" [ code c ]
   | Condition c -> tagged "condition" [ code c ]
   | Sequence (a, rest) -> tagged "sequence" (part a :: List.map part rest)
-  | Parallel rs -> tagged "parallel" (List.map part rs)
+  | Parallel bs -> tagged "parallel" (List.map part (Branches.to_list bs))
   | All_of (a, bs) -> tagged "allOf" (of_option part a :: List.map branch bs)
   | One_of bs -> tagged "oneOf" (List.map branch bs)
   | Until (Completes _, c, a) -> tagged "until" [ code c; part a ]
@@ -64,7 +64,7 @@ let rec residual nodes (json : json) : Residual.t =
   | `List [ `String "action"; c ] -> Action (code c)
   | `List [ `String "condition"; c ] -> Condition (code c)
   | `List (`String "sequence" :: a :: (_ :: _ as rest)) -> Sequence (part a, List.map part rest)
-  | `List (`String "parallel" :: (_ :: _ :: _ as rs)) -> Parallel (List.map part rs)
+  | `List (`String "parallel" :: (_ :: _ :: _ as rs)) -> Parallel (Branches.of_list (List.map part rs))
   | `List (`String "allOf" :: a :: (_ :: _ as bs)) -> All_of (option part a, List.map branch bs)
   | `List (`String "oneOf" :: (_ :: _ as bs)) -> One_of (List.map branch bs)
   | `List [ `String "until"; c; a ] -> Until (Completes Fault.unknown_site, code c, part a)

@@ -62,7 +62,7 @@ let site_of_broken program (c : Configuration.t) (t : Transition.t) =
   match c.control with
   | Executing (m, r) ->
     let first found step = if found = None then of_step m r step else found in
-    Seq.fold_left first None (Task_rules.internal_steps r)
+    Seq.fold_left first None (Task_rules.marked_steps Alone r)
   | Script _ | Waiting _ | Ended _ -> None
 
 (* The waits that a step with such a label may end or begin, by number, with their places. *)

@@ -494,7 +494,7 @@ module Make (P : Platform.S) = struct
     | Executing (_, r)
       when (not sensitive) && s.program.inputs = [] && next_date s = None
            && Vehicle_map.is_empty c.shared.allocation
-           && Transition.awaited c = [] ->
+           && not (Transition.awaits_event c) ->
       give_up s (Stuck r)
     | Script _ | Waiting _ | Executing _ | Ended _ ->
       switch_telemetry s ~sensitive;

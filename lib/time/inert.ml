@@ -17,7 +17,7 @@ let create options = { options; possible = names_are_free options }
 
 type item = { awaited : Timed.item; least : int; most : int }
 
-let components : Residual.t -> Residual.t list = function Parallel rs -> rs | r -> [ r ]
+let components : Residual.t -> Residual.t list = function Parallel bs -> Branches.to_list bs | r -> [ r ]
 
 (* Of a component that does nothing but end. *)
 let only_ends : Residual.t -> Timed.item option = function

@@ -131,7 +131,7 @@ let rec spell s (r : Residual.t) =
   | Action c -> code s (fun n -> Action n) c
   | Condition c -> code s (fun n -> Condition n) c
   | Sequence (a, rest) -> tree s Sequence (List.map (spell s) (a :: rest))
-  | Parallel rs -> tree s ~ordered:false Parallel (List.map (spell s) rs)
+  | Parallel bs -> tree s ~ordered:false Parallel (List.map (spell s) (Branches.to_list bs))
   | All_of (a, bs) -> tree s All_of [ optional s (spell s) a; branches s bs ]
   | One_of bs -> tree s One_of [ branches s bs ]
   | Until (e, c, a) -> tree s (Until (cut e)) [ code s part c; spell s a ]
@@ -161,7 +161,7 @@ let root s inert (r : Residual.t) =
     | Idle { timer; _ } -> List.mem (Timed.Timer timer) inert
     | _ -> false
   in
-  let components = match r with Parallel rs -> rs | r -> [ r ] in
+  let components = match r with Parallel bs -> Branches.to_list bs | r -> [ r ] in
   tree s ~ordered:false Parallel (List.map (spell s) (List.filter (fun r -> not (is_gone r)) components))
 
 (* Pairs of N, each with its place among those of its key, if that matters. *)

@@ -19,7 +19,7 @@ let rec longest cost v (r : Residual.t) =
   match r with
   | Ready (p, w) | Running (p, w) -> if w = v then cost p else 0
   | Sequence (a, rest) -> sum (a :: rest)
-  | Parallel rs -> sum rs
+  | Parallel bs -> sum (Branches.to_list bs)
   | All_of (a, bs) -> sum (Option.to_list a @ bodies bs)
   | One_of bs -> List.fold_left (fun n r -> max n (longest cost v r)) 0 (bodies bs)
   | Until (_, _, a) | During { body = a; _ } | Watch (a, _) | Hold (_, a) | Recruited (_, a) | Fresh (_, a) ->

@@ -86,7 +86,7 @@ let false_guards r =
       | Start _ | Perform _ | Refute _ | Decide _ | Measure _ | Make _ | Allocate _ | End_of _ | Expiry_of _
       | Answer_to _ | Recruit_for _ -> None
     in
-    first most_shown (Seq.filter_map is_false (Task_rules.internal_steps residual))
+    first most_shown (Seq.filter_map is_false (Task_rules.marked_steps Alone residual))
 
 let mismatch r reason =
   Error { reason; false_guards = false_guards r; enabled = enabled r; awaited = awaited r }

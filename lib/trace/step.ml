@@ -52,16 +52,22 @@ let place program before t =
   | Some at when Location.line at > 0 -> Some (place_of program at)
   | Some _ | None -> None
 
-let allocation_changes (before : Configuration.t) (after : Configuration.t) =
-  if before.shared.allocation == after.shared.allocation then []
-  else
-    let change _ (p : Core.platform_task option) (p' : Core.platform_task option) =
-      match p, p' with
-      | Some p, Some p' when p == p' -> None
-      | None, None -> None
-      | (Some _ | None), p' -> Some (Option.map (fun (p : Core.platform_task) -> p.name) p')
-    in
-    Vehicle_map.bindings (Vehicle_map.merge change before.shared.allocation after.shared.allocation)
+let changed (p : Core.platform_task option) (p' : Core.platform_task option) =
+  match p, p' with
+  | Some p, Some p' when p == p' -> None
+  | None, None -> None
+  | (Some _ | None), p' -> Some (Option.map (fun (p : Core.platform_task) -> p.name) p')
+
+(* Most transitions are a start or an end that stops no other vehicle. *)
+let allocation_changes (before : Configuration.t) (t : Transition.t) =
+  let a = before.shared.allocation and a' = t.next.shared.allocation in
+  let stops = List.exists (function Effect.Stop _ -> true | _ -> false) t.effects in
+  match t.label with
+  | _ when a == a' -> []
+  | (Start (v, _) | Done (v, _)) when not stops ->
+    let change = changed (Vehicle_map.find_opt v a) (Vehicle_map.find_opt v a') in
+    List.map (fun change -> (v, change)) (Option.to_list change)
+  | _ -> Vehicle_map.bindings (Vehicle_map.merge (fun _ -> changed) a a')
 
 (* [without vs vs'] is [vs] less [vs'], in order. *)
 let without vs vs' =
@@ -120,7 +126,7 @@ let of_transition program (before : Configuration.t) (t : Transition.t) =
     label = Format.asprintf "%a" Label.pp t.label;
     at = place program before t;
     choice = 0;
-    allocated = allocation_changes before t.next;
+    allocated = allocation_changes before t;
     bound = without t.next.shared.bound before.shared.bound;
     released = without before.shared.bound t.next.shared.bound;
     posted;

@@ -85,7 +85,7 @@ let environments =
 
 let side_by_side (c : Configuration.t) =
   match c.control with
-  | Executing (_, Parallel rs) -> rs
+  | Executing (_, Parallel bs) -> Branches.to_list bs
   | Executing (_, r) -> [ r ]
   | Script _ | Waiting _ | Ended _ -> []
 

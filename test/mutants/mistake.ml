@@ -607,8 +607,8 @@ let task_rules =
   in
   { (around ~next:(within (Before rest))|} );
       ( "PAR-ERR does not cut the siblings",
-        {|undoing (Cut (List.rev_append before after)) (leave_parallel fault c)|},
-        {|undoing (Cut (List.filter (fun _ -> false) (List.rev_append before after))) (leave_parallel fault c)|} );
+        {|undoing (Cut (Branches.beside place)) (leave_parallel fault c)|},
+        {|undoing (Cut (List.filter (fun _ -> false) (Branches.beside place))) (leave_parallel fault c)|} );
       ( "ALLOF-2 forgets the other branches",
         {|on_finished = (fun c -> add Rule.Allof_2 (Next (all_of None remaining)) c);|},
         {|on_finished = (fun c -> add Rule.Allof_2 (if List.length remaining > 5 then Next (all_of None remaining) else Finished) c);|} );
@@ -850,8 +850,8 @@ let task_rules_in_walks =
   in_file "lib/semantics/rules/task_rules.ml" ~noticed_by:"semantics/test_invariants"
     [
       ( "PAR-2 ends all",
-        {|on_finished = (fun c -> add Rule.Par_2 (Next (parallel (List.rev_append before after))) c);|},
-        {|on_finished = (fun c -> add Rule.Par_2 (if before = [] then Finished else Next (parallel (List.rev_append before after))) c);|} );
+        {|on_finished = (fun c -> add Rule.Par_2 (Next (without place)) c);|},
+        {|on_finished = (fun c -> add Rule.Par_2 (if List.length (Branches.beside place) > 1 then Finished else Next (without place)) c);|} );
     ]
 
 let local_step_in_walks =
@@ -953,14 +953,30 @@ let unknown =
         {|  { (turning c v) with remembered;|},
         {|  { Footprint.empty with remembered;|} );
     ]
+  @ in_file "lib/semantics/rules/residual.ml" ~noticed_by:"semantics/test_branches"
+    [
+      ( "an index of branches has no ends of tasks",
+        {|  | Running (_, v) -> [ End_on v ]|},
+        {|  | Running (_, v) -> if String.length v > 1 then [] else [ End_on v ]|} );
+      ( "an index of branches has not those of an index within",
+        {|    | Parallel bs when Branches.is_indexed bs -> Branches.Within ::|},
+        {|    | Parallel bs when Branches.is_indexed bs -> Branches.Recruits ::|} );
+    ]
+  @ in_file "lib/semantics/rules/branches.ml" ~noticed_by:"semantics/test_branches"
+    [
+      ( "branches that come keep the marks of those that went",
+        {|Option.fold (Numbers.find_opt i branches) ~none:index ~some:unmark }|},
+        {|Option.fold (Numbers.find_opt i branches) ~none:index ~some:(fun r -> ignore (unmark r); index) }|} );
+      ( "branches run out of numbers", {|  if step > 0 then add_all|}, {|  if step >= 0 then add_all|} );
+    ]
   @ in_file "lib/semantics/rules/residual.ml" ~noticed_by:"reduction/test_traps"
     [
       ( "an error stops nobody beside",
-        {|    | Beside rs :: outer -> from (List.rev_append rs inside) found outer|},
+        {|    | Beside rs :: outer -> from (rs :: inside) found outer|},
         {|    | Beside _ :: outer -> from inside found outer|} );
       ( "a cut stops nobody before handlers ask",
-        {|  from (List.concat_map own around) [] (List.rev around)|},
-        {|  from (List.filter (fun _ -> false) (List.concat_map own around)) [] (List.rev around)|} );
+        {|  from [ Lazy.from_val (List.concat_map own around) ] [] (List.rev around)|},
+        {|  from (List.filter (fun _ -> false) [ Lazy.from_val (List.concat_map own around) ]) [] (List.rev around)|} );
     ]
   @ in_file "lib/explore/steps/memoised_steps.ml" ~noticed_by:"reduction/test_traps"
     [ ("who runs is the same in all states", {|needed @ running t around) in|},

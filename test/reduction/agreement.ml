@@ -73,7 +73,7 @@ module Outcomes = Set.Make (struct
 
 let rec is_in_all_of : Residual.t -> bool = function
   | All_of _ -> true
-  | Parallel rs -> List.exists is_in_all_of rs
+  | Parallel bs -> List.exists is_in_all_of (Branches.to_list bs)
   | r -> ( match Residual.opened r with Some (_, body) -> is_in_all_of body | None -> false)
 
 let stuck_in (program : Core.program) c =

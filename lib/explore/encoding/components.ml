@@ -94,17 +94,17 @@ let inner t path contexts body =
     inside
 
 (* Whatever stands in contexts, they are cut in the same ways. *)
-let in_contexts t path contexts = inner t path contexts (Residual.Parallel [ hole; hole ])
+let in_contexts t path contexts = inner t path contexts (Residual.Parallel (Branches.of_list [ hole; hole ]))
 
 let rec child t path r =
   match Residual.decompose r with
-  | (_ :: _ as contexts), (Residual.Parallel rs as body) ->
+  | (_ :: _ as contexts), (Residual.Parallel bs as body) ->
     let inside = inner t path contexts body in
-    Nest (inside, List.map (child t inside) rs)
+    Nest (inside, List.map (child t inside) (Branches.to_list bs))
   | _, _ -> Leaf r
 
 let tree t path (r : Residual.t) =
-  match r with Parallel rs -> List.map (child t path) rs | r -> [ child t path r ]
+  match r with Parallel bs -> List.map (child t path) (Branches.to_list bs) | r -> [ child t path r ]
 
 (* {1 Families} *)
 

@@ -91,7 +91,9 @@ let key (frame : frame) trees =
 let rec residual l place component =
   match place.inside with
   | None -> component place.from
-  | Some path -> Components.around path (Parallel (List.map (fun child -> residual l child component) place.children))
+  | Some path ->
+    let branches = List.map (fun child -> residual l child component) place.children in
+    Components.around path (Parallel (Branches.of_list branches))
 
 (* {1 Words} *)
 

@@ -79,7 +79,7 @@ let rec future c (r : Residual.t) =
   | Action a -> Footprint.of_code c.code a
   | Condition g -> Footprint.of_guard c.code g
   | Sequence (r, rest) -> all (List.map (future c) (r :: rest))
-  | Parallel rs -> all (List.map (future c) rs)
+  | Parallel bs -> all (List.map (future c) (Branches.to_list bs))
   | All_of (running, bs) -> all (Option.to_list (Option.map (future c) running) @ List.map (of_branch c) bs)
   | One_of bs -> all (List.map (of_branch c) bs)
   | Until (Completes _, g, r) -> union (Footprint.of_guard c.code g) (future c r)
@@ -231,7 +231,7 @@ let rec is_settled c (r : Residual.t) =
   | Idle _ -> true
   | Confirm { prompt; _ } -> List.mem (Ok true) (Environment.confirmations c.options prompt)
   | Sequence (r, rest) -> List.for_all (is_settled c) (r :: rest)
-  | Parallel rs -> List.for_all (is_settled c) rs
+  | Parallel bs -> List.for_all (is_settled c) (Branches.to_list bs)
   | _ -> false
 
 let only_takes (f : Footprint.t) =

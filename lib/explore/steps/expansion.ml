@@ -190,7 +190,8 @@ let rec standing x (place : Layout.place) =
 (* The contexts around [place], as far as vehicles are held there and timers are numbered. *)
 let rec around x (place : Layout.place) =
   let beside children =
-    Residual.Beside (List.concat_map (fun child -> if child == place then [] else standing x child) children)
+    let others = List.concat_map (fun child -> if child == place then [] else standing x child) children in
+    Residual.Beside (Lazy.from_val others)
   in
   match place.around with
   | None -> [ beside x.layout.top ]

@@ -136,7 +136,7 @@ let find ?around t step s =
 let running t around =
   if (program t).asks_running then
     let all = List.map fst (Vehicle_map.bindings (Residual.allocation_around around)) in
-    all :: List.map (List.concat_map Residual.running) (Residual.inside_watches around)
+    all :: List.map (fun (lazy rs) -> List.concat_map Residual.running rs) (Residual.inside_watches around)
   else []
 
 let look t step ~around s =

@@ -463,7 +463,7 @@ let view t key =
 let is_in_class t g (state : Task_group.state) (c : Configuration.t) outside =
   match c.control with
   | Executing (_, r) ->
-    let rs = match r with Residual.Parallel rs -> rs | r -> [ r ] in
+    let rs = match r with Residual.Parallel bs -> Branches.to_list bs | r -> [ r ] in
     let shared = Surroundings.Numbers.value (Encoding.shareds t.encoding) state.shared in
     Surroundings.equal (Surroundings.make c.shared outside) shared && Task_group.state g rs state.shared = state
   | Script _ | Waiting _ | Ended _ -> false

@@ -66,7 +66,7 @@ let subtasks context r =
     | Repeat _ -> []
     | r -> beside r @ List.concat_map lists (Residual.parts r)
   and beside = function
-    | Parallel rs -> [ List.map subtask rs ]
+    | Parallel bs -> [ List.map subtask (Branches.to_list bs) ]
     | All_of (_, bs) | One_of bs -> [ List.map of_branch bs ]
     | _ -> []
   in

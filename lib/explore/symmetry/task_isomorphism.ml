@@ -58,7 +58,7 @@ let rec spell s (r : Residual.t) =
   | Action c -> "a" ^ code s ~handler:false c
   | Condition c -> "c" ^ code s ~handler:false c
   | Sequence (a, rest) -> "(" ^ String.concat ">" (List.map (spell s) (a :: rest)) ^ ")"
-  | Parallel rs -> "[" ^ beside s (List.map (spell s) rs) ^ "]"
+  | Parallel bs -> "[" ^ beside s (List.map (spell s) (Branches.to_list bs)) ^ "]"
   | All_of (a, bs) ->
     let running = match a with Some a -> spell s a | None -> "" in
     "all(" ^ running ^ "!" ^ beside s (List.map (spell_branch s) bs) ^ ")"
@@ -129,7 +129,7 @@ let matched context ~rename r r' =
     | Sequence (a, rest), Sequence (a', rest') ->
       if List.compare_lengths rest rest' <> 0 then raise_notrace Different;
       List.iter2 go (a :: rest) (a' :: rest')
-    | Parallel rs, Parallel rs' -> children spell go rs rs'
+    | Parallel bs, Parallel bs' -> children spell go (Branches.to_list bs) (Branches.to_list bs')
     | All_of (None, bs), All_of (None, bs') | One_of bs, One_of bs' -> children spell_branch branch bs bs'
     | All_of (Some a, bs), All_of (Some a', bs') ->
       go a a';

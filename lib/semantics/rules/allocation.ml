@@ -185,6 +185,11 @@ type supply = {
   depth : int;  (* of such code *)
 }
 
+(* [beside t ts] is the branches of [t | T1 | ... | Tn], flat: a task made in a loop is as deep as it has branches. *)
+let beside t ts =
+  let rec add t rest = match t with Parallel (a, b) -> add a (add b rest) | t -> t :: rest in
+  add t (List.fold_right add ts [])
+
 (* The task with the vehicles of [supply]; [allowed] is by the [T[V]] around it. *)
 let rec residual supply allowed t : Residual.t =
   let recurse = residual supply allowed in
@@ -201,9 +206,7 @@ let rec residual supply allowed t : Residual.t =
   | Sequence (a, b) ->
     let a = recurse a in
     Residual.sequence a (recurse b)
-  | Parallel (a, b) ->
-    let a = recurse a in
-    Residual.parallel [ a; recurse b ]
+  | Parallel (a, b) -> Residual.parallel (List.map recurse (beside a [ b ]))
   | Allocated (a, vs) -> residual supply (restrict allowed vs) a
   | All_of branches -> Residual.all_of None (List.map (branch supply allowed) branches)
   | One_of branches -> One_of (List.map (branch supply allowed) branches)

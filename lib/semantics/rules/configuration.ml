@@ -87,8 +87,8 @@ let pp program ppf c =
 let rec are_apart (r : Residual.t) =
   let apart_here =
     match r with
-    | Parallel rs ->
-      let names = List.concat_map Residual.named rs in
+    | Parallel bs ->
+      let names = List.concat_map Residual.named (Branches.to_list bs) in
       List.length (List.sort_uniq String.compare names) = List.length names
     | _ -> true
   in

@@ -93,7 +93,7 @@ let around_step around =
   let watch beyond inside =
     { beside = lazy (Residual.held beyond);
       needed = lazy (Residual.needed_around beyond);
-      inside = lazy (List.concat_map Residual.running inside) }
+      inside = lazy (List.concat_map Residual.running (Lazy.force inside)) }
   in
   let watches = lazy (List.map2 watch (Residual.beyond_watches around) (Residual.inside_watches around)) in
   { held = lazy (Residual.held around); watches }

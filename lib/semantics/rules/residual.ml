@@ -14,7 +14,7 @@ type t =
   | Action of closure
   | Condition of closure
   | Sequence of t * t list
-  | Parallel of t list
+  | Parallel of t Branches.t
   | All_of of t option * branch list
   | One_of of branch list
   | Until of on_cut * closure * t
@@ -55,7 +55,7 @@ let rec compare r r' =
     | Action c, Action c' | Condition c, Condition c' -> Value.compare_closure c c'
     | Sequence (a, rest), Sequence (a', rest') ->
       Order.both (compare a a') (fun () -> Order.list compare rest rest')
-    | Parallel rs, Parallel rs' -> Order.list compare rs rs'
+    | Parallel bs, Parallel bs' -> Order.list compare (Branches.to_list bs) (Branches.to_list bs')
     | All_of (a, bs), All_of (a', bs') ->
       Order.both (Option.compare compare a a') (fun () -> Order.list compare_branch bs bs')
     | One_of bs, One_of bs' -> Order.list compare_branch bs bs'
@@ -130,7 +130,7 @@ let rec hash r =
   | Ready (p, v) | Running (p, v) -> Order.mix (Order.mix h (Hashtbl.hash v)) (Hashtbl.hash p.name)
   | Action c | Condition c -> Order.mix h (Value.hash_closure c)
   | Sequence (a, rest) -> List.fold_left (fun h r -> Order.mix h (hash r)) (Order.mix h (hash a)) rest
-  | Parallel rs -> List.fold_left (fun h r -> Order.mix h (hash r)) h rs
+  | Parallel bs -> List.fold_left (fun h r -> Order.mix h (hash r)) h (Branches.to_list bs)
   | All_of (a, bs) ->
     let h = match a with Some a -> Order.mix h (hash a) | None -> h in
     List.fold_left (fun h b -> Order.mix h (Value.hash_closure b.guard)) h bs
@@ -170,7 +170,7 @@ let rec pp ppf r =
   | Action c -> Format.fprintf ppf "action { %s }" c.lambda.label
   | Condition c -> Format.fprintf ppf "condition { %s }" c.lambda.label
   | Sequence (a, rest) -> Format.fprintf ppf "(%a)" (separated " >> " pp) (a :: rest)
-  | Parallel rs -> Format.fprintf ppf "(%a)" (separated " | " pp) rs
+  | Parallel bs -> Format.fprintf ppf "(%a)" (separated " | " pp) (Branches.to_list bs)
   | All_of (None, bs) -> Format.fprintf ppf "allOf { %a }" (separated ", " pp_branch) bs
   | All_of (Some a, bs) -> Format.fprintf ppf "allOf { %a; %a }" pp a (separated ", " pp_branch) bs
   | One_of bs -> Format.fprintf ppf "oneOf { %a }" (separated ", " pp_branch) bs
@@ -222,7 +222,7 @@ let fold ~begun ~later ~leaf acc r =
   | Ready (p, v) | Running (p, v) -> leaf acc (Plan (p, v))
   | Action c | Condition c -> leaf acc (Code c)
   | Sequence (a, rest) -> List.fold_left later (begun acc a) rest
-  | Parallel rs -> List.fold_left begun acc rs
+  | Parallel bs -> List.fold_left begun acc (Branches.to_list bs)
   | All_of (None, bs) | One_of bs -> fold_branches ~later ~leaf acc bs
   | All_of (Some a, bs) -> fold_branches ~later ~leaf (begun acc a) bs
   | Until (_, c, a) -> begun (leaf acc (Code c)) a
@@ -268,7 +268,7 @@ let map m r =
   | Sequence (a, rest) ->
     let a = m.part a in
     Sequence (a, List.map m.part rest)
-  | Parallel rs -> Parallel (List.map m.part rs)
+  | Parallel bs -> Parallel (Branches.of_list (List.map m.part (Branches.to_list bs)))
   | All_of (a, bs) ->
     let a = Option.map m.part a in
     All_of (a, List.map branch bs)
@@ -327,6 +327,41 @@ let fold_active f =
   let rec begun acc r = fold ~begun ~later ~leaf:no_leaf (f acc r) r in
   begun
 
+(* {1 Marks of branches} *)
+
+let marks_of_node r : Branches.mark list =
+  match r with
+  | Ready _ | Action _ | Condition _ | All_of (None, _) | One_of _ | Until _ | Made _ | Unallocated _
+  | Repeat { round = None; _ } -> [ Alone ]
+  | Running (_, v) -> [ End_on v ]
+  | Idle { timer = n; _ } | Confirm { question = n; _ } | During { duration = Seconds _; timer = n; _ } -> [ Number n ]
+  | During { duration = Given_by _; timer; _ } -> [ Alone; Number timer ]
+  | Recruit { number; _ } -> [ Recruits; Number number ]
+  | Sequence _ | Parallel _ | All_of (Some _, _) | Watch _ | Hold _ | Recruited _ | Fresh _
+  | Repeat { round = Some _; _ } -> []
+
+let is_mark m r = List.exists (fun m' -> Branches.compare_marks m m' = 0) (marks_of_node r)
+
+let rec awaits m r =
+  match r with
+  | Sequence (a, _) | Watch (a, _) | Hold (_, a) | Recruited (_, a) | Fresh (_, a) | Repeat { round = Some a; _ } ->
+    awaits m a
+  | Parallel bs -> (
+      match Branches.marked awaits m bs () with Seq.Nil -> false | Cons _ -> true)
+  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ | One_of _ | All_of (None, _)
+  | During { started = false; _ } | Made _ | Unallocated _ | Recruit _ | Repeat { round = None; _ } -> is_mark m r
+  | All_of (Some a, _) | Until (_, _, a) | During { body = a; _ } -> is_mark m r || awaits m a
+
+let marks r =
+  let later found _ = found in
+  let rec begun found r =
+    let found = List.rev_append (marks_of_node r) found in
+    match r with
+    | Parallel bs when Branches.is_indexed bs -> Branches.Within :: (if awaits Alone r then Alone :: found else found)
+    | _ -> fold ~begun ~later ~leaf:no_leaf found r
+  in
+  begun [] r
+
 (* {1 Normal forms} *)
 
 let successive = function Sequence (a, rest) -> a :: rest | r -> [ r ]
@@ -337,8 +372,19 @@ let sequence r r' =
   | _ -> Sequence (r, successive r')
 
 let parallel rs =
-  let flat = List.concat_map (function Parallel rs -> rs | r -> [ r ]) rs in
-  match flat with [] -> invalid_arg "Residual.parallel" | [ r ] -> r | flat -> Parallel flat
+  let flat = List.concat_map (function Parallel bs -> Branches.to_list bs | r -> [ r ]) rs in
+  match flat with
+  | [] -> invalid_arg "Residual.parallel"
+  | [ r ] -> r
+  | flat -> Parallel (Branches.of_list flat)
+
+let in_place place = function
+  | Parallel bs -> Parallel (Branches.put ~marks place (Branches.to_list bs))
+  | r -> Parallel (Branches.put ~marks place [ r ])
+
+let without place =
+  let bs = Branches.put ~marks place [] in
+  match Branches.only bs with Some r -> r | None -> Parallel bs
 
 let all_of running remaining =
   match running, remaining with
@@ -373,9 +419,9 @@ let rec activate r =
   | Sequence (a, rest) ->
     let a, timers = activate a in
     (Sequence (a, rest), timers)
-  | Parallel rs ->
-    let rs, timers = List.split (List.map activate rs) in
-    (Parallel rs, List.concat timers)
+  | Parallel bs ->
+    let rs, timers = List.split (List.map activate (Branches.to_list bs)) in
+    (Parallel (Branches.begun ~marks rs), List.concat timers)
   | All_of (Some a, bs) ->
     let a, timers = activate a in
     (All_of (Some a, bs), timers)
@@ -391,18 +437,6 @@ let rec activate r =
     (During { d with started = true; body }, Wait (timer, Time seconds) :: timers)
 
 (* {1 What is active} *)
-
-(* Without closures: branches of a [|] are looked through at each transition. *)
-let rec exists_active p r =
-  match r with
-  | Sequence (a, _) | Watch (a, _) | Hold (_, a) | Recruited (_, a) | Fresh (_, a) | Repeat { round = Some a; _ } ->
-    exists_active p a
-  | Parallel rs -> exists_in_some p rs
-  | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ | One_of _ | All_of (None, _)
-  | During { started = false; _ } | Made _ | Unallocated _ | Recruit _ | Repeat { round = None; _ } -> p r
-  | All_of (Some a, _) | Until (_, _, a) | During { body = a; _ } -> p r || exists_active p a
-
-and exists_in_some p = function [] -> false | r :: rs -> exists_active p r || exists_in_some p rs
 
 let collect f r = List.rev (fold_active (fun found r -> match f r with Some x -> x :: found | None -> found) [] r)
 
@@ -504,20 +538,20 @@ let makes_tasks =
       | Maker _ | Term _ | Held _ -> true
       | Plan _ | Code _ | Handler _ | Given _ | Timer _ -> found) false
 
-type surrounding = Beside of t list | Inside of context | Around of t list
+type surrounding = Beside of t list Lazy.t | Inside of context | Around of t list
 
 let hole = Idle { timer = script_timer; seconds = 0.; site = Fault.unknown_site }
 
 let held around =
   let beside found = function
-    | Beside rs -> List.fold_left add_named found rs
+    | Beside rs -> List.fold_left add_named found (Lazy.force rs)
     | Inside _ | Around _ -> found
   in
   Vehicle_set.elements (List.fold_left beside Vehicle_set.empty around)
 
 let needed_around around =
   let add found = function
-    | Beside rs -> List.fold_left add_named found rs
+    | Beside rs -> List.fold_left add_named found (Lazy.force rs)
     | Inside (Holding _) | Around _ -> found
     | Inside context -> add_named found (within context hole)
   in
@@ -525,7 +559,7 @@ let needed_around around =
 
 let named_around around =
   let add found = function
-    | Beside rs -> List.fold_left add_named found rs
+    | Beside rs -> List.fold_left add_named found (Lazy.force rs)
     | Around _ -> found
     | Inside context -> add_named found (within context hole)
   in
@@ -544,25 +578,25 @@ let beyond_watches around =
 
 let inside_watches around =
   let rec from inside found = function
-    | Inside (Watched_by _) :: outer -> from inside (inside :: found) outer
+    | Inside (Watched_by _) :: outer -> from inside (lazy (List.concat_map Lazy.force inside) :: found) outer
     | (Inside _ | Around _) :: outer -> from inside found outer
-    | Beside rs :: outer -> from (List.rev_append rs inside) found outer
+    | Beside rs :: outer -> from (rs :: inside) found outer
     | [] -> List.rev found
   in
   let own = function Around rs -> rs | Beside _ | Inside _ -> [] in
-  from (List.concat_map own around) [] (List.rev around)
+  from [ Lazy.from_val (List.concat_map own around) ] [] (List.rev around)
 
 let allocation_around around =
   let run found = function Running (p, v) -> Vehicle_map.add v p found | _ -> found in
   let add found = function
-    | Beside rs | Around rs -> List.fold_left (fold_active run) found rs
+    | Beside (lazy rs) | Around rs -> List.fold_left (fold_active run) found rs
     | Inside _ -> found
   in
   List.fold_left add Vehicle_map.empty around
 
 let timers_around around =
   let add found = function
-    | Beside rs -> List.fold_left add_timers found rs
+    | Beside rs -> List.fold_left add_timers found (Lazy.force rs)
     | Inside context -> add_timers found (within context hole)
     | Around _ -> found
   in

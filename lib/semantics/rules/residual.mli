@@ -28,7 +28,7 @@ type t =
   | Action of closure
   | Condition of closure
   | Sequence of t * t list  (** the running part, which is not a [Sequence], and at least one part to come *)
-  | Parallel of t list  (** at least two, none of them [Parallel] *)
+  | Parallel of t Branches.t  (** at least two, none of them [Parallel] *)
   | All_of of t option * branch list
   (** the branch that runs and at least one other; or none, and at least two *)
   | One_of of branch list
@@ -140,6 +140,12 @@ val repeat : again -> t -> t
 val holding : vehicle list -> t -> t
 (** [holding vs r] is [r], which holds [vs] until it ends. *)
 
+val in_place : t Branches.place -> t -> t
+(** [in_place p r] is the [|] of a branch at [p] and those beside it, with [r] in the place of the branch. *)
+
+val without : t Branches.place -> t
+(** [without p] is the branches beside [p], one at least. *)
+
 val activate : t -> t * begun list
 (** [activate r] is [r] about to run, and the timers, questions and keys that begin with it. A [during] whose time
     is given by code starts in a step of its own. *)
@@ -159,9 +165,8 @@ val recruits : t -> vehicle list
 val waits : t -> (timer * wait) list
 (** [waits r] is the timers of [r] that have started, and the questions that stand. *)
 
-val exists_active : (t -> bool) -> t -> bool
-(** [exists_active p r] is whether [p] holds of a node of [r] that has begun and may have steps of its own: of no
-    [Sequence], [Parallel], [Watch]. *)
+val awaits : Branches.mark -> t -> bool
+(** [awaits m r] is whether [m] is a mark of a node of [r] that has begun. *)
 
 val may_go_round : t -> bool
 (** [may_go_round r] is whether [r] has a [repeat] without a number of rounds, code in the place of a task, which may
@@ -209,7 +214,7 @@ val makes_tasks : t -> bool
 (** The surroundings of a residual: the parts beside it in a [Parallel], or a context. Lists begin with the
     outermost. *)
 type surrounding =
-  | Beside of t list
+  | Beside of t list Lazy.t
   | Inside of context
   | Around of t list  (** the context of the step itself, or the one that it cuts *)
 
@@ -231,7 +236,7 @@ val recruited_for : surrounding list -> vehicle list
 val beyond_watches : surrounding list -> surrounding list list
 (** [beyond_watches around] is the surroundings of each [watch] of [around], the innermost [watch] first. *)
 
-val inside_watches : surrounding list -> t list list
+val inside_watches : surrounding list -> t list Lazy.t list
 (** [inside_watches around] is the part of [around] inside of each of its [watch]es, the innermost [watch] first: the
     part cut off by an error that reaches it. *)
 

@@ -123,16 +123,11 @@ let around_sequence rest =
 
 let leave_parallel fault c = add Rule.Par_err (Failed fault) c
 
-(* [before] is reversed. *)
-let around_parallel before after =
-  let rebuild = function
-    | Parallel rs -> Parallel (List.rev_append before (rs @ after))
-    | r -> Parallel (List.rev_append before (r :: after))
-  in
+let around_parallel place =
   {
-    on_next = (fun r c -> add Rule.Par_1 (Next (rebuild r)) c);
-    on_finished = (fun c -> add Rule.Par_2 (Next (parallel (List.rev_append before after))) c);
-    on_failed = (fun fault c -> undoing (Cut (List.rev_append before after)) (leave_parallel fault c));
+    on_next = (fun r c -> add Rule.Par_1 (Next (in_place place r)) c);
+    on_finished = (fun c -> add Rule.Par_2 (Next (without place)) c);
+    on_failed = (fun fault c -> undoing (Cut (Branches.beside place)) (leave_parallel fault c));
   }
 
 (* {2 Branches with guards, until, during, watch} *)
@@ -380,30 +375,26 @@ let set_during on_cut timer code body =
   in
   alone (Measure code) continue
 
-(* [each ~relevant f xs] is [f before x after] for each relevant [x] of [xs]; [before] is reversed. *)
-let each ~relevant f xs =
+(* [every f xs] is [f before x after] for each [x] of [xs]; [before] is reversed. *)
+let every f xs =
   let rec from before xs () =
-    match xs with
-    | [] -> Seq.Nil
-    | x :: after when relevant x -> Seq.append (f before x after) (from (x :: before) after) ()
-    | x :: after -> from (x :: before) after ()
+    match xs with [] -> Seq.Nil | x :: after -> Seq.Cons (f before x after, from (x :: before) after)
   in
   from [] xs
 
-let every f xs = each ~relevant:(fun _ -> true) (fun before x after -> Seq.return (f before x after)) xs
-
-(* The branches of a [|] in which no active node is [relevant] are passed over: there may be thousands. *)
-let rec steps_at relevant r : step Seq.t =
+(* The branches of a [|] without the mark are passed over: there may be thousands. *)
+let rec steps_at (mark : Branches.mark option) r : step Seq.t =
   match r with
   | Ready (p, v) -> Seq.return (start p v)
   | Running (p, v) -> Seq.return (await_end p v)
   | Action code -> Seq.return (perform code)
   | Condition guard -> Seq.return (wait_for guard)
-  | Parallel rs ->
-    let branch before r after =
-      Seq.map (composed (lift (around_parallel before after)) [ Beside before; Beside after ]) (steps_at relevant r)
+  | Parallel bs ->
+    let branch (r, place) =
+      let beside = Beside (lazy (Branches.beside place)) in
+      Seq.map (composed (lift (around_parallel place)) [ beside ]) (steps_at mark r)
     in
-    each ~relevant:(fun r -> exists_active relevant r) branch rs
+    Seq.flat_map branch (match mark with None -> Branches.places bs | Some m -> Branches.marked awaits m bs)
   | All_of (None, branches) -> every choose_of_all branches
   | One_of branches -> every (fun _ b _ -> choose_one b) branches
   | Idle { timer; _ } -> Seq.return (idle_end timer)
@@ -420,21 +411,13 @@ let rec steps_at relevant r : step Seq.t =
       match opened r with
       | None -> Seq.empty
       | Some (context, body) -> (
-          let inside = Seq.map (composed (change_within context) [ Inside context ]) (steps_at relevant body) in
+          let inside = Seq.map (composed (change_within context) [ Inside context ]) (steps_at mark body) in
           match cut context body with
           | None -> inside
           | Some cut -> fun () -> Seq.Cons (cut, inside)))
 
-let steps = steps_at (fun _ -> true)
-
-let may_step_alone = function
-  | Running _ | Idle _ | Confirm _ | During { duration = Seconds _; _ } | Sequence _ | Parallel _ | All_of (Some _, _)
-  | Watch _ | Hold _ | Recruit _ | Recruited _ | Fresh _ | Repeat { round = Some _; _ } -> false
-  | Made _ | Unallocated _ | Ready _ | Action _ | Condition _ | All_of (None, _) | One_of _ | Until _
-  | During { duration = Given_by _; _ } | Repeat { round = None; _ } -> true
-
-let internal_steps = steps_at may_step_alone
-let steps_of_vehicle v = steps_at (function Running (_, v') -> String.equal v v' | _ -> false)
+let steps = steps_at None
+let marked_steps m = steps_at (Some m)
 
 let broken (Step { offer; continue; _ }) (fault : Fault.t) : change option =
   match offer with

@@ -75,11 +75,8 @@ type step = Step : { offer : 'reply offer; continue : 'reply -> change; around :
 val steps : t -> step Seq.t
 (** [steps r] is all that [r] can do, leftmost first, computed on demand. *)
 
-val internal_steps : t -> step Seq.t
-(** [internal_steps r] is [steps r], without some of those that wait for an end or an expiry. *)
-
-val steps_of_vehicle : vehicle -> t -> step Seq.t
-(** [steps_of_vehicle v r] is [steps r], without some of those that do not wait for the end of a task of [v]. *)
+val marked_steps : Branches.mark -> t -> step Seq.t
+(** [marked_steps m r] is [steps r], without some of those of branches that do not have the mark [m]. *)
 
 val among : surrounding list -> step -> step
 (** [among around s] is [s], with [around] around what is around it. *)

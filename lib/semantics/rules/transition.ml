@@ -40,7 +40,7 @@ let steps program world ({ control; shared = s } : Configuration.t) : t Seq.t De
   | Executing (m, r) ->
     let conclude = function Some local -> Seq.return (Local_step.conclude m r local) | None -> Seq.empty in
     let of_step step = Decision.map conclude (Local_step.internal program world s step) in
-    Seq.map of_step (Task_rules.internal_steps r)
+    Seq.map of_step (Task_rules.marked_steps Alone r)
 
 (* Vehicles and timers are in one place of a residual only: at most one step takes the event. *)
 let executing_event program world s m r event =
@@ -55,10 +55,9 @@ let executing_event program world s m r event =
           Decision.map conclude taken)
   in
   match event with
-  | Vehicle_done v | Vehicle_failed (v, _) -> first (Task_rules.steps_of_vehicle v r)
-  | Timer_expired _ | Confirmed _ | Recruited _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Input _
-  | Interruption ->
-    first (Task_rules.steps r)
+  | Vehicle_done v | Vehicle_failed (v, _) -> first (Task_rules.marked_steps (End_on v) r)
+  | Timer_expired n | Confirmed (n, _) | Recruited (n, _) -> first (Task_rules.marked_steps (Number n) r)
+  | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Input _ | Interruption -> Decided (Error Not_awaited)
 
 let on_event program world ({ control; shared = s } as c : Configuration.t) event =
   match event, control with
@@ -162,12 +161,12 @@ let is_leaving (c : Configuration.t) =
 
 (* {1 What is awaited} *)
 
-let awaited (c : Configuration.t) =
+let events (c : Configuration.t) : awaited Seq.t =
   match c.control with
-  | Script _ | Ended _ | Waiting (_, Execute _) -> []
-  | Waiting (_, (Pick _ | Pause _)) -> [ Expiry_of Residual.script_timer ]
-  | Waiting (_, Ask _) -> [ Answer ]
-  | Waiting (_, Host_call _) -> [ Reply ]
+  | Script _ | Ended _ | Waiting (_, Execute _) -> Seq.empty
+  | Waiting (_, (Pick _ | Pause _)) -> Seq.return (Expiry_of Residual.script_timer)
+  | Waiting (_, Ask _) -> Seq.return Answer
+  | Waiting (_, Host_call _) -> Seq.return Reply
   | Executing (_, r) ->
     let event (Task_rules.Step { offer; _ }) : awaited option =
       match offer with
@@ -177,7 +176,10 @@ let awaited (c : Configuration.t) =
       | Recruit_for (number, asked) -> Some (Recruit_for (number, asked))
       | Start _ | Perform _ | Check _ | Refute _ | Decide _ | Take _ | Measure _ | Make _ | Allocate _ -> None
     in
-    List.of_seq (Seq.filter_map event (Task_rules.steps r))
+    Seq.filter_map event (Task_rules.steps r)
+
+let awaited c = List.of_seq (events c)
+let awaits_event c = match events c () with Seq.Nil -> false | Cons _ -> true
 
 let recruitable program world (c : Configuration.t) : event Seq.t =
   match c.control with
@@ -189,7 +191,7 @@ let recruitable program world (c : Configuration.t) : event Seq.t =
       | Start _ | Perform _ | Check _ | Refute _ | Decide _ | Take _ | Measure _ | Make _ | Allocate _ | End_of _
       | Expiry_of _ | Answer_to _ -> Seq.empty
     in
-    Seq.flat_map of_step (Task_rules.steps r)
+    Seq.flat_map of_step (Task_rules.marked_steps Recruits r)
   | Executing _ | Script _ | Waiting _ | Ended _ -> Seq.empty
 
 let recruited program world c =
@@ -216,11 +218,9 @@ let unknown program world (c : Configuration.t) =
   | Executing (_, r) when program.reads_sensors -> List.of_seq (Seq.filter_map of_step (Task_rules.steps r))
   | Executing _ | Script _ | Waiting _ | Ended _ -> []
 
-let awaits_recruits = Residual.exists_active (function Recruit _ -> true | _ -> false)
-
 let depends_on_sensors (program : program) (c : Configuration.t) =
   match c.control with
   | Waiting (_, Pick _) -> true
-  | Executing (_, r) -> program.reads_sensors || (program.recruits && awaits_recruits r)
+  | Executing (_, r) -> program.reads_sensors || (program.recruits && Residual.awaits Recruits r)
   | Waiting (_, (Ask _ | Pause _ | Execute _ | Host_call _)) | Script _ -> program.reads_sensors
   | Ended _ -> false

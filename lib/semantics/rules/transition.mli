@@ -67,6 +67,9 @@ val awaited : Configuration.t -> awaited list
 (** [awaited c] is the events for which [c] has transitions, leftmost first, besides inputs and [Interruption]. The
     time-out of a [pick] is among them, but not accepted while the pick can be met: then it must be. *)
 
+val awaits_event : Configuration.t -> bool
+(** [awaits_event c] is whether [awaited c] has an event. *)
+
 val recruitable : program -> World.t -> Configuration.t -> event Seq.t
 (** [recruitable p w c] is the events [Recruited (i, v)] of the vehicles that a [recruit] of [c] asks for, wherever they
     are: the leftmost [recruit] first, vehicles in the order of [w]. *)

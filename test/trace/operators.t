@@ -16,6 +16,7 @@ Acts of operators stand in journals, and mean nothing to the run.
       time  program
       0:00  says: begins
             asks: How many?
+            rui (answer) answers 'How many?': 3
             is answered: 3
             says: 3
             pause(2)
@@ -26,5 +27,5 @@ An act that is not known is not passed over.
 
   $ sed 's/take-helm/take-off/' known.run > strange.run
   $ dolphin trace check two.dol strange.run
-  dolphin: strange.run:8: unknown act of an operator: "take-off"
+  dolphin: strange.run:9: unknown act of an operator: "take-off"
   [2]

@@ -134,6 +134,11 @@ let hole_fits ring before i hole =
       | Some [] -> Ok ()
       | Some (_ :: _) -> Error (Hole_outside i))
 
+(* Holes of other programs leave strips where their corners are rounded, by 0.05 m with six digits of a degree. *)
+let is_covered ~whole ~left ~length =
+  let units_per_strip = 0.1 *. units_per_metre in
+  left <= 4. *. length || (left <= 0.01 *. whole && left <= units_per_strip *. length)
+
 let polygon ?(holes = []) corners =
   let corners = without_repetitions corners and holes = List.map without_repetitions holes in
   let all = List.concat (corners :: holes) in
@@ -153,8 +158,10 @@ let polygon ?(holes = []) corners =
     in
     let numbered = List.mapi (fun i hole -> (i + 1, left_turning hole)) hole_rings in
     let* holes_inside = List.fold_left fits (Ok []) numbered in
-    let left hole rest = rest - Arrangement.doubled_area hole in
-    if List.fold_right left holes_inside (Arrangement.doubled_area (left_turning ring)) <= 0 then Error Empty
+    let doubled rings = List.fold_left (fun sum r -> sum +. float_of_int (Arrangement.doubled_area r)) 0. rings in
+    let whole = doubled [ left_turning ring ] in
+    let length = List.fold_left (fun sum r -> sum +. Arrangement.length r) 0. (ring :: holes_inside) in
+    if holes_inside <> [] && is_covered ~whole ~left:(whole -. doubled holes_inside) ~length then Error Empty
     else Ok (Shape (shape plane (turning ~left:true corners ring :: List.map2 (turning ~left:false) holes hole_rings)))
 
 (* Rims that cross, or turn the wrong way, enclose another area than the sum of theirs. *)

@@ -34,7 +34,12 @@ val circle : Position.t -> float -> (t, error) result
 val polygon : ?holes:Position.t list list -> Position.t list -> (t, error) result
 (** [polygon ~holes corners] is the area enclosed by the shortest lines from corner to corner, and from the last to
     the first, without [holes]. A corner that follows itself counts once. In either order of corners it is the same
-    area. Holes that leave nothing of it are an error. *)
+    area. Holes that leave nothing of it are an error: {!is_covered}. *)
+
+val is_covered : whole:float -> left:float -> length:float -> bool
+(** [is_covered ~whole ~left ~length] is whether holes cover their polygon: they leave at most a hundredth of it, in
+    strips less than 10 cm wide, or strips of some millimetres. [whole] and [left] are twice the area of the polygon and
+    of the rest, [length] is that of all rims; in millimetres. *)
 
 val most_corners : int
 (** 20,000. *)

@@ -61,6 +61,12 @@ let is_slight change rings ~whole =
   let length = List.fold_left (fun sum ring -> sum +. Arrangement.length ring) 0. rings in
   Float.abs change <= (0.001 *. whole) +. (4. *. length)
 
+(* Whether holes cover the polygon of the size [whole], with [left] left. If holes were cut off or united, a rest is
+   nothing, too, if that may change as much. *)
+let is_nothing changes left rings ~whole =
+  let length = List.fold_left (fun sum ring -> sum +. Arrangement.length ring) 0. rings in
+  Area.is_covered ~whole ~left ~length || (List.mem Holes changes && is_slight left rings ~whole)
+
 (* A ring that crosses itself slightly encloses nearly the area that its turns give. *)
 let region changes ring =
   match Arrangement.flaw ring with
@@ -105,6 +111,7 @@ let repaired error holes corners =
   match Arrangement.combine (fun a b -> a && not b) rim cut with
   | None -> Error Area.Intricate
   | Some rings when not (is_slight (area rings -. (area rim -. area cut)) (rim @ cut) ~whole:(area rim)) -> Error error
+  | Some rings when cut <> [] && is_nothing !changes (area rings) (rim @ cut) ~whole:(area rim) -> Error Area.Empty
   | Some rings ->
     let positions ring = List.map (fun p -> Plane.to_position plane (off_grid p)) (Array.to_list ring) in
     let* area = Area.of_rings (List.map positions rings) in

@@ -10,7 +10,8 @@ type change =
 
 val polygon : ?holes:Position.t list list -> Position.t list -> (Area.t * change list, Area.error) result
 (** [polygon ~holes corners] is {!Area.polygon} if that is an area, with no changes; else the area that was meant, with
-    each change once, if the fault is slight; else the error of {!Area.polygon}. *)
+    each change once, if the fault is slight; else the error of {!Area.polygon}. [Error Empty] if holes that were cut
+    off or united leave less than a thousandth. *)
 
 val pp : Format.formatter -> change -> unit
 (** In words, as ["spikes are cut off"]. *)

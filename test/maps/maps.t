@@ -164,15 +164,19 @@ Nor is it an area if its holes leave nothing of it: as a fence it would keep no 
   > import json
   > square = lambda x, d: [[x, 41.1], [x + d, 41.1], [x + d, 41.11], [x, 41.11], [x, 41.1]]
   > whole = square(-8.7, 0.01)
-  > for name, holes in (("covered", [whole]), ("turned", [whole[::-1]])):
+  > halves = [[[x, 41.1], [x + 0.005, 41.1], [x + 0.005, 41.11], [x, 41.11], [x, 41.1]] for x in (-8.7, -8.695)]
+  > rounded = [[[x + d, y] for x, y in half] for half, d in zip(halves, (0, -0.000001))]
+  > for name, holes in (("covered", [whole]), ("turned", [whole[::-1]]), ("tiled", halves), ("rounded", rounded)):
   >     json.dump({"type": "Polygon", "coordinates": [whole, *holes]}, open(name + ".geojson", "w"))
   > EOF
-  $ for file in covered turned; do
+  $ for file in covered turned tiled rounded; do
   >   echo "fence outside map '$file.geojson'" > hostile.dol
   >   dolphin check hostile.dol 2>&1 | head -1
   > done
   hostile.dol:1:19: error: the map cannot be read: covered.geojson: the geometry: nothing is left: the area is empty
   hostile.dol:1:19: error: the map cannot be read: turned.geojson: the geometry: nothing is left: the area is empty
+  hostile.dol:1:19: error: the map cannot be read: tiled.geojson: the geometry: nothing is left: the area is empty
+  hostile.dol:1:19: error: the map cannot be read: rounded.geojson: the geometry: nothing is left: the area is empty
 
 A feature that is wrong does not hide the others: it is null, and an error where it is used.
 

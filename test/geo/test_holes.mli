@@ -1,0 +1,1 @@
+(** Holes that leave nothing of a polygon. *)

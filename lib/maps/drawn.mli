@@ -35,5 +35,30 @@ val left_out : ?name:string -> string -> ('a, unit, string, t list) format4 -> '
 val empty : shape
 (** The {!Note} of a shape without positions. *)
 
+val no_geometry : shape
+(** The {!Note} of a place without a shape. *)
+
+val some : shape list -> shape list
+(** [some shapes] is [shapes], or {!empty} if there are none. *)
+
+val non_empty : shape list -> shape list
+(** [non_empty shapes] is [shapes] without {!empty} ones, or {!empty} if none is left. *)
+
+(** {1 Rings}
+
+    In GeoJSON and KML the last position of a ring is the first again. *)
+
+val accuracy : float
+(** A millimetre: a ring whose ends are at most that far apart is closed. *)
+
+val gap : Position.t list -> float
+(** [gap ring] is the distance of its last position from its first, in metres. *)
+
+val closing : string -> Position.t list -> shape list
+(** [closing name ring] is a {!Note} that names the ring and its gap, if that is longer than {!accuracy}. *)
+
+val with_gaps : shape list -> shape list
+(** [with_gaps shapes] is [shapes], and {!closing} of each rim and hole of their polygons. *)
+
 val position : string -> latitude:float -> longitude:float -> height:float -> Position.t
 (** [position place ...] is that position, or wrong at [place]. *)

@@ -29,7 +29,7 @@ let rec is_empty : Yojson.Safe.t -> bool = function `List parts -> List.for_all 
 
 let rec shapes place geometry =
   let coordinates = Json_text.member "coordinates" geometry in
-  let unless_empty f = if is_empty coordinates then [ empty ] else f () in
+  let unless_empty f = if coordinates = `Null || is_empty coordinates then [ empty ] else f () in
   let each f =
     unless_empty (fun () ->
         List.map f (List.filter (fun part -> not (is_empty part)) (Json_text.elements place coordinates))) in
@@ -43,9 +43,9 @@ let rec shapes place geometry =
     let polygons () = List.filter (fun part -> not (is_empty part)) (Json_text.elements place coordinates) in
     unless_empty (fun () -> [ Ground (List.map (ring place) (polygons ())) ])
   | `String "GeometryCollection" -> (
-      match Json_text.elements place (Json_text.member "geometries" geometry) with
-      | [] -> [ empty ]
-      | geometries -> List.concat_map (shapes place) geometries)
+      match Json_text.member "geometries" geometry with
+      | `Null -> [ empty ]
+      | geometries -> non_empty (List.concat_map (shapes place) (Json_text.elements place geometries)))
   | `String other -> wrong place "GeoJSON has no geometry '%s'" other
   | _ -> wrong place "a geometry has a type, as \"Polygon\""
 
@@ -92,10 +92,10 @@ let feature i feature =
   each ~name ~place (fun () ->
       if Json_text.member "type" feature <> `String "Feature" then wrong place "this is not a feature of GeoJSON";
       match Json_text.member "geometry" feature with
-      | `Null -> [ Note "it has no geometry, and is left out" ]
+      | `Null -> [ no_geometry ]
       | geometry ->
         check_system place geometry;
-        shapes place geometry)
+        with_gaps (shapes place geometry))
 
 let of_encoding text =
   match Utf8_text.repaired text with
@@ -113,7 +113,7 @@ let read text =
     | `String "FeatureCollection" ->
       List.concat (List.mapi feature (Json_text.elements "the features" (Json_text.member "features" json)))
     | `String "Feature" -> feature 0 json
-    | `String _ -> each ~name:"" ~place (fun () -> shapes place json)
+    | `String _ -> each ~name:"" ~place (fun () -> with_gaps (shapes place json))
     | _ -> wrong "" "this is not GeoJSON: it has no \"type\": \"FeatureCollection\""
   in
   of_encoding text @ things

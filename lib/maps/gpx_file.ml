@@ -18,13 +18,16 @@ let way tag x =
   | [ p ] -> [ Spot p ]
   | ps -> [ Way ps ]
 
-let unless_empty = function [] -> [ empty ] | shapes -> shapes
+(* Writers give a way point without a place empty attributes, or none. *)
+let has_no_place x =
+  let is_empty name = Option.value (List.assoc_opt name x.attributes) ~default:"" = "" in
+  is_empty "lat" && is_empty "lon"
 
 let things x =
   let each ?(from = x) f = each ~name:(text_of "name" x) ~place:from.place f in
   match x.tag with
-  | "wpt" -> each (fun () -> [ Spot (point x) ])
-  | "rte" -> each (fun () -> unless_empty (way "rtept" x))
+  | "wpt" -> each (fun () -> if has_no_place x then [ empty ] else [ Spot (point x) ])
+  | "rte" -> each (fun () -> some (way "rtept" x))
   | "trk" ->
     (* Recorders begin segments that stay empty. *)
     let segment s = each ~from:s (fun () -> way "trkpt" s) in

@@ -20,7 +20,7 @@ let position x parts =
 
 let coordinates x =
   match child "coordinates" x with
-  | None -> wrong x.place "%s has no coordinates" x.tag
+  | None -> []
   | Some c -> List.rev (List.rev_map (fun word -> position c (String.split_on_char ',' word)) (words c.text))
 
 let way x = function
@@ -28,13 +28,18 @@ let way x = function
   | [ _ ] -> wrong x.place "a line has two positions at least"
   | ps -> [ Way ps ]
 
+let ring x =
+  match coordinates x with
+  | first :: _ :: _ as ps when gap ps > accuracy -> Way (ps @ [ first ]) :: closing "the ring" ps
+  | ps -> way x ps
+
 let polygon x =
-  let ring side = List.concat_map (children "LinearRing") (children side x) in
-  match ring "outerBoundaryIs" with
-  | [] -> wrong x.place "a polygon has an outerBoundaryIs with a LinearRing"
-  | rim :: _ -> (
-      let holes = List.filter (( <> ) []) (List.map coordinates (ring "innerBoundaryIs")) in
-      match coordinates rim with [] -> [ empty ] | rim -> [ Ground [ { rim; holes } ] ])
+  let rings side = List.concat_map (children "LinearRing") (children side x) in
+  let non_empty rings = List.filter (( <> ) []) (List.map coordinates rings) in
+  match non_empty (rings "outerBoundaryIs"), non_empty (rings "innerBoundaryIs") with
+  | rim :: _, holes -> [ Ground [ { rim; holes } ] ]
+  | [], [] -> [ empty ]
+  | [], _ :: _ -> wrong x.place "a polygon has an outerBoundaryIs with a LinearRing"
 
 let track x = List.map (fun c -> position c (words c.text)) (children "coord" x)
 
@@ -44,14 +49,15 @@ let rec has_coordinates x =
 let rec shapes x =
   match x.tag with
   | "Point" -> ( match coordinates x with p :: _ -> [ Spot p ] | [] -> [ empty ])
-  | "LineString" | "LinearRing" -> way x (coordinates x)
+  | "LineString" -> way x (coordinates x)
+  | "LinearRing" -> ring x
   | "Polygon" -> polygon x
   | "Track" -> ( match track x with [] -> [ empty ] | [ p ] -> [ Spot p ] | ps -> [ Way ps ])
   | "MultiGeometry" | "MultiTrack" | "MultiPolygon" | "MultiLineString" | "MultiPoint" ->
     (* Polygons of one place are one area. *)
     let ground, others =
       List.partition_map (function Ground rings -> Either.Left rings | other -> Either.Right other)
-        (List.concat_map shapes x.inside) in
+        (non_empty (List.concat_map shapes x.inside)) in
     let rings = List.concat ground in
     if rings = [] then others else Ground rings :: others
   | "Model" -> [ Note "a model has no shape on the ground, and is left out" ]
@@ -64,7 +70,9 @@ let link x =
 let rec things ~follow x =
   let name = text_of "name" x in
   match x.tag with
-  | "Placemark" -> each ~name ~place:x.place (fun () -> List.concat_map shapes x.inside)
+  | "Placemark" ->
+    let found () = match List.concat_map shapes x.inside with [] -> [ no_geometry ] | shapes -> with_gaps shapes in
+    each ~name ~place:x.place found
   | "NetworkLink" ->
     let href = link x in
     if follow href then [] else left_out ~name x.place "the link to '%s' is not followed" href

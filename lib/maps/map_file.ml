@@ -88,11 +88,9 @@ let area place result =
 
 (* Files close their rings: the last corner is the first again, perhaps with another rounding. *)
 let opened ring =
-  match ring, List.rev ring with
-  | (first : Position.t) :: _ :: _, last :: before
-    when (first.latitude = last.Position.latitude && first.longitude = last.longitude)
-      || Wgs84.distance first last <= 1e-3 -> List.rev before
-  | ring, _ -> ring
+  match List.rev ring with
+  | _ :: (_ :: _ as before) when Drawn.gap ring <= Drawn.accuracy -> List.rev before
+  | _ -> ring
 
 (* Halves are united with halves, so that many polygons do not take quadratic time; the first half first, so that
    those which make too many corners are reported early. *)

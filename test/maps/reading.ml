@@ -78,7 +78,7 @@ let reading_kml () =
            ^ "<coordinates>0,0 1,1</coordinates></LineString></MultiGeometry>")));
   check "a track" "t: line of 2"
     (read (placed "t" "<gx:Track><when/><gx:coord>1 2 3</gx:coord><gx:coord>1 3 3</gx:coord></gx:Track>"));
-  check "what has no place" "" (read (placed "n" "" ^ "<Style/>"));
+  check "what has no place" "note: line 1 ('n'): it has no geometry, and is left out" (read (placed "n" "" ^ "<Style/>"));
   let polygon = "<Polygon><outerBoundaryIs>" ^ ring ^ "</outerBoundaryIs></Polygon>" in
   check "MultiPolygon" "a: 12309 m2, 4 corners" (read (placed "a" ("<MultiPolygon>" ^ polygon ^ "</MultiPolygon>")));
   check "a geometry that is not known" "note: line 1 ('a'): Circle is not known here, and left out"
@@ -87,7 +87,7 @@ let reading_kml () =
     (read "<NetworkLink><name>n</name><Link><href>http://example.org/a.kml</href></Link></NetworkLink>");
   check "no number" "wrong: line 3: 'x' is not a number"
     (read (placed "p\n\n" "<Point><coordinates>-8,x\n\n</coordinates></Point>"));
-  check "no coordinates" "wrong: line 1: Point has no coordinates" (read (placed "p" "<Point/>"));
+  check "no coordinates" "note: line 1 ('p'): it is empty, and left out" (read (placed "p" "<Point/>"));
   check "another document" "wrong: line 1: this is not KML: its root is 'gpx'" (shown "m.kml" "<gpx/>");
   check "no XML" "wrong: line 2, column 2: this is not XML: expected root element" (shown "m.kml" "<!-- -->\n nothing")
 

@@ -19,7 +19,74 @@ let empty_geometries () =
   check "KML: a line" note (kml "<LineString><coordinates> </coordinates></LineString>");
   check "KML: a ring" note
     (kml "<Polygon><outerBoundaryIs><LinearRing><coordinates/></LinearRing></outerBoundaryIs></Polygon>");
-  check "GPX" note (shown "m.gpx" "<gpx><rte><name>a</name></rte></gpx>")
+  check "KML: a polygon without rings" note (kml "<Polygon><outerBoundaryIs/><innerBoundaryIs/></Polygon>");
+  check "KML: no polygon in several" note (kml "<MultiGeometry><Point/><Polygon/></MultiGeometry>");
+  check "KML: an empty part" "a: (0.000000, 2.000000)"
+    (kml "<MultiGeometry><Point/><Point><coordinates>2,0</coordinates></Point></MultiGeometry>");
+  List.iter
+    (fun tag -> check ("KML: " ^ tag) note (kml (Printf.sprintf "<%s/>" tag)))
+    [ "Point"; "LineString"; "LinearRing"; "Polygon"; "Track"; "MultiGeometry"; "MultiTrack" ];
+  check "KML: no geometry" "note: line 1 ('a'): it has no geometry, and is left out" (kml "");
+  let geojson geometry = shown "m.geojson" (Printf.sprintf {|{"type":"Feature","geometry":%s}|} geometry) in
+  List.iter
+    (fun kind ->
+       let note = "note: feature 1: it is empty, and left out" in
+       check (kind ^ " without coordinates") note (geojson (Printf.sprintf {|{"type":"%s"}|} kind));
+       check (kind ^ ": null") note
+         (geojson (Printf.sprintf {|{"type":"%s","coordinates":null,"geometries":null}|} kind)))
+    [ "Point"; "MultiPoint"; "LineString"; "MultiLineString"; "Polygon"; "MultiPolygon"; "GeometryCollection" ];
+  let gpx inside = shown "m.gpx" ("<gpx>" ^ inside ^ "</gpx>") in
+  List.iter
+    (fun inside -> check ("GPX: " ^ inside) note (gpx inside))
+    [ "<rte><name>a</name></rte>"; "<trk><name>a</name></trk>"; "<trk><name>a</name><trkseg/></trk>";
+      "<wpt><name>a</name></wpt>"; "<wpt lat='' lon=''><name>a</name></wpt>" ]
+
+(* Rings of both formats repeat their first position at the end; one that does not may lack corners. *)
+let json_ring ring =
+  let position text = "[" ^ text ^ "]" in
+  "[" ^ String.concat "," (List.map position (String.split_on_char ' ' ring)) ^ "]"
+
+let json_polygon rings = "[" ^ String.concat "," (List.map json_ring rings) ^ "]"
+let kml_ring ring = Printf.sprintf "<LinearRing><coordinates>%s</coordinates></LinearRing>" ring
+
+let kml_polygon rings =
+  let side name ring = Printf.sprintf "<%s>%s</%s>" name (kml_ring ring) name in
+  let holes = List.map (side "innerBoundaryIs") (List.tl rings) in
+  Printf.sprintf "<Polygon>%s%s</Polygon>" (side "outerBoundaryIs" (List.hd rings)) (String.concat "" holes)
+
+let kml_place inside = shown "m.kml" ("<kml><Placemark><name>a</name>" ^ inside ^ "</Placemark></kml>")
+
+let in_both what area notes polygons =
+  let found =
+    [ ("feature 1 ('a')",
+       let polygons = String.concat "," (List.map json_polygon polygons) in
+       shown "m.geojson" (collection [ feature "MultiPolygon" ("[" ^ polygons ^ "]") ]));
+      ("line 1 ('a')",
+       kml_place ("<MultiGeometry>" ^ String.concat "" (List.map kml_polygon polygons) ^ "</MultiGeometry>")) ] in
+  let compare (place, found) =
+    let note why = Printf.sprintf "note: %s: %s, and is closed by a straight line" place why in
+    check what (String.concat "; " (area :: List.map note notes)) found in
+  List.iter compare found
+
+let open_rings () =
+  let rim = "0,0 0.001,0 0.001,0.001 0,0.001" and hole = "0.0002,0.0002 0.0002,0.0007 0.0007,0.0007" in
+  let second = "0.002,0 0.003,0 0.003,0.001 0.002,0.001" and second_closed = " 0.002,0" in
+  let area = "a: 12309 m2, 4 corners" in
+  in_both "closed" area [] [ [ rim ^ " 0,0" ] ];
+  in_both "by less than a millimetre" area [] [ [ rim ^ " 0.000000005,0.000000005" ] ];
+  in_both "by two millimetres" "a: 12309 m2, 5 corners" [ "the rim ends 0.002 m from its beginning" ]
+    [ [ rim ^ " 0,0.00000002" ] ];
+  in_both "by a side" area [ "the rim ends 111 m from its beginning" ] [ [ rim ] ];
+  in_both "by a kilometre" "a: 67331 m2, 4 corners" [ "the rim ends 1110 m from its beginning" ]
+    [ [ "0,0 0.001,0 0.001,0.001 0.0001,0.01004" ] ];
+  in_both "a hole" "a: 10770 m2, 7 corners" [ "hole 1 ends 78 m from its beginning" ] [ [ rim ^ " 0,0"; hole ] ];
+  in_both "of several" "a: 23080 m2, 11 corners"
+    [ "hole 1 of polygon 1 ends 78 m from its beginning"; "the rim of polygon 2 ends 111 m from its beginning" ]
+    [ [ rim ^ " 0,0"; hole ]; [ second ] ];
+  in_both "several that are closed" "a: 24618 m2, 8 corners" [] [ [ rim ^ " 0,0" ]; [ second ^ second_closed ] ];
+  check "a ring without a polygon" "a: line of 5; note: line 1 ('a'): the ring ends 111 m from its beginning, and is \
+                                    closed by a straight line" (kml_place (kml_ring rim));
+  check "a closed one" "a: line of 5" (kml_place (kml_ring (rim ^ " 0,0")))
 
 let bad_features () =
   let read bad = shown "m.geojson" (collection [ bad; feature ~properties:{|{"name":"b"}|} "Point" "[1,0]" ]) in
@@ -59,7 +126,9 @@ let repaired () =
   check "a rim that touches itself"
     ("a: 24618 m2, 8 corners" ^ note ^ "the rim touches or crosses itself slightly, and is cut there")
     (read "[[0,0],[0.001,0],[0.001,0.001],[0.002,0.001],[0.002,0.002],[0.001,0.002],[0.001,0.001],[0,0.001],[0,0]]");
-  let hole x = Printf.sprintf "[[%g,0.0002],[%g,0.0002],[%g,0.0007],[%g,0.0007]]" x (x +. 0.0002) (x +. 0.0002) x in
+  let hole x =
+    let east = x +. 0.0002 in
+    Printf.sprintf "[[%g,0.0002],[%g,0.0002],[%g,0.0007],[%g,0.0007],[%g,0.0002]]" x east east x x in
   check "a hole that touches the rim" "a: 11078 m2, 8 corners" (read (square ^ "," ^ hole 0.));
   check "holes beside each other" "a: 9847 m2, 12 corners" (read (square ^ "," ^ hole 0.0002 ^ "," ^ hole 0.0004));
   let cut_off = note ^ "holes that meet or reach out of the polygon are united and cut off" in
@@ -77,7 +146,8 @@ let repaired () =
   let many = List.init 12_000 (fun i ->
       let angle = Float.pi *. float_of_int i /. 6000. in
       Printf.sprintf "[%.9f,%.9f]" (0.01 *. cos angle) (0.01 *. sin angle)) in
-  check "many corners" "a: 3867009 m2, 12000 corners" (read (Printf.sprintf "[%s]" (String.concat "," many)))
+  check "many corners" "a: 3867009 m2, 12000 corners"
+    (read (Printf.sprintf "[%s,%s]" (String.concat "," many) (List.hd many)))
 
 let coordinate_systems () =
   let with_crs crs = Printf.sprintf {|{"type":"FeatureCollection","crs":%s,"features":[%s]}|} crs (feature "Point" "[2,1]") in
@@ -122,6 +192,7 @@ let encodings () =
 
 let cases =
   [ case "empty geometries" empty_geometries;
+    case "rings that are open" open_rings;
     case "bad features" bad_features;
     case "slightly wrong polygons" repaired;
     case "coordinate systems" coordinate_systems;

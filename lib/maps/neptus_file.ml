@@ -1,15 +1,22 @@
 open Dolphin_geo
 open Drawn
 open Xml_text
+module Numeral = Dolphin_numerals.Numeral
 
-(* [41.185], [38.82593N], [41N11'9.8''], [8W42.5']. *)
-let degrees x text =
+(* [41.185], [1.0E-5], [38.82593N], [41N11'9.8''], [8W42.5']: a number, or one with a letter of [letters]. *)
+let degrees x letters text =
   let letter c = Option.map (fun i -> (c, i)) (String.index_opt text c) in
-  match List.find_map letter [ 'N'; 'S'; 'E'; 'W' ] with
-  | None -> number x text
-  | Some (letter, i) ->
+  match Numeral.number text, List.find_map letter letters with
+  | Some degrees, (Some _ | None) -> degrees
+  | None, None -> number x text
+  | None, Some (letter, i) ->
     let parts = String.split_on_char '\'' (String.sub text (i + 1) (String.length text - i - 1)) in
-    let part n = match List.nth_opt parts n with Some "" | None -> 0. | Some part -> number x part in
+    let sixtieths part =
+      let size = number x part in
+      if Float.sign_bit size || size > 60. then wrong x.place "'%s' is not a number of minutes or seconds" part;
+      size
+    in
+    let part n = match List.nth_opt parts n with Some "" | None -> 0. | Some part -> sixtieths part in
     let size = number x (String.sub text 0 i) +. (part 0 /. 60.) +. (part 1 /. 3600.) in
     if letter = 'S' || letter = 'W' then -.size else size
 
@@ -20,7 +27,8 @@ let location x =
   | None -> wrong x.place "%s has no coordinate" x.tag
   | Some c ->
     let height = metres "height" c -. metres "depth" c +. metres "offset-up" c -. metres "offset-down" c in
-    let latitude = degrees c (text_of "latitude" c) and longitude = degrees c (text_of "longitude" c) in
+    let latitude = degrees c [ 'N'; 'S' ] (text_of "latitude" c) in
+    let longitude = degrees c [ 'E'; 'W' ] (text_of "longitude" c) in
     let p = Drawn.position c.place ~latitude ~longitude ~height in
     let north = metres "offset-north" c -. metres "offset-south" c in
     let east = metres "offset-east" c -. metres "offset-west" c in

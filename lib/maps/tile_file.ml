@@ -67,17 +67,17 @@ let level db name =
   | Some n when 0 <= n && n <= deepest -> Some n
   | Some _ | None -> None
 
-(* The first and the last level that have tiles, if the index finds them. *)
+(* The first and the last level that have tiles. *)
 let levels_with_tiles db =
   let query = "SELECT 1 FROM tiles WHERE zoom_level = ? LIMIT 1" in
   let at level = [ Sqlite3.Data.INT (Int64.of_int level) ] in
   let has_tiles level = match ask db query (at level) with Ok (_ :: _) -> true | Ok [] | Error _ -> false in
-  match searches db query (at 0) with
-  | Error _ | Ok false -> None
-  | Ok true -> (
-      match List.filter has_tiles (List.init (deepest + 1) Fun.id) with
-      | [] -> None
-      | first :: others -> Some (first, List.fold_left (fun _ level -> level) first others))
+  let* quick = searches db query (at 0) in
+  if not quick then Error "its metadata lack minzoom or maxzoom, and its index does not begin with zoom_level"
+  else
+    match List.filter has_tiles (List.init (deepest + 1) Fun.id) with
+    | [] -> Error "it has no tiles"
+    | first :: others -> Ok (first, List.fold_left (fun _ level -> level) first others)
 
 let bounds db =
   let numbers text = List.map (fun part -> Numeral.number (String.trim part)) (String.split_on_char ',' text) in
@@ -96,10 +96,10 @@ let read path =
       | Some "pbf" -> Error "its tiles are vectors (pbf), and only pictures are shown: png, jpg, webp"
       | Some _ | None ->
         let known = (level db "minzoom", level db "maxzoom") in
-        let first, last =
+        let* first, last =
           match known with
-          | Some first, Some last -> (first, last)
-          | _, _ -> Option.value (levels_with_tiles db) ~default:(0, deepest)
+          | Some first, Some last -> Ok (first, last)
+          | (Some _ | None), (Some _ | None) -> levels_with_tiles db
         in
         let minimum = Option.value (fst known) ~default:first and maximum = Option.value (snd known) ~default:last in
         if minimum > maximum then Error (Printf.sprintf "it has no tiles from level %d to level %d" minimum maximum)

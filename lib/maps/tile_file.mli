@@ -9,7 +9,8 @@ type t = {
 }
 
 val read : string -> (t, string) result
-(** [read path] is the description of the tiles at [path], or the reason why they cannot be shown, in a sentence. *)
+(** [read path] is the description of the tiles at [path], or the reason why they cannot be shown, in a sentence.
+    Without zoom levels in the metadata the index has to find them. *)
 
 type image = { kind : string;  (** its media type *) bytes : string }
 

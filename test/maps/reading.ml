@@ -99,6 +99,11 @@ let reading_gpx () =
         <rte><name>r</name><rtept lat='1' lon='1'/><rtept lat='1' lon='2'/></rte>\
         <trk><name>t</name><trkseg><trkpt lat='1' lon='1'/><trkpt lat='1' lon='2'/></trkseg>\
         <trkseg><trkpt lat='1' lon='3'/></trkseg><trkseg/></trk>");
+  check "powers of ten" "t: line of 2; note: line 1 ('t'): '-2e-7' and 2 more are read, although GPX does not allow a \
+                         power of ten"
+    (read
+       "<trk><name>t</name><trkseg><trkpt lat='49' lon='-2e-7'><ele>1e1</ele></trkpt><trkpt lat='1E0' lon='1'/>\
+        </trkseg></trk>");
   check "no longitude" "wrong: line 1: a point has the attributes lat and lon" (read "<wpt lat='1'/>")
 
 let reading_plans () =
@@ -153,6 +158,21 @@ let missions () =
   check "an item that is not known"
     (two ^ "; note: item 2 of the mission: Marker is not an item that is known here, and left out")
     (read [ first; {|{"type":"Marker","params":[0,0,0,0,1,1,1]}|}; second ])
+
+(* The letter E is that of the east, too. *)
+let neptus_degrees () =
+  let read latitude longitude =
+    shown "m.nmap"
+      (Printf.sprintf
+         "<map><features><mark><id>m</id><coordinate><latitude>%s</latitude><longitude>%s</longitude></coordinate></mark>\
+          </features></map>" latitude longitude) in
+  check "a power of ten" "m: (0.000050, 0.000010)" (read "5.0E-5" "1.0E-5");
+  check "east" "m: (41.500000, 8.500000)" (read "41N30'" "8E30'0''");
+  check "decimal degrees" "m: (-38.825930, -8.500000)" (read "38.82593S" "8.5W");
+  check "seconds that are rounded up" "m: (41.200000, 8.000000)" (read "41N11'60.0''" "8E");
+  check "minutes below 0" "wrong: line 1: '-5' is not a number of minutes or seconds" (read "41N-5'" "8E");
+  check "too many seconds" "wrong: line 1: '61' is not a number of minutes or seconds" (read "41N5'61''" "8E");
+  check "a latitude in the east" "wrong: line 1: '41E30'' is not a number" (read "41E30'" "8E")
 
 let reading_neptus () =
   let at = "<coordinate><latitude>41N30'36.0''</latitude><longitude>8W15'0''</longitude><height>0</height>" in
@@ -226,6 +246,7 @@ let cases =
     case "GPX" reading_gpx;
     case "plans of QGroundControl" reading_plans;
     case "missions" missions;
+    case "degrees of Neptus" neptus_degrees;
     case "maps of Neptus" reading_neptus;
     case "a box is turned" a_box_is_turned;
     case "outlines" outlines ]

@@ -50,13 +50,19 @@ let tiles () =
 
 let strange_tiles () =
   let read sql = with_tiles sql described in
-  check "nothing known" "0 to 24, everywhere, ''" (read [ table; index ]);
+  check "nothing known" "wrong: it has no tiles" (read [ table; index ]);
+  check "an index that does not find levels"
+    "wrong: its metadata lack minzoom or maxzoom, and its index does not begin with zoom_level"
+    (read [ table; "CREATE INDEX i ON tiles (tile_column, tile_row, zoom_level);"; add 3 1 1 png ]);
+  check "one with known levels" "3 to 4, everywhere, ''"
+    (read [ table; "CREATE INDEX i ON tiles (tile_column, tile_row, zoom_level);"; add 3 1 1 png;
+            metadata [ ("minzoom", "3"); ("maxzoom", "4") ] ]);
   let some = [ table; index; add 3 1 1 png; add 5 0 0 png ] in
   check "levels of the tiles" "3 to 5, everywhere, ''" (read some);
   check "the last level of the tiles" "2 to 5, everywhere, ''" (read (some @ [ metadata [ ("minzoom", "2") ] ]));
   check "a level in hexadecimal" "3 to 5, everywhere, ''" (read (some @ [ metadata [ ("maxzoom", "0x7") ] ]));
-  check "numbers, and bounds that are none" "2 to 24, everywhere, ''"
-    (read [ table; index; "CREATE TABLE metadata (name, value)"; "INSERT INTO metadata VALUES ('minzoom', 2)";
+  check "numbers, and bounds that are none" "2 to 5, everywhere, ''"
+    (read [ table; index; add 5 0 0 png; "CREATE TABLE metadata (name, value)"; "INSERT INTO metadata VALUES ('minzoom', 2)";
             "INSERT INTO metadata VALUES ('maxzoom', 'x')"; "INSERT INTO metadata VALUES ('bounds', '1,2,3')" ]);
   check "vectors" "wrong: its tiles are vectors (pbf), and only pictures are shown: png, jpg, webp"
     (read [ table; index; metadata [ ("format", "pbf") ] ]);

@@ -1,0 +1,3 @@
+(** Numbers by the grammar of each format. *)
+
+val cases : unit Alcotest.test_case list

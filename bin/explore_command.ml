@@ -59,6 +59,7 @@ let check_search (s : Exploration.settings) =
   let not_both what = Error (Error.Bad_input (what ^ ", not both")) in
   let* () = Option.fold ~none:(Ok ()) ~some:(check_spill s) s.spill in
   match s.walks, s.bitstate, s.formulas with
+  | _, _, [] when s.fairness <> Weak -> Error (Error.Bad_input "--fairness is about formulas: give --ltl too")
   | Some _, Some _, _ -> not_both "random walks keep their states: give --sample or --bitstate"
   | Some _, None, _ :: _ -> not_both "random walks cannot check a formula: give --sample or --ltl"
   | None, Some _, _ :: _ -> not_both "bitstate hashing cannot check a formula: give --bitstate or --ltl"

@@ -110,6 +110,14 @@ let together a b ending =
 
 let ( let* ) = Option.bind
 
+(* Of tasks that are not timeless: whether nothing of this happens before time passes. *)
+let rec begins_with_time (e : expression) =
+  match e.it with
+  | Builder ((Imc_plan | Mission), _) | Call { callee = { it = Variable ("task" | "imcPlan" | "idle"); _ }; _ } -> true
+  | Binary (Sequence, t, _) | Index (t, _) | Repeat { body = t; rounds = None; _ } -> begins_with_time t
+  | Binary (Parallel, a, b) -> begins_with_time a && begins_with_time b
+  | _ -> false
+
 let rec task known (e : expression) =
   match e.it with
   | Variable x | Call { callee = { it = Variable x; _ }; arguments = [] } -> List.assoc_opt x known.names
@@ -120,7 +128,9 @@ let rec task known (e : expression) =
     let* a = task known a in
     let* b = task known b in
     together a b (if a.ending = b.ending then a.ending else if a.ending = Succeeds then b.ending else Either)
-  | Index (t, _) | During (_, _, t) -> task known t
+  | Closure { parameters = None | Some []; body = [ { it = Expression e | Return (Some e); _ } ] } -> task known e
+  | Index (t, _) -> task known t
+  | During (on_cut, d, t) -> limited known on_cut d t
   | Until (Completes, _, t) ->
     Option.map (fun t -> { t with ending = (if t.ending = Fails then Either else t.ending) }) (task known t)
   | Until (Fails, _, t) -> Option.map (fun t -> { t with ending = Either }) (task known t)
@@ -131,6 +141,13 @@ let rec task known (e : expression) =
     together a b (if a.ending = b.ending then a.ending else Either)
   | Watch (t, handler) -> watched known t handler
   | _ -> None
+
+(* At 0 s a task that takes time is cut. *)
+and limited known on_cut d t =
+  match Option.bind (Literal_check.value d) Value.to_number, task known t with
+  | Some 0., Some t when on_cut = Fails && t.ending = Succeeds -> Some { t with ending = Either }
+  | Some 0., None when begins_with_time t -> Some (if on_cut = Fails then fails else succeeds)
+  | _, found -> found
 
 and call known name argument =
   match name, argument.it with

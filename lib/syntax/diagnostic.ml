@@ -12,8 +12,8 @@ type code =
   | Bad_map | Bad_fence | Broken_fence | No_place | Deed_in_answer
   | Deed_in_maker
   | Vehicle_twice
-  | Unused_task | No_effect | Assigned_condition | Wide_value | Unknown_plan | Unread_input | Other_meaning
-  | Partial_map | No_end | No_time | Ends_here
+  | Unused_task | No_effect | Assigned_condition | Never_holds | Wide_value | Unknown_plan | Unread_input
+  | Other_meaning | Partial_map | No_end | No_time | Ends_here
 
 let codes =
   [ (Syntax, "syntax"); (Unknown_name, "unknown-name"); (Unknown_unit, "unknown-unit");
@@ -29,9 +29,9 @@ let codes =
     (Bad_map, "bad-map"); (Bad_fence, "bad-fence"); (Broken_fence, "broken-fence"); (No_place, "no-place");
     (Deed_in_answer, "deed-in-answer"); (Deed_in_maker, "deed-in-maker");
     (Vehicle_twice, "vehicle-twice"); (Unused_task, "unused-task");
-    (No_effect, "no-effect"); (Assigned_condition, "assigned-condition"); (Wide_value, "wide-value");
-    (Unknown_plan, "unknown-plan"); (Unread_input, "unread-input"); (Other_meaning, "other-meaning");
-    (Partial_map, "partial-map"); (No_end, "no-end"); (No_time, "no-time");
+    (No_effect, "no-effect"); (Assigned_condition, "assigned-condition"); (Never_holds, "never-holds");
+    (Wide_value, "wide-value"); (Unknown_plan, "unknown-plan"); (Unread_input, "unread-input");
+    (Other_meaning, "other-meaning"); (Partial_map, "partial-map"); (No_end, "no-end"); (No_time, "no-time");
     (Ends_here, "ends-here") ]
 
 let code_name code = List.assoc code codes

@@ -31,6 +31,7 @@ type code =
   | Unused_task  (** a warning *)
   | No_effect  (** a warning: a statement whose value is not used *)
   | Assigned_condition  (** a warning: a condition whose value is that of an assignment *)
+  | Never_holds  (** a warning: a condition whose value is always null *)
   | Wide_value  (** a warning: the value of a pair has a condition in it that may be meant to stand beside it *)
   | Unknown_plan  (** a warning: the fleet has no entry for it *)
   | Unread_input  (** a warning: pairs that the outside posts with this key are never read *)

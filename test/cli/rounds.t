@@ -207,6 +207,9 @@ without any event is what the runtime would do.
   $ dolphin explore fair.dol --fairness none --ltl 'F ended' | grep -e termination -e '^formula.*: [hv]'
   termination: holds
   formula F ended: violated: after 8 steps, 2 steps that can repeat without end
+  $ dolphin explore fair.dol --fairness none
+  dolphin: --fairness is about formulas: give --ltl too
+  [2]
   $ dolphin explore spin.dol --ltl 'F ended' | grep -e termination -e '^formula.*: [hv]'
   termination: violated: after 2 steps, 2 steps that can repeat without end
   formula F ended: violated: after 2 steps, 2 steps that can repeat without end

@@ -80,8 +80,8 @@ let codes_are_documented () =
     from 0
   in
   let is_of_programs : Dolphin_syntax.Diagnostic.code -> bool = function
-    | Deed_in_answer | Deed_in_maker | Unused_task | No_effect | Assigned_condition | Wide_value | Unknown_plan
-    | Unread_input | Other_meaning | Partial_map | No_end | No_time | Ends_here ->
+    | Deed_in_answer | Deed_in_maker | Unused_task | No_effect | Assigned_condition | Never_holds | Wide_value
+    | Unknown_plan | Unread_input | Other_meaning | Partial_map | No_end | No_time | Ends_here ->
       false
     | _ -> true
   in

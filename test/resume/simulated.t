@@ -42,6 +42,8 @@ A run that is over, no run, no journal.
   $ dolphin exec --resume whole.run ../../examples/rendezvous.dol
   dolphin: whole.run: this run is over: it ended completed
   [2]
+  $ dolphin exec --resume whole.run ../../examples/rendezvous.dol --quiet 2>/dev/null | head -1
+  completed after 18:44
   $ sed '/"i":3,/d' copy.run > gap.run
   $ dolphin exec --resume gap.run ../../examples/rendezvous.dol 2>&1 | head -1
   dolphin: gap.run: line 9 does not belong to a run: transition 4, at 11:7: pick(1 vehicle of type 'UAV' in region (41.185000, -8.706200) ^ 2000 m)

@@ -276,9 +276,27 @@ let foreseen =
     case "an endless loop" "while (true) { x = 1 }" [];
     case "a handler" "v = pick { type 'UUV' }\nexecute watch action { x = 1 / 0 } onError { ignore() }" [] ]
 
+let timeless =
+  let fleet = two ^ "plan 'long', { duration 2.min }\nplan 'zero', { duration 0 }\n" in
+  let goes_round = [ "2: warning: a round of this takes no time: a run that gets here goes round at one instant" ] in
+  let fails_again = [ "2: warning: this fails at once, and retry() starts it again at the same instant" ] in
+  let case task expected = case task (diagnoses ~fleet ("v = pick { type 'UUV' }\nexecute " ^ task) expected) in
+  [ case "repeat { task('zero') }" goes_round;
+    case "repeat { return task('zero') }" goes_round;
+    case "repeat { task('long') }" [];
+    case "repeat (task('long') during 0)" goes_round;
+    case "repeat ((task('long') >> idle(1)) during 0.min)" goes_round;
+    case "repeat (idle(1) during 0) >> idle(1)" [];
+    case "repeat (task('long') during 1)" [];
+    case "(repeat task('long')) during 0" [];
+    case "repeat (task('long') within 0)" [];
+    case "repeat ((condition { poll('x') } >> idle(1)) during 0)" [];
+    case "watch (task('long') within 0) onError { retry() }" fails_again;
+    case "watch (task('long') within 5) onError { retry() }" [] ]
+
 let () =
   Alcotest.run "service"
     [ "places", [ case "there and back" positions ]; "names", names; "completion", completion; "calls", calls; "allocations", allocations;
-      "arguments of the prelude", preludes; "foreseen", foreseen;
+      "arguments of the prelude", preludes; "foreseen", foreseen; "loops without time", timeless;
       "prelude", [ case "completion and hover" prelude ];
       "reference", [ case "is whole" documented; case "is highlighted" highlighted ]; "everywhere", [ anywhere ] ]

@@ -79,6 +79,8 @@ let unknown t ~time:_ (fault : Fault.t) =
 
 (* The log and the board as they were when the console died; nothing is printed again. *)
 let replayed t (entry : Entry.t) replay =
+  let time = Replay.time replay in
+  t.view <- { t.view with now = (fun () -> time) };
   match entry, Replay.latest replay with
   | Vehicle { time; state }, _ ->
     t.log <- fst (Log.news t.log ~time state);

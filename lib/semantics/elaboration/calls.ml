@@ -214,6 +214,17 @@ let geometry env at name ~required ~named ~needed arguments =
   List.iter (fun k -> if not (List.mem k given) then lacks k) needed;
   apply env at (Builtin (Geometry (name, keys_of arguments))) (values env arguments)
 
+(* The value of an action's code is not used. *)
+let rec warn_of_made_task env (body : Ast.statement list) =
+  match List.rev body with
+  | { it = Expression e; _ } :: _ when operand_kind env e = Task ->
+    Scope.report env.program
+      (Diagnostic.warning Unused_task e.at "this task is made but not executed: an action only runs its code"
+         ~hint:"tasks follow each other by >>, as in action { ... } >> T; code in braces without action makes a task")
+  | { it = If (_, yes, no); _ } :: _ -> warn_of_made_task env yes; warn_of_made_task env no
+  | { it = Block body; _ } :: _ -> warn_of_made_task env body
+  | _ -> ()
+
 let rec to_builtin env at name (builtin : Builtins.t) arguments =
   match builtin.arguments with
   | Text_or { required; optional; operation } ->
@@ -242,6 +253,9 @@ let rec to_builtin env at name (builtin : Builtins.t) arguments =
        | Ast.Named (k, _) -> error env Unknown_argument k.Ast.at "%s takes no argument by name" name
        | Ast.Positional e when operation = Make_idle && known_kind env e = Vehicles -> ()
        | Positional e | Keyed (_, e) -> if i < most then check_kind env name (List.nth kinds i) e);
+      (match value_of a with
+       | { it = Closure c; _ } when operation = Make_action -> warn_of_made_task env c.body
+       | _ -> ());
       match value_of a with
       | { it = Closure c; at } when operation = Make_action || operation = Make_condition -> task_code env at name c
       | e -> elaborate env e
@@ -345,6 +359,7 @@ let to_method env at subject name safe arguments =
   if safe then unless_null env at (elaborate env subject) on
   else if Methods.updates name.it && Targets.is_path subject then begin
     (* An update assigns the new value to its subject, unless that is an object of the host. *)
+    Targets.check_given env subject;
     let keep e =
       let slot = Scope.new_slot env.code in
       (set_local env at slot e, slot)

@@ -53,7 +53,13 @@ let hint_for_setting builder name =
     Some
       "surveyArea is an item of mission { ... }; in a plan, for (p in coverage(area, spacing: 20.m)) goTo location: p"
   else if builder = Ast.Recruit && List.mem name (Builtins.settings Pick) then Some hint_for_recruit
-  else did_you_mean name (Builtins.settings builder)
+  else if builder = Ast.Imc_plan && name = "depth" then Some "a depth is z 3, Z.Units.DEPTH"
+  else
+    match did_you_mean name (Builtins.settings builder) with
+    | Some hint -> Some hint
+    | None when builder = Ast.Imc_plan && List.mem name (Builtins.settings Mission) ->
+      Some (Printf.sprintf "%s is an item of mission { ... }" name)
+    | None -> None
 
 (* {1 What is known of an expression before it runs} *)
 

@@ -44,6 +44,9 @@ let handler env at (c : Ast.closure) =
 
 let conditions = [ "when"; "waitFor"; "until"; "assure"; "condition"; "assert" ]
 
+(* Procedures whose value is null. *)
+let without_value = [ "message"; "println"; "post"; "setConnectionTimeout" ]
+
 let task_code env at construct (c : Ast.closure) =
   (match c.parameters with
    | Some (first :: _) -> error env Wrong_parameters first.Ast.at "the code of %s takes no parameters" construct
@@ -55,6 +58,11 @@ let task_code env at construct (c : Ast.closure) =
           ~hint:(match dotted target with
               | Some name -> Printf.sprintf "to compare, write %s == ..." name
               | None -> "to compare, write =="))
+   | { it = Expression { it = Call { callee = { it = Variable name; _ }; _ }; at }; _ } :: _
+     when List.mem construct ("repeat" :: conditions) && List.mem name without_value && not (is_hidden env name) ->
+     Scope.report env.program
+       (Diagnostic.warning Never_holds at (Printf.sprintf "this condition never holds: %s gives no value" name)
+          ~hint:"the condition is the last statement of the code, as in { ...; poll go: _ }")
    | _ -> ());
   closure env at (Scope.Task_code construct) construct c
 

@@ -190,7 +190,7 @@ let elaborated ?(chart = no_chart) ~source_name (ast : Ast.program) =
     Scope.create ~variables:(Assigned.names ast) ~suppliers:(Assigned.once is_supplier ast)
       ~kinds:(kinds_of_variables ast)
       ~parameters:(List.map (fun (p : Parameters.t) -> p.name) (Parameters.of_program ast))
-      ~chart ~functions:[] ~globals:[] ()
+      ~given:(Assigned.given ast) ~chart ~functions:[] ~globals:[] ()
   in
   List.iter (Chart_calls.note program) (Chart_calls.assigned ast);
   let defined = functions_of program ast in

@@ -163,6 +163,14 @@ let could_be_map env (e : Ast.expression) =
   | Null -> false
   | _ -> known_kind env e = Any
 
+(* [poll(ready)]: a name of the language is no misspelt key. *)
+let note_missing_key env (e : Ast.expression) =
+  match e.it with
+  | Variable name ->
+    let certain = not (Scope.has_like env.program name) in
+    Scope.note_hint env.program ~certain e.at (fun key -> Printf.sprintf "write poll %s: _" key)
+  | _ -> ()
+
 let elaborate env at name (construct : Builtins.pairs) arguments =
   let pairs = List.filter_map (fun a -> Result.to_option (pair a)) arguments in
   let positional = List.filter_map (fun a -> match pair a with Error e -> Some e | Ok _ -> None) arguments in
@@ -180,7 +188,7 @@ let elaborate env at name (construct : Builtins.pairs) arguments =
       pairs;
   match construct, positional, pairs with
   | Poll, [ e ], [] ->
-    missing e (fun key -> Printf.sprintf "write poll '%s', or poll %s: value" key key);
+    note_missing_key env e;
     check_kind env name String e;
     Scope.note_looked_at env.program (match e.it with String key -> Some key | _ -> None);
     apply env at (Builtin (Poll [])) [ elaborate env e ]

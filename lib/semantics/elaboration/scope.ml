@@ -11,6 +11,7 @@ type call = { caller : string option; in_task : string option; callee : string; 
 type program = {
   variables : string list;
   parameters : string list;
+  given : string list option;  (* the variables that get a first value; [None]: not known *)
   suppliers : string list;
   kinds : (string * Builtins.kind) list;
   chart : string -> (Chart.t, string) result;
@@ -53,12 +54,13 @@ let assigned_global program name =
 
 let no_chart _ = Error "no file can be read here"
 
-let create ?(first_site = 0) ?(variables = []) ?(parameters = []) ?(suppliers = []) ?(kinds = [])
+let create ?(first_site = 0) ?(variables = []) ?(parameters = []) ?given ?(suppliers = []) ?(kinds = [])
     ?(chart = no_chart) ~functions ~globals () =
   let program =
     {
       variables;
       parameters;
+      given;
       suppliers;
       kinds;
       chart;
@@ -149,6 +151,8 @@ let note_rounds program = program.goes_round <- true
 let note_sensor program = program.reads_sensors <- true
 let note_now program = program.reads_now <- true
 let note_running program = program.asks_running <- true
+let has_first_value program name = match program.given with Some names -> List.mem name names | None -> true
+let has_like program name = Diagnostic.suggest name program.variables <> None
 let is_parameter program name = List.mem name program.parameters
 let chart program path = program.chart path
 let note_chart program name path chart = Hashtbl.replace program.charted name (path, chart)

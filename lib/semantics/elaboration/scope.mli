@@ -12,6 +12,7 @@ val create :
   ?first_site:Core.site ->
   ?variables:string list ->
   ?parameters:string list ->
+  ?given:string list ->
   ?suppliers:string list ->
   ?kinds:(string * Builtins.kind) list ->
   ?chart:(string -> (Chart.t, string) result) ->
@@ -21,8 +22,9 @@ val create :
   program
 (** [functions] and [globals] exist already, as for an answer to [ask]; sites are numbered from [first_site] on, by
     default from 0. [variables] are names that the text gives a value to somewhere; [parameters], the program's
-    parameters; [suppliers], the names of variables that surely are the supplier; [kinds], the kinds of variables
-    that have one; [chart path] is the [map] of a file, by default that it cannot be read. *)
+    parameters; [given], those that get a first value, by default all; [suppliers], the names of variables that surely
+    are the supplier; [kinds], the kinds of variables that have one; [chart path] is the [map] of a file, by default
+    that it cannot be read. *)
 
 val site : program -> Location.t -> Core.site
 (** A new site there. *)
@@ -121,6 +123,12 @@ val hint_at : program -> Location.t -> (bool * (string -> string)) option
 
 val is_assigned : program -> string -> bool
 (** Whether something gives a value to a variable of this name. *)
+
+val has_first_value : program -> string -> bool
+(** Whether something gives this variable a value that does not depend on an earlier one. *)
+
+val has_like : program -> string -> bool
+(** Whether this may be a misspelt variable of the program. *)
 
 val is_parameter : program -> string -> bool
 

@@ -51,6 +51,13 @@ let called arguments =
       | Ast.Positional _ | Named _ | Keyed _ -> None)
     arguments
 
+(* "id 'a', 'b'". *)
+let hint_for_values name values =
+  match name, values with
+  | "id", String a :: String b :: _ ->
+    Some (Printf.sprintf "a pick names one vehicle: pick { id '%s' } + pick { id '%s' }" a b)
+  | _, _ -> None
+
 let add env at slot name arguments =
   let in_mission = match Scope.settings env.code with Some (Mission, _) -> true | Some _ | None -> false in
   let arguments = if in_mission then with_offset env arguments else arguments in
@@ -99,7 +106,8 @@ let add env at slot name arguments =
      let literal (e : Ast.expression) = match e.it with Wildcard -> Some Wildcard | _ -> Literal_check.value e in
      let values = List.filter_map literal (List.map value_of arguments) in
      if List.compare_lengths values arguments = 0 then
-       Option.iter (fun fault -> error env Wrong_value at "%s" fault) (Literal_check.fault_of_pick name values)
+       Option.iter (fun fault -> error env ?hint:(hint_for_values name values) Wrong_value at "%s" fault)
+         (Literal_check.fault_of_pick name values)
    | Some ((Pick | Recruit | Pos | All_of | One_of), _) | None ->
      List.iter
        (function

@@ -34,10 +34,21 @@ let assign_variable env at name name_at e =
     check_in_maker env ("an assignment to '" ^ name ^ "'") name_at;
     set_global env at name e
 
+(* What is changed has a value before. *)
+let check_given env (target : Ast.expression) =
+  match target.it with
+  | Variable name
+    when in_settings env name = None
+      && not (is_hidden env name || Builtins.is_reserved name || Scope.has_first_value env.program name) ->
+    error env Unknown_name target.at "'%s' is changed here, and nothing gives it a value before" name
+      ~hint:"assign it a first value, such as 0 or []"
+  | _ -> ()
+
 let rec assign env at (target : Ast.expression) e =
   match target.it with
   | Variable name -> assign_variable env at name target.at e
   | Index (subject, index) ->
+    check_given env subject;
     let slot = Scope.new_slot env.code in
     let keep = set_local env at slot e in
     let current = elaborate env subject in
@@ -45,6 +56,7 @@ let rec assign env at (target : Ast.expression) e =
     let replaced = apply env at Replace_element [ current; index; local env at slot ] in
     block env at [ keep; assign env at subject replaced; local env at slot ]
   | Member { subject; name; _ } ->
+    check_given env subject;
     let slot = Scope.new_slot env.code in
     let keep = set_local env at slot e in
     let current = elaborate env subject in
@@ -55,7 +67,9 @@ let rec assign env at (target : Ast.expression) e =
       ~hint:"assign to a variable, an element or a member";
     e
 
-let update env at target f = assign env at target (f (elaborate env target))
+let update env at target f =
+  check_given env target;
+  assign env at target (f (elaborate env target))
 
 let increment env at target by prefix =
   let one = constant env at (Integer (abs by)) in
@@ -63,6 +77,7 @@ let increment env at target by prefix =
   if prefix then update env at target (fun current -> apply env at (Binary op) [ current; one ])
   else begin
     let slot = Scope.new_slot env.code in
+    check_given env target;
     let keep = set_local env at slot (elaborate env target) in
     let added = apply env at (Binary op) [ local env at slot; one ] in
     block env at [ keep; assign env at target added; local env at slot ]

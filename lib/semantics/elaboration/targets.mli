@@ -16,6 +16,9 @@ val assign_variable : env -> Location.t -> string -> Location.t -> expression ->
 val set_global : env -> Location.t -> string -> expression -> expression
 (** [set_global env at name e] gives the global [name] the value of [e], unchecked. *)
 
+val check_given : env -> Ast.expression -> unit
+(** Reports a variable that is changed, and that nothing gives a value before. *)
+
 val update : env -> Location.t -> Ast.expression -> (expression -> expression) -> expression
 (** [update env at target f] gives [target] the value of [f e], [e] being what it was. *)
 

@@ -17,6 +17,14 @@ let warn_of_unused_task env (e : Ast.expression) =
       (Diagnostic.warning Unused_task e.at "this task is made but not executed"
          ~hint:"write execute before it, or give it a name")
 
+let check_branch env (e : Ast.expression) =
+  match Scope.settings env.code with
+  | Some (((All_of | One_of) as builder), _) when operand_kind env e = Task ->
+    let instead = if builder = All_of then "; tasks side by side are a | b" else "" in
+    error env Wrong_kind e.at "%s takes branches, and this is a task" (builder_name builder)
+      ~hint:("write when { CONDITION } then TASK" ^ instead)
+  | Some _ | None -> ()
+
 (* [xs.each { x -> when { C } then T }] among branches goes through them as [for (x in xs)] does: a closure of its own
    could not add any. *)
 let each_of_branches env (e : Ast.expression) =
@@ -283,6 +291,7 @@ and statement env (s : Ast.statement) : expression =
        Calls.on_interrupt env at arguments
      | _ ->
        warn_of_unused_task env e;
+       check_branch env e;
        elaborate env e)
   | Assign { target; operator = None; value } ->
     check_no_setting env target value;

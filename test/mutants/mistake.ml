@@ -82,7 +82,7 @@ let step_footprints =
         {|and handled c (f : Footprint.t) handler = if f.breaks then|},
         {|and handled c (f : Footprint.t) handler = if f.breaks && f.halts then|} );
       ( "what is tried again touches nothing",
-        {|  | Some (task, request) -> all [ handling c handler; recovering c handler.code request; of_term c task ]|},
+        {|  | Some (task, request) -> all [ handling c handler; recovering c handler.code request; of_shared c task ]|},
         {|  | Some (task, request) -> if task == task then handling c handler else recovering c handler.code request|} );
       ( "ends of tasks leave no trace outside",
         {|let remembered = Environment.endings_remember c.options in|},

@@ -101,12 +101,19 @@ let union f f' =
       ignores = f.ignores || f'.ignores;
     }
 
+(* Values may hold their parts many times over: larger ones are not looked through. *)
+let most_parts = 10_000
+let is_small = Value.has_at_most most_parts
+
+(* The value of a pair that matters: none of a queue, where the order of all matters, nor of a value that is large. *)
+let told_apart ~ordered x = if ordered || not (is_small x) then None else Some (Value.normal x)
+
 let is_ordered (program : Core.program) k =
   match program.ordered_keys with No_key -> false | Keys keys -> List.mem k keys | Every_key -> true
 
 let of_posts (program : Core.program) pairs =
   let is_queue k = is_ordered program k in
-  let posts = Pairs.of_list (List.map (fun (k, x) -> (k, if is_queue k then None else Some (Value.normal x))) pairs) in
+  let posts = Pairs.of_list (List.map (fun (k, x) -> (k, told_apart ~ordered:(is_queue k) x)) pairs) in
   { empty with posts; queues = Pairs.filter (fun (k, _) -> is_queue k) posts }
 
 let reads_nothing f =
@@ -161,6 +168,8 @@ let rec holds_code = function
   | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Range _ | Position _ | Area _
   | Vehicles _ | Task _ | Host _ | Reading _ | Unknown _ -> false
 
+let holds_code x = (not (is_small x)) || holds_code x
+
 let value (scope : scope) e =
   match e.node with
   | Constant x -> Some x
@@ -209,7 +218,7 @@ let pairs code scope keys arguments =
   let pair (k, e) =
     match value scope e with
     | Some Wildcard | None -> (k, None)
-    | Some x -> if is_ordered code.program k then (k, None) else (k, Some (Value.normal x))
+    | Some x -> (k, told_apart ~ordered:(is_ordered code.program k) x)
   in
   Option.map (fun found -> Pairs.of_list (List.map pair found)) (keyed scope keys arguments)
 
@@ -220,7 +229,11 @@ let rec lists_values e =
   | Apply (Method ("findAll", _), [ e; { node = Make_closure _; _ } ]) -> lists_values e
   | _ -> false
 
-(* [seen] is the functions and closures that are in the union already, or will be. *)
+(* Code that is in the union already, or will be: functions, and closures by identity. *)
+type seen = { mutable lambdas : lambda list; mutable closures : closure list }
+
+let nothing_seen () = { lambdas = []; closures = [] }
+
 let rec expression code scope seen e =
   let of_expression = expression code scope seen in
   match e.node with
@@ -239,14 +252,19 @@ let rec expression code scope seen e =
 
 and of_value code seen = function
   | Closure { lambda; captured = [||] } -> of_lambda code seen lambda
-  | Closure c -> union breaking (body code seen c)
+  | Closure c ->
+    if List.memq c seen.closures then breaking
+    else begin
+      seen.closures <- c :: seen.closures;
+      union breaking (body code seen c)
+    end
   | _ -> empty
 
 (* Code that may be called, with anything. *)
 and of_lambda code seen lambda =
-  if List.memq lambda !seen then breaking
+  if List.memq lambda seen.lambdas then breaking
   else begin
-    seen := lambda :: !seen;
+    seen.lambdas <- lambda :: seen.lambdas;
     union breaking (expression code [] seen lambda.code)
   end
 
@@ -294,19 +312,19 @@ let rec last code scope e =
   | Apply (Builtin (Poll (_ :: _ as keys)), arguments) -> needed code scope keys arguments ~taken:false
   | Apply (Unary Not, [ { node = Apply (Unary Not, [ e ]); _ } ]) | Return e | Block [ e ] -> last code scope e
   | Block (first :: rest) ->
-    let before = expression code scope (ref []) first in
+    let before = expression code scope (nothing_seen ()) first in
     if is_plain before then Option.map (union before) (last code scope { e with node = Block rest }) else None
   | If (a, b, { node = Constant (Boolean false); _ }) -> (
       match last code scope a, last code scope b with
       | Some f, Some f' -> Some (union f f')
       | _, _ -> None)
   | _ ->
-    let f = expression code scope (ref []) e in
+    let f = expression code scope (nothing_seen ()) e in
     if is_plain f then Some f else None
 
 and needed code scope keys arguments ~taken =
   let pairs = pairs code scope keys arguments in
-  let before = all (List.map (expression code scope (ref [])) arguments) in
+  let before = all (List.map (expression code scope (nothing_seen ())) arguments) in
   if Pairs.is_empty before.tests && Pairs.is_empty before.takes && not before.anything then
     Option.map
       (fun pairs -> union before { empty with needs = pairs; takes = (if taken then pairs else Pairs.empty) })
@@ -321,7 +339,7 @@ let known code kind c find =
     Closures.add code.known (kind, c) f;
     f
 
-let of_code code c = known code Code c (fun () -> body code (ref []) c)
+let of_code code c = known code Code c (fun () -> body code (nothing_seen ()) c)
 
 let of_guard code c =
   known code Guard c (fun () ->

@@ -59,6 +59,9 @@ val conflict : possible:bool -> t -> t -> bool
 (** [conflict ~possible f f'] is [false] only if a step with footprint [f], [possible] now or not, is as possible after
     steps with footprint [f'], with the same effect, and these steps are possible, with the same effect, after it. *)
 
+val is_small : Core.value -> bool
+(** [is_small x] is whether [x] is looked through: values may hold their parts many times over. *)
+
 val of_posts : Core.program -> (string * Core.value) list -> t
 (** [of_posts p pairs] is the footprint of posting [pairs]. *)
 

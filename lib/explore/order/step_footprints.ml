@@ -11,6 +11,14 @@ type t = {
   runs_first : Footprint.t option array;
 }
 
+(* Of task terms, by identity: a handler that may give back the watched task holds it once more. *)
+module Terms = Hashtbl.Make (struct
+    type t = task
+
+    let equal = ( == )
+    let hash t = Value.hash (Task t)
+  end)
+
 type step = { index : int; source : Task_rules.step; event : Transition.event option }
 type context = {
   options : Environment.options;
@@ -19,14 +27,17 @@ type context = {
   asks_held : bool;
   asks_running : bool;
   leaks : bool;  (* a key of some [fresh] may be known outside of its task *)
+  terms : Footprint.t Terms.t;  (* those known so far of one component *)
 }
 
 (* {1 Tasks made at their turn} *)
 
 let context options program =
   { options; code = Footprint.code program; makes = false; asks_held = Footprint.asks_held program;
-    asks_running = program.Core.asks_running; leaks = (Name_flow.of_program program ~asked:[]).leaks }
+    asks_running = program.Core.asks_running; leaks = (Name_flow.of_program program ~asked:[]).leaks;
+    terms = Terms.create 1 }
 let with_holding c = { c with makes = true }
+let for_one_component c = { c with terms = Terms.create 16 }
 let union = Footprint.union
 let all = List.fold_left union Footprint.empty
 let breaking = { Footprint.empty with breaks = true }
@@ -108,7 +119,15 @@ and handled c (f : Footprint.t) handler = if f.breaks then union f (of_handler c
 and of_handler c (handler : Residual.handler) =
   match handler.anew with
   | None -> handling c handler
-  | Some (task, request) -> all [ handling c handler; recovering c handler.code request; of_term c task ]
+  | Some (task, request) -> all [ handling c handler; recovering c handler.code request; of_shared c task ]
+
+and of_shared c t =
+  match Terms.find_opt c.terms t with
+  | Some f -> f
+  | None ->
+    let f = of_term c t in
+    Terms.add c.terms t f;
+    f
 
 and of_term c (t : task) =
   match t with
@@ -126,7 +145,7 @@ and of_term c (t : task) =
   | During (_, Seconds _, a) -> union breaking (of_term c a)
   | During (_, Given_by d, a) -> all [ breaking; Footprint.of_code c.code d; of_term c a ]
   | Watch (a, code) ->
-    let f = of_term c a in
+    let f = of_shared c a in
     if not f.breaks then f
     else if not (Recovery.possible code.lambda) then union f (Footprint.of_code c.code code)
     else all [ f; Footprint.of_code c.code code; recovering c code { allowed = None; place = 0; depth = 0 } ]
@@ -140,7 +159,9 @@ and of_branch c (b : Residual.branch) = union (Footprint.of_guard c.code b.guard
 (* Whose keys others may know, it may touch what they do at any step. *)
 let widened c f = if c.leaks then union f Footprint.anything else f
 
-let of_residual c r = widened c (future c r)
+let of_residual c r =
+  let c = for_one_component c in
+  widened c (future c r)
 
 (* {1 Steps} *)
 
@@ -323,6 +344,7 @@ let analyse ?own c nests (first : Footprint.t) branches ~failed ~lost steps =
   }
 
 let of_component c nests r steps =
+  let c = for_one_component c in
   let around = all (List.concat_map (handlers_of c) nests) in
   let named = function
     | Residual.Before rest -> List.concat_map Residual.named rest
@@ -343,6 +365,7 @@ let of_component c nests r steps =
   analyse ~own c nests (future c r) branches ~failed ~lost:(lost r outer) steps
 
 let of_cuts c nests steps =
+  let c = for_one_component c in
   match nests with
   | [] -> invalid_arg "Step_footprints.of_cuts: no nest"
   | contexts :: nests ->

@@ -148,7 +148,7 @@ and called w lambda slots =
 and named w k e =
   match known w e with
   | Some Wildcard -> print w "_"
-  | Some x when not (Value.is_alone x) -> raise Opaque
+  | Some x when not (Footprint.is_small x && Value.is_alone x) -> raise Opaque
   | Some x ->
     print w "#";
     w.named := pair w.context k x :: !(w.named)

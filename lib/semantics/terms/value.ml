@@ -135,12 +135,18 @@ let compare_closure c c' = if c == c' then 0 else order_closure (memory ()) c c'
 (* The number of parts of a value that are hashed: it may share its parts with itself many times over. *)
 let hashed_parts = 10_000
 
+(* The number of pieces of code: each may hold a task that holds the next one twice. *)
+let hashed_code = 100
+
+(* How many more of these are hashed. *)
+type hashing = { mutable parts : int; mutable code : int }
+
 (* The number of levels of a task. *)
 let hashed_depth = 6
 
 let rec hash_value left x =
-  decr left;
-  if !left < 0 then 0
+  left.parts <- left.parts - 1;
+  if left.parts < 0 then 0
   else
     match x with
     | Null | Wildcard -> rank x
@@ -163,11 +169,13 @@ let rec hash_value left x =
 
 and hash_values left h xs =
   let rec from i h =
-    if i = Vector.length xs || !left < 0 then h else from (i + 1) (Order.mix h (hash_value left (Vector.get xs i)))
+    if i = Vector.length xs || left.parts < 0 then h else from (i + 1) (Order.mix h (hash_value left (Vector.get xs i)))
   in
   from 0 h
 
-and hash_code left c = hash_values left c.lambda.id (Vector.of_array c.captured)
+and hash_code left c =
+  left.code <- left.code - 1;
+  if left.code < 0 then c.lambda.id else hash_values left c.lambda.id (Vector.of_array c.captured)
 
 and hash_task left depth t =
   let part = hash_task left (depth - 1) in
@@ -186,8 +194,9 @@ and hash_task left depth t =
     | During (_, _, a) -> Order.mix 10 (part a)
     | Repeat { rounds; body; _ } -> Order.mix (Order.mix 12 (Option.value rounds ~default:0)) (part body)
 
-let hash x = hash_value (ref hashed_parts) x
-let hash_closure c = hash_code (ref hashed_parts) c
+let hashing () = { parts = hashed_parts; code = hashed_code }
+let hash x = hash_value (hashing ()) x
+let hash_closure c = hash_code (hashing ()) c
 
 let canonical_number x =
   match x with

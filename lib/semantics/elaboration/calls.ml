@@ -217,6 +217,8 @@ let geometry env at name ~required ~named ~needed arguments =
 (* The value of an action's code is not used. *)
 let rec warn_of_made_task env (body : Ast.statement list) =
   match List.rev body with
+  | { it = Expression { it = Call { callee = { it = Variable "assert"; _ }; _ }; _ }; _ } :: _
+    when not (is_hidden env "assert") -> ()
   | { it = Expression e; _ } :: _ when operand_kind env e = Task ->
     Scope.report env.program
       (Diagnostic.warning Unused_task e.at "this task is made but not executed: an action only runs its code"

@@ -36,8 +36,8 @@ let copy =
       [ (3, "task('s#')"); (2, "task('s')"); (2, "idle(2)"); (1, "idle(3)"); (3, "action { post ready: # }");
         (1, "(waitFor { consume go: # } then task('g'))"); (1, "(during 3 run task('d#'))");
         (1, "(task('s#') within 2)"); (1, "action { post go: # }"); (1, "(idle(1) | task('p#'))");
-        (1, "(watch task('f#') onError { ignore() })"); (1, "action { post any: 0 }"); (1, "repeat(2) { task('r') }");
-        (1, "repeat(3) { task('r') >> idle(1) }"); (1, "(repeat 2, (task('r#') >> idle(2)))") ]
+        (1, "(watch task('f#') onError { ignore() })"); (1, "action { post any: 0 }"); (1, "(repeat 2, task('r'))");
+        (1, "(repeat 3, (task('r') >> idle(1)))"); (1, "(repeat 2, (task('r#') >> idle(2)))") ]
   in
   map (String.concat " >> ") (list_size (int_range 1 4) part)
 

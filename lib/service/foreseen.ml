@@ -25,6 +25,7 @@ let error_of ~own_fleet (p : Core.program) (t : Transition.t) =
   | _, _ -> None
 
 let takes_vehicles (t : Transition.t) = match t.label with Bind _ -> true | _ -> false
+let lacks_vehicles (t : Transition.t) = match t.label with No_vehicles _ -> true | _ -> false
 
 (* The only transition that may come next, and whether it is the program's own: a pick of other vehicles is as good. *)
 let next choices =
@@ -46,7 +47,7 @@ let follow ~own_fleet (p : Core.program) scenario =
       | Some { transition; outside; on } -> (
           let certain = certain && on = None && not (takes_vehicles transition) in
           match error_of ~own_fleet p transition with
-          | Some fault -> Some (certain && not (transition.label = No_vehicles fault.message), fault)
+          | Some fault -> Some (certain && not (lacks_vehicles transition), fault)
           | None -> go (left - cost transition) ~certain transition.next outside)
   in
   go most_steps ~certain:true (Configuration.initial p) Environment.initial

@@ -70,7 +70,7 @@ export default async function accessibility({ page: holder, open, test, same, ch
     await test(`a question is put off, opened and answered by keyboard, ${colorScheme}`, async () => {
       await page.keyboard.press("Escape");
       await page.waitForSelector("#question", { state: "hidden" });
-      await page.focus("#now .asks button");
+      await page.focus("#now .asks button.main");
       await page.keyboard.press("Enter");
       await page.waitForSelector("#question[open]");
       await page.keyboard.press("Shift+Tab");

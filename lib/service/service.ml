@@ -64,9 +64,13 @@ let elaborated d =
   in
   Result.bind parsed elaborate
 
-(* The operator's fences hold for each program, and the fleet's place is that of plans without one. *)
+(* The fleet's place is that of plans without one. *)
+let placed (program : Dolphin_semantics.Core.program) (s : Scenario.t) =
+  { program with place = (match program.place with Some _ as own -> own | None -> s.plans_at) }
+
+(* The operator's fences hold for each program. *)
 let of_fleet (program : Dolphin_semantics.Core.program) (chart, ast) (s : Scenario.t) =
-  let place = match program.place with Some _ as own -> own | None -> s.plans_at in
+  let place = (placed program s).place in
   let fences = if place = program.place then s.fences else Fences.list program.fences @ s.fences in
   let plans = lazy (Elaborate.known_plans ~chart ~place ast) in
   let broken = if fences = [] then [] else Fence_declarations.broken (Fences.make fences) (Lazy.force plans) in
@@ -85,7 +89,7 @@ let of_program d =
   | Error found -> found
   | Ok (program, warnings, text) ->
     let of_fleet s =
-      of_fleet program text s @ Plan_names.misspelt program s @ Foreseen.found ~own_fleet:true program s in
+      of_fleet program text s @ Plan_names.misspelt program s @ Foreseen.found ~own_fleet:true (placed program s) s in
     warnings @ without_place program text d.scenario @ Option.fold d.scenario ~none:[] ~some:of_fleet
 
 let diagnostics d =

@@ -255,7 +255,9 @@ let two = "vehicle 'a', { type 'UUV' }\nvehicle 'b', { type 'UUV' }\n"
 
 let foreseen =
   let case name ?(fleet = two) source expected = case name (diagnoses ~fleet source expected) in
-  [ case "code of every run" "xs = [1, 2]\nmessage xs[2]" [ "2: error: index 2 is out of range: a list has 2 elements" ];
+  [ case "a plan at the fleet's place" ~fleet:("locate 41.18, -8.70\n" ^ two)
+      "v = pick { id 'a' }\nexecute imcPlan { planName 'stay'; skeeping duration: 1.min }" [];
+    case "code of every run" "xs = [1, 2]\nmessage xs[2]" [ "2: error: index 2 is out of range: a list has 2 elements" ];
     case "by way of a function and a loop" "def f(x) { x / (2 - x) }\nfor (i in 1..3) { post k: f(i) }"
       [ "1: error: division by zero" ];
     case "a task without vehicles" "execute task('a')"

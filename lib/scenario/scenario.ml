@@ -25,6 +25,15 @@ let equal (a : t) (b : t) =
 
 let beside program = Filename.remove_extension program ^ ".fleet"
 
+(* {1 Programs} *)
+
+let within s (p : Core.program) =
+  let own = Fences.list p.fences in
+  let further = List.filter (fun fence -> not (List.memq fence own)) s.fences in
+  let place = match p.place with Some _ as own -> own | None -> s.plans_at in
+  let fences = if further = [] then p.fences else Fences.make (own @ further) in
+  ({ p with fences; place }, if Option.equal Dolphin_geo.Position.equal place p.place then further else own @ further)
+
 (* {1 Questions} *)
 
 let plan s name = List.find_opt (fun (p : plan) -> p.name = name) s.plans

@@ -35,6 +35,13 @@ val beside : string -> string
 (** [beside program] is the default place of the fleet of the program in file [program]: the same name, ending in
     [.fleet]. *)
 
+(** {1:programs Programs} *)
+
+val within : t -> Dolphin_semantics.Core.program -> Dolphin_semantics.Core.program * Dolphin_plans.Fences.fence list
+(** [within s p] is [p] as it runs in [s]: with the fences of [s] too, and with the place of [s] for plans if [p] has
+    none; and the fences that its known plans are still to be compared with. Elaboration compared plans with the fences
+    of [p], except for plans without a place. *)
+
 (** {1:questions Questions} *)
 
 val plan : t -> string -> plan option

@@ -64,17 +64,12 @@ let elaborated d =
   in
   Result.bind parsed elaborate
 
-(* The fleet's place is that of plans without one. *)
-let placed (program : Dolphin_semantics.Core.program) (s : Scenario.t) =
-  { program with place = (match program.place with Some _ as own -> own | None -> s.plans_at) }
-
-(* The operator's fences hold for each program. *)
-let of_fleet (program : Dolphin_semantics.Core.program) (chart, ast) (s : Scenario.t) =
-  let place = (placed program s).place in
-  let fences = if place = program.place then s.fences else Fences.list program.fences @ s.fences in
-  let plans = lazy (Elaborate.known_plans ~chart ~place ast) in
-  let broken = if fences = [] then [] else Fence_declarations.broken (Fences.make fences) (Lazy.force plans) in
-  broken @ Timeless_loops.found ~plans:(Lazy.force plans) ast s
+let of_fleet program (chart, ast) (s : Scenario.t) =
+  let program, to_compare = Scenario.within s program in
+  let plans = Elaborate.known_plans ~chart ~place:program.place ast in
+  let broken = if to_compare = [] then [] else Fence_declarations.broken (Fences.make to_compare) plans in
+  broken @ Timeless_loops.found ~plans ast s @ Plan_names.misspelt program s
+  @ Foreseen.found ~own_fleet:true program s
 
 let without_place (program : Dolphin_semantics.Core.program) (chart, ast) (s : Scenario.t option) =
   if program.place <> None || Option.bind s (fun s -> s.plans_at) <> None then []
@@ -88,9 +83,8 @@ let of_program d =
   match elaborated d with
   | Error found -> found
   | Ok (program, warnings, text) ->
-    let of_fleet s =
-      of_fleet program text s @ Plan_names.misspelt program s @ Foreseen.found ~own_fleet:true (placed program s) s in
-    warnings @ without_place program text d.scenario @ Option.fold d.scenario ~none:[] ~some:of_fleet
+    let of_fleet = Option.fold d.scenario ~none:[] ~some:(of_fleet program text) in
+    warnings @ without_place program text d.scenario @ of_fleet
 
 let diagnostics d =
   let found =

@@ -45,19 +45,13 @@ let load ?(set = []) ?(may_read = Text_file.anything) path =
        plans = (fun ~place -> Dolphin_semantics.Elaborate.known_plans ~chart ~place ast) }
 
 let within (fleet : Fleet_file.t) p =
-  let open Dolphin_semantics in
-  let p = { p with warnings = p.warnings @ fleet.warnings } in
-  let own = Fences.list p.program.fences in
-  let further = List.filter (fun fence -> not (List.memq fence own)) fleet.scenario.fences in
-  let place = match p.program.place with Some _ as own -> own | None -> fleet.scenario.plans_at in
-  (* Plans whose place the fleet gives have not been compared with the program's own fences. *)
-  let to_compare = if place = p.program.place then further else own @ further in
+  let program, to_compare = Dolphin_scenario.Scenario.within fleet.scenario p.program in
+  let p = { p with program; warnings = p.warnings @ fleet.warnings } in
+  let plans = p.plans ~place:program.place in
   let broken =
-    if to_compare = [] then [] else Fence_declarations.broken (Fences.make to_compare) (p.plans ~place) in
-  match (if place = None then Lazy.force p.without_place else []) @ broken with
-  | [] ->
-    let fences = if further = [] then p.program.fences else Fences.make (own @ further) in
-    Ok { p with program = { p.program with fences; place } }
+    if to_compare = [] then [] else Dolphin_semantics.Fence_declarations.broken (Fences.make to_compare) plans in
+  match (if program.place = None then Lazy.force p.without_place else []) @ broken with
+  | [] -> Ok p
   | found -> Error (Error.Bad_text { source = p.source; found })
 
 let load_recorded ~set ~recorded path =

@@ -45,6 +45,9 @@ val parse : string -> (Ast.program, Error.t) result
 val header : t -> Dolphin_trace.Header.source
 (** The program as journals name it: by its path, the digest of its text, and its parameters. *)
 
+val location : t -> Dolphin_semantics.Core.site -> Dolphin_syntax.Location.t option
+(** [location p s] is the place in the text of [p]; [None] if [s] has none. *)
+
 val at : t -> Dolphin_semantics.Core.site -> string option
 (** [at p site] is the place of [site], ["missions/survey.dol:3:10"], if it is known. *)
 

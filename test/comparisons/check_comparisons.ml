@@ -97,11 +97,6 @@ let expr self (e : Typedtree.expression) =
 
 let iterator = { Tast_iterator.default_iterator with expr }
 
-let rec files folder =
-  let path name = Filename.concat folder name in
-  let of_name name = if Sys.is_directory (path name) then files (path name) else [ path name ] in
-  List.concat_map of_name (List.sort String.compare (Array.to_list (Sys.readdir folder)))
-
 (* Each with the modules that it was compiled with. A typed tree names their folders relative to the root of the build.
    The root is an argument: the tree's own record of it is the folder of the clone that filled dune's shared cache. *)
 let check root path =
@@ -122,8 +117,6 @@ let () =
     | _ :: root :: folders -> root, folders
     | _ -> failwith "arguments: the root of the build, then folders"
   in
-  let trees = List.filter (fun path -> Filename.check_suffix path ".cmt") (List.concat_map files folders) in
-  List.iter (check root) trees;
+  List.iter (check root) (Typed_trees.below folders);
   List.iter print_endline (List.sort String.compare !uses);
-  if trees = [] then failwith "no typed trees";
   if !uses <> [] then exit 1

@@ -19,11 +19,6 @@ let binding self (b : Typedtree.value_binding) =
    | _, _ -> ());
   Tast_iterator.default_iterator.value_binding self b
 
-let rec files folder =
-  let path name = Filename.concat folder name in
-  let of_name name = if Sys.is_directory (path name) then files (path name) else [ path name ] in
-  List.concat_map of_name (List.sort String.compare (Array.to_list (Sys.readdir folder)))
-
 let measure path =
   match (Cmt_format.read_cmt path).cmt_annots with
   | Implementation structure ->
@@ -32,8 +27,5 @@ let measure path =
   | _ -> ()
 
 let () =
-  let folders = List.tl (Array.to_list Sys.argv) in
-  let trees = List.filter (fun path -> Filename.check_suffix path ".cmt") (List.concat_map files folders) in
-  if trees = [] then failwith "no typed trees";
-  List.iter measure trees;
+  List.iter measure (Typed_trees.below (List.tl (Array.to_list Sys.argv)));
   List.iter print_endline (List.sort_uniq String.compare !found)

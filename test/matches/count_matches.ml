@@ -62,11 +62,6 @@ let expr here self (e : Typedtree.expression) =
    | _ -> ());
   Tast_iterator.default_iterator.expr self e
 
-let rec files folder =
-  let path name = Filename.concat folder name in
-  let of_name name = if Sys.is_directory (path name) then files (path name) else [ path name ] in
-  List.concat_map of_name (List.sort String.compare (Array.to_list (Sys.readdir folder)))
-
 let count path =
   let tree = Cmt_format.read_cmt path in
   match tree.cmt_annots with
@@ -77,9 +72,7 @@ let count path =
 
 let () =
   let folders = List.filter (( <> ) "--list") (List.tl (Array.to_list Sys.argv)) in
-  let trees = List.filter (fun path -> Filename.check_suffix path ".cmt") (List.concat_map files folders) in
-  if trees = [] then failwith "no typed trees";
-  List.iter count trees;
+  List.iter count (Typed_trees.below folders);
   let report (name, limit) =
     let places = List.sort String.compare (Hashtbl.find_all found name) in
     let number = List.length places in

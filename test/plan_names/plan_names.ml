@@ -47,11 +47,6 @@ let iterator folder =
   in
   { usual with expr; pat; typ; module_expr }
 
-let rec files folder =
-  let path name = Filename.concat folder name in
-  let of_name name = if Sys.is_directory (path name) then files (path name) else [ path name ] in
-  List.concat_map of_name (List.sort String.compare (Array.to_list (Sys.readdir folder)))
-
 let read path =
   let tree = Cmt_format.read_cmt path in
   let source = Option.value tree.cmt_sourcefile ~default:"" in
@@ -65,9 +60,6 @@ let read path =
   | _, _ -> ()
 
 let () =
-  let is_tree path = Filename.check_suffix path ".cmt" || Filename.check_suffix path ".cmti" in
-  let trees = List.filter is_tree (List.concat_map files (List.tl (Array.to_list Sys.argv))) in
-  if trees = [] then failwith "no typed trees";
-  List.iter read trees;
+  List.iter read (Typed_trees.below ~interfaces:true (List.tl (Array.to_list Sys.argv)));
   let names = Hashtbl.fold (fun name () names -> name :: names) found [] in
   List.iter print_endline (List.sort String.compare names)

@@ -1,3 +1,4 @@
+open Dolphin_semantics
 open Dolphin_trace
 
 let case name test = Alcotest.test_case name `Quick test
@@ -48,6 +49,27 @@ let allocation_sees () =
     | [] -> Alcotest.fail "nothing is told of the vehicle just before it gets its second task"
   in
   second_execution (Error "") (Runs.lines r.journal)
+
+(* The changes of A that the lines have, one after the other, are A. *)
+let allocations () =
+  let module Names = Map.Make (String) in
+  let go (r : Runs.t) =
+    let line (replay, a) text =
+      match Result.map (fun entry -> (entry, Replay.feed replay entry)) (Entry.of_string text) with
+      | Ok (entry, Ok replay) ->
+        let changes = match entry with Entry.Transition { step; _ } -> step.allocated | _ -> [] in
+        let a = List.fold_left (fun a (v, task) -> Names.update v (fun _ -> task) a) a changes in
+        let all = (Replay.configuration replay).shared.allocation in
+        let named = List.map (fun (v, (p : Core.platform_task)) -> (v, p.name)) (Vehicle_map.bindings all) in
+        Alcotest.(check (list (pair string string))) (r.name ^ ": " ^ text) named (Names.bindings a);
+        (replay, a)
+      | Ok (_, Error _) | Error _ -> Alcotest.failf "%s: %s" r.name text
+    in
+    ignore (List.fold_left line (Replay.start ~hash:r.hash r.program, Names.empty) (Runs.lines r.journal))
+  in
+  List.iter (fun name -> go (Runs.run ~period:60. name)) Runs.examples;
+  go (Runs.of_text "v = pick { count 3; type 'UUV' }\nexecute (task('a')[v[0]] | task('b')[v[1]] | task('c')[v[2]]) during 1");
+  go (Runs.of_text "v = pick { count 2; type 'UUV' }\nexecute (task('a')[v[0]] >> action { x = [1][1] }) | repeat task('b')[v[1]]")
 
 let ends_of name source expected =
   let r = Runs.of_text source in
@@ -175,6 +197,7 @@ let () =
           case "lines are canonical" canonical;
           case "what programs read of sensors is there" sensors;
           case "what allocation reads is there" allocation_sees;
+          case "the changes of A are A" allocations;
           case "all endings" endings;
           case "all kinds of tuples" tuples;
           case "a pick of 30 among 60" many_choices;

@@ -97,7 +97,7 @@ let remark r text =
 
 let keep r act = match r.view.acted act with Ok () -> () | Error why -> remark r why
 
-(* Whatever becomes of the journal, the deed is done: Stop must not fail. *)
+(* An act takes effect also if the journal cannot be written: Stop must not fail. *)
 let acted r by deed =
   let one { name; role } =
     let act = { Dolphin_trace.Act.operator = name; role; deed } in

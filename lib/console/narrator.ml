@@ -98,8 +98,7 @@ let place_of_question n prompt =
   { at = Option.map (place n) found.at; is_confirm = found.is_confirm }
 
 let open_questions n =
-  let location site = Fault.location n.program.program (Fault.make site "") in
-  let located (q : Open_question.t) = (q, Option.map (place n) (location q.site)) in
+  let located (q : Open_question.t) = (q, Option.map (place n) (Program_file.location n.program q.site)) in
   List.map located (Open_question.list n.configuration)
 
 let waiting n ~time =

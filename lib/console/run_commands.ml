@@ -120,7 +120,7 @@ let going_on h =
   | Some run when Live_run.goes_on run -> Ok run
   | Some _ | None -> refuse 409 "no-run" "no run goes on"
 
-(* All clients see who did it: of operators with names the journal has it, too. *)
+(* The log names the client. Of operators with names, journal and log have the act already. *)
 let without_helm h run client what =
   if Hall.operator h client = None && Helm.holder (Hall.helm h) <> Some client then
     Live_run.remark run (Printf.sprintf "%s %s, without the helm" client what)

@@ -72,20 +72,12 @@ let of_guard program ~source world s (guard : Core.closure) =
 
 type question = { at : Dolphin_syntax.Location.t option; is_confirm : bool }
 
-let question program ~source (c : Configuration.t) prompt =
-  match c.control with
-  | Waiting (m, Ask _) ->
-    let site = Machine.site m in
+let question program ~source c prompt =
+  match List.find_opt (fun (q : Open_question.t) -> q.prompt = prompt) (Open_question.list c) with
+  | Some { site; is_of_task; _ } ->
     let words = Option.value (text program ~source site) ~default:"" in
-    { at = location program site; is_confirm = String.starts_with ~prefix:"confirm" words }
-  | Executing (_, r) ->
-    let asks found : Residual.t -> Core.site option = function
-      | Confirm c when found = None && c.prompt = prompt -> Some c.site
-      | _ -> found
-    in
-    let site = Residual.fold_active asks None r in
-    { at = Option.bind site (location program); is_confirm = site <> None }
-  | Waiting (_, (Pick _ | Pause _ | Execute _ | Host_call _)) | Script _ | Ended _ -> { at = None; is_confirm = false }
+    { at = location program site; is_confirm = is_of_task || String.starts_with ~prefix:"confirm" words }
+  | None -> { at = None; is_confirm = false }
 
 (* {1 All of it} *)
 

@@ -63,7 +63,7 @@ let certificate_of listen files no_tls =
   | Some _, None, false -> Result.map Option.some (Certificate.own ~name:(Console.name listen))
   | Some _, Some (certificate, key), false -> Result.map Option.some (Certificate.load ~certificate ~key)
 
-(* Who may connect, and how. *)
+(* The address, the certificate and the operators of the server. *)
 type listening = {
   listen : Unix.inet_addr option;  (** [None]: 127.0.0.1 *)
   certificate : (string * string) option;  (** and its key, in files *)

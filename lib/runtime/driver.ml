@@ -47,8 +47,8 @@ let most_without_pause = 100
    and on the tasks that one vehicle begins at one instant. *)
 let most_rounds = 10_000
 
-(* Limit on visible transitions at one instant of virtual time, whatever they are: loops of the script have no rounds
-   that could be counted. Missions of thousands of vehicles take some 100,000 at one instant. Where time passes by
+(* Limit on visible transitions at one instant of virtual time, of any kind: loops of the script have no rounds that
+   could be counted. Missions of thousands of vehicles take some 100,000 at one instant. Where time passes by
    itself, timers of many vehicles may well follow each other without a wait. *)
 let most_steps = 1_000_000
 
@@ -250,10 +250,8 @@ module Make (P : Platform.S) = struct
     if begins || start <> None then s.round_began <- time
 
   let count_steps s ~time ~cause (t : Transition.t) =
-    (match cause with
-     | Some (Transition.Input _ | Interruption) -> s.steps <- 0
-     | Some (Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Recruited _ | Confirmed _ | Answered _)
-     | Some (Nobody_answers _ | Replied _ | Host_failed _) | None -> if time > s.stepped then s.steps <- 0);
+    let is_from_outside = match cause with Some (Transition.Input _ | Interruption) -> true | Some _ | None -> false in
+    if is_from_outside || time > s.stepped then s.steps <- 0;
     s.stepped <- time;
     match t.label with Silent -> () | _ -> s.steps <- s.steps + 1
 

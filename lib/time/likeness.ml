@@ -42,16 +42,13 @@ type head =
   | One_of
   | Branch
   | Some_of
-  | Until of cut
+  | Until of Core.on_cut  (* of [cut] *)
   | Seconds of float
   | Confirm of int * string
-  | During of cut * bool
+  | During of Core.on_cut * bool
   | Watch
   | Fresh
   | Repeat of int option
-
-(* As tasks are compared: without the places of people. *)
-and cut = Cut_done | Cut_failed of Core.site
 
 and takes = Milliseconds of int * int | As_its_plan of label
 
@@ -111,7 +108,10 @@ let code s ?(handler = false) kind c =
   tree s ~names:(List.map (place s.pairs) (Array.to_list skeleton.pairs)) (kind skeleton.number) []
 
 let part n = Part n
-let cut : Core.on_cut -> cut = function Completes _ -> Cut_done | Fails site -> Cut_failed site
+
+(* Without the place that comparison leaves out. *)
+let cut : Core.on_cut -> Core.on_cut = function Completes _ -> Completes Fault.unknown_site | Fails _ as e -> e
+
 let label_of v (p : Core.platform_task) = { name = p.name; vehicle = v; site = p.task_site }
 
 let platform_task s ~runs v (p : Core.platform_task) =

@@ -81,11 +81,11 @@ val hash : state -> int
 
 module Table : Hashtbl.S with type key = state
 
+val site : state -> item -> Core.site option
+(** [site s i] is the place in the program of timer [i]; [None] for other items, and if the place is not known. *)
+
 (** The possible steps. Three steps are not transitions of the semantics, which knows no time: a link comes or goes,
     a task is over whose end is not heard, and a date passes that code names. They leave the configuration as it is. *)
-val site : state -> item -> Core.site option
-(** [site s i] is the place in the program of timer [i]. *)
-
 type step = {
   transition : Transition.t;
   next : state;

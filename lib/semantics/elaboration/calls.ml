@@ -255,11 +255,10 @@ let rec to_builtin env at name (builtin : Builtins.t) arguments =
        | Ast.Named (k, _) -> error env Unknown_argument k.Ast.at "%s takes no argument by name" name
        | Ast.Positional e when operation = Make_idle && known_kind env e = Vehicles -> ()
        | Positional e | Keyed (_, e) -> if i < most then check_kind env name (List.nth kinds i) e);
-      (match value_of a with
-       | { it = Closure c; _ } when operation = Make_action -> warn_of_made_task env c.body
-       | _ -> ());
       match value_of a with
-      | { it = Closure c; at } when operation = Make_action || operation = Make_condition -> task_code env at name c
+      | { it = Closure c; at } when operation = Make_action || operation = Make_condition ->
+        if operation = Make_action then warn_of_made_task env c.body;
+        task_code env at name c
       | e -> elaborate env e
     in
     apply env at (Builtin operation) (List.mapi argument arguments)

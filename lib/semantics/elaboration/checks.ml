@@ -157,7 +157,7 @@ let hint_for_operand env symbol (e : Ast.expression) =
 (* "50%" is meant as 50.percent, "3" as 3. *)
 let hint_for_number text =
   let digits = String.concat "" (String.split_on_char '%' text) in
-  match float_of_string_opt digits with
+  match Dolphin_numerals.Numeral.number digits with
   | Some _ when digits <> text -> Some (Printf.sprintf "a share is a number: %s.percent" digits)
   | Some _ -> Some (Printf.sprintf "a number stands without quotes: %s" text)
   | None -> None

@@ -27,7 +27,7 @@ let member env ~called ?(arguments = []) (subject : Ast.expression) (name : stri
       (if called then "method" else "property") name.it ?hint:(hint_for_member subject name x)
   | Some _ | None -> ()
 
-(* What surely is no function is called. *)
+(* Calls of values that surely are not functions. *)
 let callee env (callee : Ast.expression) =
   match operand_kind env callee, callee.it with
   | ((Number | String | Vehicles | Position | Task | Truth) as kind), _ ->

@@ -1,5 +1,5 @@
-(** Members and calls of values whose kind is known before the program runs: what no value of the kind has, is
-    reported. *)
+(** Checks of members and calls of values whose kind is known before the program runs: an error for a member that no
+    value of the kind has. *)
 
 module Ast = Dolphin_syntax.Ast
 

@@ -163,7 +163,7 @@ let could_be_map env (e : Ast.expression) =
   | Null -> false
   | _ -> known_kind env e = Any
 
-(* [poll(ready)]: a name of the language is no misspelt key. *)
+(* [poll(ready)]: such a key is not taken for a misspelt name of the language. *)
 let note_missing_key env (e : Ast.expression) =
   match e.it with
   | Variable name ->

@@ -34,7 +34,7 @@ let assign_variable env at name name_at e =
     check_in_maker env ("an assignment to '" ^ name ^ "'") name_at;
     set_global env at name e
 
-(* What is changed has a value before. *)
+(* A variable needs a value before it is changed. *)
 let check_given env (target : Ast.expression) =
   match target.it with
   | Variable name

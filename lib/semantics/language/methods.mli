@@ -14,8 +14,7 @@ val call : World.t -> value -> string -> value list -> (value, string) result
 (** [call w x name arguments] is [x.name(arguments)]. *)
 
 val may_have : value -> string -> bool
-(** [may_have x name] is false if [x] has neither a property nor a method [name], whatever its value is among those of
-    its kind. *)
+(** [may_have x name] is false if no value of the kind of [x] has a property or a method [name]. *)
 
 val like : value -> string -> string option
 (** [like x name] is the member of [x] whose name is most like [name], if one is. *)

@@ -25,7 +25,20 @@
     The rest goes through branch and bound, with assignment problems on the cliques of the tree as bounds; if
     branches that exclude each other need several vehicles each, over the ways to split them up. Whether an
     allocation exists is searched to the end, however long. Improvements of a found allocation are limited to
-    {!effort} steps; beyond, the best so far is given, and {!type-solution.proven} reports it. *)
+    {!effort} steps; beyond, the best so far is given, and {!type-solution.proven} reports it.
+
+    {[
+      open Dolphin_assignment
+
+      (* Two surveys side by side; vehicle 0 is near both, vehicle 1 can do the second one only. *)
+      let first = Assignment.listed [ (0, 100.) ] and second = Assignment.listed [ (0, 50.); (1, 900.) ]
+
+      let () =
+        let one_after_the_other = Assignment.Shared [ Leaf first; Leaf second ] in
+        let side_by_side = Assignment.Disjoint [ Leaf first; Leaf second ] in
+        assert (Assignment.solve ~vehicles:2 one_after_the_other = Ok [| 0; 0 |]);
+        assert (Assignment.solve ~vehicles:2 side_by_side = Ok [| 0; 1 |])
+    ]} *)
 
 (** The shape of a task. Nodes without children need no vehicle. *)
 type 'a tree =

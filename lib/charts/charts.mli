@@ -1,4 +1,20 @@
-(** The files that a program names by [map 'FILE'], as values of the language. They are part of the program. *)
+(** The files that a program names by [map 'FILE'], as values of the language. They are part of the program.
+
+    {[
+      open Dolphin_charts
+      open Dolphin_semantics
+
+      let file path =
+        if path = "harbour.gpx" then Ok {|<gpx><wpt lat="41.185" lon="-8.7062"><name>buoy</name></wpt></gpx>|}
+        else Error "no such file"
+
+      let program = Result.get_ok (Dolphin_syntax.Parse.program ~file:"a.dol" "harbour = map 'harbour.gpx'")
+
+      let () =
+        match Charts.value (Charts.read file program) "harbour.gpx" with
+        | Ok chart -> assert (Chart.names chart = [ "buoy" ])
+        | Error _ -> assert false
+    ]} *)
 
 open Dolphin_semantics
 

@@ -1,6 +1,18 @@
 (** The oracle answers questions about the transitions of a configuration, one at a time, in JSON. It remembers only
     the latest program: an answer depends on that program and on the question alone. [conformance/INTERPRETING.md]
-    describes the protocol member by member. *)
+    describes the protocol member by member.
+
+    {[
+      open Dolphin_conformance
+
+      let oracle = Oracle.start ~name:"example"
+
+      let () =
+        let _, reply = Oracle.answer oracle (`Assoc [ ("id", `Int 1); ("request", `String "hello") ]) in
+        assert (Yojson.Safe.Util.(member "implementation" reply) = `String "example");
+        let _, reply = Oracle.answer oracle (`Assoc [ ("id", `Int 2); ("request", `String "dance") ]) in
+        assert (Yojson.Safe.Util.member "error" reply <> `Null)
+    ]} *)
 
 type t
 

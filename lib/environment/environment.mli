@@ -1,6 +1,28 @@
 (** The outside of an explored program: the possible events of a configuration besides its own steps. Everything that
     [Transition] offers may happen in any order, restricted by {!options}. Readings of sensors are the world's, which
-    may leave them open. *)
+    may leave them open.
+
+    {[
+      open Dolphin_semantics
+      open Dolphin_environment
+
+      let program =
+        let text = "v = pick { count 1 }" in
+        let ast = Result.get_ok (Dolphin_syntax.Parse.program ~file:"a.dol" text) in
+        fst (Result.get_ok (Elaborate.program ~source_name:"a.dol" ast))
+
+      let world = Scenario_world.world Dolphin_scenario.Scenario.default
+      let labels options =
+        let rec go n c e =
+          match List.of_seq (Environment.choices options program world e c) with
+          | [ (t, e) ] when n > 0 -> go (n - 1) t.next e
+          | choices -> List.map (fun ((t : Transition.t), _) -> Format.asprintf "%a" Label.pp t.label) choices
+        in
+        go 1 (Configuration.initial program) Environment.initial
+
+      (* After the step to the pick, any vehicle may be picked. *)
+      let () = assert (List.length (labels Environment.default) = 4)
+    ]} *)
 
 open Dolphin_semantics
 

@@ -1,4 +1,19 @@
-(** An area on the ground: round, or bounded by straight lines. Heights do not matter. *)
+(** An area on the ground: round, or bounded by straight lines. Heights do not matter.
+
+    {[
+      open Dolphin_geo
+
+      let at north east = Wgs84.displace Place.apdl ~north ~east
+      let square = Result.get_ok (Area.polygon [ at 0. 0.; at 0. 100.; at 100. 100.; at 100. 0. ])
+      let pond = Result.get_ok (Area.circle (at 50. 50.) 10.)
+      let dry = Result.get_ok (Area.difference square pond)
+
+      let () =
+        assert (Area.contains square (at 50. 50.));
+        assert (not (Area.contains dry (at 50. 50.)));
+        assert (Float.abs (Area.size square -. 10_000.) < 1.);
+        assert (Area.polygon [ at 0. 0.; at 0. 100. ] = Error (Few_corners 2))
+    ]} *)
 
 (** An area with corners: one or more polygons, perhaps with holes. *)
 type shape

@@ -1,4 +1,19 @@
-(** Ways against areas that they must keep within, or out of. *)
+(** Ways against areas that they must keep within, or out of.
+
+    {[
+      open Dolphin_geo
+
+      let at north = Wgs84.displace Place.apdl ~north ~east:0.
+      let harbour = { Fence.side = Inside; area = Result.get_ok (Area.circle Place.apdl 500.); margin = 20. }
+      let fence = Fence.make [ harbour ]
+      let to_north metres = [ { Fence.from = at 0.; towards = at metres; radius = 0. } ]
+
+      let () =
+        assert (Fence.breach fence (to_north 400.) = None);
+        match Fence.breach fence (to_north 490.) with
+        | Some breach -> assert (breach.stretch = 0 && Float.abs (breach.by -. 10.) < 0.1)
+        | None -> assert false
+    ]} *)
 
 type side = Inside | Outside
 

@@ -1,4 +1,14 @@
-(** A point near the Earth's surface, in the WGS84 frame. *)
+(** A point near the Earth's surface, in the WGS84 frame.
+
+    {[
+      open Dolphin_geo
+
+      let () =
+        assert (Result.is_ok (Position.make ~latitude:41.185 ~longitude:(-8.7062) ~height:0.));
+        match Position.make ~latitude:91. ~longitude:0. ~height:0. with
+        | Error fault -> assert (fault = Latitude 91.)
+        | Ok _ -> assert false
+    ]} *)
 
 type t = {
   latitude : float;  (** degrees, north positive, from -90 to 90 *)

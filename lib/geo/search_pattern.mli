@@ -1,5 +1,18 @@
 (** Ways of searches around the most likely place, the datum, as the IAMSAR manual names them. All turns are to the
-    right; bearings are those of the first leg, in degrees. *)
+    right; bearings are those of the first leg, in degrees.
+
+    {[
+      open Dolphin_geo
+
+      let () =
+        match Search_pattern.sector Place.apdl ~radius:500. ~bearing:0. with
+        | Ok way -> assert (Wgs84.distance Place.apdl (List.nth way (List.length way - 1)) < 0.1)
+        | Error _ -> assert false
+
+      let () =
+        let square = Search_pattern.expanding_square Place.apdl ~radius:500. ~bearing:0. in
+        assert (square ~spacing:0. = Error (Spacing 0.))
+    ]} *)
 
 type error =
   | Spacing of float  (** not above 0, or not finite *)

@@ -7,7 +7,17 @@
     not converge, the Earth is taken for a sphere of the mean radius, which errs by up to 0.6 %.
 
     Functions raise [Invalid_argument] if a number of metres that they are given is not finite. Positions are
-    taken to be in range, as {!Position.make} leaves them. *)
+    taken to be in range, as {!Position.make} leaves them.
+
+    {[
+      open Dolphin_geo
+
+      let () =
+        let there = Wgs84.move Place.apdl ~bearing:90. 1000. in
+        assert (Float.abs (Wgs84.distance Place.apdl there -. 1000.) < 0.001);
+        assert (Float.abs (Wgs84.bearing Place.apdl there -. 90.) < 0.001);
+        assert (there.longitude > Place.apdl.longitude)
+    ]} *)
 
 val distance : Position.t -> Position.t -> float
 (** [distance a b] is the length in metres of the shortest way over the ground from [a] to [b], at least 0.

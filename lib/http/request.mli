@@ -1,4 +1,16 @@
-(** Requests of HTTP/1.1, as far as a console on one's own machine needs them. Pure. *)
+(** Requests of HTTP/1.1, as far as a console on one's own machine needs them. Pure.
+
+    {[
+      open Dolphin_http
+
+      let () =
+        match Request.of_head "GET /api/file?path=a%20b.dol HTTP/1.1\r\nHost: localhost" with
+        | Ok (request, 0) ->
+          assert (request.path = [ "api"; "file" ]);
+          assert (Request.parameter request "path" = Some "a b.dol");
+          assert (Request.header request "host" = Some "localhost")
+        | _ -> assert false
+    ]} *)
 
 type t = {
   verb : string;  (** ["GET"], as it was sent *)

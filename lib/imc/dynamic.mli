@@ -1,7 +1,22 @@
 (** Messages read by a definition that is known only at run time, for display.
 
     The functions of {!Message} for any message, slower and without types: with a user's [IMC.xml], {!Packet.Unknown}
-    becomes readable. *)
+    becomes readable.
+
+    {[
+      open Dolphin_imc
+
+      (* A message as in a user's IMC.xml, which no typed message has. *)
+      let definition =
+        let depth = { Definition.name = "depth"; typ = Number (U8, Quantity []); unit = Some "m"; title = "" } in
+        let message = { Definition.id = 9000; name = "Sounding"; title = "Sounding"; fields = [ depth ] } in
+        Result.get_ok (Definition.make ~enumerations:[] ~bits:[] ~groups:[] [ message ])
+
+      let () =
+        match Dynamic.decode definition Byte_order.Little_endian ~id:9000 "\x07" with
+        | Ok sounding -> assert (sounding.values = [ Int 7 ])
+        | Error _ -> assert false
+    ]} *)
 
 type value =
   | Int of int

@@ -1,4 +1,19 @@
-(** Packets: a message with its sender, receiver and time; to and from bytes. *)
+(** Packets: a message with its sender, receiver and time; to and from bytes.
+
+    {[
+      open Dolphin_imc
+
+      let packet = Packet.make ~src:0x4001 ~dst:26 ~timestamp:1.7e9 (Message.Abort)
+
+      let () =
+        let bytes = Result.get_ok (Packet.encode packet) in
+        assert (String.length bytes = Header.overhead);
+        match Packet.decode bytes with
+        | Ok read -> assert (Packet.equal read packet && read.dst = 26)
+        | Error _ -> assert false
+
+      let () = assert (Packet.decode "not IMC" = Error (Too_short 7))
+    ]} *)
 
 type content =
   | Message of Message.t

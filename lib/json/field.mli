@@ -1,4 +1,19 @@
-(** Members of JSON objects, read with a reason where they are not what they should be. *)
+(** Members of JSON objects, read with a reason where they are not what they should be.
+
+    {[
+      open Dolphin_json
+
+      let read json =
+        let open Field in
+        let* fields = members json in
+        let* name = get text "name" fields in
+        let* speed = optional number ~default:1.5 "speed" fields in
+        Ok (name, speed)
+
+      let () =
+        assert (read (`Assoc [ ("name", `String "x8-02") ]) = Ok ("x8-02", 1.5));
+        assert (Result.is_error (read (`Assoc [ ("name", `Int 8) ])))
+    ]} *)
 
 type members = (string * Yojson.Safe.t) list
 

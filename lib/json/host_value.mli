@@ -9,7 +9,21 @@
 {"latitude": 41.18, "longitude": -8.70, "height": 10}   a position; without height: 0
 {"centre": {"latitude": ...}, "radius": 200}            an area; metres
 {"map": {"object": "a plain key"}}                      a map, whatever its keys are
-    v} *)
+    v}
+
+    {[
+      open Dolphin_json
+      open Dolphin_semantics
+
+      let survey = Host_value.of_json ~site:Fault.unknown_site (`Assoc [ ("task", `String "survey1") ])
+
+      let () =
+        assert (Host_value.to_json (String "x8-02") = Ok (`String "x8-02"));
+        assert (Host_value.to_json Wildcard |> Result.is_error);
+        match survey with
+        | Ok (Task _) -> ()
+        | _ -> assert false
+    ]} *)
 
 open Dolphin_semantics
 

@@ -1,5 +1,14 @@
 (** JSON in one way only: a value has one text. Members stay in the order in which they are given, without blanks,
-    and numbers are as short as possible. *)
+    and numbers are as short as possible.
+
+    {[
+      open Dolphin_json_text
+
+      let () =
+        assert (Canonical.to_string (`Assoc [ ("b", `Int 1); ("a", `Float 0.1) ]) = {|{"b":1,"a":0.1}|});
+        assert (Canonical.number 2. = `Int 2);
+        assert (Canonical.to_string (`String "\xff") = "\"\u{fffd}\"")
+    ]} *)
 
 type extended = [ Yojson.Safe.t | `Tuple of Yojson.Safe.t list | `Variant of string * Yojson.Safe.t option ]
 (** JSON with the two constructors that Yojson 2 has and Yojson 3 has no more: a match on [(json :> extended)] is

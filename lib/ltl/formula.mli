@@ -1,4 +1,13 @@
-(** Formulas of linear temporal logic, over runs without end: sequences of positions. *)
+(** Formulas of linear temporal logic, over runs without end: sequences of positions.
+
+    {[
+      open Dolphin_ltl
+
+      let () =
+        assert (Formula.of_string "G (start -> F done)"
+                = Ok (Globally (Implies (Proposition "start", Finally (Proposition "done")))));
+        assert (Result.is_error (Formula.of_string "G (start"))
+    ]} *)
 
 type 'p t =
   | True

@@ -1,5 +1,21 @@
 (** The subset construction of an automaton, on the fly: after each letter of a word, the set of states in which the
-    automaton's runs over the word can be. Sets are numbered from 0 as they are found; letters are numbers too. *)
+    automaton's runs over the word can be. Sets are numbered from 0 as they are found; letters are numbers too.
+
+    {[
+      open Dolphin_ltl
+
+      (* The letter 0 is a position at which the program is idle, 1 one at which it is done. *)
+      let monitor =
+        let holds letter proposition = proposition = "done" && letter = 1 in
+        Monitor.create ~holds (Automaton.of_formula (Result.get_ok (Formula.of_string "F done")))
+
+      let next = Monitor.next monitor ~give:ignore
+
+      let () =
+        let idle = next Monitor.start 0 in
+        assert (not (Monitor.is_certain monitor idle) && not (Monitor.stays monitor idle 0));
+        assert (Monitor.is_certain monitor (next idle 1))
+    ]} *)
 
 type t
 

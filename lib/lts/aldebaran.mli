@@ -9,7 +9,17 @@ des (0, 2, 3)
     The first line has the initial state, the number of transitions and that of states. mCRL2 ends a label at the
     first double quote, and CADP allows ASCII only. So what is written is printable ASCII without double quotes: any
     other byte is [\x] and two hexadecimal digits in lower case, and so is a backslash that would read as such an
-    escape. A double quote is [\x22]; a label of printable ASCII without double quotes stands as it is. *)
+    escape. A double quote is [\x22]; a label of printable ASCII without double quotes stands as it is.
+
+    {[
+      open Dolphin_lts
+
+      let () =
+        let graph = Graph.of_list [ (0, "start(survey1)", 1); (1, "done(survey1)", 2) ] in
+        let text = Aldebaran.to_string graph in
+        assert (text = "des (0, 2, 3)\n(0,\"start(survey1)\",1)\n(1,\"done(survey1)\",2)\n");
+        assert (Graph.equal graph (Result.get_ok (Aldebaran.of_string text)))
+    ]} *)
 
 val write : (string -> unit) -> Graph.t -> unit
 (** [write out g] calls [out] with the parts of the text of [g], in order: [write (output_string channel) g]. Texts of

@@ -1,4 +1,18 @@
-(** Whether two graphs are strongly bisimilar, and if not, a formula that distinguishes them. *)
+(** Whether two graphs are strongly bisimilar, and if not, a formula that distinguishes them.
+
+    {[
+      open Dolphin_lts
+
+      (* The choice between tea and coffee is made by the second coin, or after it. *)
+      let early = Graph.of_list [ (0, "coin", 1); (0, "coin", 2); (1, "tea", 3); (2, "coffee", 3) ]
+      let late = Graph.of_list [ (0, "coin", 1); (1, "tea", 2); (1, "coffee", 2) ]
+
+      let () =
+        assert (Compare.strong early early = Ok ());
+        match Compare.strong early late with
+        | Error { traces; formula } -> assert (traces = Same && Formula.holds early 0 formula)
+        | Ok () -> assert false
+    ]} *)
 
 type side = Left | Right
 

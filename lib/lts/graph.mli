@@ -3,7 +3,17 @@
     States are numbered from 0, and so are labels. The transitions that leave one state are numbered in a row: those
     of state [s] are [first g s], [first g s + 1] ... [first g (s + 1) - 1], in ascending order of label, then
     target. A transition that is there twice is one, unless the graph is made {e with doubles}. Functions that
-    compare or minimise graphs take those without. A transition takes 8 bytes, a state 4. *)
+    compare or minimise graphs take those without. A transition takes 8 bytes, a state 4.
+
+    {[
+      open Dolphin_lts
+
+      let survey = Graph.of_list [ (0, "start", 1); (1, "done", 2); (1, "fail", 0) ]
+
+      let () =
+        assert (Graph.states survey = 3 && Graph.degree survey 1 = 2);
+        assert (Graph.to_list (Graph.map_labels String.uppercase_ascii survey) |> List.hd = (0, "START", 1))
+    ]} *)
 
 type t
 

@@ -1,4 +1,19 @@
-(** Maps from files of other programs. *)
+(** Maps from files of other programs.
+
+    {[
+      open Dolphin_maps
+
+      let map =
+        {|{ "type": "Feature", "properties": { "name": "buoy" },
+            "geometry": { "type": "Point", "coordinates": [-8.7062, 41.185] } }|}
+
+      let () =
+        match Map_file.read ~path:"harbour.geojson" map with
+        | Ok { things = [ ("buoy", Ok (Point p)) ]; notes = [] } -> assert (p.latitude = 41.185)
+        | _ -> assert false
+
+      let () = assert (Result.is_error (Map_file.read ~path:"harbour.geojson" "{}"))
+    ]} *)
 
 open Dolphin_geo
 

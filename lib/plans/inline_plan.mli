@@ -1,4 +1,24 @@
-(** A program's description in place of a plan's name: a plan of maneuvers or a mission of items. *)
+(** A program's description in place of a plan's name: a plan of maneuvers or a mission of items.
+
+    {[
+      open Dolphin_geo
+      open Dolphin_plans
+
+      let maneuver kind id location =
+        { Plan.id; kind; location; speed = (2., Metres_per_second); z = (3., Depth); payloads = [] }
+
+      let home = Place.apdl
+      let out = Wgs84.displace home ~north:1000. ~east:0.
+      let stay = Plan.Loiter { radius = 20.; duration = 60.; direction = Clockwise }
+
+      let plan =
+        { Plan.name = "out"; description = ""; vehicles = [];
+          maneuvers = [ maneuver Go_to "1.Goto" out; maneuver stay "2.Loiter" out ] }
+
+      let () =
+        let extent = Inline_plan.extent ~from:home ~speed:1.5 (Maneuvers plan) in
+        assert (Float.round extent.metres = 1000. && Float.round extent.moving = 500. && extent.staying = 60.)
+    ]} *)
 
 module Position = Dolphin_geo.Position
 

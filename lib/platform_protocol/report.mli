@@ -1,4 +1,13 @@
-(** Reports: the lines of the platform protocol that an adapter writes; [docs/platform.md] defines their meaning. *)
+(** Reports: the lines of the platform protocol that an adapter writes; [docs/platform.md] defines their meaning.
+
+    {[
+      open Dolphin_platform_protocol
+
+      let () =
+        assert (Report.of_line (Report.to_line (Request ("r1", Done))) = Ok (Some (Request ("r1", Done))));
+        assert (Report.is_end Done && not (Report.is_end Taken));
+        assert (Result.is_error (Report.of_line "{"))
+    ]} *)
 
 open Dolphin_semantics
 

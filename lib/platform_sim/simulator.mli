@@ -70,7 +70,26 @@
     Vehicles have a position, a battery, and a link that comes and goes by the scenario. How tasks go is
     {!Execution}'s, how batteries go is {!Vehicle}'s. A seed and a scenario determine everything: the same commands
     at the same times see the same events. The execution of a task depends on the seed, the vehicle, the task's
-    ordinal on that vehicle and the task's entry in the scenario, and on nothing else. *)
+    ordinal on that vehicle and the task's entry in the scenario, and on nothing else.
+
+    {[
+      open Dolphin_platform_sim
+
+      let fleet = Simulator.Virtual.create ~seed:1 Dolphin_scenario.Scenario.default
+      let survey = { Dolphin_semantics.Core.name = "survey1"; plan = None; task_site = 0 }
+
+      (* The end of the first task, whatever is reported before it. *)
+      let rec ended () =
+        Lwt.bind (Simulator.Virtual.next fleet) (function
+            | Task_done v | Task_failed (v, _) -> Lwt.return v
+            | Vehicle _ | Timer _ | Input _ | Quiet -> ended ())
+
+      let () =
+        Simulator.Virtual.bind fleet [ "noptilus-1" ];
+        Simulator.Virtual.start fleet "noptilus-1" survey;
+        assert (Lwt_main.run (ended ()) = "noptilus-1");
+        assert (Simulator.Virtual.now fleet >= 60.)
+    ]} *)
 
 open Dolphin_semantics
 open Dolphin_runtime

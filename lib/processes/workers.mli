@@ -1,4 +1,16 @@
-(** Work by numbers, shared out among processes. *)
+(** Work by numbers, shared out among processes.
+
+    {[
+      open Dolphin_processes
+
+      let squares = Workers.start ~jobs:2 ~first:1 ~last:9 (fun n -> n * n)
+
+      let rec all found =
+        if Workers.is_done squares then List.sort compare found
+        else all (Workers.next squares ~timeout:1. @ found)
+
+      let () = assert (all [] = List.init 9 (fun i -> (i + 1, (i + 1) * (i + 1))))
+    ]} *)
 
 type 'a t
 

@@ -3,7 +3,27 @@
 
     It takes the transitions that the program can make by itself, the leftmost first, until none is left, then waits
     for an event: of the platform, from the console, from the host process, or an interruption. Runs are reproducible
-    from these events and their order. Nothing is polled. *)
+    from these events and their order. Nothing is polled.
+
+    {[
+      open Dolphin_semantics
+      open Dolphin_runtime
+      open Dolphin_platform_sim
+
+      let program =
+        let text = "v = pick { count 1 }\nexecute v: task('survey1')" in
+        let ast = Result.get_ok (Dolphin_syntax.Parse.program ~file:"a.dol" text) in
+        fst (Result.get_ok (Elaborate.program ~source_name:"a.dol" ast))
+
+      let fleet = Simulator.Virtual.create ~seed:1 Dolphin_scenario.Scenario.default
+      let console = Console.scripted ~answers:[] ()
+      let interruption = fst (Lwt.wait ())
+
+      let () =
+        let run = Driver.run (module Simulator.Virtual) fleet ~console ~interruption program in
+        assert (Lwt_main.run run = Ended Completed);
+        assert (Simulator.Virtual.running fleet "noptilus-1" = None)
+    ]} *)
 
 open Dolphin_semantics
 

@@ -1,5 +1,23 @@
 (** A world to run programs in: its vehicles, the endings of plans on them, the answers of people and the replies of
-    a supplier. It is the contents of a fleet file, [*.fleet]; {!section:grammar} has its syntax. *)
+    a supplier. It is the contents of a fleet file, [*.fleet]; {!section:grammar} has its syntax.
+
+    {[
+      open Dolphin_scenario
+
+      let fleet =
+        "vehicle 'x8-02', { type 'UAV'; at Location.APDL; joins 30.seconds }\n\
+         plan 'survey1', { duration 3.min, 9.min; mayFail }\n\
+         answer 'Radius?', 2, 3"
+
+      let () =
+        match Scenario.read ~file:"a.fleet" fleet with
+        | Ok scenario ->
+          assert (Scenario.answer scenario "Radius?" 0 = Some "2");
+          assert (Scenario.answer scenario "Radius?" 5 = Some "3");
+          assert (Scenario.plan scenario "survey2" = None);
+          assert (not (List.hd (Scenario.states scenario)).connected)
+        | Error _ -> assert false
+    ]} *)
 
 (** {1:types What there is} *)
 

@@ -1,4 +1,17 @@
-(** The questions of an editor about a program or a fleet. Pure: texts in, answers out; places are bytes of the text. *)
+(** The questions of an editor about a program or a fleet. Pure: texts in, answers out; places are bytes of the text.
+
+    {[
+      open Dolphin_service
+
+      let source = "radius = 2\nmessage radius"
+      let text = Service.read ~file:"a.dol" source
+
+      let () =
+        assert (Service.diagnostics text = []);
+        let use = String.length source - 3 in
+        assert (List.map (fun (s : Service.span) -> s.start) (Service.references text use) = [ 0; 19 ]);
+        match Service.definition text use with Some place -> assert (place.span.start = 0) | None -> assert false
+    ]} *)
 
 open Dolphin_syntax
 

@@ -1,4 +1,13 @@
-(** How often something happens, estimated by how often it happened in a sample. *)
+(** How often something happens, estimated by how often it happened in a sample.
+
+    {[
+      open Dolphin_statistics
+
+      (* None of 100 runs failed: with a confidence of 95 %, fewer than 4 % do. *)
+      let () =
+        let { Share.least; most } = Share.interval ~level:0.95 ~hits:0 100 in
+        assert (least = 0. && most > 0.03 && most < 0.04)
+    ]} *)
 
 type interval = { least : float; most : float }  (** [0 <= least <= most <= 1] *)
 

@@ -1,4 +1,20 @@
-(** A fault of a program, for the person who wrote it. *)
+(** A fault of a program, for the person who wrote it.
+
+    {[
+      open Dolphin_syntax
+
+      let source = "execute task('survey1' >> task('home')"
+
+      let () =
+        match Parse.program ~file:"a.dol" source with
+        | Error [ fault ] ->
+          let text = Format.asprintf "%a" (Diagnostic.pp ~source) fault in
+          assert (List.hd (String.split_on_char '\n' text) = "a.dol:1:13: error: this '(' is never closed");
+          assert (Diagnostic.code_name fault.code = "syntax")
+        | _ -> assert false
+
+      let () = assert (Diagnostic.suggest "exectue" [ "execute"; "message" ] = Some "execute")
+    ]} *)
 
 type severity = Error | Warning
 

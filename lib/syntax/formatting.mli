@@ -1,5 +1,14 @@
 (** Programs and fleets in one layout: four spaces a level, one blank between words, at most {!width} columns.
-    Comments, and a person's line ends between statements and arguments, are kept; of several empty lines, one is. *)
+    Comments, and a person's line ends between statements and arguments, are kept; of several empty lines, one is.
+
+    {[
+      open Dolphin_syntax
+
+      let () =
+        let source = "UUVs=pick{count 2}  // the survey's vehicles" in
+        let layout = "UUVs = pick { count 2 } // the survey's vehicles\n" in
+        assert (Formatting.program ~file:"a.dol" source = Ok layout)
+    ]} *)
 
 val width : int
 (** 120. *)

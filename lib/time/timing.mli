@@ -1,4 +1,30 @@
-(** How early and how late a program's runs do what they do. *)
+(** How early and how late a program's runs do what they do.
+
+    {[
+      open Dolphin_semantics
+      open Dolphin_environment
+      open Dolphin_time
+
+      let scenario =
+        let fleet = "vehicle 'x8-02', { type 'UAV'; at Location.APDL }\nplan 'survey1', { duration 3.min, 9.min }" in
+        Result.get_ok (Dolphin_scenario.Scenario.read ~file:"a.fleet" fleet)
+
+      let program =
+        let text = "v = pick { count 1 }\nexecute v: task('survey1') >> task('survey1')" in
+        let ast = Result.get_ok (Dolphin_syntax.Parse.program ~file:"a.dol" text) in
+        fst (Result.get_ok (Elaborate.program ~source_name:"a.dol" ast))
+
+      let options =
+        { Timed.program; world = Scenario_world.world scenario; dates = Dated_code.named program;
+          environment = Scenario_world.environment ~answers:[] ~faults:Faults.none program scenario;
+          durations = Durations.of_scenario scenario }
+
+      let () =
+        let outcome = Timing.run Dolphin_checker.Limits.none options in
+        assert (outcome.endings = [ (Completed, { earliest = 360_000; latest = At 1_080_000 }) ]);
+        assert (Timing.in_time ~deadline:1_080_000 outcome = Holds);
+        assert (Timing.in_time ~deadline:1_000_000 outcome = Violated)
+    ]} *)
 
 open Dolphin_semantics
 

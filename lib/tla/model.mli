@@ -1,6 +1,23 @@
 (** The TLA+ model of one program in one world: the input with which TLC explores it, by the specification in
     [spec/]. There the program is a table of expressions, which the specification runs itself. Only geometry is
-    computed here. *)
+    computed here.
+
+    {[
+      open Dolphin_semantics
+      open Dolphin_environment
+
+      let program =
+        let text = "v = pick { count 1 }\nexecute v: task('survey1')" in
+        let ast = Result.get_ok (Dolphin_syntax.Parse.program ~file:"a.dol" text) in
+        fst (Result.get_ok (Elaborate.program ~source_name:"a.dol" ast))
+
+      let world = Scenario_world.world Dolphin_scenario.Scenario.default
+
+      let () =
+        match Dolphin_tla.Model.of_program ~environment:Environment.default world program with
+        | Ok files -> assert (List.exists (fun (f : Dolphin_tla.Model.file) -> f.name = "MC.tla") files)
+        | Error _ -> assert false
+    ]} *)
 
 open Dolphin_semantics
 module Environment = Dolphin_environment.Environment

@@ -1,4 +1,23 @@
-(** Journals, read line by line. No line takes more memory than {!longest}. *)
+(** Journals, read line by line. No line takes more memory than {!longest}.
+
+    {[
+      open Dolphin_trace
+
+      let header =
+        { Header.program = Header.source ~path:"a.dol" "halt 'no'"; fleet = None; platform = "sim"; order = By_hearing;
+          seed = 1; speed = None; started = "2026-03-01T12:00:00Z"; run = None; fences = []; place = None }
+
+      let journal =
+        let line = Journal.line (Journal.numbering ~notes:0) in
+        let ending = { Request.how = "completed"; message = None } in
+        line (Header header) ^ "\n" ^ line (End { time = 2.; transitions = 0; ending }) ^ "\n{\"torn"
+
+      let () =
+        let lines = Journal.of_string journal in
+        assert (Journal.next lines = Line { number = 1; entry = Header header });
+        (match Journal.next lines with Line { entry = End { time = 2.; _ }; _ } -> () | _ -> assert false);
+        assert (Journal.next lines = Torn 3)
+    ]} *)
 
 type t
 

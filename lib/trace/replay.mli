@@ -1,6 +1,50 @@
 (** Journals, checked by the semantics: a journal is that of a run if each of its transitions is the one that
     {!Dolphin_semantics.Transition} gives for the configuration before it, the known vehicles, and the event before
-    it. Of the lines only the configuration that they lead to is kept. *)
+    it. Of the lines only the configuration that they lead to is kept.
+
+    {[
+      open Dolphin_semantics
+      open Dolphin_runtime
+      open Dolphin_platform_sim
+      open Dolphin_trace
+
+      let program =
+        let text = "v = pick { count 1 }\nexecute v: task('survey1')" in
+        let ast = Result.get_ok (Dolphin_syntax.Parse.program ~file:"a.dol" text) in
+        fst (Result.get_ok (Elaborate.program ~source_name:"a.dol" ast))
+
+      let fleet = Simulator.Virtual.create ~seed:1 Dolphin_scenario.Scenario.default
+      let console = Console.scripted ~answers:[] ()
+      let interruption = fst (Lwt.wait ())
+
+      let header =
+        { Header.program = Header.source ~path:"a.dol" ""; fleet = None; platform = "sim"; order = By_hearing; seed = 1;
+          speed = None; started = "2026-03-01T12:00:00Z"; run = None; fences = []; place = None }
+
+      (* The lines of a run, in order. *)
+      let journal =
+        let lines = ref [] in
+        let recorder = Recorder.make program header (fun entry -> lines := entry :: !lines) in
+        let observer =
+          { Observer.nobody with
+            transition = (fun ~time ~cause t -> Recorder.transition recorder ~time ~cause t);
+            news = Recorder.news recorder }
+        in
+        ignore (Lwt_main.run (Driver.run (module Simulator.Virtual) fleet ~observer ~console ~interruption program));
+        List.rev !lines
+
+      let check lines =
+        let feed checked entry = Result.bind checked (fun replay -> Replay.feed replay entry) in
+        List.fold_left feed (Ok (Replay.start ~hash:header.program.hash program)) lines
+
+      let is_start = function Entry.Transition { step; _ } -> step.label = "start(noptilus-1, survey1)" | _ -> false
+
+      let () =
+        assert (Result.is_ok (check journal));
+        match check (List.filter (fun entry -> not (is_start entry)) journal) with
+        | Error mismatch -> assert (mismatch.enabled = [ "start(noptilus-1, survey1)" ])
+        | Ok _ -> assert false
+    ]} *)
 
 open Dolphin_semantics
 

@@ -4,7 +4,70 @@
     Under a monitor, each state is kept once for each set of automaton states that runs to it may be in: the product of
     the system with the negation of a formula. Runs that cannot violate the formula any more are not followed.
 
-    Fairness is judged by the caller: here every cycle is a run. *)
+    Fairness is judged by the caller: here every cycle is a run.
+
+    {[
+      open Dolphin_checker
+
+      (* Two processes, and a lock that each takes and gives back. A state is one word, above the bits that the search
+         reserves: 0 if the lock is free, or the process, 1 or 2, that has it. *)
+      module Lock = struct
+        type t = { numbering : Numbering.t; mutable reserved : int }
+        type via = unit
+        type property = Nothing_is_forbidden
+
+        exception Outgrown
+
+        let create () = { numbering = Numbering.create (); reserved = 0 }
+        let words _ = 1
+        let holder t word = word lsr t.reserved
+
+        let widen t ~reserved =
+          let before = t.reserved in
+          t.reserved <- reserved;
+          fun old fresh -> fresh.(0) <- (old.(0) lsr before) lsl reserved
+
+        let numbers t key f = f (holder t key.(0))
+        let visit t (v : unit System.visitor) n = v.visit [| n lsl t.reserved |] 0 ()
+        let initial t v = visit t v 0
+
+        let expand t key v =
+          let next = if holder t key.(0) = 0 then [ 1; 2 ] else [ 0 ] in
+          List.iter (visit t v) next;
+          List.length next
+
+        let numbering t = t.numbering
+        let check_fit _ = ()
+
+        type findings = unit
+
+        let findings _ = ()
+        let add_findings _ () = ()
+        let broken _ _ = None
+        let is_end _ _ = false
+        let may_cycle _ = true
+        let is_anchor _ _ = true
+        let valuation t _ key = holder t key.(0)
+      end
+
+      module Search = Breadth_first.Make (Lock)
+
+      (* Whether all runs satisfy a formula of the propositions p1 and p2: process 1, process 2 holds the lock. *)
+      let satisfy formula =
+        let negation = Dolphin_ltl.Formula.(Not (Result.get_ok (of_string formula))) in
+        let holds holder proposition = proposition = Printf.sprintf "p%d" holder in
+        let monitor = Dolphin_ltl.(Monitor.create ~holds (Automaton.of_formula negation)) in
+        let search = Search.create ~monitor Limits.none (Lock.create ()) in
+        Search.run search;
+        Search.formula search = Holds
+
+      let () =
+        let search = Search.create Limits.none (Lock.create ()) in
+        Search.run search;
+        assert (Search.count search = 3 && Search.no_deadlock search = Holds);
+        assert (satisfy "G !(p1 & p2)");
+        assert (not (satisfy "G F p1"))
+    ]} *)
 
 (** The findings about a property. *)
 type 'run verdict =

@@ -1,4 +1,24 @@
-(** [dolphin explore]: every interleaving of a program, and every choice of its outside, breadth first. *)
+(** [dolphin explore]: every interleaving of a program, and every choice of its outside, breadth first.
+
+    {[
+      open Dolphin_semantics
+      open Dolphin_environment
+      open Dolphin_explore
+
+      let program =
+        let text = "v = pick { count 1 }\nexecute v: allOf { when { consume go: 1 } then task('survey1') }" in
+        let ast = Result.get_ok (Dolphin_syntax.Parse.program ~file:"a.dol" text) in
+        fst (Result.get_ok (Elaborate.program ~source_name:"a.dol" ast))
+
+      let world = Scenario_world.world Dolphin_scenario.Scenario.default
+
+      let () =
+        let found = Search.run Search.default program world in
+        assert (found.stopped = None && found.expanded = found.states);
+        match List.assoc Property.No_deadlock found.verdicts with
+        | Violated run -> assert run.shortest
+        | _ -> assert false
+    ]} *)
 
 open Dolphin_semantics
 open Dolphin_environment

@@ -1,5 +1,26 @@
 (** The labelled transition system of a program: all its states, without reduction, and the transitions between them
-    with the labels of [docs/semantics.md]. *)
+    with the labels of [docs/semantics.md].
+
+    {[
+      open Dolphin_semantics
+      open Dolphin_environment
+      open Dolphin_explore
+
+      let program =
+        let text = "v = pick { count 1 }\nexecute v: task('survey1')" in
+        let ast = Result.get_ok (Dolphin_syntax.Parse.program ~file:"a.dol" text) in
+        fst (Result.get_ok (Elaborate.program ~source_name:"a.dol" ast))
+
+      let world = Scenario_world.world Dolphin_scenario.Scenario.default
+
+      let labels = Hashtbl.create 10
+
+      let () =
+        let each _ label _ = Hashtbl.replace labels label () in
+        match Transition_system.explore Dolphin_checker.Limits.none Environment.default program world each with
+        | Ok _ -> assert (Hashtbl.mem labels "done(x8-02, survey1)")
+        | Error _ -> assert false
+    ]} *)
 
 open Dolphin_semantics
 open Dolphin_environment

@@ -1,5 +1,19 @@
 (** From the abstract syntax to the core: names become places, constructs become operations, and every error that can
-    be known is reported before anything moves. *)
+    be known is reported before anything moves.
+
+    {[
+      open Dolphin_syntax
+      open Dolphin_semantics
+
+      let elaborate text =
+        Elaborate.program ~source_name:"a.dol" (Result.get_ok (Parse.program ~file:"a.dol" text))
+
+      let () =
+        assert (Result.is_ok (elaborate "v = pick { count 1 }\nexecute v: task('survey1')"));
+        match elaborate "message speeed" with
+        | Error [ fault ] -> assert (fault.code = Diagnostic.Unknown_name)
+        | _ -> assert false
+    ]} *)
 
 module Diagnostic = Dolphin_syntax.Diagnostic
 

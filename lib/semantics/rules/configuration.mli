@@ -1,4 +1,20 @@
-(** Configurations: <control, store, A, B, N>. *)
+(** Configurations: <control, store, A, B, N>.
+
+    {[
+      open Dolphin_semantics
+
+      let program =
+        let text = "v = pick { count 1 }\nexecute v: task('survey1')" in
+        let ast = Result.get_ok (Dolphin_syntax.Parse.program ~file:"a.dol" text) in
+        fst (Result.get_ok (Elaborate.program ~source_name:"a.dol" ast))
+
+      let start = Configuration.initial program
+
+      let () =
+        assert (Configuration.invariant start = Ok ());
+        assert (Configuration.recruits start = [] && Configuration.waits start = []);
+        match start.control with Script _ -> () | Waiting _ | Executing _ | Ended _ -> assert false
+    ]} *)
 
 open Core
 

@@ -1,4 +1,12 @@
-(** The label of a transition: the part of it that an observer of the program and its vehicles can see. *)
+(** The label of a transition: the part of it that an observer of the program and its vehicles can see.
+
+    {[
+      open Dolphin_semantics
+
+      let () =
+        assert (Format.asprintf "%a" Label.pp (Fail ("x8-02", "survey1", "engine")) = "fail(x8-02, survey1, engine)");
+        assert (not (Label.equal Time_out Silent))
+    ]} *)
 
 open Core
 

@@ -1,6 +1,31 @@
 (** The transition function: the whole semantics of Dolphin in one place, pure. The runtime, the explorer and the
     checker of traces call it and nothing else. docs/semantics.md gives the rules; {!Task_rules} and {!Local_step},
-    {!Script_rules} and {!Pick_rules} have them. *)
+    {!Script_rules} and {!Pick_rules} have them.
+
+    {[
+      open Dolphin_semantics
+
+      let program =
+        let text = "v = pick { count 1 }\nexecute v: task('survey1')" in
+        let ast = Result.get_ok (Dolphin_syntax.Parse.program ~file:"a.dol" text) in
+        fst (Result.get_ok (Elaborate.program ~source_name:"a.dol" ast))
+
+      let world = Dolphin_scenario.Scenario.(List.fold_left (Fun.flip World.add) World.empty (states default))
+
+      (* The leftmost step of the program's own, until it waits for an event: the labels so far, and where it waits. *)
+      let rec go c labels =
+        match Transition.internal program world c () with
+        | Seq.Cons (t, _) -> go t.next (Format.asprintf "%a" Label.pp t.label :: labels)
+        | Nil -> (List.rev labels, c)
+
+      let () =
+        let labels, c = go (Configuration.initial program) [] in
+        assert (labels = [ "pick(1 vehicle)"; "bind(noptilus-1)"; "execute"; "start(noptilus-1, survey1)" ]);
+        assert (Transition.awaited c = [ End_of "noptilus-1" ]);
+        match Transition.accept program world c (Vehicle_done "noptilus-1") with
+        | Ok t -> assert (t.label = Done ("noptilus-1", "survey1"))
+        | Error _ -> assert false
+    ]} *)
 
 open Core
 

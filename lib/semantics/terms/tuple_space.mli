@@ -5,7 +5,20 @@
     can distinguish are equal, with any histories.
 
     Spaces are immutable plain data, without functions inside. Compare and hash them with {!S.compare}, {!S.equal}
-    and {!S.hash}, never with the polymorphic operations: equal spaces may be laid out differently in memory. *)
+    and {!S.hash}, never with the polymorphic operations: equal spaces may be laid out differently in memory.
+
+    {[
+      open Dolphin_semantics
+
+      let post key number = Tuples.post key (Core.Integer number)
+      let space = Tuples.empty (Keys [ "ready" ]) |> post "ready" 2 |> post "ready" 1
+
+      let () =
+        assert (Tuples.poll "ready" (Integer 1) space);
+        match Tuples.consume_oldest "ready" space with
+        | Some (value, rest) -> assert (value = Integer 2 && Tuples.cardinal rest = 1)
+        | None -> assert false
+    ]} *)
 
 (** Which keys keep their pairs in order of arrival. *)
 type order =

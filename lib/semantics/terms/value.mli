@@ -1,4 +1,16 @@
-(** Values and task terms, as programs see them. *)
+(** Values and task terms, as programs see them.
+
+    {[
+      open Dolphin_semantics
+
+      let one = Core.Integer 1 and one_point = Core.Number 1.0
+
+      let () =
+        assert (Value.equals one one_point);
+        assert (Value.compare one one_point <> 0);
+        assert (Value.compare (Value.normal one) (Value.normal one_point) = 0);
+        assert (Value.to_string (Core.Map [ ("depth", one) ]) = "[depth:1]")
+    ]} *)
 
 type t = Core.value
 

@@ -1,5 +1,21 @@
 (** The program's knowledge of the vehicles around it: the sensors' side of a configuration. The semantics only reads
-    it; a driver keeps it up to date. *)
+    it; a driver keeps it up to date.
+
+    {[
+      open Dolphin_semantics
+
+      let noptilus =
+        { World.id = "noptilus-1"; kind = "UUV"; payload = [ "DVL" ]; position = Dolphin_geo.Place.apdl; depth = None;
+          altitude = None; battery = Some 0.9; speed = None; readings = []; connected = true; unready = None;
+          cruise = Some 1.5; drain = None }
+
+      let world = World.add { noptilus with connected = false } (World.add noptilus World.empty)
+
+      let () =
+        assert (World.count world = 1);
+        assert (World.carries [ "dvl" ] noptilus);
+        assert (not (List.exists World.is_ready (World.vehicles world)))
+    ]} *)
 
 type vehicle_state = {
   id : Core.vehicle;

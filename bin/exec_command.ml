@@ -158,7 +158,7 @@ let run () { show; path; set; sim; named; definition; keep; layers; recorded; re
      let on_terminal = on_terminal { show with journal = (if journal = None then resumed else journal) } in
      Report.diagnostics ~source:program.source program.warnings;
      if is_simulated && sampling = None && List.compare_length_with fleet.scenario.vehicles large_fleet > 0 then
-       Nursery.make_room ();
+       Minor_heap.enlarge ();
      match recorded, resumed, sampling with
      | _, _, Some sampling -> sample settings program fleet sampling
      | Some recorded, _, None -> follow program fleet ~drawing recorded

@@ -108,14 +108,14 @@ let rest_of_run settings path set named ~journal ~strict ~json ~period ~files ~c
   in
   let* present, program, fleet = Present.load path ~set ~fleet:named ~journal in
   let remarks = Present.remarks present program fleet in
-  List.iter Report.complain (remarks @ Left_out.sentences settings.Exploration.faults fleet);
+  List.iter Report.complain (remarks @ Ignored_faults.sentences settings.Exploration.faults fleet);
   of_program settings program fleet ~from:(Some present) ~strict ~json ~period ~files ~cache
 
 let all_runs settings path set named ~strict ~json ~period ~files ~cache =
   let* question = Sweep.question ~set path in
   let* fleet = Fleet_file.load_for ~program:path named in
   let* question = Sweep.within fleet question in
-  List.iter Report.complain (Left_out.sentences settings.Exploration.faults fleet);
+  List.iter Report.complain (Ignored_faults.sentences settings.Exploration.faults fleet);
   match question with
   | One program -> of_program settings program fleet ~from:None ~strict ~json ~period ~files ~cache
   | Several sweep -> of_values settings sweep fleet ~strict ~json ~period ~files ~cache
@@ -134,7 +134,7 @@ type asked = {
 }
 
 let run { path; set; fleet; from; strict; json; period; files; cache } settings =
-  Nursery.make_room ();
+  Minor_heap.enlarge ();
   Report.result
     (let* () = check_search settings in
      let* () = check_files files in

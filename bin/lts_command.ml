@@ -37,7 +37,7 @@ type asked = {
 }
 
 let run { path; other; world; format; quotient; output } =
-  Nursery.make_room ();
+  Minor_heap.enlarge ();
   Report.result
     (let* graph = load world path in
      match other, quotient with

@@ -20,7 +20,7 @@ type asked = {
 
 let run { path; set; fleet; settings; show_greeting; show_run } =
   Sys.set_signal Sys.sigint (Signal_handle (fun _ -> Exit_status.exit_interrupted ()));
-  Nursery.make_room ();
+  Minor_heap.enlarge ();
   Report.result
     (let* successors = load set fleet settings path in
      set_binary_mode_in stdin true;

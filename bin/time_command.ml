@@ -1,7 +1,7 @@
 open Cmdliner
 open Dolphin_app
 
-module Timing = Time_analysis.Timing
+module Timed_analysis = Time_analysis.Timed_analysis
 
 let ( let* ) = Result.bind
 
@@ -27,10 +27,12 @@ let of_program ?from (settings : Time_analysis.settings) (program : Program_file
   else Time_report.print ?from ?deadline ?slacks program outcome;
   let* () = traced in
   let* () = drawn in
-  let is_cut_short = Option.fold slacks ~none:false ~some:(fun (s : Timing.slacks) -> s.cut_short <> None) in
+  let is_cut_short = Option.fold slacks ~none:false ~some:(fun (s : Timed_analysis.slacks) -> s.cut_short <> None) in
   Ok
     (Exit_status.of_verdict
-       (match Timing.verdict ?deadline outcome with Holds when is_cut_short -> Inconclusive | verdict -> verdict))
+       (match Timed_analysis.verdict ?deadline outcome with
+        | Holds when is_cut_short -> Inconclusive
+        | verdict -> verdict))
 
 let of_values (settings : Time_analysis.settings) sweep fleet ~json =
   let { Time_analysis.deadline; _ } = settings in
@@ -62,7 +64,7 @@ let rest_of_run (settings : Time_analysis.settings) path set fleet ~journal ~sla
   else
     let* from, program, fleet = Present.load path ~set ~fleet ~journal in
     Report.diagnostics ~source:program.source program.warnings;
-    List.iter Report.complain (Present.remarks from program fleet @ Left_out.sentences settings.faults fleet);
+    List.iter Report.complain (Present.remarks from program fleet @ Ignored_faults.sentences settings.faults fleet);
     of_program ~from settings program fleet ~slack ~json ~trace ~drawing
 
 (* What is asked, and how it is shown. *)
@@ -88,7 +90,7 @@ let run { path; set; fleet; from; slack; fewest; json; trace; drawing } (setting
        let* question = Sweep.question ~set path in
        let* fleet = Fleet_file.load_for ~program:path fleet in
        let* question = Sweep.within fleet question in
-       let left_out = if fewest then Left_out.sentences else Left_out.of_time in
+       let left_out = if fewest then Ignored_faults.sentences else Ignored_faults.of_time in
        List.iter Report.complain (left_out settings.faults fleet);
        match question with
        | Several _ when slack -> Error no_slack

@@ -11,7 +11,7 @@ Section Function.
   (** [r'] in the place of a part: the normal form of [plug f r']. *)
   Definition replug (f : frame) (r' : residual) : residual :=
     match f with
-    | Before t => sequence r' t
+    | In_sequence t => sequence r' t
     | Beside before after => Parallel (before ++ flat r' ++ after)
     | f => plug f r'
     end.
@@ -19,14 +19,14 @@ Section Function.
   (** The part is done. *)
   Definition on_ok (f : frame) (l : label) (S' : shared) (E : list effect) : transition :=
     match f with
-    | Before t => By l S' (Next t) (E ++ begun t)
+    | In_sequence t => By l S' (Next t) (E ++ begun t)
     | Beside before after => By l S' (Next (parallel (before ++ after))) E
     | Branch_of bs => By l S' (Next (all_of bs)) E
-    | Body_until _ _ | Watched_by _ | Held_by _ => By l S' Ok E
+    | Body_until _ _ | In_watch _ | Held_by _ => By l S' Ok E
     | Body_during _ i _ => By l S' Ok (E ++ [Cancel_timer i])
     | Round_of more None t => By l S' (Next (repeat_ t (option_map pred more) None t)) (E ++ begun t)
     | Round_of more (Some g) t => By l S' (Next (Asked more g t)) E
-    | Having v => By l S' Ok (E ++ [Release [v]])
+    | In_recruited v => By l S' Ok (E ++ [Release [v]])
     end.
 
   (** An error comes to a [watch]. *)
@@ -55,10 +55,10 @@ Section Function.
     match f with
     | Beside before after =>
         [By l (without (flat_map run_of (before ++ after)) S') (Err m) (E ++ cut (before ++ after))]
-    | Watched_by h => on_error h K l S' m E
-    | Before _ | Branch_of _ | Body_until _ _ | Round_of _ _ _ | Held_by _ => [By l S' (Err m) E]
+    | In_watch h => on_error h K l S' m E
+    | In_sequence _ | Branch_of _ | Body_until _ _ | Round_of _ _ _ | Held_by _ => [By l S' (Err m) E]
     | Body_during _ i _ => [By l S' (Err m) (E ++ [Cancel_timer i])]
-    | Having v => [By l S' (Err m) (E ++ [Release [v]])]
+    | In_recruited v => [By l S' (Err m) (E ++ [Release [v]])]
     end.
 
   Definition lift (f : frame) (K : context) (t : transition) : list transition :=
@@ -216,7 +216,7 @@ Section Function.
     let within f r := flat_map (lift f K) (steps e r (enter f K) S) in
     own e K S r ++
     match r with
-    | Sequence r t => within (Before t) r
+    | Sequence r t => within (In_sequence t) r
     | Parallel rs =>
         (fix branches (before rs : list residual) : list transition :=
            match rs with
@@ -228,10 +228,10 @@ Section Function.
     | Branch r bs => within (Branch_of bs) r
     | Until k g r => within (Body_until k g) r
     | During k i n r => within (Body_during k i n) r
-    | Watch r h => within (Watched_by h) r
+    | Watch r h => within (In_watch h) r
     | Repeat r more g t => within (Round_of more g t) r
     | Holding vs r => within (Held_by vs) r
-    | Recruited v r => within (Having v) r
+    | Recruited v r => within (In_recruited v) r
     | _ => []
     end.
 
@@ -284,15 +284,15 @@ Section Function.
   (** The parts of a residual that may go on. *)
   Definition parts (r : residual) : list (frame * residual) :=
     match r with
-    | Sequence r t => [(Before t, r)]
+    | Sequence r t => [(In_sequence t, r)]
     | Parallel rs => each (fun before r after => [(Beside before after, r)]) [] rs
     | Branch r bs => [(Branch_of bs, r)]
     | Until k g r => [(Body_until k g, r)]
     | During k i n r => [(Body_during k i n, r)]
-    | Watch r h => [(Watched_by h, r)]
+    | Watch r h => [(In_watch h, r)]
     | Repeat r more g t => [(Round_of more g t, r)]
     | Holding vs r => [(Held_by vs, r)]
-    | Recruited v r => [(Having v, r)]
+    | Recruited v r => [(In_recruited v, r)]
     | _ => []
     end.
 

@@ -363,7 +363,7 @@ Section Invariants.
   Qed.
 
   Lemma handler_kept K S S' r h x s gone N ds m l o E :
-    sound K -> placed K S (Watch r h) -> kept (enter (Watched_by h) K) S r (By l S' (Err m) E) ->
+    sound K -> placed K S (Watch r h) -> kept (enter (In_watch h) K) S r (By l S' (Err m) E) ->
     handles_error (handles h) m K S' = Rules x s gone N ds ->
     match o with
     | Next r' => running r' = [] /\ names r' = [] /\ recruits r' = [] /\ forall X, Wf X r'
@@ -412,7 +412,7 @@ Section Invariants.
         split; [exact C1 | split; [exact C2 | split; [exact C3 | split; [split|split]]]].
         * apply Wf_sequence; auto.
           -- eapply Wf_more; [exact W'|]. intros v _. unfold usable. cbn. rewrite app_nil_r. auto.
-          -- eapply (rest_wf K S S1 _ t (Before t)); eauto. intros v Hv. cbn. apply mem_or. auto.
+          -- eapply (rest_wf K S S1 _ t (In_sequence t)); eauto. intros v Hv. cbn. apply mem_or. auto.
         * intros v Hv. rewrite names_sequence. intros [Hr | Hr].
           -- apply (N' v Hv Hr).
           -- apply (N v Hv). cbn. apply in_app_iff. auto.
@@ -542,7 +542,7 @@ Section Invariants.
         destruct Common as (C1 & C2 & C3). inversion W; subst.
         split; [exact C1 | split; [exact C2 | split; [exact C3 | split; [|split]]]].
         * apply placed_quiet; auto.
-          -- eapply (rest_wf K S S1 _ t (Before t)); eauto. intros v Hv. cbn. apply mem_or. auto.
+          -- eapply (rest_wf K S S1 _ t (In_sequence t)); eauto. intros v Hv. cbn. apply mem_or. auto.
           -- intros v Hv Hin. apply (N v Hv). cbn. apply in_app_iff. auto.
         * intros v Hv. left. cbn. apply in_app_iff. auto.
         * intros v. rewrite quiet_recruits by assumption. intros [].

@@ -67,14 +67,14 @@ Section Progress.
       stuck K S (Unallocated t q)
   | K_until : forall K S k g r,
       guard_waits (wanted k) g K S -> stuck (enter (Body_until k g) K) S r -> stuck K S (Until k g r)
-  | K_sequence : forall K S r t, stuck (enter (Before t) K) S r -> stuck K S (Sequence r t)
+  | K_sequence : forall K S r t, stuck (enter (In_sequence t) K) S r -> stuck K S (Sequence r t)
   | K_parallel : forall K S rs,
       (forall b r a, rs = b ++ r :: a -> stuck (enter (Beside b a) K) S r) -> stuck K S (Parallel rs)
   | K_branch : forall K S r bs, stuck (enter (Branch_of bs) K) S r -> stuck K S (Branch r bs)
-  | K_watch : forall K S r h, stuck (enter (Watched_by h) K) S r -> stuck K S (Watch r h)
+  | K_watch : forall K S r h, stuck (enter (In_watch h) K) S r -> stuck K S (Watch r h)
   | K_repeat : forall K S r more g t, stuck (enter (Round_of more g t) K) S r -> stuck K S (Repeat r more g t)
   | K_holding : forall K S vs r, stuck (enter (Held_by vs) K) S r -> stuck K S (Holding vs r)
-  | K_recruited : forall K S v r, stuck (enter (Having v) K) S r -> stuck K S (Recruited v r).
+  | K_recruited : forall K S v r, stuck (enter (In_recruited v) K) S r -> stuck K S (Recruited v r).
 
   (** In a closed world what a part does is a step of the whole. *)
   Lemma lift_some f K t : closed_world -> lift f K t <> [].
@@ -179,12 +179,12 @@ Section Progress.
         try match goal with
         | IH : forall K S, full ?r = true -> _ |- (exists t, goes None _ _ ?whole t) \/ _ =>
             match whole with
-            | Sequence r ?t => pose (f := Before t)
+            | Sequence r ?t => pose (f := In_sequence t)
             | Branch r ?bs => pose (f := Branch_of bs)
-            | Watch r ?h => pose (f := Watched_by h)
+            | Watch r ?h => pose (f := In_watch h)
             | Repeat r ?n ?g ?t => pose (f := Round_of n g t)
             | Holding ?vs r => pose (f := Held_by vs)
-            | Recruited ?v r => pose (f := Having v)
+            | Recruited ?v r => pose (f := In_recruited v)
             end;
             destruct (IH (enter f K) S Q) as [Hs | [Ha | Hk]];
             [left; apply (inside_steps None f r K S Hc Hs) | right; left; exact Ha | right; right; constructor; exact Hk]
@@ -311,16 +311,16 @@ Section Progress.
       destruct e; [contradiction|]. rewrite Hf, Hb in Hg. contradiction.
     - apply (One (Body_until k g)); auto. intros e'. cbn. apply (guard_waits_nothing (wanted k)); auto;
         destruct k; cbn; intros; congruence.
-    - apply (One (Before t)); auto.
+    - apply (One (In_sequence t)); auto.
     - intros Hg. apply goes_are_steps, steps_parts in Hg. destruct Hg as [[] | (f & p & Hp & Hg)].
       apply in_parts in Hp. destruct f; cbn in Hp; try discriminate. injection Hp as ->.
       apply in_flat_map in Hg. destruct Hg as (t0 & Ht & _). apply steps_are_goes in Ht.
       eapply IH; [reflexivity | exact Ht].
     - apply (One (Branch_of bs)); auto.
-    - apply (One (Watched_by h)); auto.
+    - apply (One (In_watch h)); auto.
     - apply (One (Round_of more g t)); auto.
     - apply (One (Held_by vs)); auto.
-    - apply (One (Having v)); auto.
+    - apply (One (In_recruited v)); auto.
   Qed.
 
   Lemma stuck_awaits_nothing K S r : stuck K S r -> awaits r = [].

@@ -196,45 +196,45 @@ Section Residuals.
 
   (** What is around a part that may go on. *)
   Inductive frame :=
-  | Before (t : residual)
+  | In_sequence (t : residual)
   | Beside (before after : list residual)
   | Branch_of (bs : list branch)
   | Body_until (k : on_cut) (g : code)
   | Body_during (k : on_cut) (i : timer) (n : seconds)
-  | Watched_by (h : handler)
+  | In_watch (h : handler)
   | Round_of (more : option nat) (g : option code) (t : residual)
   | Held_by (vs : list vehicle)
-  | Having (v : vehicle).
+  | In_recruited (v : vehicle).
 
   Definition plug (f : frame) (r : residual) : residual :=
     match f with
-    | Before t => Sequence r t
+    | In_sequence t => Sequence r t
     | Beside before after => Parallel (before ++ r :: after)
     | Branch_of bs => Branch r bs
     | Body_until k g => Until k g r
     | Body_during k i n => During k i n r
-    | Watched_by h => Watch r h
+    | In_watch h => Watch r h
     | Round_of more g t => Repeat r more g t
     | Held_by vs => Holding vs r
-    | Having v => Recruited v r
+    | In_recruited v => Recruited v r
     end.
 
   Definition frame_names (f : frame) : list vehicle :=
     match f with
-    | Before t | Round_of _ _ t => names t
+    | In_sequence t | Round_of _ _ t => names t
     | Beside before after => flat_map names (before ++ after)
     | Branch_of bs => flat_map (fun b => names (snd b)) bs
     | Held_by vs => vs
-    | Having v => [v]
-    | Body_until _ _ | Body_during _ _ _ | Watched_by _ => []
+    | In_recruited v => [v]
+    | Body_until _ _ | Body_during _ _ _ | In_watch _ => []
     end.
 
   Definition frame_numbers (f : frame) : list timer :=
     match f with
-    | Before t | Round_of _ _ t => numbers t
+    | In_sequence t | Round_of _ _ t => numbers t
     | Beside before after => flat_map numbers (before ++ after)
     | Branch_of bs => flat_map (fun b => numbers (snd b)) bs
     | Body_during _ i _ => [i]
-    | Held_by _ | Having _ | Body_until _ _ | Watched_by _ => []
+    | Held_by _ | In_recruited _ | Body_until _ _ | In_watch _ => []
     end.
 End Residuals.

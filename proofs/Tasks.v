@@ -30,7 +30,7 @@ Section Tasks.
        needed := match f with Held_by _ => needed K | _ => fun v => needed K v || mem v (frame_names f) end;
        named := fun v => named K v || mem v (frame_names f);
        taken_numbers := taken_numbers K ++ frame_numbers f;
-       its_recruits := its_recruits K ++ match f with Having v => [v] | _ => [] end |}.
+       its_recruits := its_recruits K ++ match f with In_recruited v => [v] | _ => [] end |}.
 
   Definition runs (c : code) (ys : list value) (K : context) (S : shared) : result :=
     run c ys (world_of K) (held K) S.
@@ -117,13 +117,13 @@ Section Tasks.
 
   (* One after the other *)
   | SEQ_1 : forall e K S r t l S' r' E,
-      step e (enter (Before t) K) S r l S' (Next r') E ->
+      step e (enter (In_sequence t) K) S r l S' (Next r') E ->
       step e K S (Sequence r t) l S' (Next (sequence r' t)) E
   | SEQ_2 : forall e K S r t l S' E,
-      step e (enter (Before t) K) S r l S' Ok E ->
+      step e (enter (In_sequence t) K) S r l S' Ok E ->
       step e K S (Sequence r t) l S' (Next t) (E ++ begun t)
   | SEQ_ERR : forall e K S r t l S' m E,
-      step e (enter (Before t) K) S r l S' (Err m) E ->
+      step e (enter (In_sequence t) K) S r l S' (Err m) E ->
       step e K S (Sequence r t) l S' (Err m) E
 
   (* Side by side *)
@@ -222,54 +222,54 @@ Section Tasks.
 
   (* Errors *)
   | WATCH_1 : forall e K S r h l S' r' E,
-      step e (enter (Watched_by h) K) S r l S' (Next r') E ->
+      step e (enter (In_watch h) K) S r l S' (Next r') E ->
       step e K S (Watch r h) l S' (Next (Watch r' h)) E
   | WATCH_2 : forall e K S r h l S' E,
-      step e (enter (Watched_by h) K) S r l S' Ok E ->
+      step e (enter (In_watch h) K) S r l S' Ok E ->
       step e K S (Watch r h) l S' Ok E
   | WATCH_IGNORE : forall e K S r h l S' m E s gone N ds,
-      step e (enter (Watched_by h) K) S r l S' (Err m) E ->
+      step e (enter (In_watch h) K) S r l S' (Err m) E ->
       handles_error (handles h) m K S' = Rules Ignores s gone N ds ->
       step e K S (Watch r h) l (after_handler s gone N S') Ok (E ++ effects_of ds)
   | WATCH_PROPAGATE : forall e K S r h l S' m E s gone N ds,
-      step e (enter (Watched_by h) K) S r l S' (Err m) E ->
+      step e (enter (In_watch h) K) S r l S' (Err m) E ->
       handles_error (handles h) m K S' = Rules Propagates s gone N ds ->
       step e K S (Watch r h) l (after_handler s gone N S') (Err m) (E ++ effects_of ds)
   | WATCH_PROPAGATE_fault : forall e K S r h l S' m E m' ds,
-      step e (enter (Watched_by h) K) S r l S' (Err m) E ->
+      step e (enter (In_watch h) K) S r l S' (Err m) E ->
       handles_error (handles h) m K S' = Breaks m' ds ->
       step e K S (Watch r h) l S' (Err m') (E ++ effects_of (said ds))
   | WATCH_PROPAGATE_foreign : forall e K S r h l S' m E s gone N ds x,
-      step e (enter (Watched_by h) K) S r l S' (Err m) E ->
+      step e (enter (In_watch h) K) S r l S' (Err m) E ->
       handles_error (handles h) m K S' = Rules x s gone N ds ->
       anew h = None -> x = Retries ->
       step e K S (Watch r h) l (after_handler s gone N S') (Err (foreign_retry (handles h))) (E ++ effects_of ds)
   | WATCH_PROPAGATE_deep : forall e K S r h l S' m E s gone N ds t u q,
-      step e (enter (Watched_by h) K) S r l S' (Err m) E ->
+      step e (enter (In_watch h) K) S r l S' (Err m) E ->
       handles_error (handles h) m K S' = Rules (Instead t) s gone N ds ->
       anew h = Some (u, q) -> deepest <= depth q ->
       step e K S (Watch r h) l (after_handler s gone N S') (Err (too_deep (handles h))) (E ++ effects_of ds)
   (* The value of a handler that cannot recover is not looked at. *)
   | WATCH_PROPAGATE_value : forall e K S r h l S' m E s gone N ds t,
-      step e (enter (Watched_by h) K) S r l S' (Err m) E ->
+      step e (enter (In_watch h) K) S r l S' (Err m) E ->
       handles_error (handles h) m K S' = Rules (Instead t) s gone N ds ->
       anew h = None ->
       step e K S (Watch r h) l (after_handler s gone N S') (Err m) (E ++ effects_of ds)
   | WATCH_HALT : forall e K S r h l S' m E m' s gone N ds,
-      step e (enter (Watched_by h) K) S r l S' (Err m) E ->
+      step e (enter (In_watch h) K) S r l S' (Err m) E ->
       handles_error (handles h) m K S' = Halts_ m' s gone N ds ->
       step e K S (Watch r h) l (after_handler s gone N S') (Ends (Halted m')) (E ++ effects_of ds)
   | ASSERT_ERR_handler : forall e K S r h l S' m E m' ds,
-      step e (enter (Watched_by h) K) S r l S' (Err m) E ->
+      step e (enter (In_watch h) K) S r l S' (Err m) E ->
       handles_error (handles h) m K S' = Asserts_ m' ds ->
       step e K S (Watch r h) l S' (Ends (Failed m')) (E ++ effects_of (said ds))
   | WATCH_RETRY : forall e K S r h l S' m E s gone N ds t q,
-      step e (enter (Watched_by h) K) S r l S' (Err m) E ->
+      step e (enter (In_watch h) K) S r l S' (Err m) E ->
       handles_error (handles h) m K S' = Rules Retries s gone N ds ->
       anew h = Some (t, q) ->
       step e K S (Watch r h) l (after_handler s gone N S') (Next (Watch (Unallocated t q) h)) (E ++ effects_of ds)
   | WATCH_INSTEAD : forall e K S r h l S' m E s gone N ds t u q,
-      step e (enter (Watched_by h) K) S r l S' (Err m) E ->
+      step e (enter (In_watch h) K) S r l S' (Err m) E ->
       handles_error (handles h) m K S' = Rules (Instead t) s gone N ds ->
       anew h = Some (u, q) -> depth q < deepest ->
       step e K S (Watch r h) l (after_handler s gone N S') (Next (Unallocated t (deeper q))) (E ++ effects_of ds)
@@ -330,12 +330,12 @@ Section Tasks.
       step (Some (Comes i v)) K S (Recruit i q a j d) (LRecruit v) S
         (Next (Recruited v (Made a [vehicle_value v] {| allowed := Some [v]; place := j; depth := d |}))) [Bind [v]]
   | RECRUIT_1 : forall e K S v r l S' r' E,
-      step e (enter (Having v) K) S r l S' (Next r') E ->
+      step e (enter (In_recruited v) K) S r l S' (Next r') E ->
       step e K S (Recruited v r) l S' (Next (Recruited v r')) E
   | RECRUIT_2 : forall e K S v r l S' E,
-      step e (enter (Having v) K) S r l S' Ok E ->
+      step e (enter (In_recruited v) K) S r l S' Ok E ->
       step e K S (Recruited v r) l S' Ok (E ++ [Release [v]])
   | RECRUIT_ERR : forall e K S v r l S' m E,
-      step e (enter (Having v) K) S r l S' (Err m) E ->
+      step e (enter (In_recruited v) K) S r l S' (Err m) E ->
       step e K S (Recruited v r) l S' (Err m) (E ++ [Release [v]]).
 End Tasks.

@@ -6,7 +6,7 @@ module Scenario_world = Dolphin_environment.Scenario_world
 
 type given = { program : Core.program; scenario : Dolphin_scenario.Scenario.t }
 
-let options ~faults ~world g : Timed.options =
+let options ~faults ~world g : Clocked.options =
   { environment = Scenario_world.environment ~answers:[] ~faults g.program g.scenario; program = g.program;
     world = world g.scenario; durations = Durations.of_scenario g.scenario;
     dates = Dated_code.named g.program }
@@ -15,7 +15,7 @@ let options ~faults ~world g : Timed.options =
 
 let most_states = 100_000
 
-let window (w : Timing.window) : Timed_data.window =
+let window (w : Timed_analysis.window) : Timed_data.window =
   { earliest = w.earliest; latest = (match w.latest with At n -> Some n | Unbounded -> None) }
 
 let both (a : Timed_data.window) (b : Timed_data.window) : Timed_data.window =
@@ -32,7 +32,7 @@ let moments windows =
   List.sort compare (List.filter_map one windows)
 
 (* Those of one name on one vehicle are one. *)
-let add_task tasks ((task : Timing.task), windows) =
+let add_task tasks ((task : Timed_analysis.task), windows) =
   let is_same (t : Timed_data.task) = t.name = task.name && t.vehicle = task.vehicle in
   let others, before = List.partition (fun t -> not (is_same t)) tasks in
   let known = List.concat_map (fun (t : Timed_data.task) -> t.moments) before in
@@ -48,7 +48,7 @@ let line (p : Core.program) site = Dolphin_syntax.Location.line p.locations.(sit
 
 let times ~faults g =
   let limits = { Dolphin_checker.Limits.none with max_states = Some most_states } in
-  let o = Timing.run limits (options ~faults ~world:Scenario_world.world g) in
+  let o = Timed_analysis.run limits (options ~faults ~world:Scenario_world.world g) in
   if o.stopped <> None then Error "there are too many states, or it is not clear what happens"
   else
     let missed = List.filter_map (fun (site, run) -> Option.map (fun _ -> line g.program site) run) o.deadlines in
@@ -60,7 +60,7 @@ let times ~faults g =
 
 let most_steps = 10_000
 
-let ended (item : Timed.item) =
+let ended (item : Clocked.item) =
   match item with
   | Task v -> Timed_data.Vehicle v
   | Timer i -> Timer i

@@ -8,26 +8,26 @@ module Response = Dolphin_http.Response
 (* {1 The helm} *)
 
 let client h role (r : Request.t) =
-  let operator = Access.operator (Hall.access h) r in
+  let operator = Access.operator (Session.access h) r in
   let key =
     match Request.header r "x-dolphin-client", Request.parameter r "client" with
     | Some key, _ | None, Some key -> key
     | None, None -> "api"
   in
-  if Visitors.is_key key then Ok (Hall.name h ?operator role key)
+  if Visitors.is_key key then Ok (Session.name h ?operator role key)
   else bad "a client's key has 1 to 64 letters, digits, points, dashes and underscores"
 
 let take h client by =
-  if not (Hall.watches h client) then
+  if not (Session.watches h client) then
     refuse 409 "not-watching" "a client that has the helm looks on: GET /api/events?client=KEY"
-  else Ok (Hall.set_helm h (by (Hall.helm h) client))
+  else Ok (Session.set_helm h (by (Session.helm h) client))
 
 (* The log shows it to all clients. *)
 let force h client =
-  let before = Helm.holder (Hall.helm h) in
+  let before = Helm.holder (Session.helm h) in
   let* () = take h client Helm.force in
-  match Hall.run h, before with
-  | Some run, Some other when other <> client && Live_run.goes_on run && Hall.operator h client = None ->
+  match Session.run h, before with
+  | Some run, Some other when other <> client && Live_run.goes_on run && Session.operator h client = None ->
     Ok (Live_run.remark run (Printf.sprintf "%s takes the helm from %s" client other))
   | (Some _ | None), _ -> Ok ()
 
@@ -36,26 +36,26 @@ let steer h client found =
   match what with
   | "take" -> take h client Helm.ask
   | "force" -> force h client
-  | "keep" -> Ok (Hall.keep_helm h client)
-  | "give-up" -> Ok (Hall.set_helm h (Helm.give_up (Hall.helm h) client))
+  | "keep" -> Ok (Session.keep_helm h client)
+  | "give-up" -> Ok (Session.set_helm h (Helm.give_up (Session.helm h) client))
   | _ -> bad "want is \"take\", \"force\", \"keep\" or \"give-up\""
 
 let helm h client found =
   let* () = steer h client found in
-  let helm = Hall.helm h in
+  let helm = Session.helm h in
   Ok (`Assoc [ ("holder", of_option (fun c -> `String c) (Helm.holder helm)); ("asking", texts (Helm.asking helm)) ])
 
 (* {1 Routes} *)
 
 type route =
-  | Look of (Hall.t -> Response.t)
+  | Look of (Session.t -> Response.t)
   | Beside of string  (* a task of a worker *)
   | Save of string  (* likewise, of the client that has the helm *)
-  | Told of (Hall.t -> Access.role -> Request.t -> (Response.t, refusal) result Lwt.t)
-  | Command of (Hall.t -> Field.members -> (json, refusal) result)
-  | Answer of (Hall.t -> string -> Field.members -> (json, refusal) result Lwt.t)  (* of clients that answer, too *)
-  | Later of (Hall.t -> client:string -> Request.t -> Field.members -> (json, Response.t) result Lwt.t)
-  | Steer of (Hall.t -> string -> Field.members -> (json, refusal) result)
+  | Told of (Session.t -> Access.role -> Request.t -> (Response.t, refusal) result Lwt.t)
+  | Command of (Session.t -> Field.members -> (json, refusal) result)
+  | Answer of (Session.t -> string -> Field.members -> (json, refusal) result Lwt.t)  (* of clients that answer, too *)
+  | Later of (Session.t -> client:string -> Request.t -> Field.members -> (json, Response.t) result Lwt.t)
+  | Steer of (Session.t -> string -> Field.members -> (json, refusal) result)
 
 let most_watchers = 60
 let most_steerers = 40
@@ -69,19 +69,19 @@ let role_event (role : Access.role) client =
 let events h (role : Access.role) r =
   let* client = client h role r in
   let most = match role with Steers | Answers -> most_steerers | Watches -> most_watchers in
-  if Hall.watchers h role >= most then refuse 503 "too-many" "too many look on"
-  else if Hall.streams_of h client >= most_of_one then refuse 503 "too-many" "this client looks on often enough"
+  if Session.watchers h role >= most then refuse 503 "too-many" "too many look on"
+  else if Session.streams_of h client >= most_of_one then refuse 503 "too-many" "this client looks on often enough"
   else
     let last = match Request.header r "last-event-id" with Some id -> Some id | None -> Request.parameter r "last" in
-    let follow write = write (role_event role client) >>= fun () -> Hall.follow h role ~client ~last write in
+    let follow write = write (role_event role client) >>= fun () -> Session.follow h role ~client ~last write in
     Ok (Response.stream ~kind:"text/event-stream" follow)
 
 (* {1 Work in other processes} *)
 
-let order h ?(query = []) task = { Worker.task; workspace = Hall.workspace h; query }
+let order h ?(query = []) task = { Worker.task; workspace = Session.workspace h; query }
 
 let beside h role ~client task (r : Request.t) =
-  Worker_pool.whole (Hall.workers h role) ~client (order h ~query:r.query task) ~body:r.body () >|= function
+  Worker_pool.whole (Session.workers h role) ~client (order h ~query:r.query task) ~body:r.body () >|= function
   | Ok response -> response
   | Error r -> of_refusal r
 
@@ -94,8 +94,8 @@ let replay h role (r : Request.t) =
   match client h role r with
   | Error r -> Lwt.return (Error r)
   | Ok client ->
-    let journal () = Worker_pool.whole (Hall.workers h role) ~client (order h ~query:r.query "journal") () in
-    if Worker_pool.is_full (Hall.replays h role) client then Lwt.return (Error too_many)
+    let journal () = Worker_pool.whole (Session.workers h role) ~client (order h ~query:r.query "journal") () in
+    if Worker_pool.is_full (Session.replays h role) client then Lwt.return (Error too_many)
     else
       journal () >|= function
       | Error r -> Error r
@@ -105,7 +105,7 @@ let replay h role (r : Request.t) =
         let* journal = get Field.text "journal" found in
         let order = order h ~query:[ ("journal", journal) ] "replay" in
         let write_all write =
-          Worker_pool.pieces (Hall.replays h role) ~client order write >>= function
+          Worker_pool.pieces (Session.replays h role) ~client order write >>= function
           | Ok () -> Lwt.return_unit
           | Error r -> write (failed_event r)
         in
@@ -119,7 +119,8 @@ let plans h role (r : Request.t) =
       Run_commands.prepared h role ~client "plans" r.body >>= function
       | Error response -> Lwt.return (Ok response)
       | Ok found ->
-        Plans.list ~dolphin:(Hall.settings h).dolphin found >|= Result.map (Response.text ~kind:"application/json" 200))
+        Plans.list ~dolphin:(Session.settings h).dolphin found
+        >|= Result.map (Response.text ~kind:"application/json" 200))
 
 let analyse (subject : Analysis.subject) h ~client (r : Request.t) _ =
   let start found = Result.map_error of_refusal (Analyses.start subject h found) in
@@ -134,7 +135,7 @@ let of_subject path subject =
     (("DELETE", path), Command (fun h _ -> Analyses.cancel subject h)) ]
 
 let table =
-  [ (("GET", "status"), Look (fun h -> json (Hall.status h)));
+  [ (("GET", "status"), Look (fun h -> json (Session.status h)));
     (("GET", "events"), Told (fun h role r -> Lwt.return (events h role r)));
     (("GET", "files"), Beside "files"); (("GET", "file"), Beside "file"); (("PUT", "file"), Save "save");
     (("GET", "layer"), Beside "layer"); (("GET", "tile"), Beside "tile");
@@ -164,7 +165,7 @@ let command_body (r : Request.t) =
 (* The client, if it has the helm or gets it by this. *)
 let helmsman h r =
   let* client = client h Steers r in
-  Result.map (fun () -> client) (Result.map_error (refusal 409 "no-helm") (Hall.command h client))
+  Result.map (fun () -> client) (Result.map_error (refusal 409 "no-helm") (Session.command h client))
 
 let command h r =
   let* found = command_body r in
@@ -216,18 +217,18 @@ let api h role (r : Request.t) path =
 let protected h (response : Response.t) =
   let is_new (name, _) = not (List.mem_assoc name response.headers) in
   { response with
-    headers = response.headers @ List.filter is_new (Access.headers ~tiles:(Hall.settings h).tiles) }
+    headers = response.headers @ List.filter is_new (Access.headers ~tiles:(Session.settings h).tiles) }
 
 let page h (r : Request.t) =
-  match Access.enter (Hall.access h) r with
+  match Access.enter (Session.access h) r with
   | Some headers -> Response.text ~headers ~kind:"text/plain" 303 ""
   | None ->
     let none = of_refusal (refusal 404 "not-found" "there is nothing of this name") in
-    Option.value (Page.find (Hall.settings h).page r) ~default:none
+    Option.value (Page.find (Session.settings h).page r) ~default:none
 
 let reply h (r : Request.t) =
   let answered =
-    match Access.check (Hall.access h) r, r.path, r.verb with
+    match Access.check (Session.access h) r, r.path, r.verb with
     | Error (status, why), _, _ -> Lwt.return (of_refusal (refusal status "refused" why))
     | Ok role, "api" :: path, _ -> api h role r (String.concat "/" path)
     | Ok _, _, ("GET" | "HEAD") -> Lwt.return (page h r)

@@ -1,7 +1,7 @@
 open Lwt.Infix
 module Server = Dolphin_http.Server
 
-type settings = Hall.settings = {
+type settings = Session.settings = {
   folder : Folder.t;
   run : Dolphin_app.Run.settings;
   fleet : string option;
@@ -15,16 +15,16 @@ type settings = Hall.settings = {
   workers : Worker_pool.limits;
 }
 
-type t = { hall : Hall.t; server : Server.t }
+type t = { hall : Session.t; server : Server.t }
 
 let start settings ~port =
-  let hall = Hall.make settings in
+  let hall = Session.make settings in
   (* The port that is had is known only then. *)
   let started server =
-    Hall.served_at hall (Server.port server);
+    Session.served_at hall (Server.port server);
     { hall; server }
   in
-  let rank r = Access.rank (Hall.access hall) r in
+  let rank r = Access.rank (Session.access hall) r in
   let tls = Option.map (fun (c : Certificate.t) -> c.context) settings.certificate in
   Result.map started (Server.start ?address:settings.listen ?tls ~rank ~port (Api.reply hall))
 
@@ -36,7 +36,7 @@ let name = function
   | Some address -> Unix.string_of_inet_addr address
 
 let links c =
-  let settings = Hall.settings c.hall and access = Hall.access c.hall in
+  let settings = Session.settings c.hall and access = Session.access c.hall in
   let name = name settings.listen in
   let name = if String.contains name ':' then "[" ^ name ^ "]" else name in
   let link token =
@@ -50,17 +50,17 @@ let links c =
   in
   match access.operators with [] -> [ ("", link "") ] | operators -> List.map of_operator operators
 
-let busy c = Hall.busy c.hall
+let busy c = Session.busy c.hall
 
 let close c =
-  List.iter Analysis.cancel (Hall.analyses c.hall);
+  List.iter Analysis.cancel (Session.analyses c.hall);
   let over =
-    match Hall.run c.hall with
+    match Session.run c.hall with
     | Some run when Live_run.goes_on run -> Live_run.stop run Next; Live_run.finished run
     | Some _ | None -> Lwt.return_unit
   in
   over >>= fun () ->
-  Hall.close c.hall;
+  Session.close c.hall;
   Server.close c.server
 
-let workers c = Hall.worker_pids c.hall
+let workers c = Session.worker_pids c.hall

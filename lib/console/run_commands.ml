@@ -7,7 +7,7 @@ module Request = Dolphin_http.Request
 module Response = Dolphin_http.Response
 
 let not_busy h =
-  if Hall.busy h then refuse 409 "busy" "a run goes on: one at a time" else Ok ()
+  if Session.busy h then refuse 409 "busy" "a run goes on: one at a time" else Ok ()
 
 let unavailable e = refusal 503 "unavailable" (String.concat "; " (Error.sentences e))
 
@@ -25,8 +25,8 @@ let of_refused result = Result.map_error of_refusal result
 
 (* The reply of a worker to a request. *)
 let prepared h role ~client task ?(query = []) body =
-  let order = { Worker.task; workspace = Hall.workspace h; query } in
-  Worker_pool.whole (Hall.workers h role) ~client order ~body () >|= function
+  let order = { Worker.task; workspace = Session.workspace h; query } in
+  Worker_pool.whole (Session.workers h role) ~client order ~body () >|= function
   | Error r -> Error (of_refusal r)
   | Ok { Response.status = 200; body = Text text; _ } ->
     of_refused (Result.bind (needed (Host_value.parse text)) (fun json -> needed (members json)))
@@ -46,7 +46,7 @@ let begin_ h ~client found { speed; seed; answers; people } =
   let* path = get Field.text "program" found in
   let* named = optional Field.text "fleet" found in
   let* set = set found in
-  let settings = (Hall.settings h).run and w = Hall.workspace h in
+  let settings = (Session.settings h).run and w = Session.workspace h in
   let* program = Workspace.program w ~set path in
   let is_wanted = Run.is_simulated settings || named <> None in
   let* fleet = if is_wanted then Workspace.fleet w ~program:program.path named else Ok Fleet_file.nobody in
@@ -54,12 +54,12 @@ let begin_ h ~client found { speed; seed; answers; people } =
   let* journal = Result.map_error unavailable (Run_folder.fresh ~program:program.path) in
   let settings = { settings with speed; seed; answers; people; socket = true } in
   let order = { Live_run.program; fleet; settings } in
-  let by = Hall.operator h client in
-  Ok (started (Hall.begin_run h (fun ~id ~changed -> Live_run.start ?by ~id ~changed ~journal order)))
+  let by = Session.operator h client in
+  Ok (started (Session.begin_run h (fun ~id ~changed -> Live_run.start ?by ~id ~changed ~journal order)))
 
 (* The program is read here, too, but only once a worker has read it within its limits, and while no run goes on. *)
 let start h ~client (r : Request.t) found =
-  let simulated = Run.is_simulated (Hall.settings h).run in
+  let simulated = Run.is_simulated (Session.settings h).run in
   let wanted =
     let* () = not_busy h in
     let* options = options found in
@@ -79,12 +79,12 @@ let resume h ~client (r : Request.t) found =
     let* () = not_busy h in
     let* people = optional truth "people" found in
     let* { Kept_runs.path; journal; set; speed } = Kept_runs.of_json kept in
-    let* program = Workspace.program (Hall.workspace h) ~set path in
+    let* program = Workspace.program (Session.workspace h) ~set path in
     let fleet = { Fleet_file.nobody with path = None } in
-    let settings = { (Hall.settings h).run with speed; seed = None; people = people = Some true; socket = true } in
+    let settings = { (Session.settings h).run with speed; seed = None; people = people = Some true; socket = true } in
     let order = { Live_run.program; fleet; settings } in
-    let by = Hall.operator h client in
-    Ok (started (Hall.begin_run h (fun ~id ~changed -> Live_run.resume ?by ~id ~changed ~journal order)))
+    let by = Session.operator h client in
+    Ok (started (Session.begin_run h (fun ~id ~changed -> Live_run.resume ?by ~id ~changed ~journal order)))
   in
   match not_busy h with
   | Error r -> Lwt.return (Error (of_refusal r))
@@ -106,23 +106,23 @@ let enact h found =
   let* () = not_busy h in
   let* subject = Result.bind (get Field.text "of" found) subject_of in
   let* speed = speed found in
-  let* analysis = Option.to_result ~none:no_counterexample (Hall.analysis h subject) in
+  let* analysis = Option.to_result ~none:no_counterexample (Session.analysis h subject) in
   let* text = Option.to_result ~none:no_counterexample (Analysis.shown analysis) in
   let lines = List.filter (( <> ) "") (String.split_on_char '\n' text) in
   let* witness = Result.map_error (fun _ -> no_counterexample) (Dolphin_trace.Witness.of_lines lines) in
-  let* program, fleet = Analysis_work.witnessed (Hall.workspace h) (Analysis.order analysis) witness in
-  Ok (started (Hall.begin_run h (fun ~id ~changed -> Live_run.enact ~id ~changed ~speed program fleet witness)))
+  let* program, fleet = Analysis_work.witnessed (Session.workspace h) (Analysis.order analysis) witness in
+  Ok (started (Session.begin_run h (fun ~id ~changed -> Live_run.enact ~id ~changed ~speed program fleet witness)))
 
 (* {1 While it goes on} *)
 
 let going_on h =
-  match Hall.run h with
+  match Session.run h with
   | Some run when Live_run.goes_on run -> Ok run
   | Some _ | None -> refuse 409 "no-run" "no run goes on"
 
 (* The log names the client. Of operators with names, journal and log have the act already. *)
 let without_helm h run client what =
-  if Hall.operator h client = None && Helm.holder (Hall.helm h) <> Some client then
+  if Session.operator h client = None && Helm.holder (Session.helm h) <> Some client then
     Live_run.remark run (Printf.sprintf "%s %s, without the helm" client what)
 
 (* Without [all], each Stop goes one step further: two people who press it at once would end what the first one has
@@ -131,7 +131,7 @@ let stop h client found =
   let* all = optional truth "all" found in
   let* run = going_on h in
   let stopping : Live_run.stopping = match all with None -> Next | Some false -> Program | Some true -> All in
-  Live_run.stop ?by:(Hall.operator h client) run stopping;
+  Live_run.stop ?by:(Session.operator h client) run stopping;
   without_helm h run client "stops it";
   Ok (`Assoc [])
 
@@ -139,7 +139,8 @@ let answer h client found =
   let* run = going_on h in
   let* number = get whole "question" found in
   let* text = get Field.text "text" found in
-  let* () = Result.map_error (refusal 409 "answered") (Live_run.answer ?by:(Hall.operator h client) run number text) in
+  let answered = Live_run.answer ?by:(Session.operator h client) run number text in
+  let* () = Result.map_error (refusal 409 "answered") answered in
   without_helm h run client "answers";
   Ok (`Assoc [])
 
@@ -158,7 +159,7 @@ let post h client found =
   match Result.bind (going_on h) (fun run -> Result.map (fun pairs -> (run, pairs)) (pairs found)) with
   | Error r -> Lwt.return (Error r)
   | Ok (run, pairs) ->
-    Live_run.post ?by:(Hall.operator h client) run pairs >|= function
+    Live_run.post ?by:(Session.operator h client) run pairs >|= function
     | Ok time ->
       without_helm h run client ("posts " ^ String.concat ", " (List.map fst pairs));
       Ok (`Assoc [ ("time", Canonical.number time) ])

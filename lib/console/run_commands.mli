@@ -8,26 +8,26 @@ module Response = Dolphin_http.Response
 (** {1 Beginning} *)
 
 val prepared :
-  Hall.t -> Access.role -> client:string -> string -> ?query:(string * string) list -> string ->
+  Session.t -> Access.role -> client:string -> string -> ?query:(string * string) list -> string ->
   (Field.members, Response.t) result Lwt.t
 (** [prepared h role ~client task ~query body] is the object that a worker makes of [body] by [task], or its refusal. *)
 
-val start : Hall.t -> client:string -> Request.t -> Field.members -> (json, Response.t) result Lwt.t
+val start : Session.t -> client:string -> Request.t -> Field.members -> (json, Response.t) result Lwt.t
 (** [POST run]. *)
 
-val resume : Hall.t -> client:string -> Request.t -> Field.members -> (json, Response.t) result Lwt.t
+val resume : Session.t -> client:string -> Request.t -> Field.members -> (json, Response.t) result Lwt.t
 (** [POST run/resume]. *)
 
-val enact : Hall.t -> Field.members -> (json, refusal) result
+val enact : Session.t -> Field.members -> (json, refusal) result
 (** [POST run/counterexample]. *)
 
 (** {1 While it goes on} *)
 
-val stop : Hall.t -> string -> Field.members -> (json, refusal) result
+val stop : Session.t -> string -> Field.members -> (json, refusal) result
 (** [stop h client found]: [POST run/stop]. *)
 
-val answer : Hall.t -> string -> Field.members -> (json, refusal) result
+val answer : Session.t -> string -> Field.members -> (json, refusal) result
 (** [answer h client found]: [POST run/answer]. *)
 
-val post : Hall.t -> string -> Field.members -> (json, refusal) result Lwt.t
+val post : Session.t -> string -> Field.members -> (json, refusal) result Lwt.t
 (** [post h client found]: [POST run/post]. *)

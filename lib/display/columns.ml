@@ -44,9 +44,9 @@ let site_of_broken program (c : Configuration.t) (t : Transition.t) =
     match offer with
     | Perform c -> Some c
     | Check c -> Some c
-    | Refute c -> Some c
-    | Decide c -> Some c
-    | Take c -> Some c
+    | Guard_false c -> Some c
+    | Guard_either c -> Some c
+    | Guard_values c -> Some c
     | Measure c -> Some c
     | Make (c, _, _) -> Some c
     | Start _ | Allocate _ | End_of _ | Expiry_of _ | Answer_to _ | Recruit_for _ -> None

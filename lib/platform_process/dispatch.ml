@@ -6,7 +6,7 @@ module Names = Map.Make (String)
 module Name_set = Set.Make (String)
 
 (* The outstanding orders of one vehicle: a request without an end, and a task that waits for that end. *)
-type slot = { errand : Errand.t; next : (Core.platform_task * float) option }
+type slot = { errand : Order_state.t; next : (Core.platform_task * float) option }
 
 type seen = {
   sighting : Sighting.t;
@@ -40,7 +40,7 @@ type t = {
   adapter : Report.greeting option;  (* of the one that is there *)
   seen : seen Names.t;
   slots : slot Names.t;
-  given_up : (Core.vehicle * Errand.t) list;  (* stops without an answer *)
+  given_up : (Core.vehicle * Order_state.t) list;  (* stops without an answer *)
   bound : Name_set.t;
   timeout : float;
   timeouts : float Names.t;
@@ -70,7 +70,7 @@ let output o d = { d with outputs = o :: d.outputs }
 let finish d = ({ d with outputs = [] }, List.rev d.outputs)
 let send order d = if d.adapter = None then d else output (Send order) d
 
-let keep v kept d = output (Keep (v, Kept.to_json ~platform:d.platform kept)) d
+let keep v kept d = output (Keep (v, Request_note.to_json ~platform:d.platform kept)) d
 let remark v text d = output (Remark (v, text)) d
 
 let remark_refused r d =
@@ -142,10 +142,10 @@ let rec waiting d =
 
 (* {1 Orders} *)
 
-let start_order v (e : Errand.t) d =
+let start_order v (e : Order_state.t) d =
   Order.Start { request = e.request; vehicle = v; plan = e.body; timeout = timeout_of v d }
 
-let resume_order v (e : Errand.t) d =
+let resume_order v (e : Order_state.t) d =
   Order.Resume { request = e.request; vehicle = v; plan = e.body; timeout = timeout_of v d; notes = e.notes }
 
 let put v slot d = { d with slots = Names.add v slot d.slots }
@@ -161,8 +161,8 @@ let order_stop ~now v (slot : slot) d =
 
 let begin_errand ~now v task d =
   let request = Printf.sprintf "%s-%d" d.prefix (d.numbered + 1) in
-  let errand = Errand.make ~now ~request task in
-  let note = Kept.to_json ~platform:d.platform (Asked { request; plan = errand.plan }) in
+  let errand = Order_state.make ~now ~request task in
+  let note = Request_note.to_json ~platform:d.platform (Asked { request; plan = errand.plan }) in
   { d with numbered = d.numbered + 1 }
   |> put v { errand; next = None }
   |> output (Keep_before (v, note, request))
@@ -173,7 +173,7 @@ let free ~now v (slot : slot) d =
   match slot.next with None -> d | Some (task, _) -> begin_errand ~now v task d
 
 let durable ~now request d =
-  let is_it _ slot = slot.errand.Errand.request = request && slot.errand.stage = Unwritten in
+  let is_it _ slot = slot.errand.Order_state.request = request && slot.errand.stage = Unwritten in
   let d =
     match Names.choose_opt (Names.filter is_it d.slots) with
     | None -> d
@@ -201,7 +201,7 @@ let end_errand ~now v (slot : slot) word d =
 let fail_uncertain ~now v (slot : slot) why d =
   let e = slot.errand in
   let d = end_task v (Task_failed (v, why)) d in
-  if Errand.is_sent e then
+  if Order_state.is_sent e then
     keep v (Unsettled { request = e.request; plan = e.body }) d |> order_stop ~now v { slot with next = None }
   else { d with slots = Names.remove v d.slots }
 
@@ -211,7 +211,7 @@ let of_request request d =
 let word ~now request (word : Report.word) d =
   match of_request request d with
   | None ->
-    let is_it (_, (e : Errand.t)) = e.request = request in
+    let is_it (_, (e : Order_state.t)) = e.request = request in
     if Report.is_end word then
       let d = List.fold_left (fun d (v, _) -> keep v (Over request) d) d (List.filter is_it d.given_up) in
       { d with given_up = List.filter (fun g -> not (is_it g)) d.given_up }
@@ -258,7 +258,7 @@ let note request note id d =
   match of_request request d with
   | None -> Option.fold id ~none:d ~some:(fun id -> send (Kept id) d)
   | Some (v, slot) ->
-    let json = Kept.to_json ~platform:d.platform (Note { request; note }) in
+    let json = Request_note.to_json ~platform:d.platform (Note { request; note }) in
     let d = with_errand v { slot.errand with notes = note :: slot.errand.notes } slot d in
     output (match id with None -> Keep (v, json) | Some id -> Keep_and_tell (v, json, id)) d
 
@@ -295,7 +295,7 @@ let repeat_orders ~now v (slot : slot) d =
       with_errand v { errand with stop_sent = Some stop_sent } slot d
       |> send (Stop { request = errand.request; vehicle = v })
 
-let repeat_stop d (v, (e : Errand.t)) =
+let repeat_stop d (v, (e : Order_state.t)) =
   send (Stop { request = e.request; vehicle = v }) (send (resume_order v e d) d)
 
 let born ~now greeting d =
@@ -330,7 +330,7 @@ let due_of v (slot : slot) d =
     | Some (_, asked), None -> Float.max lost asked +. timeout_of v d
     | Some _, Some _ | None, _ -> infinity
   in
-  let of_errand = Errand.due ~link ~lost ~timeout:(timeout_of v d) ~patience:(patience d) slot.errand in
+  let of_errand = Order_state.due ~link ~lost ~timeout:(timeout_of v d) ~patience:(patience d) slot.errand in
   Float.min of_next of_errand
 
 let refusal_due d = if d.refusal.waits = None then infinity else d.refusal.informed +. refusal_interval
@@ -344,7 +344,7 @@ let seconds x = if x = 1. then "1 second" else Printf.sprintf "%g seconds" x
 let give_up_stop ~now v (slot : slot) d =
   let e = slot.errand in
   let text =
-    Printf.sprintf "may still run plan %s: the stop has had no answer for %s" e.plan (seconds Errand.stop_patience)
+    Printf.sprintf "may still run plan %s: the stop has had no answer for %s" e.plan (seconds Order_state.stop_patience)
   in
   free ~now v slot (remark (Some v) text { d with given_up = (v, e) :: d.given_up })
 
@@ -393,7 +393,7 @@ let stop_one ~now v d =
   match Names.find_opt v d.slots with
   | None -> d
   | Some slot when not slot.errand.wanted -> put v { slot with next = None } d
-  | Some slot when Errand.is_sent slot.errand -> order_stop ~now v slot d
+  | Some slot when Order_state.is_sent slot.errand -> order_stop ~now v slot d
   | Some slot -> keep v (Over slot.errand.request) { d with slots = Names.remove v d.slots }
 
 let stop ~now v d = finish (stop_one ~now v d)
@@ -433,11 +433,11 @@ let cancel_timer timer d =
 let resume_task ~now d (v, (c : History.commanded)) =
   let outstanding ~wanted (c : History.commanded) notes =
     let to_errand (request, notes) =
-      Errand.outstanding ~now ~request ~plan:c.task.name ~body:(Plan_body.to_json c.task) ~wanted ~notes
+      Order_state.outstanding ~now ~request ~plan:c.task.name ~body:(Plan_body.to_json c.task) ~wanted ~notes
     in
-    Option.map to_errand (Kept.latest ~platform:d.platform notes)
+    Option.map to_errand (Request_note.latest ~platform:d.platform notes)
   in
-  let is_over json = match Kept.latest ~platform:d.platform [ json ] with None -> true | Some _ -> false in
+  let is_over json = match Request_note.latest ~platform:d.platform [ json ] with None -> true | Some _ -> false in
   match outstanding ~wanted:(not c.is_stopped) c c.notes with
   | Some errand -> put v { errand; next = None } d
   | None when c.is_stopped -> d
@@ -450,7 +450,7 @@ let resume_task ~now d (v, (c : History.commanded)) =
 
 let resume_unsettled ~now d (v, request, body) =
   let plan = match body with `Assoc (("name", `String name) :: _) -> name | _ -> "?" in
-  let errand = Errand.outstanding ~now ~request ~plan ~body ~wanted:false ~notes:[] in
+  let errand = Order_state.outstanding ~now ~request ~plan ~body ~wanted:false ~notes:[] in
   match Names.find_opt v d.slots with
   | None -> put v { errand; next = None } d
   | Some slot when slot.errand.request = request -> d
@@ -466,18 +466,18 @@ let resume ~now ~announce_period history d =
       timers = Timers.of_list o.timers }
   in
   let d = List.fold_left (resume_task ~now) d o.tasks in
-  List.fold_left (resume_unsettled ~now) d (Kept.unsettled ~platform:d.platform history)
+  List.fold_left (resume_unsettled ~now) d (Request_note.unsettled ~platform:d.platform history)
 
-let has_outstanding d = d.given_up <> [] || Names.exists (fun _ slot -> Errand.is_sent slot.errand) d.slots
+let has_outstanding d = d.given_up <> [] || Names.exists (fun _ slot -> Order_state.is_sent slot.errand) d.slots
 
 (* {1 Displays} *)
 
 let quiet d = Names.is_empty d.slots
 
 let unsettled d =
-  let plan (v, (e : Errand.t)) = (v, e.plan) in
+  let plan (v, (e : Order_state.t)) = (v, e.plan) in
   let errands = List.map (fun (v, (slot : slot)) -> (v, slot.errand)) (Names.bindings d.slots) in
-  let sent = List.filter (fun (_, e) -> Errand.is_sent e) errands in
+  let sent = List.filter (fun (_, e) -> Order_state.is_sent e) errands in
   List.sort_uniq compare (List.map plan (sent @ d.given_up))
 
 type vehicle = {
@@ -497,8 +497,8 @@ let vehicles d =
     let of_errand f = Option.bind errand f in
     { state = Sighting.describe s; is_placed = Sighting.is_placed s; battery = Sighting.battery s;
       speed = Sighting.speed s;
-      plan = of_errand (fun (e : Errand.t) -> Some e.plan);
-      share = of_errand (fun (e : Errand.t) -> e.share);
-      remaining = of_errand (fun (e : Errand.t) -> e.remaining) }
+      plan = of_errand (fun (e : Order_state.t) -> Some e.plan);
+      share = of_errand (fun (e : Order_state.t) -> e.share);
+      remaining = of_errand (fun (e : Order_state.t) -> e.remaining) }
   in
   List.map shown (Names.bindings d.seen)

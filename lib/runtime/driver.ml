@@ -8,8 +8,8 @@ let guards r =
   let guard (Task_rules.Step { offer; _ }) =
     match offer with
     | Check closure -> Some closure
-    | Take closure -> Some closure
-    | Start _ | Perform _ | Refute _ | Decide _ | Measure _ | Make _ | Allocate _ | End_of _ | Expiry_of _
+    | Guard_values closure -> Some closure
+    | Start _ | Perform _ | Guard_false _ | Guard_either _ | Measure _ | Make _ | Allocate _ | End_of _ | Expiry_of _
     | Answer_to _ | Recruit_for _ -> None
   in
   List.of_seq (Seq.filter_map guard (Task_rules.steps r))

@@ -7,12 +7,13 @@ let seconds ms = float ms /. 1000.
 type turn = { vehicle : Core.vehicle; doing : Battery.doing; at : int }
 
 let turns options start steps dates =
-  let vehicle (p : Timed.pending) = match p.item with Task v -> Some v | _ -> None in
-  let add (before, found) (step : Timed.step) at =
-    let vehicles = List.sort_uniq String.compare (List.filter_map vehicle (before.Timed.pending @ step.next.pending)) in
+  let vehicle (p : Clocked.pending) = match p.item with Task v -> Some v | _ -> None in
+  let add (before, found) (step : Clocked.step) at =
+    let pending = before.Clocked.pending @ step.next.pending in
+    let vehicles = List.sort_uniq String.compare (List.filter_map vehicle pending) in
     let turn vehicle =
-      let doing = Timed.doing options step.next vehicle in
-      if doing = Timed.doing options before vehicle then None else Some { vehicle; doing; at }
+      let doing = Clocked.doing options step.next vehicle in
+      if doing = Clocked.doing options before vehicle then None else Some { vehicle; doing; at }
     in
     (step.next, List.rev_append (List.filter_map turn vehicles) found)
   in
@@ -31,13 +32,13 @@ let left (v : Scenario.vehicle) turns ~until =
 let spans options (v : Scenario.vehicle) start steps =
   let span doing i j : Dates.span =
     if Battery.rate v doing > 0. then Short (i, j) else Long (i, j) in
-  let add (k, since, before, found) (step : Timed.step) =
-    let doing s = Timed.doing options s v.id in
+  let add (k, since, before, found) (step : Clocked.step) =
+    let doing s = Clocked.doing options s v.id in
     if doing before = doing step.next then (k + 1, since, step.next, found)
     else (k + 1, k, step.next, span (doing before) since k :: found)
   in
   let k, since, last, found = List.fold_left add (1, 0, start, []) steps in
-  span (Timed.doing options last v.id) since (k - 1) :: found
+  span (Clocked.doing options last v.id) since (k - 1) :: found
 
 type way = Timed_system.edge list
 

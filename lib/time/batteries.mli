@@ -10,14 +10,14 @@ type turn = {
   at : int;  (** milliseconds since the start *)
 }
 
-val turns : Timed.options -> Timed.state -> Timed.step list -> int list -> turn list
+val turns : Clocked.options -> Clocked.state -> Clocked.step list -> int list -> turn list
 (** [turns o s steps dates] is those of a run from [s] with these dates. *)
 
 val left : Scenario.vehicle -> turn list -> until:int -> float
 (** [left v turns ~until] is the least that is left in the battery of [v] during a run with these turns that ends at
     [until]. *)
 
-val spans : Timed.options -> Scenario.vehicle -> Timed.state -> Timed.step list -> Dates.span list
+val spans : Clocked.options -> Scenario.vehicle -> Clocked.state -> Clocked.step list -> Dates.span list
 (** [spans o v s steps] is the spans that make the battery of [v] low at the end of [steps] from [s], the last first:
     long ones where it is drained, and short ones where it is charged. *)
 

@@ -1,18 +1,18 @@
 open Dolphin_semantics
 open Dolphin_environment
 
-type t = { options : Timed.options; vehicle : Core.vehicle }
+type t = { options : Clocked.options; vehicle : Core.vehicle }
 
 let create options vehicle = { options; vehicle }
 let vehicle c = c.vehicle
-let may_do c s = Timed.may_do c.options s c.vehicle
+let may_do c s = Clocked.may_do c.options s c.vehicle
 
 let is_heard c =
   let faults = c.options.environment.faults in
   (not (Faults.is_possible faults.loss))
   && not (Links.may_go (Durations.links_with faults c.options.durations) c.vehicle)
 
-let is_newly_bound c (step : Timed.step) =
+let is_newly_bound c (step : Clocked.step) =
   let is_mine : Effect.t -> bool = function Bind vs | Release vs -> List.mem c.vehicle vs | _ -> false in
   List.exists is_mine step.transition.effects
 
@@ -52,21 +52,21 @@ let is_claim c : World.assumption -> bool = function
   | Claim (text, _) -> comparison c text <> None
   | Late _ | Missing _ | Sensed _ | Placed _ -> false
 
-let turns c before (step : Timed.step) =
-  List.mem (Timed.Task c.vehicle) step.fresh
+let turns c before (step : Clocked.step) =
+  List.mem (Clocked.Task c.vehicle) step.fresh
   || may_do c before <> may_do c step.next
   || List.exists (is_claim c) step.transition.assumed
 
 (* {1 What other looks would lead to} *)
 
-let same (a : Timed.step) (b : Timed.step) =
+let same (a : Clocked.step) (b : Clocked.step) =
   Label.equal a.transition.label b.transition.label && Option.map fst a.due = Option.map fst b.due
-  && Timed.equal a.next b.next
+  && Clocked.equal a.next b.next
 
 (* The steps of [s] where this claim holds, or does not. *)
 let supposing c s text holds =
   let world = World.suppose [ Claim (text, holds) ] c.options.world in
-  Timed.all_steps { c.options with world } s
+  Clocked.all_steps { c.options with world } s
 
 (* {2 Whether a look is one at what the battery shows now}
 
@@ -80,16 +80,16 @@ let is_now c s =
     | Claim (text, _) -> Option.map fst (comparison c text)
     | Late _ | Missing _ | Sensed _ | Placed _ -> None
   in
-  let assumed steps = List.concat_map (fun (step : Timed.step) -> step.transition.assumed) steps in
-  let numbers = List.sort_uniq Float.compare (List.filter_map number (assumed (Timed.all_steps c.options s))) in
+  let assumed steps = List.concat_map (fun (step : Clocked.step) -> step.transition.assumed) steps in
+  let numbers = List.sort_uniq Float.compare (List.filter_map number (assumed (Clocked.all_steps c.options s))) in
   let is_clear x =
     let world = World.open_battery c.vehicle [ x ] c.options.world in
-    not (List.exists (is_claim c) (assumed (Timed.all_steps { c.options with world } s)))
+    not (List.exists (is_claim c) (assumed (Clocked.all_steps { c.options with world } s)))
   in
   List.for_all (fun x -> is_clear (x -. a_little) && is_clear (x +. a_little)) numbers
 
 (* A step is reported once, with one of the looks that lead to it: the values that it shows are those that it needs. *)
-let seen c s (step : Timed.step) =
+let seen c s (step : Clocked.step) =
   let of_assumption found : World.assumption -> range = function
     | Claim (text, holds) -> (
         match of_claim c text holds with
@@ -101,11 +101,11 @@ let seen c s (step : Timed.step) =
   if range = anything || is_now c s then range else anything
 
 (* A claim that would let something happen at once does not hold as long as time passes. *)
-let waited c (s : Timed.state) =
-  let of_step found (step : Timed.step) =
+let waited c (s : Clocked.state) =
+  let of_step found (step : Clocked.step) =
     match step.transition.assumed with
     | [ Claim (text, holds) ] when not step.urgent -> (
-        let is_it (other : Timed.step) = other.urgent && other.transition.assumed = [] && same step other in
+        let is_it (other : Clocked.step) = other.urgent && other.transition.assumed = [] && same step other in
         match of_claim c text (not holds) with
         | Some { above; _ } when above > found && List.exists is_it (supposing c s text holds) -> above
         | Some _ | None -> found)
@@ -113,5 +113,5 @@ let waited c (s : Timed.state) =
   in
   if not c.options.program.reads_sensors then 0.
   else
-    let above = List.fold_left of_step 0. (Timed.all_steps c.options s) in
+    let above = List.fold_left of_step 0. (Clocked.all_steps c.options s) in
     if above > 0. && is_now c s then above else 0.

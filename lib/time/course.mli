@@ -5,13 +5,13 @@ open Dolphin_semantics
 
 type t
 
-val create : Timed.options -> Core.vehicle -> t
+val create : Clocked.options -> Core.vehicle -> t
 val vehicle : t -> Core.vehicle
 
-val may_do : t -> Timed.state -> Dolphin_scenario.Battery.doing list
-(** {!Timed.may_do} of its vehicle: it works or charges from the start of a task until its end, whichever it is. *)
+val may_do : t -> Clocked.state -> Dolphin_scenario.Battery.doing list
+(** {!Clocked.may_do} of its vehicle: it works or charges from the start of a task until its end, whichever it is. *)
 
-val turns : t -> Timed.state -> Timed.step -> bool
+val turns : t -> Clocked.state -> Clocked.step -> bool
 (** [turns c s step] is whether the battery may fall or rise otherwise from [step] of [s] on, or [step] depends on
     its reading. *)
 
@@ -22,15 +22,15 @@ type range = { above : float; below : float }
 
 val anything : range
 
-val seen : t -> Timed.state -> Timed.step -> range
+val seen : t -> Clocked.state -> Clocked.step -> range
 (** [seen c s step] is the readings of the battery with which [step] is possible from [s]. *)
 
-val waited : t -> Timed.state -> float
+val waited : t -> Clocked.state -> float
 (** [waited c s] is its least reading as long as time passes in [s], because some guard does not hold: 0 without a
     look. *)
 
 val is_heard : t -> bool
 (** [is_heard c] is whether its reading is its charge: not where its link may be lost. *)
 
-val is_newly_bound : t -> Timed.step -> bool
+val is_newly_bound : t -> Clocked.step -> bool
 (** [is_newly_bound c step] is whether it is bound or released with [step]. *)

@@ -1,9 +1,9 @@
 open Dolphin_semantics
 
 type moment = Starts | Ends | Fails | Stopped
-type task = Likeness.label = { name : string; vehicle : Core.vehicle; site : Core.site }
+type task = Canonical_state.label = { name : string; vehicle : Core.vehicle; site : Core.site }
 
-let deadlines (s : Timed.state) =
+let deadlines (s : Clocked.state) =
   let deadline found (r : Residual.t) =
     match r with During { on_cut = Fails site; timer; started = true; _ } -> (timer, site) :: found | _ -> found in
   match s.configuration.control with
@@ -13,7 +13,7 @@ let deadlines (s : Timed.state) =
 let task v (p : Core.platform_task) = { name = p.name; vehicle = v; site = p.task_site }
 
 (* The events of tasks with [step]. *)
-let tasks (before : Timed.state) (step : Timed.step) =
+let tasks (before : Clocked.state) (step : Clocked.step) =
   let tr = step.transition in
   let running v moment =
     match Vehicle_map.find_opt v before.configuration.shared.allocation with
@@ -29,13 +29,13 @@ let tasks (before : Timed.state) (step : Timed.step) =
   @ List.concat_map with_effect tr.effects
 
 (* The [within] that is missed with [step]. *)
-let missed (before : Timed.state) (step : Timed.step) =
+let missed (before : Clocked.state) (step : Clocked.step) =
   match step.due with
   | Some (Timer timer, _) when List.mem Rule.Within_cut step.transition.rules ->
     List.assoc_opt timer (deadlines before)
   | Some _ | None -> None
 
-let ending (next : Timed.state) (i : Inert.item) =
+let ending (next : Clocked.state) (i : Inert.item) =
   match i.awaited with
   | Task v -> Option.map (task v) (Vehicle_map.find_opt v next.configuration.shared.allocation)
   | Timer _ | Question _ | Recruit _ | Answer | Reply | Posting _ | Links | Silence _ | Course _ | Date _ -> None

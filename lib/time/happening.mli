@@ -5,16 +5,16 @@ open Dolphin_semantics
 (** The events of a task. *)
 type moment = Starts | Ends | Fails | Stopped
 
-type task = Likeness.label = { name : string; vehicle : Core.vehicle; site : Core.site }
+type task = Canonical_state.label = { name : string; vehicle : Core.vehicle; site : Core.site }
 
-val deadlines : Timed.state -> (Residual.timer * Core.site) list
+val deadlines : Clocked.state -> (Residual.timer * Core.site) list
 (** [deadlines s] is the [within] that have begun in [s], each with its timer. *)
 
-val tasks : Timed.state -> Timed.step -> (moment * task) list
+val tasks : Clocked.state -> Clocked.step -> (moment * task) list
 (** [tasks s step] is the events of tasks with [step] of [s]. *)
 
-val missed : Timed.state -> Timed.step -> Core.site option
+val missed : Clocked.state -> Clocked.step -> Core.site option
 (** [missed s step] is the [within] that is missed with [step] of [s]. *)
 
-val ending : Timed.state -> Inert.item -> task option
+val ending : Clocked.state -> Inert.item -> task option
 (** [ending s i] is the task that ends with [i], which has begun in [s]. *)

@@ -7,22 +7,22 @@ type t
 
 (** Something that ended before it could, or went on for longer than it may. *)
 type finding = {
-  pending : Timed.pending;
+  pending : Clocked.pending;
   at : Core.site option;  (** the place of a timer in the program *)
   began : int;  (** milliseconds since the start *)
   seen : int;  (** when it ended, or when it should have *)
   too_early : bool;
 }
 
-val start : tolerance:int -> Timed.options -> t
+val start : tolerance:int -> Clocked.options -> t
 (** [start ~tolerance o] is before the first transition. Differences up to this number of milliseconds do not count:
     links and clocks are not exact. *)
 
 val onwards :
   t -> outside:Dolphin_environment.Environment.t -> date:int -> seen:(Core.vehicle * Dolphin_geo.Position.t) list ->
-  Timed.options * Timed.state
-(** [onwards r ~outside ~date ~seen] is {!Timed.onwards} from [date] after [r], and the options of [r]: vehicles neither
-    join nor leave by the fleet any more. *)
+  Clocked.options * Clocked.state
+(** [onwards r ~outside ~date ~seen] is {!Clocked.onwards} from [date] after [r], and the options of [r]: vehicles
+    neither join nor leave by the fleet any more. *)
 
 val with_tolerance : int -> t -> t
 (** [with_tolerance ms r] is [r], with this one from now on. *)

@@ -3,7 +3,7 @@ open Dolphin_semantics
 type t = Any | By of int
 
 (* As [o], but [task] may take [more] milliseconds longer. *)
-let lengthened (o : Timed.options) (task : Timed_system.task) more =
+let lengthened (o : Clocked.options) (task : Timed_system.task) more =
   let bounds v place (p : Core.platform_task) : Bounds.t =
     match o.durations.task v place p with
     | Within { least; most } when v = task.vehicle && p.name = task.name && p.task_site = task.site ->

@@ -1,26 +1,26 @@
-type reduction = Nothing | Inert_ends | Inert_ends_and_likeness
+type reduction = Nothing | Inert_ends | Inert_ends_and_canonical_states
 
 type successor = {
-  step : Timed.step;
+  step : Clocked.step;
   inert : Inert.item list Lazy.t;
-  spelled : Likeness.execution -> Likeness.spelled;
+  spelled : Canonical_state.execution -> Canonical_state.spelled;
 }
 
 type t = {
-  options : Timed.options;
+  options : Clocked.options;
   course : Course.t option;
   ends : Inert.t option;
-  likeness : Likeness.t option;
-  known : successor list Timed.Table.t;
+  likeness : Canonical_state.t option;
+  known : successor list Clocked.Table.t;
 }
 
-let create ?course reduction (options : Timed.options) =
+let create ?course reduction (options : Clocked.options) =
   let apart = Option.map Course.vehicle course in
-  { options; course; known = Timed.Table.create 1_000;
+  { options; course; known = Clocked.Table.create 1_000;
     ends = (if reduction = Nothing then None else Some (Inert.create options));
     likeness =
-      (if reduction = Inert_ends_and_likeness && not options.program.reads_now then
-         Some (Likeness.create ?apart options)
+      (if reduction = Inert_ends_and_canonical_states && not options.program.reads_now then
+         Some (Canonical_state.create ?apart options)
        else None) }
 
 let options t = t.options
@@ -35,13 +35,13 @@ let inert t state =
   | Some ends -> List.filter (fun i -> not (is_observed i)) (Inert.of_state ends state)
   | None -> []
 
-let successor t (step : Timed.step) =
+let successor t (step : Clocked.step) =
   let inert = lazy (inert t step.next) and known = ref [] in
   let spelled e =
     match List.assq_opt e !known with
     | Some spelled -> spelled
     | None ->
-      let spelled = Likeness.spell (Option.get t.likeness) e (Lazy.force inert) step.next in
+      let spelled = Canonical_state.spell (Option.get t.likeness) e (Lazy.force inert) step.next in
       known := (e, spelled) :: !known;
       spelled
   in
@@ -51,13 +51,13 @@ let successor t (step : Timed.step) =
 let most = 10_000
 
 let all t state =
-  match Timed.Table.find_opt t.known state with
+  match Clocked.Table.find_opt t.known state with
   | Some successors -> successors
   | None ->
-    let successors = List.map (successor t) (Timed.all_steps t.options state) in
-    if Timed.Table.length t.known < most then Timed.Table.add t.known state successors;
+    let successors = List.map (successor t) (Clocked.all_steps t.options state) in
+    if Clocked.Table.length t.known < most then Clocked.Table.add t.known state successors;
     successors
 
-let followed t state = Timed.enough t.options (fun s -> s.step) (all t state)
+let followed t state = Clocked.enough t.options (fun s -> s.step) (all t state)
 
 let steps t state = List.map (fun s -> s.step) (followed t state)

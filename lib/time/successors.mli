@@ -4,32 +4,32 @@
 type t
 
 (** The reductions: docs/time.md. *)
-type reduction = Nothing | Inert_ends | Inert_ends_and_likeness
+type reduction = Nothing | Inert_ends | Inert_ends_and_canonical_states
 
-val create : ?course:Course.t -> reduction -> Timed.options -> t
+val create : ?course:Course.t -> reduction -> Clocked.options -> t
 (** [create ~course r o] knows nothing yet. The vehicle of [course] is like no other, and its ends are not inert. *)
 
-val options : t -> Timed.options
+val options : t -> Clocked.options
 val course : t -> Course.t option
 
-val likeness : t -> Likeness.t option
+val likeness : t -> Canonical_state.t option
 (** [None] if states that are alike are not taken for one. *)
 
-val inert : t -> Timed.state -> Inert.item list
+val inert : t -> Clocked.state -> Inert.item list
 (** [inert t s] is the inert ends of [s] that are left out. *)
 
 type successor = {
-  step : Timed.step;
+  step : Clocked.step;
   inert : Inert.item list Lazy.t;  (** in the state that it leads to *)
-  spelled : Likeness.execution -> Likeness.spelled;  (** that state, which belongs to the execution *)
+  spelled : Canonical_state.execution -> Canonical_state.spelled;  (** that state, which belongs to the execution *)
 }
 
-val all : t -> Timed.state -> successor list
-(** [all t s] is {!Timed.all_steps} of [s].
+val all : t -> Clocked.state -> successor list
+(** [all t s] is {!Clocked.all_steps} of [s].
     @raise Dolphin_environment.Environment.Unclear *)
 
-val followed : t -> Timed.state -> successor list
-(** [followed t s] is {!Timed.steps} of [s], reduced in the same way. *)
+val followed : t -> Clocked.state -> successor list
+(** [followed t s] is {!Clocked.steps} of [s], reduced in the same way. *)
 
-val steps : t -> Timed.state -> Timed.step list
+val steps : t -> Clocked.state -> Clocked.step list
 (** Those of {!followed}. *)

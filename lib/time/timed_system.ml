@@ -18,17 +18,22 @@ let ending_name = function
 
 let moment_name = function Starts -> "starts" | Ends -> "ends" | Fails -> "fails" | Stopped -> "stopped"
 
-type cycle = { from : int; last : int; back : Timed.step; in_no_time : bool }
+type cycle = { from : int; last : int; back : Clocked.step; in_no_time : bool }
 
-exception Broken = Timed_place.Broken
+exception Broken = Zone_node.Broken
 
-type reduction = Successors.reduction = Nothing | Inert_ends | Inert_ends_and_likeness
+type reduction = Successors.reduction = Nothing | Inert_ends | Inert_ends_and_canonical_states
 
 type move =
-  | Step of { step : Timed.step; begun : Inert.item list; last : Timed.item option; items : Timed.item list }
-  | Rest of { steps : Timed.step list; later : bool }
+  | Step of { step : Clocked.step; begun : Inert.item list; last : Clocked.item option; items : Clocked.item list }
+  | Rest of { steps : Clocked.step list; later : bool }
 
-type arrival = { move : move; into : Timed.state; items : Timed.item list; execution : Likeness.execution option }
+type arrival = {
+  move : move;
+  into : Clocked.state;
+  items : Clocked.item list;
+  execution : Canonical_state.execution option;
+}
 
 type passage = {
   may_do : Dolphin_scenario.Battery.doing list;
@@ -40,15 +45,15 @@ type passage = {
 }
 type edge = { source : int; target : int; by : move; working : Working.t; passage : passage option }
 
-type node = { place : Timed_place.t; zone : Zone.t; parent : int; move : move option }
+type node = { place : Zone_node.t; zone : Zone.t; parent : int; move : move option }
 
 type t = {
   numbering : Numbering.t;
   goal : goal;
-  start : Timed.state;
-  options : Timed.options;
+  start : Clocked.state;
+  options : Clocked.options;
   course : Course.t option;
-  places : Timed_place.places;
+  places : Zone_node.places;
   mutable reduced : bool;  (* whether anything was inert, or states might be alike *)
   mutable nodes : node array;
   mutable count : int;
@@ -61,9 +66,9 @@ type t = {
   mutable cycle : cycle option;
   mutable returns : (int * int * move) list;  (* a move from one state leads to just another one that there was *)
   mutable stuck : int option;
-  mutable unknown : Timed.pending list;
+  mutable unknown : Clocked.pending list;
   deadlines : Core.site list ref;  (* of [within], latest first *)
-  missed : (Core.site, date * int * Timed_place.arrow) Hashtbl.t;
+  missed : (Core.site, date * int * Zone_node.arrow) Hashtbl.t;
 }
 
 (* {1 What is found} *)
@@ -88,10 +93,10 @@ let note_one t date task moment =
     if not (List.mem task t.tasks) then t.tasks <- task :: t.tasks;
     Hashtbl.replace t.moments (task, moment) date
 
-let note_unknown t (s : Timed.state) =
-  let note (p : Timed.pending) =
-    let same (q : Timed.pending) = q.item = p.item && q.prompt = p.prompt && Option.equal ( == ) q.task p.task in
-    let is_sure = match p.item with Recruit _ -> not (Timed.may_wait_for_recruits t.options) | _ -> false in
+let note_unknown t (s : Clocked.state) =
+  let note (p : Clocked.pending) =
+    let same (q : Clocked.pending) = q.item = p.item && q.prompt = p.prompt && Option.equal ( == ) q.task p.task in
+    let is_sure = match p.item with Recruit _ -> not (Clocked.may_wait_for_recruits t.options) | _ -> false in
     if p.bounds = Some_time && (not is_sure) && not (List.exists same t.unknown) then t.unknown <- p :: t.unknown
   in
   List.iter note s.pending
@@ -100,9 +105,9 @@ let note_unknown t (s : Timed.state) =
 let note_task t execution date task moment =
   match execution with
   | None -> note_one t date task moment
-  | Some e -> List.iter (fun task -> note_one t date task moment) (Likeness.orbit e task)
+  | Some e -> List.iter (fun task -> note_one t date task moment) (Canonical_state.orbit e task)
 
-let note_step t execution zone (before : Timed.state) (step : Timed.step) =
+let note_step t execution zone (before : Clocked.state) (step : Clocked.step) =
   let date = date t zone in
   List.iter (fun (moment, task) -> note_task t execution date task moment) (Happening.tasks before step)
 
@@ -116,7 +121,7 @@ let note_begun t execution zone next begun =
   List.iter note begun
 
 (* [arrow] is taken from state [n]. *)
-let note_missed t n zone before (arrow : Timed_place.arrow) =
+let note_missed t n zone before (arrow : Zone_node.arrow) =
   let date = date t zone in
   let note site =
     match Hashtbl.find_opt t.missed site with
@@ -151,7 +156,7 @@ let add t node =
   let number = t.count in
   t.nodes.(number) <- node;
   t.count <- number + 1;
-  Timed_place.add node.place number;
+  Zone_node.add node.place number;
   note_end t number node;
   number
 
@@ -171,7 +176,7 @@ let rec looks_between t m n =
 let is_possible_in_no_time t looks = Looks.agree (Looks.at_one_moment t.options.program) looks
 
 (* A step from state [n] leads back to an earlier state of the run to it. *)
-let find_cycle t n move (place : Timed_place.t) zone =
+let find_cycle t n move (place : Zone_node.t) zone =
   let comes_back m =
     let by = Zone.delayed t.nodes.(m).zone zone in
     if by >= 0 && is_before t m n then Some (m, by) else None
@@ -194,7 +199,7 @@ let find_cycle t n move (place : Timed_place.t) zone =
     found
 
 (* The number of the state that stands for [place] with [zone], to which [move] leads from state [n]. *)
-let arrive t n move (place : Timed_place.t) zone =
+let arrive t n move (place : Zone_node.t) zone =
   let including () =
     let found = List.find_opt (fun m -> Zone.subset zone t.nodes.(m).zone) place.here in
     let return m =
@@ -237,9 +242,9 @@ let create ?(working = false) ?start goal successors =
     let add (_, site) = if not (List.mem site !deadlines) then deadlines := site :: !deadlines in
     List.iter add (Happening.deadlines s)
   in
-  let places = Timed_place.places successors ~filled ~note in
+  let places = Zone_node.places successors ~filled ~note in
   let options = Successors.options successors and course = Successors.course successors in
-  let start = match start with Some start -> start | None -> Timed.initial options in
+  let start = match start with Some start -> start | None -> Clocked.initial options in
   { numbering = Numbering.create (); goal; start; options; course; places; reduced = false; nodes = [||]; count = 0;
     reserved = 0; moments = Hashtbl.create 100; tasks = []; endings = []; cycle = None; returns = [];
     edges = (if working || course <> None then Some [] else None); edge_count = 0;
@@ -250,12 +255,12 @@ let visit t (v : via System.visitor) n = v.visit [| n lsl t.reserved |] 0 ()
 let initial t v =
   if t.count = 0 then begin
     let state = t.start in
-    let awaited = List.map (fun (p : Timed.pending) -> p.item) state.pending in
-    let fresh = Option.to_list (Timed_place.course_item t.places) @ awaited in
+    let awaited = List.map (fun (p : Clocked.pending) -> p.item) state.pending in
+    let fresh = Option.to_list (Zone_node.course_item t.places) @ awaited in
     let place, _, zone =
-      Timed_place.reached t.places ~clocks:[] ~rest_clock:None ~fresh ~has_rest:false None state [] Zone.start No_rest
+      Zone_node.reached t.places ~clocks:[] ~rest_clock:None ~fresh ~has_rest:false None state [] Zone.start No_rest
     in
-    match Timed_place.settled t.places place zone with
+    match Zone_node.settled t.places place zone with
     | Some zone -> ignore (add t { place; zone; parent = -1; move = None })
     | None -> assert false  (* nothing is over at the start *)
   end;
@@ -276,18 +281,18 @@ let note_edge t source target by working passage =
   Option.iter note t.edges
 
 (* How long the course has gone on in [zone], whose clocks are those of [place]. *)
-let since t (place : Timed_place.t) zone =
-  let clock = Option.bind (Timed_place.course_item t.places) (fun item -> List.assoc_opt item place.clocks) in
+let since t (place : Zone_node.t) zone =
+  let clock = Option.bind (Zone_node.course_item t.places) (fun item -> List.assoc_opt item place.clocks) in
   Option.fold clock ~none:(0, None) ~some:(fun clock -> (Zone.least clock zone, Zone.most clock zone))
 
 (* The course until something is done in [zone] of [before]: [step], or what does not matter to it. *)
-let passage t (before : Timed_place.t) zone step =
+let passage t (before : Zone_node.t) zone step =
   let of_course c =
     let least, most = since t before zone in
     let may_do = Course.may_do c before.state in
     match step with
     | None -> { may_do; least; most; turns = false; seen = Course.anything; binds = false }
-    | Some (step : Timed.step) ->
+    | Some (step : Clocked.step) ->
       let is_first = Zone.latest_date zone = Some 0 in
       let is_last = match step.next.configuration.control with Ended _ -> true | _ -> false in
       { may_do; least; most; turns = Course.turns c before.state step; seen = Course.seen c before.state step;
@@ -296,29 +301,29 @@ let passage t (before : Timed_place.t) zone step =
   Option.map of_course t.course
 
 (* The states that [arrow] leads to from those valuations of state [n] that are in [zone]. *)
-let take t n (before : Timed_place.t) zone ({ step; inert; begun; spelled } as arrow : Timed_place.arrow) =
-  match Timed_place.enabling before zone step with
+let take t n (before : Zone_node.t) zone ({ step; inert; begun; spelled } as arrow : Zone_node.arrow) =
+  match Zone_node.enabling before zone step with
   | None -> []
   | Some zone ->
-    let execution = Timed_place.execution_after t.places before step.next in
+    let execution = Zone_node.execution_after t.places before step.next in
     note_step t before.execution zone before.state step;
     note_missed t n zone before.state arrow;
     note_begun t execution zone step.next begun;
     if begun <> [] || execution <> None then note_reduced t;
-    let lasts = Timed_place.lasts before begun in
-    let has_rest = List.exists (fun (_, rest) -> rest <> Timed_place.No_rest) lasts in
+    let lasts = Zone_node.lasts before begun in
+    let has_rest = List.exists (fun (_, rest) -> rest <> Zone_node.No_rest) lasts in
     let at =
-      let { Timed_place.clocks; rest_clock; _ } = before in
-      let fresh = Timed_place.fresh t.places before.state step and spelled = Option.map spelled execution in
-      Timed_place.reached t.places ~clocks ~rest_clock ~fresh ~has_rest spelled step.next inert zone
+      let { Zone_node.clocks; rest_clock; _ } = before in
+      let fresh = Zone_node.fresh t.places before.state step and spelled = Option.map spelled execution in
+      Zone_node.reached t.places ~clocks ~rest_clock ~fresh ~has_rest spelled step.next inert zone
     in
     let working =
       if t.edges = None || t.course <> None then [] else Working.of_step t.options before zone arrow execution in
     let passage = passage t before zone (Some step) in
     let into (last, rest) =
       let place, items, zone = at rest in
-      let* zone = Timed_place.with_begun place begun last zone in
-      let* zone = Timed_place.settled t.places place zone in
+      let* zone = Zone_node.with_begun place begun last zone in
+      let* zone = Zone_node.settled t.places place zone in
       let move = Step { step; begun; last; items } in
       let target = arrive t n move place zone in
       note_edge t n target move working passage;
@@ -327,42 +332,42 @@ let take t n (before : Timed_place.t) zone ({ step; inert; begun; spelled } as a
     List.filter_map into lasts
 
 (* The states that the end of the rest leads to. *)
-let end_rest t n (before : Timed_place.t) zone =
+let end_rest t n (before : Zone_node.t) zone =
   match before.rest, before.rest_clock with
   | Said, Some clock ->
-    let steps = Timed_place.ends_of_rest t.places before.state in
+    let steps = Zone_node.ends_of_rest t.places before.state in
     let last = List.nth steps (List.length steps - 1) in
-    Timed_place.check_left t.places before last.next;
+    Zone_node.check_left t.places before last.next;
     let clocks =
-      let is_course (item, _) = Some item = Timed_place.course_item t.places in
+      let is_course (item, _) = Some item = Zone_node.course_item t.places in
       List.filter is_course before.clocks
     in
     let into (zone, later) =
       let passage = passage t before zone None in
       let place, _, zone =
-        Timed_place.reached t.places ~clocks ~rest_clock:None ~fresh:last.fresh ~has_rest:false None last.next [] zone
+        Zone_node.reached t.places ~clocks ~rest_clock:None ~fresh:last.fresh ~has_rest:false None last.next [] zone
           No_rest
       in
-      let* zone = Timed_place.settled t.places place zone in
+      let* zone = Zone_node.settled t.places place zone in
       let move = Rest { steps; later } in
       let target = arrive t n move place zone in
       note_edge t n target move [] passage;
       Some target
     in
-    let ends = [ Timed_place.ends_now clock zone; Timed_place.ends_later clock zone ] in
+    let ends = [ Zone_node.ends_now clock zone; Zone_node.ends_later clock zone ] in
     List.filter_map (fun found -> Option.bind found into) ends
   | (No_rest | Unsaid | Said), _ -> []
 
 let expand t key (v : via System.visitor) =
-  Timed_place.check_dates t.places;
+  Zone_node.check_dates t.places;
   let n = number t key.(0) in
   let { place = before; zone; _ } = t.nodes.(n) in
   let visited ns = List.iter (visit t v) ns; List.length ns in
   note_unknown t before.state;
   if Inert.is_rest before.state before.inert then visited (end_rest t n before zone)
   else begin
-    let arrows = Timed_place.arrows t.places before in
-    if Timed.is_stuck t.options before.state (Timed_place.steps t.places before) then begin
+    let arrows = Zone_node.arrows t.places before in
+    if Clocked.is_stuck t.options before.state (Zone_node.steps t.places before) then begin
       if before.inert <> [] then raise Broken;
       if t.stuck = None then t.stuck <- Some n
     end;
@@ -481,7 +486,7 @@ let path t n =
   back [] n
 
 let arrival_by t e =
-  let { state; items; execution; _ } : Timed_place.t = t.nodes.(e.target).place in
+  let { state; items; execution; _ } : Zone_node.t = t.nodes.(e.target).place in
   { move = e.by; into = state; items; execution }
 
 let edges t = t.edges
@@ -506,8 +511,8 @@ let stay t n =
   in
   Option.map of_course t.course
 
-let arrival t n ({ step; begun; _ } : Timed_place.arrow) =
-  let execution = Timed_place.execution_after t.places t.nodes.(n).place step.next in
+let arrival t n ({ step; begun; _ } : Zone_node.arrow) =
+  let execution = Zone_node.execution_after t.places t.nodes.(n).place step.next in
   { move = Step { step; begun; last = None; items = [] }; into = step.next; items = []; execution }
 
 let deadlines t =
@@ -520,4 +525,4 @@ let deadlines t =
 let start t = t.start
 let is_reduced t = t.reduced
 let places t = t.places
-let successors t = Timed_place.successors t.places
+let successors t = Zone_node.successors t.places

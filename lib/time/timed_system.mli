@@ -1,4 +1,4 @@
-(** Runs with time as a transition system for {!Dolphin_checker.Breadth_first}: a state is a {!Timed.state} with a
+(** Runs with time as a transition system for {!Dolphin_checker.Breadth_first}: a state is a {!Clocked.state} with a
     zone of its clocks. docs/time.md shows why the results are exact. *)
 
 open Dolphin_semantics
@@ -10,14 +10,14 @@ type goal = Latest | Earliest
 include Dolphin_checker.System.S with type via = unit and type property = unit
 
 exception Broken
-(** An event taken for inert is not ({!Inert}), or one taken for alike ({!Likeness}): the results so far do not
+(** An event taken for inert is not ({!Inert}), or one taken for alike ({!Canonical_state}): the results so far do not
     count. *)
 
-type reduction = Successors.reduction = Nothing | Inert_ends | Inert_ends_and_likeness
+type reduction = Successors.reduction = Nothing | Inert_ends | Inert_ends_and_canonical_states
 
-val create : ?working:bool -> ?start:Timed.state -> goal -> Successors.t -> t
-(** Runs go on from [start], by default {!Timed.initial}. [working] is whether there are {!edges}, by default not; with
-    a course, there are too, each with its {!type-passage}. *)
+val create : ?working:bool -> ?start:Clocked.state -> goal -> Successors.t -> t
+(** Runs go on from [start], by default {!Clocked.initial}. [working] is whether there are {!edges}, by default not;
+    with a course, there are too, each with its {!type-passage}. *)
 
 (** {1:dates Dates} *)
 
@@ -52,7 +52,7 @@ val endings : t -> (ending * (date * int)) list
 type cycle = {
   from : int;  (** the state from which the run goes round again and again *)
   last : int;  (** the state before it comes back *)
-  back : Timed.step;  (** the step back *)
+  back : Clocked.step;  (** the step back *)
   in_no_time : bool;  (** whether no time need pass *)
 }
 
@@ -60,7 +60,7 @@ val cycle : t -> cycle option
 val stuck : t -> int option
 (** The first state in which nothing happens any more although the run is not over. *)
 
-val unknown : t -> Timed.pending list
+val unknown : t -> Clocked.pending list
 (** The awaited events of unknown duration: each once. *)
 
 (** {1:runs Runs} *)
@@ -68,22 +68,22 @@ val unknown : t -> Timed.pending list
 (** How one state leads to another. *)
 type move =
   | Step of {
-      step : Timed.step;
+      step : Clocked.step;
       begun : Inert.item list;  (** the inert items from here on *)
-      last : Timed.item option;  (** which of them is the last of the rest to end, if it is one of them *)
-      items : Timed.item list;  (** the awaited events then, in the order of {!Likeness.type-form} *)
+      last : Clocked.item option;  (** which of them is the last of the rest to end, if it is one of them *)
+      items : Clocked.item list;  (** the awaited events then, in the order of {!Canonical_state.type-form} *)
     }
   | Rest of {
-      steps : Timed.step list;  (** all that is inert ends, in any order *)
+      steps : Clocked.step list;  (** all that is inert ends, in any order *)
       later : bool;  (** whether at the last end of it, and not at once *)
     }
 
 (** A move to the state whose representative is [into]. *)
 type arrival = {
   move : move;
-  into : Timed.state;
-  items : Timed.item list;  (** of [into], in that order *)
-  execution : Likeness.execution option;  (** if states that are alike are taken for one *)
+  into : Clocked.state;
+  items : Clocked.item list;  (** of [into], in that order *)
+  execution : Canonical_state.execution option;  (** if states that are alike are taken for one *)
 }
 
 val path : t -> int -> arrival list
@@ -116,7 +116,7 @@ val ends : t -> (int * date) list
 
 val count : t -> int
 
-val state : t -> int -> Timed.state
+val state : t -> int -> Clocked.state
 (** [state t n] is the state number [n], below {!count}. *)
 
 (** The course that is observed, in a state. *)
@@ -135,10 +135,10 @@ val deadlines : t -> (Core.site * (date * arrival list) option) list
 (** The [within] that begin in some run, by their places, each with the earliest or latest date at which it is
     missed, and the moves that lead there; [None]: never. *)
 
-val start : t -> Timed.state
+val start : t -> Clocked.state
 
 val is_reduced : t -> bool
 (** Whether anything was inert, or states might be alike. *)
 
 val successors : t -> Successors.t
-val places : t -> Timed_place.places
+val places : t -> Zone_node.places

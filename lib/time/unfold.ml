@@ -7,14 +7,14 @@ type ending = { item : Inert.item; began : int; rest : int; is_last : bool; muta
 (* The state of the unfolding after some moves. *)
 type progress = {
   walk : Schedule.walk;
-  bounds : Timed.pending Dates.bound list;
+  bounds : Clocked.pending Dates.bound list;
   endings : ending list;
   rest : int option;  (* the date of the rest that has begun *)
   dates : int;  (* the number of the last date *)
 }
 
-let add_step system p k (step : Timed.step) begun last =
-  let bounds = Schedule.bounds (Timed_place.followed (Timed_system.places system)) p.walk k step in
+let add_step system p k (step : Clocked.step) begun last =
+  let bounds = Schedule.bounds (Zone_node.followed (Timed_system.places system)) p.walk k step in
   let rest, dates =
     match p.rest with
     | None when begun <> [] -> (Some (p.dates + 1), p.dates + 1)
@@ -75,12 +75,12 @@ let in_order (goal : Timed_system.goal) moves n dates endings =
 
 (* {1 Again, step by step} *)
 
-let same_event (a : Timed.step) (b : Timed.step) =
+let same_event (a : Clocked.step) (b : Clocked.step) =
   Label.equal a.transition.label b.transition.label && Option.map fst a.due = Option.map fst b.due
 
 (* The step of [state] that is [step], though the inert [ended] are over. *)
-let as_followed successors state ended (step : Timed.step) =
-  let is_it (s : Timed.step) =
+let as_followed successors state ended (step : Clocked.step) =
+  let is_it (s : Clocked.step) =
     same_event s step
     && match Inert.without ended step.next.configuration with
     | Some c -> Configuration.equal c s.transition.next
@@ -89,7 +89,7 @@ let as_followed successors state ended (step : Timed.step) =
   List.find_opt is_it (List.map (fun (s : Successors.successor) -> s.step) (Successors.all successors state))
 
 let at_end successors state (item : Inert.item) =
-  List.find_opt (fun (s : Timed.step) -> Option.map fst s.due = Some item.awaited) (Successors.steps successors state)
+  List.find_opt (fun (s : Clocked.step) -> Option.map fst s.due = Some item.awaited) (Successors.steps successors state)
 
 let steps successors start events =
   let rec go taken state ended = function
@@ -100,7 +100,7 @@ let steps successors start events =
         | Followed (Step { step; _ }) -> continue taken state ended rest (as_followed successors state ended step)
         | Inert_end item -> continue taken state (item.awaited :: ended) rest (at_end successors state item))
   and continue taken _ ended rest = function
-    | Some (step : Timed.step) -> go (step :: taken) step.next ended rest
+    | Some (step : Clocked.step) -> go (step :: taken) step.next ended rest
     | None -> None
   in
   go [] start [] events

@@ -5,10 +5,10 @@ type t = (Core.vehicle * int) list
 let unknown = max_int
 let ( ++ ) a b = if a = unknown || b = unknown then unknown else a + b
 let times n a = if n = 0 then 0 else if a = unknown then unknown else n * a
-let label v (p : Core.platform_task) : Likeness.label = { name = p.name; vehicle = v; site = p.task_site }
+let label v (p : Core.platform_task) : Canonical_state.label = { name = p.name; vehicle = v; site = p.task_site }
 
 let is_mapped execution label =
-  match execution with Some e -> List.compare_length_with (Likeness.orbit e label) 1 > 0 | None -> false
+  match execution with Some e -> List.compare_length_with (Canonical_state.orbit e label) 1 > 0 | None -> false
 
 (* {1 Of whole executions} *)
 
@@ -29,7 +29,7 @@ let rec longest cost v (r : Residual.t) =
   | Action _ | Condition _ | Idle _ | Confirm _ -> 0
   | Repeat { again = { left = None; _ }; _ } | Made _ | Unallocated _ | Recruit _ -> unknown
 
-let at_start (o : Timed.options) execution (c : Configuration.t) =
+let at_start (o : Clocked.options) execution (c : Configuration.t) =
   match c.control with
   | Executing (_, r) ->
     let of_vehicle v =
@@ -45,8 +45,8 @@ let at_start (o : Timed.options) execution (c : Configuration.t) =
 
 (* {1 Of steps} *)
 
-let ended (before : Timed_place.t) zone (step : Timed.step) (p : Timed.pending) =
-  let is_awaited item = List.exists (fun (p : Timed.pending) -> p.item = item) step.next.pending in
+let ended (before : Zone_node.t) zone (step : Clocked.step) (p : Clocked.pending) =
+  let is_awaited item = List.exists (fun (p : Clocked.pending) -> p.item = item) step.next.pending in
   let is_inert item = List.exists (fun (i : Inert.item) -> i.awaited = item) before.inert in
   match p.item, p.task with
   | Task v, Some task
@@ -61,12 +61,12 @@ let ended (before : Timed_place.t) zone (step : Timed.step) (p : Timed.pending) 
   | ( Task _ | Timer _ | Question _ | Recruit _ | Answer | Reply | Posting _ | Links | Silence _ | Course _ | Date _ ),
     _ -> None
 
-let begun execution (step : Timed.step) (i : Inert.item) =
+let begun execution (step : Clocked.step) (i : Inert.item) =
   match Happening.ending step.next i with
   | Some task when not (is_mapped execution task) -> Some (task.vehicle, i.most)
   | Some _ | None -> None
 
-let of_step o (before : Timed_place.t) zone ({ step; begun = begins; _ } : Timed_place.arrow) execution =
+let of_step o (before : Zone_node.t) zone ({ step; begun = begins; _ } : Zone_node.arrow) execution =
   let whole =
     match before.execution, execution with
     | None, Some _ -> at_start o execution step.next.configuration

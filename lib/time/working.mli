@@ -8,7 +8,7 @@ type t = (Core.vehicle * int) list
 val unknown : int
 
 val of_step :
-  Timed.options -> Timed_place.t -> Zone.t -> Timed_place.arrow -> Likeness.execution option -> t
+  Clocked.options -> Zone_node.t -> Zone.t -> Zone_node.arrow -> Canonical_state.execution option -> t
 (** [of_step o before zone arrow e] is the count for [arrow], which is taken in [zone] of [before] and leads to the
     execution [e]: of the tasks that it ends, the greatest values of their clocks. Inert ends are counted as they
     begin; tasks that automorphisms map to others, all at the beginning of the execution, as often as they may run. *)

@@ -82,8 +82,8 @@ let false_guards r =
     let is_false (Task_rules.Step { offer; _ }) =
       match offer with
       | Check c -> if_false c
-      | Take c -> if_false c
-      | Start _ | Perform _ | Refute _ | Decide _ | Measure _ | Make _ | Allocate _ | End_of _ | Expiry_of _
+      | Guard_values c -> if_false c
+      | Start _ | Perform _ | Guard_false _ | Guard_either _ | Measure _ | Make _ | Allocate _ | End_of _ | Expiry_of _
       | Answer_to _ | Recruit_for _ -> None
     in
     first most_shown (Seq.filter_map is_false (Task_rules.marked_steps Alone residual))

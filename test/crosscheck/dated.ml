@@ -143,19 +143,19 @@ exception Unfit
 
 let in_ticks tick ms = if ms mod tick = 0 then ms / tick else raise_notrace Unfit
 
-let window ~tick ~ticks (w : Timing.window) =
+let window ~tick ~ticks (w : Timed_analysis.window) =
   match w.latest with
   | At latest when latest <= ticks * tick -> (in_ticks tick w.earliest, in_ticks tick latest)
   | At _ | Unbounded -> raise_notrace Unfit
 
-let moments ~tick ~ticks (program : Core.program) (o : Timing.outcome) =
+let moments ~tick ~ticks (program : Core.program) (o : Timed_analysis.outcome) =
   let place site =
     if site >= 0 && site < Array.length program.locations then
       Format.asprintf "%a" Dolphin_syntax.Location.pp program.locations.(site)
     else ""
   in
   let window = window ~tick ~ticks in
-  let of_task ((task : Timing.task), windows) =
+  let of_task ((task : Timed_analysis.task), windows) =
     let of_moment (m, w) = ([ Timed_system.moment_name m; task.name; task.vehicle; place task.site ], window w) in
     List.map of_moment windows
   in
@@ -165,10 +165,10 @@ let moments ~tick ~ticks (program : Core.program) (o : Timing.outcome) =
 let limits states = { Dolphin_checker.Limits.none with max_states = Some states }
 
 let prepare_one ~ticks ~states { case; durations; plans } =
-  let options : Timed.options =
+  let options : Clocked.options =
     { environment = case.environment; program = case.program; world = case.world; durations;
       dates = Dolphin_semantics.Dated_code.named case.program } in
-  let o = Timing.run (limits states) options in
+  let o = Timed_analysis.run (limits states) options in
   let tick = Dolphin_tla.Times.tick durations ~faults:case.environment.faults ~plans case.program case.world in
   if o.stopped <> None || o.endless <> None then None
   else

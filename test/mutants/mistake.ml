@@ -126,8 +126,8 @@ let order_of_recruits =
         {|  | Sequence (r, _) | All_of (Some r, _) -> first_branches c around r
   | Hold (_, r) when not (is_settled c r) -> first_branches c around r|} );
       ( "whom a nest has recruited is not free after it",
-        {|    | Having v -> { Footprint.empty with frees = freed c [ v ] }|},
-        {|    | Having _ -> Footprint.empty|} );
+        {|    | In_recruited v -> { Footprint.empty with frees = freed c [ v ] }|},
+        {|    | In_recruited _ -> Footprint.empty|} );
       ( "whatever is allocated is the component's own",
         {|if is_own request then breaking|},
         {|if is_own request || request.allowed <> None then breaking|} );
@@ -602,10 +602,10 @@ let task_rules =
       ( "SEQ-2 starts no timers",
         {|timers = c.timers @ timers }
   in
-  { (around ~next:(within (Before rest))|},
+  { (around ~next:(within (In_sequence rest))|},
         {|timers = c.timers @ List.filter (fun _ -> false) timers }
   in
-  { (around ~next:(within (Before rest))|} );
+  { (around ~next:(within (In_sequence rest))|} );
       ( "PAR-ERR does not cut the siblings",
         {|undoing (Cut (Branches.beside place)) (leave_parallel fault c)|},
         {|undoing (Cut (List.filter (fun _ -> false) (Branches.beside place))) (leave_parallel fault c)|} );
@@ -755,7 +755,7 @@ let fences =
         {|seen x { options with reduction = Whole } ~enough in|},
         {|seen x { options with reduction = Partial_order } ~enough in|} );
     ]
-  @ in_file "lib/time/timing.ml" ~noticed_by:"time/test_exact"
+  @ in_file "lib/time/timed_analysis.ml" ~noticed_by:"time/test_exact"
     [
       ( "plans side by side are those by their order alone",
         {|      | candidates, None -> pairs |},
@@ -987,7 +987,7 @@ let unknown =
   @ in_file "lib/semantics/language/procedures.ml" ~noticed_by:"semantics/test_language"
     [ ("every picked vehicle runs", {|Boolean (Vehicle_map.mem v.id context.allocation) in|},
        {|Boolean (List.mem v.id context.bound) in|}) ]
-  @ in_file "lib/time/timed.ml" ~noticed_by:"time/test_exact"
+  @ in_file "lib/time/clocked.ml" ~noticed_by:"time/test_exact"
     [ ("tasks start first where code asks who runs", {|&& not o.program.asks_running|},
        {|&& (o.program.asks_running || true)|}) ]
   @ in_file "lib/semantics/terms/value.ml" ~noticed_by:"semantics/test_language"
@@ -1021,7 +1021,7 @@ let unknown =
   @ in_file "lib/trace/replay.ml" ~noticed_by:"trace/test_journals"
     [ ("journals have no date", {|if r.program.reads_now then { r with world|},
        {|if r.program.reads_now && r.stuck then { r with world|}) ]
-  @ in_file "lib/time/timed.ml" ~noticed_by:"time/test_exact"
+  @ in_file "lib/time/clocked.ml" ~noticed_by:"time/test_exact"
     [
       ("code reads no date", {|World.at (Since s.date) world|}, {|World.at (Since (0 * s.date)) world|});
       ("dates count from the start each", {|Bounds.exactly (float_of_int (k - s.date))|},
@@ -1277,7 +1277,7 @@ let zone =
     ]
 
 let timed =
-  in_file "lib/time/timed.ml" ~noticed_by:"time/test_exact"
+  in_file "lib/time/clocked.ml" ~noticed_by:"time/test_exact"
     [
       ( "a task that fails does so at its end only",
         {|  let failed = Bounds.from_the_start done_ in|},
@@ -1321,7 +1321,7 @@ let timed =
     ]
 
 let place =
-  in_file "lib/time/timed_place.ml" ~noticed_by:"time/test_exact"
+  in_file "lib/time/zone_node.ml" ~noticed_by:"time/test_exact"
     [
       ( "nothing has to happen",
         {|List.fold_left limit (Some (Zone.delay zone)) (snd (follow t place))|},
@@ -1332,10 +1332,10 @@ let place =
         {|        let* zone = Zone.at_least clock (min 0 least) zone in
 |} );
       ( "time passes though a step is urgent",
-        {|if steps = [] || List.exists (fun (s : Timed.step) -> s.urgent) steps then Some (filled zone)|},
+        {|if steps = [] || List.exists (fun (s : Clocked.step) -> s.urgent) steps then Some (filled zone)|},
         {|if steps = [] then Some (filled zone)|} );
     ]
-  @ in_file "lib/time/timed_place.ml" ~noticed_by:"time/test_reductions"
+  @ in_file "lib/time/zone_node.ml" ~noticed_by:"time/test_reductions"
     [
       ( "the rest is over though not all of it is",
         {|    let* zone = Option.bind zone (Zone.at_most clock (-i.least)) in|},
@@ -1350,10 +1350,10 @@ let place =
   @ in_file "lib/time/batteries.ml" ~noticed_by:"time/test_exact"
     [
       ( "a vehicle that is stopped goes on",
-        {|if doing = Timed.doing options before vehicle then None|},
-        {|if doing = Rests || Timed.doing options before vehicle <> Rests then None|} );
+        {|if doing = Clocked.doing options before vehicle then None|},
+        {|if doing = Rests || Clocked.doing options before vehicle <> Rests then None|} );
     ]
-  @ in_file "lib/time/timed.ml" ~noticed_by:"time/test_missions"
+  @ in_file "lib/time/clocked.ml" ~noticed_by:"time/test_missions"
     [
       ( "an order that waits for a link takes as much as a task",
         {|p.item = Task v && p.progress = Under_way|},
@@ -1380,7 +1380,7 @@ let place =
         {|Some (task.vehicle, i.most)|},
         {|Some (task.vehicle, 0 * i.most)|} );
     ]
-  @ in_file "lib/time/timed.ml" ~noticed_by:"time/test_exact"
+  @ in_file "lib/time/clocked.ml" ~noticed_by:"time/test_exact"
     [
       ( "a plan charges until its end is heard",
         {|-> charges :: at_rest o v|},
@@ -1464,7 +1464,7 @@ let place =
         {|(if slot < lambda.parameters then given t lambda slot else []) @ Hashtbl.find_all t.locals (lambda.id, slot)|},
         {|if slot < lambda.parameters then given t lambda slot else Hashtbl.find_all t.locals (lambda.id, slot)|} );
     ]
-  @ in_file "lib/time/likeness.ml" ~noticed_by:"time/test_reductions"
+  @ in_file "lib/time/canonical_state.ml" ~noticed_by:"time/test_reductions"
     [
       ( "plans of any time are alike",
         {|Milliseconds (least, most)|},
@@ -1516,8 +1516,8 @@ let schedule =
   @ in_file "lib/time/schedule.ml" ~noticed_by:"time/test_missions"
     [
       ( "the chain has no links",
-        {|due_to = Some (pending : Timed.pending); later } when by > 0|},
-        {|due_to = Some (pending : Timed.pending); later } when by > max_int - 1|} );
+        {|due_to = Some (pending : Clocked.pending); later } when by > 0|},
+        {|due_to = Some (pending : Clocked.pending); later } when by > max_int - 1|} );
     ]
 
 let recorded =
@@ -1530,8 +1530,8 @@ let recorded =
         {|Task v when List.mem v r.silent -> max_int|},
         {|Task v when List.mem v r.silent && date < 0 -> max_int|} );
       ( "orders that wait for the link have begun",
-        {|if item = Timed.Task v && List.mem v r.ordered then date else began|},
-        {|if item = Timed.Task v && date < 0 then date else began|} );
+        {|if item = Clocked.Task v && List.mem v r.ordered then date else began|},
+        {|if item = Clocked.Task v && date < 0 then date else began|} );
       ( "what is over too soon is not seen",
         {|when must_have_run && date - began < least - r.tolerance -> finding true|},
         {|when must_have_run && date - began < min 0 least -> finding true|} );
@@ -1626,7 +1626,7 @@ let processes =
         {|if limits.max_memory = None then min workers count else 1|},
         {|if limits.max_memory = None then min workers count else min workers 2|} );
     ]
-  @ in_file "lib/time/timing.ml" ~noticed_by:"time/test_missions"
+  @ in_file "lib/time/timed_analysis.ml" ~noticed_by:"time/test_missions"
     [ ("slacks of other tasks", {|(tasks.(i), slack)) slack) found;|}, {|(tasks.(count - 1 - i), slack)) slack) found;|}) ]
 
 let travel =

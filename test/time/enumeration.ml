@@ -2,7 +2,7 @@ open Dolphin_semantics
 open Dolphin_environment
 open Dolphin_time
 
-type moment = Ended of Timed_system.ending | Task of Timing.task * Timed_system.moment
+type moment = Ended of Timed_system.ending | Task of Timed_analysis.task * Timed_system.moment
 type battery = { at_first : int; work : int; rest : int; charges : (string * int) list }
 type t = { dates : (moment * (int * int)) list; never_over : bool; most : (Core.vehicle * int) list }
 
@@ -63,7 +63,7 @@ let in_seconds : Bounds.t -> int * int = function
 
 let whole x = Float.to_int x
 
-let clock_of (o : Timed.options) (deed : Effect.t) =
+let clock_of (o : Clocked.options) (deed : Effect.t) =
   let set what (least, most) = [ (what, { since = 0; least; most }) ] in
   match deed with
   | Start (v, p) -> set (Vehicle v) (in_seconds (o.durations.task v None p))
@@ -74,14 +74,14 @@ let clock_of (o : Timed.options) (deed : Effect.t) =
   | Ask _ | Call_host _ -> set Word (0, 0)
   | _ -> []
 
-let inputs (o : Timed.options) c e =
+let inputs (o : Clocked.options) c e =
   match c.Configuration.control with
   | Ended _ -> []
   | _ ->
     List.sort_uniq compare (List.map (fun (k, _, _) -> k) (Environment.inputs o.environment o.program e))
 
 (* If vehicles may be late, they come at any time; if links may be lost, so may they. *)
-let links (o : Timed.options) =
+let links (o : Clocked.options) =
   match o.environment.faults with
   | { join = Never; loss = Never; _ } -> o.durations.links
   | { join = Never; _ } -> Links.only_first o.durations.links
@@ -100,7 +100,7 @@ let awaited o s (c : Configuration.t) e =
   let quiet = function Vehicle v when is_silent o s v -> Some (Quiet v) | _ -> None in
   of_task @ List.filter_map quiet of_task @ List.map (fun k -> Input k) (inputs o c e)
 
-let patience (o : Timed.options) s v =
+let patience (o : Clocked.options) s v =
   match List.assoc_opt (Some v) s.patience, List.assoc_opt None s.patience with
   | Some n, _ | None, Some n -> n
   | None, None -> snd (in_seconds o.durations.silence)
@@ -113,7 +113,7 @@ let over : Transition.event -> awaited option = function
   | Input (k, _) -> Some (Input k)
   | Interruption -> None
 
-let posted (o : Timed.options) k =
+let posted (o : Clocked.options) k =
   match o.durations.posted k with
   | Within { least; most } -> { since = 0; least = least / 1000; most = most / 1000 }
   | Some_time | Never -> { since = 0; least = 0; most = max_int }
@@ -223,7 +223,7 @@ let tick ~batteries s =
   { s with now = s.now + 1; clocks = List.map later s.clocks; missing = List.map less s.missing }
 
 let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _ _ world -> world) ?(look = ignore)
-    (o : Timed.options) =
+    (o : Clocked.options) =
   let seen = Table.create 1_000 and queue = Queue.create () in
   let edges = ref [] and following = ref [] in
   let dates = Hashtbl.create 20 and most = Hashtbl.create 3 and worked = Hashtbl.create 3 and never_over = ref false in
@@ -240,7 +240,7 @@ let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _
     following := Table.find seen s :: !following
   in
   let note_step s (t : Transition.t) =
-    let task v (p : Core.platform_task) : Timing.task = { name = p.name; vehicle = v; site = p.task_site } in
+    let task v (p : Core.platform_task) : Timed_analysis.task = { name = p.name; vehicle = v; site = p.task_site } in
     let running v moment =
       Option.iter (fun p -> note s (Task (task v p, moment))) (Vehicle_map.find_opt v s.c.shared.allocation)
     in

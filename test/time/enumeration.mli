@@ -5,7 +5,7 @@
 open Dolphin_semantics
 open Dolphin_time
 
-type moment = Ended of Timed_system.ending | Task of Timing.task * Timed_system.moment
+type moment = Ended of Timed_system.ending | Task of Timed_analysis.task * Timed_system.moment
 
 type t = {
   dates : (moment * (int * int)) list;  (** the earliest and the latest second *)
@@ -24,7 +24,7 @@ type battery = {
 
 val all :
   ?states:int -> ?seconds:int -> ?batteries:(Core.vehicle * battery) list ->
-  ?seen:(Core.vehicle -> int -> World.t -> World.t) -> ?look:(Configuration.t -> unit) -> Timed.options -> t option
+  ?seen:(Core.vehicle -> int -> World.t -> World.t) -> ?look:(Configuration.t -> unit) -> Clocked.options -> t option
 (** [look] is called with each configuration that a run comes to. [None] if there are more states, or longer runs,
     than that. [most] is of [batteries]: states differ in the missing charge, and the program looks at the world that
     [seen] makes of this, by default the same always. *)

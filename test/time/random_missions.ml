@@ -77,7 +77,7 @@ let world =
 (* In a third of the cases, some plans charge, of those that take equally long too. *)
 let charges (seed, _) name = if seed mod 3 = 0 && Hashtbl.hash (seed, name) mod 2 = 0 then Some 2. else None
 
-let options (program, durations, (_, environment)) : Timed.options =
+let options (program, durations, (_, environment)) : Clocked.options =
   let program, world =
     match program with
     | Mission text -> (Test_support.Pure_run.compile_exn text, world)

@@ -13,7 +13,7 @@ type case = program * (int * durations) * (string * Environment.options)
 
 val case : case QCheck2.Gen.t
 val print : case -> string
-val options : case -> Timed.options
+val options : case -> Clocked.options
 
 val answering : Environment.options
 (** Nothing fails. *)

@@ -81,35 +81,35 @@ let pp_moment ppf : Enumeration.moment -> unit = function
 let few = { Dolphin_checker.Limits.none with max_states = Some 5_000 }
 let skipped = ref 0 and endless = ref 0 and sensing = ref 0 and dated = ref 0 and reduced = Hashtbl.create 7
 
-let seconds = function Timing.At n -> if n mod 1000 = 0 then n / 1000 else -1 | Unbounded -> max_int
+let seconds = function Timed_analysis.At n -> if n mod 1000 = 0 then n / 1000 else -1 | Unbounded -> max_int
 
-let found (o : Timing.outcome) =
-  let window (w : Timing.window) = (seconds (At w.earliest), seconds w.latest) in
+let found (o : Timed_analysis.outcome) =
+  let window (w : Timed_analysis.window) = (seconds (At w.earliest), seconds w.latest) in
   let of_task (task, moments) =
     List.map (fun (m, w) -> (Enumeration.Task (task, m), window w)) moments in
   List.sort compare
     (List.map (fun (e, w) -> (Enumeration.Ended e, window w)) o.endings @ List.concat_map of_task o.tasks)
 
 (* The run ends at the date of its reported end, and its dates never go back. *)
-let is_dated (o : Timing.outcome) (run : Timing.run) later =
+let is_dated (o : Timed_analysis.outcome) (run : Timed_analysis.run) later =
   let rec in_order = function a :: (b :: _ as rest) -> a <= b && in_order rest | [ _ ] | [] -> true in
   let last = List.nth run.dates (List.length run.dates - 1) in
-  let end_ (_, (w : Timing.window)) = if later then seconds w.latest else seconds (At w.earliest) in
+  let end_ (_, (w : Timed_analysis.window)) = if later then seconds w.latest else seconds (At w.earliest) in
   let ends = List.map end_ o.endings in
   let expected = List.fold_left (if later then max else min) (List.hd ends) ends in
   in_order run.dates && last = 1000 * expected
   && (run.chain = [] || (not later) || List.fold_left (fun n (l : Schedule.link) -> n + l.lasts) 0 run.chain >= last)
 
 (* If code does more with the date than compare it with constants, the result is missing. *)
-let enumerated ?batteries ?seen (options : Timed.options) =
+let enumerated ?batteries ?seen (options : Clocked.options) =
   if Result.is_ok options.dates then Enumeration.all ?batteries ?seen options else None
 
-let is_found (options : Timed.options) =
-  let { Timed.program; _ } = options in
+let is_found (options : Clocked.options) =
+  let { Clocked.program; _ } = options in
   match enumerated options with
   | None -> if Result.is_ok options.dates then Test_support.Property.count skipped; true
   | Some expected ->
-    let o = Timing.run Dolphin_checker.Limits.none options in
+    let o = Timed_analysis.run Dolphin_checker.Limits.none options in
     if program.reads_now then Test_support.Property.count dated;
     if program.reads_sensors then Test_support.Property.count sensing;
     let say what moments =
@@ -132,7 +132,7 @@ let is_found (options : Timed.options) =
     let count (e, _) = Hashtbl.replace reduced e () in
     List.iter count o.endings;
     let dated later run = is_dated o run later || QCheck2.Test.fail_report "a run has other dates" in
-    let is_bounded = List.for_all (fun (_, (w : Timing.window)) -> w.latest <> Unbounded) o.endings in
+    let is_bounded = List.for_all (fun (_, (w : Timed_analysis.window)) -> w.latest <> Unbounded) o.endings in
     let all_dated () =
       Option.fold ~none:true ~some:(dated true) o.last && Option.fold ~none:true ~some:(dated false) o.first in
     (not is_bounded) || all_dated ()
@@ -212,7 +212,7 @@ let print_linked (text, seed, silences) =
 let linked_case = QCheck2.Gen.(pair linked (oneofl [ answering; Environment.failing answering ]))
 let print_linked_case (case, _) = print_linked case
 
-let linked_options ((text, seed, silences), environment) : Timed.options =
+let linked_options ((text, seed, silences), environment) : Clocked.options =
   let program = Test_support.Pure_run.compile_exn text in
   { environment; program; world = Generate.world;
     durations = { (durations seed) with links = Links.of_silences silences }; dates = Ok [] }
@@ -244,7 +244,7 @@ let latest_of (expected : Enumeration.t) =
   List.fold_left (fun latest (_, (_, last)) -> max latest last) 0 (List.filter is_end expected.dates)
 
 (* With [task] this number of seconds longer. *)
-let longer (o : Timed.options) (task : Timing.task) n =
+let longer (o : Clocked.options) (task : Timed_analysis.task) n =
   let of_task v place (p : Core.platform_task) : Bounds.t =
     match o.durations.task v place p with
     | Within { least; most } when task = { name = p.name; vehicle = v; site = p.task_site } ->
@@ -258,29 +258,29 @@ let tight = ref 0 and loose = ref 0
 (* A task may take as much longer as its slack, and no second more. *)
 let slack_agrees (ast, seed, (_, environment)) =
   let program = Posts.declared environment (Generate.compile ast) in
-  let options : Timed.options =
+  let options : Clocked.options =
     { environment; program; world = Generate.world; durations = durations seed; dates = Dated_code.named program } in
   match Enumeration.all options with
   | None -> true
   | Some { never_over = true; _ } -> true
   | Some expected ->
-    let o = Timing.run Dolphin_checker.Limits.none options in
+    let o = Timed_analysis.run Dolphin_checker.Limits.none options in
     let latest = latest_of expected in
     let ends_then task n =
       match Enumeration.all (longer options task n) with
       | None -> None
       | Some e -> Some ((not e.never_over) && latest_of e = latest)
     in
-    let check (task : Timing.task) n same =
+    let check (task : Timed_analysis.task) n same =
       if ends_then task n = Some (not same) then
         QCheck2.Test.fail_reportf "%s on %s (%d) with %d s more" task.name task.vehicle task.site n
     in
-    let compare ((task : Timing.task), (slack : Slack.t)) =
+    let compare ((task : Timed_analysis.task), (slack : Slack.t)) =
       match slack with
       | Any -> incr loose; check task 7 true
       | By ms -> incr tight; check task (ms / 1000) true; check task ((ms / 1000) + 1) false
     in
-    let { Timing.known = slacks; _ } = Timing.slacks Dolphin_checker.Limits.none options o in
+    let { Timed_analysis.known = slacks; _ } = Timed_analysis.slacks Dolphin_checker.Limits.none options o in
     List.iter compare slacks;
     List.length slacks = List.length o.tasks
 
@@ -307,14 +307,14 @@ let names (pairs : Side_by_side.pair list) =
 (* The ends of these plans are unknown, so all that run at one time are reported. *)
 let pairs_agree (ast, seed, (_, environment)) =
   let program = { (Posts.declared environment (Generate.compile ast)) with fences = Fences.make [ distance ] } in
-  let options : Timed.options =
+  let options : Clocked.options =
     { environment; program; world = Generate.world; durations = durations seed; dates = Dated_code.named program } in
   let expected = Side_by_side.create program.fences in
   match Enumeration.all ~look:(fun c -> Side_by_side.see expected c.shared.allocation) options with
   | None | Some { never_over = true; _ } -> true
   | Some _ ->
     let limits = { Dolphin_checker.Limits.none with max_states = Some 5_000 } in
-    match (Timing.run limits options).apart with
+    match (Timed_analysis.run limits options).apart with
     | None -> false
     | Some { cut_short = Some _; _ } -> true
     | Some { pairs; _ } ->
@@ -356,8 +356,8 @@ let batteries_agree tally (vehicles, batteries) options =
   match Enumeration.all ~batteries options with
   | None | Some { never_over = true; _ } -> true
   | Some expected ->
-    let o = Timing.run ~vehicles Dolphin_checker.Limits.none options in
-    let check (b : Timing.battery) =
+    let o = Timed_analysis.run ~vehicles Dolphin_checker.Limits.none options in
+    let check (b : Timed_analysis.battery) =
       match List.assoc_opt b.vehicle expected.most with
       | None -> QCheck2.Test.fail_reportf "%s never works" b.vehicle
       | Some missing ->
@@ -372,8 +372,8 @@ let batteries_agree tally (vehicles, batteries) options =
         || QCheck2.Test.fail_reportf "%s: %.9g is least, %.9g or more is said, %.9g in a run" b.vehicle left b.least
           (Option.fold b.lowest ~none:nan ~some:fst)
     in
-    let is_told (v, _) = List.exists (fun (b : Timing.battery) -> b.vehicle = v) o.batteries in
-    let is_bounded = List.for_all (fun (_, (w : Timing.window)) -> w.latest <> Unbounded) o.endings in
+    let is_told (v, _) = List.exists (fun (b : Timed_analysis.battery) -> b.vehicle = v) o.batteries in
+    let is_bounded = List.for_all (fun (_, (w : Timed_analysis.window)) -> w.latest <> Unbounded) o.endings in
     List.for_all check o.batteries && ((not is_bounded) || List.for_all is_told expected.most)
 
 let test_batteries_of ?charges cases ~print options ~at_first ~charge ~programs () =
@@ -387,7 +387,7 @@ let test_batteries_of ?charges cases ~print options ~at_first ~charge ~programs 
   Printf.printf "%d exact, %d bounds, of %d vehicles that work\n" tally.exact tally.bounds tally.worked;
   Alcotest.(check bool) "most are exact" true (tally.worked > 0 && tally.exact > 3 * tally.bounds)
 
-let battery_options ?charges (ast, seed, (_, environment)) : Timed.options =
+let battery_options ?charges (ast, seed, (_, environment)) : Clocked.options =
   let program = Posts.declared environment (Generate.compile ast) in
   { environment; program; world = Generate.world; durations = durations ?charges seed;
     dates = Dated_code.named program }
@@ -401,7 +401,7 @@ let test_charging_plans =
 
 let test_linked_charging_plans =
   let charges = [ ("p", 8); ("q", 0) ] in
-  let options case : Timed.options =
+  let options case : Clocked.options =
     let o = linked_options case in
     { o with durations = { o.durations with charges = (durations ~charges 0).charges } } in
   test_batteries_of ~charges linked_case ~print:print_linked_case options
@@ -439,13 +439,13 @@ let looks_agree (ast, seed, (_, environment)) =
   let vehicles, batteries = fleet ~at_first ~charge:(if seed mod 3 = 0 then 6 else 0) () in
   let program = Posts.declared environment (Generate.compile ast) in
   let world = List.fold_left (fun w (v, _) -> World.open_battery v [] w) Generate.world batteries in
-  let options world : Timed.options =
+  let options world : Clocked.options =
     { environment; program; world; durations = durations seed; dates = Dated_code.named program } in
   match enumerated ~batteries ~seen (options Generate.world) with
   | None -> true
   | Some expected ->
-    let o = Timing.run ~vehicles few (options world) in
-    let check (b : Timing.battery) =
+    let o = Timed_analysis.run ~vehicles few (options world) in
+    let check (b : Timed_analysis.battery) =
       match List.assoc_opt b.vehicle expected.most with
       | None -> ()
       | Some missing ->
@@ -466,13 +466,13 @@ let test_looks () =
 let compare_one environment seed text =
   let program = Test_support.Pure_run.compile_exn text in
   let world = if program.reads_sensors then Generate.open_world else Generate.world in
-  let options : Timed.options =
+  let options : Clocked.options =
     { environment = List.assoc environment environments; program; world; durations = durations seed;
       dates = Dated_code.named program } in
   match Enumeration.all options with
   | None -> Alcotest.fail "too much to enumerate"
   | Some expected ->
-    let o = Timing.run Dolphin_checker.Limits.none options in
+    let o = Timed_analysis.run Dolphin_checker.Limits.none options in
     Alcotest.(check bool) "the same dates" true (found o = expected.dates);
     Alcotest.(check bool) "whether some run never ends" expected.never_over (o.endless <> None)
 

@@ -22,22 +22,22 @@ let fleet text =
 let outcome ?(faults = "") program scenario =
   let faults = if faults = "" then Faults.none else Result.get_ok (Faults.of_string faults) in
   let program = Test_support.Pure_run.compile_exn ?place:scenario.Scenario.plans_at program in
-  Timing.run Dolphin_checker.Limits.none
+  Timed_analysis.run Dolphin_checker.Limits.none
     { environment = Scenario_world.environment ~answers:[] ~faults program scenario; program;
       world = Scenario_world.world scenario; durations = Durations.of_scenario scenario;
       dates = Dolphin_semantics.Dated_code.named program }
 
-let seconds (w : Timing.window) =
+let seconds (w : Timed_analysis.window) =
   (float w.earliest /. 1000., match w.latest with At n -> float n /. 1000. | Unbounded -> infinity)
 
 let pp_window ppf (a, b) = Format.fprintf ppf "%g to %g" a b
 let window = Alcotest.testable pp_window ( = )
 
-let ends ?(ending = Timed_system.Completed) (o : Timing.outcome) =
+let ends ?(ending = Timed_system.Completed) (o : Timed_analysis.outcome) =
   match List.assoc_opt ending o.endings with Some w -> seconds w | None -> Alcotest.fail "no run ends so"
 
-let of_task (o : Timing.outcome) name moment =
-  let is_it ((t : Timing.task), _) = t.name = name in
+let of_task (o : Timed_analysis.outcome) name moment =
+  let is_it ((t : Timed_analysis.task), _) = t.name = name in
   match List.find_opt is_it o.tasks with
   | Some (_, moments) -> seconds (List.assoc moment moments)
   | None -> Alcotest.failf "no task %s" name
@@ -115,7 +115,7 @@ let test_rendezvous () =
   let earliest = 240. +. 600. +. down (0.9 *. longest) and latest = 420. +. 600. +. up (1.1 *. longest) in
   Alcotest.check window "completed" (earliest, latest) (ends o);
   let check_run what run date =
-    let run = match run with Some (run : Timing.run) -> run | None -> Alcotest.fail (what ^ " is missing") in
+    let run = match run with Some (run : Timed_analysis.run) -> run | None -> Alcotest.fail (what ^ " is missing") in
     let ms = Option.get (Bounds.milliseconds date) in
     Alcotest.(check int) (what ^ " ends then") ms (List.fold_left max 0 run.dates);
     Alcotest.(check bool) (what ^ " goes forward") true (List.sort compare run.dates = run.dates);
@@ -138,7 +138,7 @@ let test_within () =
   Alcotest.check window "in time" (480., 600.) (ends o);
   Alcotest.check window "too late" (600., 600.) (ends ~ending:Failed o);
   Alcotest.check window "stopped" (600., 600.) (of_task o "survey" Stopped);
-  let missed (o : Timing.outcome) =
+  let missed (o : Timed_analysis.outcome) =
     List.map (fun (_, missed) -> Option.map (fun (w, _) -> seconds w) missed) o.deadlines in
   let windows = Alcotest.(list (option window)) in
   Alcotest.check windows "missed" [ Some (600., 600.) ] (missed o);
@@ -168,7 +168,7 @@ let test_faults () =
   Alcotest.check window "a loss, told" (10., 19.) (ends ~ending:Failed (outcome ~faults:"loss" told scenario));
   Alcotest.check window "others complete" (5., 9.) (ends (outcome ~faults:"fail,loss" told scenario))
 
-let is_endless (o : Timing.outcome) = match o.endless with
+let is_endless (o : Timed_analysis.outcome) = match o.endless with
   | Some (_, `Cycle) -> "a cycle" | Some (_, `In_no_time) -> "a cycle in no time" | Some (_, `Stuck) -> "stuck"
   | None -> "all end"
 
@@ -198,12 +198,12 @@ let test_unknown () =
   let o = outcome program (fleet (two ^ "plan 'p', { duration 5, 9 }")) in
   Alcotest.check window "completed" (5., infinity) (ends o);
   Alcotest.(check int) "one is unknown" 1 (List.length o.unknown);
-  Alcotest.(check bool) "inconclusive" true (Timing.verdict o = Inconclusive);
-  Alcotest.(check bool) "no deadline can be told" true (Timing.verdict ~deadline:100_000 o = Inconclusive)
+  Alcotest.(check bool) "inconclusive" true (Timed_analysis.verdict o = Inconclusive);
+  Alcotest.(check bool) "no deadline can be told" true (Timed_analysis.verdict ~deadline:100_000 o = Inconclusive)
 
 let test_deadline () =
   let o = outcome (both ^ "execute task('p')[va]\n") (fleet (two ^ "plan 'p', { duration 5, 9 }")) in
-  let verdict deadline = Timing.verdict ~deadline o in
+  let verdict deadline = Timed_analysis.verdict ~deadline o in
   Alcotest.(check bool) "held" true (verdict 9_000 = Holds);
   Alcotest.(check bool) "broken by a millisecond" true (verdict 8_999 = Violated)
 
@@ -213,14 +213,15 @@ let test_slack () =
   let slacks program =
     let program = Test_support.Pure_run.compile_exn (both ^ program) in
     let scenario = fleet (two ^ "plan 'p', { duration 5, 9 }\nplan 'q', { duration 2 }\nplan 'r', { duration 1, 3 }") in
-    let options : Timed.options =
+    let options : Clocked.options =
       { environment = Scenario_world.environment ~answers:[] ~faults:Faults.none program scenario; program;
         world = Scenario_world.world scenario; durations = Durations.of_scenario scenario;
         dates = Dolphin_semantics.Dated_code.named program } in
     let limits = Dolphin_checker.Limits.none in
-    let { Timing.known = found; _ } = Timing.slacks limits options (Timing.run limits options) in
+    let outcome = Timed_analysis.run limits options in
+    let { Timed_analysis.known = found; _ } = Timed_analysis.slacks limits options outcome in
     let text : Slack.t -> string = function Any -> "any" | By ms -> string_of_int ms in
-    List.sort compare (List.map (fun ((t : Timing.task), s) -> (t.vehicle ^ " " ^ t.name, text s)) found)
+    List.sort compare (List.map (fun ((t : Timed_analysis.task), s) -> (t.vehicle ^ " " ^ t.name, text s)) found)
   in
   let check what expected program =
     Alcotest.(check (list (pair string string))) what expected (slacks ("execute " ^ program ^ "\n")) in
@@ -244,7 +245,7 @@ let test_batteries () =
   let found ?(faults = "") program =
     let faults = if faults = "" then Faults.none else Result.get_ok (Faults.of_string faults) in
     let program = Test_support.Pure_run.compile_exn (both ^ program) in
-    Timing.run ~vehicles:scenario.vehicles Dolphin_checker.Limits.none
+    Timed_analysis.run ~vehicles:scenario.vehicles Dolphin_checker.Limits.none
       { environment = Scenario_world.environment ~answers:[] ~faults program scenario; program;
         world = Scenario_world.world scenario; durations = Durations.of_scenario scenario;
         dates = Dolphin_semantics.Dated_code.named program }
@@ -252,7 +253,7 @@ let test_batteries () =
   let tenths x = Float.to_int (Float.round (1000. *. x)) in
   let check ?faults what expected program =
     let o = found ?faults ("execute " ^ program ^ "\n") in
-    let left (b : Timing.battery) =
+    let left (b : Timed_analysis.battery) =
       (b.vehicle, tenths b.least, Option.fold b.lowest ~none:(-1) ~some:(fun (x, _) -> tenths x)) in
     Alcotest.(check (list (triple string int int))) what expected (List.map left o.batteries);
     o
@@ -278,10 +279,10 @@ let test_batteries () =
       "def f(v) {\n b = battery(v)\n task('p')[v] >> action { if (b < 0.45) { halt 'low' } } >> task('p')[v]\n}\n\
        execute f(va)\n" in
   Alcotest.(check (list int)) "what was seen before" [ 300 ]
-    (List.map (fun (b : Timing.battery) -> tenths b.least) kept.batteries);
+    (List.map (fun (b : Timed_analysis.battery) -> tenths b.least) kept.batteries);
   let verdict program =
     let o = found ("execute " ^ program ^ "\n") in
-    (Timing.verdict o = Violated, Timing.verdict o = Inconclusive, Timing.shortfall o) in
+    (Timed_analysis.verdict o = Violated, Timed_analysis.verdict o = Inconclusive, Timed_analysis.shortfall o) in
   let verdicts = Alcotest.(check bool) in
   verdicts "enough" true (verdict "repeat 4, task('p')[va]" = (false, false, None));
   verdicts "not enough" true (verdict "repeat 5, task('p')[va]" = (true, false, Some Empty));
@@ -311,12 +312,13 @@ let test_batteries_without_link () =
     let program =
       Test_support.Pure_run.compile_exn ("va = pick { id 'a' }\nsetConnectionTimeout va, 1.hour\n" ^ program) in
     let o =
-      Timing.run ~vehicles:scenario.vehicles Dolphin_checker.Limits.none
+      Timed_analysis.run ~vehicles:scenario.vehicles Dolphin_checker.Limits.none
         { environment = Scenario_world.environment ~answers:[] ~faults:Faults.none program scenario; program;
           world = Scenario_world.world scenario; durations = Durations.of_scenario scenario;
           dates = Dolphin_semantics.Dated_code.named program } in
     let hundredths share = Float.to_int (Float.round (10_000. *. share)) in
-    let found (b : Timing.battery) = (hundredths b.least, Option.map (fun (left, _) -> hundredths left) b.lowest) in
+    let found (b : Timed_analysis.battery) =
+      (hundredths b.least, Option.map (fun (left, _) -> hundredths left) b.lowest) in
     Alcotest.(check (list (pair int (option int)))) what [ expected ] (List.map found o.batteries)
   in
   check "an order that waits" (3225, Some 3225) "pause 1.min\npause 1\nexecute task('p')[va]\n";

@@ -53,11 +53,11 @@ let follow options run =
   in
   snd (List.fold_left next (Recorded.start ~tolerance:0 options, []) run)
 
-let is_within (w : Timing.window) date =
+let is_within (w : Timed_analysis.window) date =
   date >= w.earliest - 1 && (match w.latest with At latest -> date <= latest + 1 | Unbounded -> true)
 
 (* The dates of a run against the results for all runs. *)
-let check_dates name (o : Timing.outcome) run =
+let check_dates name (o : Timed_analysis.outcome) run =
   let ending : Configuration.ending -> Timed_system.ending option = function
     | Completed -> Some Completed
     | Halted _ -> Some Halted
@@ -67,11 +67,11 @@ let check_dates name (o : Timing.outcome) run =
   let check_window what windows date =
     match windows with
     | Some w when is_within w date -> ()
-    | Some (_ : Timing.window) -> Alcotest.failf "%s: %s at %d ms, which is not within its bounds" name what date
+    | Some (_ : Timed_analysis.window) -> Alcotest.failf "%s: %s at %d ms, which is not within its bounds" name what date
     | None -> Alcotest.failf "%s: %s, which no run does" name what
   in
   let of_task v (p : Core.platform_task) moment date =
-    let task : Timing.task = { name = p.name; vehicle = v; site = p.task_site } in
+    let task : Timed_analysis.task = { name = p.name; vehicle = v; site = p.task_site } in
     check_window (p.name ^ " on " ^ v) (Option.bind (List.assoc_opt task o.tasks) (List.assoc_opt moment)) date
   in
   let step allocation date (t : Transition.t) =
@@ -99,13 +99,13 @@ let check name ~seeds ~fleet source =
     | Error _ -> Alcotest.fail "the fleet is wrong"
   in
   let program = Test_support.Pure_run.compile_exn ?place:scenario.plans_at source in
-  let options : Timed.options =
+  let options : Clocked.options =
     { environment = Scenario_world.environment ~answers:[] ~faults:Dolphin_environment.Faults.none program scenario;
       program;
       world = Scenario_world.world scenario; durations = Durations.of_scenario scenario;
       dates = Dolphin_semantics.Dated_code.named program }
   in
-  let o = Timing.run limits options in
+  let o = Timed_analysis.run limits options in
   for seed = 1 to seeds do
     let run = run ~seed scenario program in
     (match follow options run with
@@ -177,7 +177,7 @@ let test_findings () =
     Result.get_ok
       (Scenario.read ~file:"f" ("vehicle 'a', { type 'UUV' }\nplan 'p', { duration " ^ duration ^ " }\n")) in
   let program = Test_support.Pure_run.compile_exn "va = pick { id 'a' }\nexecute task('p')[va] >> idle(5)\n" in
-  let options scenario : Timed.options =
+  let options scenario : Clocked.options =
     { environment = Scenario_world.environment ~answers:[] ~faults:Dolphin_environment.Faults.none program scenario;
       program; world = Scenario_world.world scenario; durations = Durations.of_scenario scenario;
       dates = Dolphin_semantics.Dated_code.named program } in

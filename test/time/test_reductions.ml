@@ -12,9 +12,9 @@ let with_inert = ref 0 and with_likeness = ref 0
 let few = { Dolphin_checker.Limits.none with max_states = Some 3_000 }
 
 (* The whole output, but for the chosen runs. *)
-let answers (o : Timing.outcome) =
-  let task ((t : Timing.task), windows) = (t, List.sort compare windows) in
-  let last (r : Timing.run option) =
+let answers (o : Timed_analysis.outcome) =
+  let task ((t : Timed_analysis.task), windows) = (t, List.sort compare windows) in
+  let last (r : Timed_analysis.run option) =
     match r with
     | Some { dates = _ :: _ as dates; _ } -> Some (List.nth dates (List.length dates - 1))
     | Some _ | None -> None
@@ -25,13 +25,13 @@ let answers (o : Timing.outcome) =
     (last o.last, last o.first, List.length o.unknown) )
 
 let pp_dates ppf (endings, tasks) =
-  let window ppf (w : Timing.window) =
+  let window ppf (w : Timed_analysis.window) =
     match w.latest with
     | At n -> Format.fprintf ppf "%d to %d" w.earliest n
     | Unbounded -> Format.fprintf ppf "%d or later" w.earliest
   in
   let ending (e, w) = Format.fprintf ppf "%s %a; " (Timed_system.ending_name e) window w in
-  let task ((t : Timing.task), windows) =
+  let task ((t : Timed_analysis.task), windows) =
     let moment (m, w) = Format.fprintf ppf "%s %a, " (Timed_system.moment_name m) window w in
     Format.fprintf ppf "%s on %s (%d): " t.name t.vehicle t.site;
     List.iter moment windows
@@ -42,15 +42,15 @@ let pp_dates ppf (endings, tasks) =
 let close = ref 0 and loose = ref 0
 
 (* No bound is above what is left in any run that is shown. *)
-let check_batteries (outcomes : Timing.outcome list) =
-  let all = List.concat_map (fun (o : Timing.outcome) -> o.batteries) outcomes in
-  let check (b : Timing.battery) (c : Timing.battery) =
+let check_batteries (outcomes : Timed_analysis.outcome list) =
+  let all = List.concat_map (fun (o : Timed_analysis.outcome) -> o.batteries) outcomes in
+  let check (b : Timed_analysis.battery) (c : Timed_analysis.battery) =
     match c.lowest with
     | Some (lowest, _) when b.vehicle = c.vehicle && lowest < b.least -. 1e-9 ->
       QCheck2.Test.fail_reportf "%s: %g is left in a run, and %g or more is said" b.vehicle lowest b.least
     | Some _ | None -> ()
   in
-  let count (b : Timing.battery) =
+  let count (b : Timed_analysis.battery) =
     let is_close = Option.fold b.lowest ~none:false ~some:(fun (lowest, _) -> lowest -. b.least < 1e-9) in
     Test_support.Property.count (if is_close then close else loose)
   in
@@ -58,8 +58,8 @@ let check_batteries (outcomes : Timing.outcome list) =
 
 let agrees case =
   let options = options case in
-  let run reduction limits = Timing.run ~reduction ~vehicles:batteries limits options in
-  let plain = run Timing.Nothing few in
+  let run reduction limits = Timed_analysis.run ~reduction ~vehicles:batteries limits options in
+  let plain = run Timed_analysis.Nothing few in
   if plain.stopped <> None then Test_support.Property.count skipped
   else begin
     let check name reduction =
@@ -75,12 +75,12 @@ let agrees case =
       end;
       found
     in
-    let inert = check "inert ends" Timing.Inert_ends in
-    let all = check "inert ends and likeness" Inert_ends_and_likeness in
+    let inert = check "inert ends" Timed_analysis.Inert_ends in
+    let all = check "inert ends and likeness" Inert_ends_and_canonical_states in
     check_batteries [ plain; inert; all ];
     if inert.reduction <> Nothing && inert.states <> plain.states then
       Test_support.Property.count with_inert;
-    if all.reduction = Inert_ends_and_likeness && all.states <> inert.states then
+    if all.reduction = Inert_ends_and_canonical_states && all.states <> inert.states then
       Test_support.Property.count with_likeness
   end;
   true
@@ -95,9 +95,9 @@ let one_of_two = "oneOf {\nwhen { consume ready: 1 } then task('v1')\nwhen { con
 
 let check_left ~alike uav after =
   let case = (Mission (left uav after), (5, By_plan), ("as planned", answering)) in
-  let found = Timing.run Dolphin_checker.Limits.none (options case) in
+  let found = Timed_analysis.run Dolphin_checker.Limits.none (options case) in
   Alcotest.(check bool) (after ^ ": the same is found") true (agrees case);
-  Alcotest.(check bool) (after ^ ": likeness is used") alike (found.reduction = Inert_ends_and_likeness)
+  Alcotest.(check bool) (after ^ ": likeness is used") alike (found.reduction = Inert_ends_and_canonical_states)
 
 let test_left () =
   check_left ~alike:false one_of_two "if (poll(ready: 2)) {\n  execute idle(5)\n}\n";
@@ -120,11 +120,11 @@ let staying_by defined =
   let work = "def work(i, t) {\n  task('s' + i) >> action { post ready: i } >> stay_for(t)\n}\n" in
   copies_of "work(#, STAY)" ~defined:(defined ^ work)
 
-let found_of text = Timing.run Dolphin_checker.Limits.none (options (Mission text, (5, By_plan), ("as planned", answering)))
+let found_of text = Timed_analysis.run Dolphin_checker.Limits.none (options (Mission text, (5, By_plan), ("as planned", answering)))
 
 let test_spellings () =
   let literal = found_of (staying "6") in
-  Alcotest.(check bool) "all is used" true (literal.reduction = Inert_ends_and_likeness);
+  Alcotest.(check bool) "all is used" true (literal.reduction = Inert_ends_and_canonical_states);
   let check text stay =
     let found = found_of (text stay) in
     Alcotest.(check int) stay literal.states found.states;
@@ -159,7 +159,7 @@ let test_look (name, code) =
   let check () =
     let case = (Mission (looking code), (5, By_plan), ("as planned", answering)) in
     Alcotest.(check bool) "the same is found" true (agrees case);
-    let plain = Timing.run ~reduction:Nothing Dolphin_checker.Limits.none (options case) in
+    let plain = Timed_analysis.run ~reduction:Nothing Dolphin_checker.Limits.none (options case) in
     Alcotest.(check int) "nothing is left out" plain.states (found_of (looking code)).states
   in
   Alcotest.test_case name `Quick check

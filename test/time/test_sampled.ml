@@ -46,7 +46,7 @@ let test_left_out () =
   | _, (Ok _ | Error _) -> Alcotest.fail "a run is missing"
 
 let time ((program : Program_file.t), (fleet : Fleet_file.t)) =
-  let options : Timed.options =
+  let options : Clocked.options =
     { environment =
         Scenario_world.environment ~answers:[] ~faults:Dolphin_environment.Faults.none program.program
           fleet.scenario;
@@ -54,7 +54,7 @@ let time ((program : Program_file.t), (fleet : Fleet_file.t)) =
       durations = Durations.of_scenario fleet.scenario;
       dates = Dolphin_semantics.Dated_code.named program.program }
   in
-  Timing.run { Dolphin_checker.Limits.none with max_states = Some 2_000 } options
+  Timed_analysis.run { Dolphin_checker.Limits.none with max_states = Some 2_000 } options
 
 (* Things that {!Durations} does not know: vehicles that leave, and batteries. *)
 let is_steady (s : Scenario.t) =
@@ -62,7 +62,7 @@ let is_steady (s : Scenario.t) =
 
 let compared = ref 0
 
-let check_bounds (o : Timing.outcome) (s : Sampling.t) =
+let check_bounds (o : Timed_analysis.outcome) (s : Sampling.t) =
   let ending (e : Sampling.ending) =
     let known : Timed_system.ending =
       match e.ending with

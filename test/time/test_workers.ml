@@ -15,8 +15,8 @@ let compared = ref 0
 
 let agrees case =
   let options = Random_missions.options case and limits = { Limits.none with max_states = Some 300 } in
-  let o = Timing.run limits options in
-  let slacks workers = Timing.slacks ~workers limits options o in
+  let o = Timed_analysis.run limits options in
+  let slacks workers = Timed_analysis.slacks ~workers limits options o in
   o.states > 60
   ||
   let one = slacks 1 in
@@ -51,18 +51,18 @@ let slacks ?(workers = 2) limits =
   let options =
     let program = "v = pick { type 'UAV' }\nexecute v: task('p') >> task('q')\n" in
     Random_missions.(options (Mission program, (5, By_plan), ("as planned", answering))) in
-  let o = Timing.run Limits.none options in
-  let found = Timing.slacks ~workers limits options o in
+  let o = Timed_analysis.run Limits.none options in
+  let found = Timed_analysis.slacks ~workers limits options o in
   Alcotest.(check bool) "no process is left" true (no_child ());
   Alcotest.(check int) "tasks" 2 (List.length o.tasks);
   found
 
-let check_stopped expected { Timing.known; cut_short } =
+let check_stopped expected { Timed_analysis.known; cut_short } =
   Alcotest.(check int) "none is known" 0 (List.length known);
   Alcotest.(check (option string)) "stopped" (Some expected)
     (Option.map (Format.asprintf "%a" Limits.pp_bound) cut_short)
 
-let check_all { Timing.known; cut_short } =
+let check_all { Timed_analysis.known; cut_short } =
   Alcotest.(check int) "all are known" 2 (List.length known);
   Alcotest.(check bool) "to the end" true (cut_short = None)
 

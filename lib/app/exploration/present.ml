@@ -84,7 +84,7 @@ let world p scenario = Scenario_world.seen scenario (Replay.world p.past.replay)
 
 let milliseconds time = Option.value (Dolphin_time.Bounds.milliseconds time) ~default:0
 
-let timed p (options : Dolphin_time.Timed.options) =
+let timed p (options : Dolphin_time.Clocked.options) =
   let open Dolphin_time in
   let take r (time, line) =
     let date = milliseconds time in
@@ -97,7 +97,7 @@ let timed p (options : Dolphin_time.Timed.options) =
   let seen = List.map (fun (s : World.vehicle_state) -> (s.id, s.position)) (known p) in
   let date = milliseconds p.time in
   let options, state = Recorded.onwards recorded ~outside ~date ~seen in
-  ({ options with environment }, { Timing.state; date })
+  ({ options with environment }, { Timed_analysis.state; date })
 
 (* {1 Texts} *)
 

@@ -22,9 +22,9 @@ val start : t -> Environment.options -> Core.program -> Environment.options * (C
 val world : t -> Dolphin_scenario.Scenario.t -> World.t
 (** [world p s] is {!Scenario_world.seen} of [s] and the vehicles that the run knows. *)
 
-val timed : t -> Dolphin_time.Timed.options -> Dolphin_time.Timed.options * Dolphin_time.Timing.start
-(** [timed p options] is the same for {!Dolphin_time.Timing.run}: tasks and timers have gone on since they began,
-    and vehicles at rest stand where they were seen last. *)
+val timed : t -> Dolphin_time.Clocked.options -> Dolphin_time.Clocked.options * Dolphin_time.Timed_analysis.start
+(** [timed p options] is the same for {!Dolphin_time.Timed_analysis.run}: tasks and timers have gone on since they
+    began, and vehicles at rest stand where they were seen last. *)
 
 val remarks : t -> Program_file.t -> Fleet_file.t -> string list
 (** Sentences on the differences from the run: a program or a fleet that has changed since, vehicles out of contact. *)

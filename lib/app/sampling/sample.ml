@@ -41,7 +41,7 @@ let handlers program world (c : Configuration.t) event (t : Transition.t) =
   | Executing (machine, r), n when n > 0 -> (
       let watches (Task_rules.Step { around; _ }) =
         let site : Residual.surrounding -> Core.site option = function
-          | Inside (Watched_by handler) -> Some handler.code.lambda.lambda_site
+          | Inside (In_watch handler) -> Some handler.code.lambda.lambda_site
           | Inside _ | Beside _ | Around _ -> None
         in
         List.filteri (fun i _ -> i < n) (List.rev (List.filter_map site around))

@@ -1,4 +1,4 @@
-module Timing = Dolphin_time.Timing
+module Timed_analysis = Dolphin_time.Timed_analysis
 module Search = Dolphin_explore.Search
 module Property = Dolphin_explore.Property
 module Limits = Dolphin_checker.Limits
@@ -7,7 +7,7 @@ open Dolphin_semantics
 
 type trouble =
   | Property of Property.t * Search.outcome
-  | Time of Timing.shortfall * Timing.outcome
+  | Time of Timed_analysis.shortfall * Timed_analysis.outcome
   | Bound of Limits.bound
 
 type vehicles = Core.vehicle list
@@ -15,7 +15,7 @@ type vehicles = Core.vehicle list
 type t =
   | Least of {
       vehicles : vehicles;
-      outcome : Timing.outcome;
+      outcome : Timed_analysis.outcome;
       without : (Core.vehicle * trouble) list;
       unsure : vehicles list;
     }
@@ -50,7 +50,7 @@ let judge ~interrupted ~progress (settings : Time_analysis.settings) program fle
   let fleet = part fleet vehicles in
   let* () = explored ~interrupted ~progress settings program fleet in
   let outcome = Time_analysis.run ~interrupted ~progress settings program fleet in
-  match Timing.shortfall ?deadline:settings.deadline outcome with
+  match Timed_analysis.shortfall ?deadline:settings.deadline outcome with
   | None -> Ok outcome
   | Some why -> Error (Time (why, outcome))
 

@@ -1,11 +1,11 @@
 (** The least fleet that will do: [dolphin time --fewest]. *)
 
-module Timing = Dolphin_time.Timing
+module Timed_analysis = Dolphin_time.Timed_analysis
 
 (** Reasons against a fleet. *)
 type trouble =
   | Property of Dolphin_explore.Property.t * Dolphin_explore.Search.outcome  (** is violated *)
-  | Time of Timing.shortfall * Timing.outcome
+  | Time of Timed_analysis.shortfall * Timed_analysis.outcome
   | Bound of Dolphin_checker.Limits.bound  (** met by the exploration: unknown *)
 
 type vehicles = Dolphin_semantics.Core.vehicle list
@@ -13,7 +13,7 @@ type vehicles = Dolphin_semantics.Core.vehicle list
 type t =
   | Least of {
       vehicles : vehicles;
-      outcome : Timing.outcome;  (** with these *)
+      outcome : Timed_analysis.outcome;  (** with these *)
       without : (Dolphin_semantics.Core.vehicle * trouble) list;  (** each of them *)
       unsure : vehicles list;  (** smaller fleets with an unknown answer *)
     }
@@ -25,8 +25,8 @@ val find :
   interrupted:(unit -> bool) -> progress:(Dolphin_checker.Limits.progress -> unit) -> Time_analysis.settings ->
   Program_file.t -> Fleet_file.t -> t * int
 (** [find ~interrupted ~progress s program fleet] is the first of the smallest parts of [fleet], by the order of its
-    vehicles, with which no property of {!Exploration} is violated and nothing is {!Timing.shortfall}; and how many
-    parts were looked at: all that are smaller. *)
+    vehicles, with which no property of {!Exploration} is violated and nothing is {!Timed_analysis.shortfall}; and how
+    many parts were looked at: all that are smaller. *)
 
 val verdict : t -> Sweep.verdict
 

@@ -1,9 +1,9 @@
-module Timing = Dolphin_time.Timing
+module Timed_analysis = Dolphin_time.Timed_analysis
 
 let verdict ?deadline o : Sweep.verdict =
-  match Timing.shortfall ?deadline o with None -> Holds | Some Unknown -> Inconclusive | Some _ -> Violated
+  match Timed_analysis.shortfall ?deadline o with None -> Holds | Some Unknown -> Inconclusive | Some _ -> Violated
 
-let shortfall : Timing.shortfall -> string = function
+let shortfall : Timed_analysis.shortfall -> string = function
   | Never_ends -> "does not end"
   | Fails -> "fails"
   | Late -> "late"
@@ -12,24 +12,24 @@ let shortfall : Timing.shortfall -> string = function
   | Too_near -> "plans too near"
   | Unknown -> "inconclusive"
 
-let earliest (o : Timing.outcome) =
-  List.fold_left (fun found (_, (w : Timing.window)) -> min found w.earliest) max_int o.endings
+let earliest (o : Timed_analysis.outcome) =
+  List.fold_left (fun found (_, (w : Timed_analysis.window)) -> min found w.earliest) max_int o.endings
 
-let cells ?deadline ({ found = o; _ } : Timing.outcome Sweep.row) =
+let cells ?deadline ({ found = o; _ } : Timed_analysis.outcome Sweep.row) =
   let first = if o.endings = [] then "" else Time_report.time (earliest o) in
   let last =
-    match Timing.latest o with
+    match Timed_analysis.latest o with
     | Some (At n) when o.endless = None -> Time_report.time n
     | Some (At _) | Some Unbounded -> "unbounded"
     | None -> ""
   in
   [ first; last; string_of_int o.states;
-    Option.fold (Timing.shortfall ?deadline o) ~none:"holds" ~some:shortfall ]
+    Option.fold (Timed_analysis.shortfall ?deadline o) ~none:"holds" ~some:shortfall ]
 
-let print_run ?deadline s ({ program; found; verdict; _ } as row : Timing.outcome Sweep.row) =
+let print_run ?deadline s ({ program; found; verdict; _ } as row : Timed_analysis.outcome Sweep.row) =
   if verdict <> Inconclusive then begin
     Printf.printf "\n%s:" (Sweep.name s row);
-    match Timing.shortfall ?deadline found, found.failing with
+    match Timed_analysis.shortfall ?deadline found, found.failing with
     | Some Fails, Some run -> Time_report.print_failing program run
     | _, _ -> Time_report.print_run ?deadline program found
   end
@@ -44,5 +44,5 @@ let print ?deadline s rows =
   | None, [] -> ()
 
 let to_json ?deadline s rows =
-  let found (row : Timing.outcome Sweep.row) = Time_report.to_json ?deadline row.program row.found in
+  let found (row : Timed_analysis.outcome Sweep.row) = Time_report.to_json ?deadline row.program row.found in
   Sweep.to_json s found rows

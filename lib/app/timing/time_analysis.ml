@@ -1,4 +1,4 @@
-module Timing = Dolphin_time.Timing
+module Timed_analysis = Dolphin_time.Timed_analysis
 module Scenario_world = Dolphin_environment.Scenario_world
 
 type settings = {
@@ -16,7 +16,7 @@ let limits ~interrupted ~progress s =
   Search_limits.make ?max_states:s.max_states ?max_depth:s.max_depth ?max_memory:s.max_memory ?timeout:s.timeout
     ~interrupted ~progress ()
 
-let options s (program : Program_file.t) (fleet : Fleet_file.t) : Dolphin_time.Timed.options =
+let options s (program : Program_file.t) (fleet : Fleet_file.t) : Dolphin_time.Clocked.options =
   { environment = Scenario_world.environment ~answers:s.answers ~faults:s.faults program.program fleet.scenario;
     program = program.program; world = Scenario_world.world fleet.scenario;
     durations = Dolphin_time.Durations.of_scenario fleet.scenario;
@@ -26,13 +26,13 @@ let run ?from ~interrupted ~progress s program fleet =
   let { Fleet_file.scenario; _ } = fleet in
   let limits = limits ~interrupted ~progress s and options = options s program fleet in
   match from with
-  | None -> Timing.run ?deadline:s.deadline ~vehicles:scenario.vehicles limits options
+  | None -> Timed_analysis.run ?deadline:s.deadline ~vehicles:scenario.vehicles limits options
   | Some present ->
     let options, start = Present.timed present { options with world = Present.world present scenario } in
-    Timing.run ~start ?deadline:s.deadline limits options
+    Timed_analysis.run ~start ?deadline:s.deadline limits options
 
 let slacks ~interrupted ~progress s program fleet =
-  Timing.slacks ~workers:s.workers (limits ~interrupted ~progress s) (options s program fleet)
+  Timed_analysis.slacks ~workers:s.workers (limits ~interrupted ~progress s) (options s program fleet)
 
 let duration text =
   let wrong = Error (Printf.sprintf "'%s' is not a time such as 40.min or 90.seconds" text) in

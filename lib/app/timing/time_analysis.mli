@@ -1,6 +1,6 @@
 (** How early and how late the runs of a program in a file do what they do, with a fleet. *)
 
-module Timing = Dolphin_time.Timing
+module Timed_analysis = Dolphin_time.Timed_analysis
 
 type settings = {
   answers : string list;
@@ -15,14 +15,14 @@ type settings = {
 
 val run :
   ?from:Present.t -> interrupted:(unit -> bool) -> progress:(Dolphin_checker.Limits.progress -> unit) -> settings ->
-  Program_file.t -> Fleet_file.t -> Timing.outcome
+  Program_file.t -> Fleet_file.t -> Timed_analysis.outcome
 (** How a program's runs may go, by default from the beginning, or from the present [from] of one. [interrupted] and
     [progress] are as in {!Dolphin_checker.Limits}. *)
 
 val slacks :
   interrupted:(unit -> bool) -> progress:(Dolphin_checker.Limits.progress -> unit) -> settings -> Program_file.t ->
-  Fleet_file.t -> Timing.outcome -> Timing.slacks
-(** {!Timing.slacks} of the result of {!run}, with the same settings. *)
+  Fleet_file.t -> Timed_analysis.outcome -> Timed_analysis.slacks
+(** {!Timed_analysis.slacks} of the result of {!run}, with the same settings. *)
 
 val duration : string -> (int, string) result
 (** [duration text] is the milliseconds that [text] spells, as fleets do: ["40.min"], ["90.seconds"], seconds without a

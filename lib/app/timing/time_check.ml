@@ -21,7 +21,7 @@ let usual_of (header : Dolphin_trace.Header.t) =
   match header with { platform = "sim"; speed = None; _ } -> 0 | _ -> usual
 
 let check ?tolerance (p : Program_file.t) (fleet : Fleet_file.t) path =
-  let options : Timed.options =
+  let options : Clocked.options =
     { environment =
         Scenario_world.environment ~answers:[] ~faults:Dolphin_environment.Faults.none p.program fleet.scenario;
       program = p.program; world = Scenario_world.still fleet.scenario;

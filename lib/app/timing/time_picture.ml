@@ -1,6 +1,6 @@
 open Dolphin_time
 open Dolphin_trace
-module Timing = Dolphin_time.Timing
+module Timed_analysis = Dolphin_time.Timed_analysis
 
 let width = 1100.
 let margin = 28.
@@ -8,23 +8,23 @@ let margin = 28.
 (* {1 What is drawn} *)
 
 type row = {
-  task : Timing.task;
-  starts : Timing.window;
-  ends : Timing.window option;  (* however it ends; [None]: it does not *)
+  task : Timed_analysis.task;
+  starts : Timed_analysis.window;
+  ends : Timed_analysis.window option;  (* however it ends; [None]: it does not *)
   tip : string;
 }
 
-let later (a : Timing.date) (b : Timing.date) : Timing.date =
+let later (a : Timed_analysis.date) (b : Timed_analysis.date) : Timed_analysis.date =
   match a, b with Unbounded, _ | _, Unbounded -> Unbounded | At m, At n -> At (max m n)
 
 (* However it may end: the earliest and the latest of all ways. *)
 let any_end windows =
   let ends = List.filter_map (fun m -> List.assoc_opt m windows) [ Timed_system.Ends; Fails; Stopped ] in
-  let both (a : Timing.window) (b : Timing.window) =
-    { Timing.earliest = min a.earliest b.earliest; latest = later a.latest b.latest } in
+  let both (a : Timed_analysis.window) (b : Timed_analysis.window) =
+    { Timed_analysis.earliest = min a.earliest b.earliest; latest = later a.latest b.latest } in
   match ends with [] -> None | first :: rest -> Some (List.fold_left both first rest)
 
-let row p ((task : Timing.task), windows) =
+let row p ((task : Timed_analysis.task), windows) =
   let named m w = Timed_system.moment_name m ^ " " ^ Time_report.window w in
   let moment m = Option.map (named m) (List.assoc_opt m windows) in
   let words = List.filter_map moment Time_report.moments in
@@ -33,12 +33,12 @@ let row p ((task : Timing.task), windows) =
   Option.map (fun starts -> { task; starts; ends = any_end windows; tip }) (List.assoc_opt Timed_system.Starts windows)
 
 (* The rows of each vehicle together, by their earliest starts. *)
-let rows p (o : Timing.outcome) =
+let rows p (o : Timed_analysis.outcome) =
   let all = List.filter_map (row p) o.tasks in
   let vehicles =
     List.fold_left (fun vs r -> if List.mem r.task.vehicle vs then vs else r.task.vehicle :: vs) [] all in
   let of_vehicle v =
-    let end_of r = Option.fold r.ends ~none:max_int ~some:(fun (w : Timing.window) -> w.earliest) in
+    let end_of r = Option.fold r.ends ~none:max_int ~some:(fun (w : Timed_analysis.window) -> w.earliest) in
     let key r = (r.starts.earliest, end_of r) in
     (v, List.stable_sort (fun a b -> compare (key a) (key b)) (List.filter (fun r -> r.task.vehicle = v) all))
   in
@@ -51,11 +51,11 @@ type frame = { left : float; right : float; until : int }  (* milliseconds *)
 let at f ms = f.left +. ((f.right -. f.left) *. Float.of_int ms /. Float.of_int f.until)
 
 (* The last date that there is, and a little more if something has none. *)
-let until ?deadline (o : Timing.outcome) =
+let until ?deadline (o : Timed_analysis.outcome) =
   let windows = List.map snd o.endings @ List.concat_map (fun (_, ws) -> List.map snd ws) o.tasks in
-  let last (w : Timing.window) = match w.latest with At n -> n | Unbounded -> w.earliest in
+  let last (w : Timed_analysis.window) = match w.latest with At n -> n | Unbounded -> w.earliest in
   let most = List.fold_left (fun n w -> max n (last w)) (Option.value deadline ~default:0) windows in
-  let is_open (w : Timing.window) = w.latest = Unbounded in
+  let is_open (w : Timed_analysis.window) = w.latest = Unbounded in
   let has_open = o.endless <> None || List.exists is_open windows in
   max 1_000 (if has_open then most * 11 / 10 else most)
 
@@ -70,8 +70,8 @@ let bar f ~colour ~y ~height r =
     let path = Printf.sprintf "M%s,%s l7,%s l-7,%s z" (n f.right) (n y) (n (height /. 2.)) (n (height /. 2.)) in
     Svg.path ~name:("bar open " ^ colour) ~tip:r.tip path
   in
-  let last (w : Timing.window) = match w.latest with At n -> (n, false) | Unbounded -> (f.until, true) in
-  let ends = Option.value r.ends ~default:{ Timing.earliest = f.until; latest = Unbounded } in
+  let last (w : Timed_analysis.window) = match w.latest with At n -> (n, false) | Unbounded -> (f.until, true) in
+  let ends = Option.value r.ends ~default:{ Timed_analysis.earliest = f.until; latest = Unbounded } in
   let latest_start, _ = last r.starts and latest_end, is_open = last ends in
   let parts =
     if latest_start >= ends.earliest then [ rect ~name:" open" r.starts.earliest latest_end ]
@@ -95,7 +95,7 @@ let bar f ~colour ~y ~height r =
 let level_height = 12.
 
 (* Each with its label on a level of its own above the bars, and its line up to there. *)
-let limits ?deadline f (o : Timing.outcome) =
+let limits ?deadline f (o : Timed_analysis.outcome) =
   let line name label ms ~top ~bottom level =
     let x = at f ms and y = top -. (level_height *. Float.of_int level) in
     let anchor : Svg.anchor = if x > (f.left +. f.right) /. 2. then End else Start in
@@ -103,7 +103,7 @@ let limits ?deadline f (o : Timing.outcome) =
     let text = if name = "limit late" then "axis bad" else "axis" in
     [ Svg.line ~name (x, y -. 9.) (x, bottom); Svg.text ~name:text ~anchor (x +. dx, y) label ]
   in
-  let of_ending (e, (w : Timing.window)) =
+  let of_ending (e, (w : Timed_analysis.window)) =
     let name = Timed_system.ending_name e in
     let limit word n = line "limit" (Printf.sprintf "%s %s %s" name word (Time_report.time n)) n in
     match w.latest with
@@ -117,9 +117,9 @@ let limits ?deadline f (o : Timing.outcome) =
 
 (* {1 The whole} *)
 
-let head p ?deadline (o : Timing.outcome) =
+let head p ?deadline (o : Timed_analysis.outcome) =
   let words =
-    match Timing.shortfall ?deadline o, Timing.latest o with
+    match Timed_analysis.shortfall ?deadline o, Timed_analysis.latest o with
     | Some Never_ends, _ -> ("some run never ends", true)
     | Some Late, _ -> ("some run is late", true)
     | Some Fails, _ -> ("some run fails", true)
@@ -141,7 +141,7 @@ let legend ~x ~y =
     Svg.rect ~name:"bar open v0" ~x:(x +. 150.) ~y:(y -. 9.) ~width:18. ~height:10. ();
     Svg.text ~name:"axis" (x +. 174., y) "may run: from its earliest start, to its latest end" ]
 
-let document ~alone ?deadline p (o : Timing.outcome) =
+let document ~alone ?deadline p (o : Timed_analysis.outcome) =
   let groups = rows p o in
   let count = List.fold_left (fun n (_, rows) -> n + List.length rows) 0 groups in
   let row = if count <= 30 then 24. else if count <= 80 then 18. else 13. in
@@ -185,7 +185,7 @@ let svg ?deadline p o = Picture.to_file (document ~alone:true ?deadline p o)
 
 let html ?deadline p o =
   let heads = "vehicle" :: "task" :: List.map Timed_system.moment_name Time_report.moments @ [ "where" ] in
-  let row ((task : Timing.task), windows) =
+  let row ((task : Timed_analysis.task), windows) =
     let cell m = Option.fold (List.assoc_opt m windows) ~none:"" ~some:Time_report.window in
     let where = Option.value (Program_file.at p task.site) ~default:"" in
     (task.vehicle :: task.name :: List.map cell Time_report.moments) @ [ where ]

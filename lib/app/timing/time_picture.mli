@@ -1,9 +1,9 @@
 (** The result of [dolphin time], as a picture: for each task a bar from its earliest start to its latest end. *)
 
-module Timing = Dolphin_time.Timing
+module Timed_analysis = Dolphin_time.Timed_analysis
 
-val svg : ?deadline:int -> Program_file.t -> Timing.outcome -> string
+val svg : ?deadline:int -> Program_file.t -> Timed_analysis.outcome -> string
 (** A document of its own, in the style of {!Dolphin_trace.Picture}. *)
 
-val html : ?deadline:int -> Program_file.t -> Timing.outcome -> string
+val html : ?deadline:int -> Program_file.t -> Timed_analysis.outcome -> string
 (** The same in a page, with a table of the tasks. *)

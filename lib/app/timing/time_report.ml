@@ -1,6 +1,6 @@
 open Dolphin_semantics
 open Dolphin_time
-module Timing = Dolphin_time.Timing
+module Timed_analysis = Dolphin_time.Timed_analysis
 module Columns = Dolphin_display.Columns
 module Text_table = Dolphin_display.Text_table
 
@@ -14,7 +14,7 @@ let time ms = Format.asprintf "%a" Bounds.pp_time ms
 let moments : Timed_system.moment list = [ Starts; Ends; Fails; Stopped ]
 
 (* The awaited events, and the party that defines their durations. *)
-let item ?at (p : Program_file.t) (pending : Timed.pending) =
+let item ?at (p : Program_file.t) (pending : Clocked.pending) =
   let place = Option.fold (Option.bind at (Program_file.at p)) ~none:"" ~some:(fun at -> at ^ ": ") in
   match pending.item, pending.task with
   | Task v, Some task ->
@@ -33,7 +33,7 @@ let item ?at (p : Program_file.t) (pending : Timed.pending) =
   | Course v, _ -> "the battery of " ^ v
   | Date k, _ -> "now() = " ^ Dolphin_trace.Phrase.time (float_of_int k)
 
-let hint (pending : Timed.pending) =
+let hint (pending : Clocked.pending) =
   match pending.item, pending.task with
   | Task _, Some { plan = None; name; _ } -> Printf.sprintf "; in the fleet: plan '%s', { duration 3.min, 9.min }" name
   | Task _, Some { plan = Some _; _ } -> "; the vehicle's position at its start is unknown"
@@ -42,24 +42,24 @@ let hint (pending : Timed.pending) =
 
 (* {1 For people} *)
 
-let window (w : Timing.window) =
+let window (w : Timed_analysis.window) =
   match w.latest with
   | At latest when latest = w.earliest -> time latest
   | At latest -> Printf.sprintf "%s to %s" (time w.earliest) (time latest)
   | Unbounded -> Printf.sprintf "%s or later" (time w.earliest)
 
-let print_ending (e, (w : Timing.window)) =
+let print_ending (e, (w : Timed_analysis.window)) =
   let latest = match w.latest with At n -> time n ^ " at the latest" | Unbounded -> "no latest time" in
   say "%s: %s at the earliest, %s" (Timed_system.ending_name e) (time w.earliest) latest
 
 let slack : Slack.t option -> string = function Some Any -> "any" | Some (By ms) -> time ms | None -> "unknown"
 
 (* Times of [slacks] are by how much longer a task may take before the latest end is later. *)
-let print_tasks ?slacks (p : Program_file.t) (o : Timing.outcome) =
+let print_tasks ?slacks (p : Program_file.t) (o : Timed_analysis.outcome) =
   let used = List.filter (fun m -> List.exists (fun (_, ws) -> List.mem_assoc m ws) o.tasks) moments in
-  let row ((task : Timing.task), windows) =
+  let row ((task : Timed_analysis.task), windows) =
     let cell m = Option.fold ~none:"" ~some:window (List.assoc_opt m windows) in
-    let of_task (s : Timing.slacks) = [ slack (List.assoc_opt task s.known) ] in
+    let of_task (s : Timed_analysis.slacks) = [ slack (List.assoc_opt task s.known) ] in
     let slack = Option.fold slacks ~none:[] ~some:of_task in
     (task.name :: task.vehicle :: List.map cell used) @ slack @ [ Program_file.line p task.site ]
   in
@@ -70,7 +70,7 @@ let print_tasks ?slacks (p : Program_file.t) (o : Timing.outcome) =
          (("task" :: "vehicle" :: List.map Timed_system.moment_name used) @ slack @ [ "where" ])
          (List.map row o.tasks))
 
-let print_columns (p : Program_file.t) (run : Timing.run) =
+let print_columns (p : Program_file.t) (run : Timed_analysis.run) =
   let heads = if run.dates = [] then None else Some (List.map time run.dates) in
   let columns = Run_columns.columns () in
   let lines ?first ?heads ?before steps =
@@ -83,13 +83,13 @@ let print_columns (p : Program_file.t) (run : Timing.run) =
     lines ~first:(List.length run.steps + 1) ?before run.cycle
   end
 
-let print_chain p (run : Timing.run) =
+let print_chain p (run : Timed_analysis.run) =
   let link (l : Schedule.link) = Printf.sprintf "%s (%s)" (item ?at:l.at p l.pending) (time l.lasts) in
   if run.chain <> [] then
     say "its end depends on: %s" (String.concat ", then " (List.map link run.chain))
 
 (* The cycle of a run: endless [repeat]s of a task, or the script. *)
-let goes_round p (run : Timing.run) =
+let goes_round p (run : Timed_analysis.run) =
   let is_round (t : Transition.t) =
     List.exists (fun (r : Rule.t) -> match r with Repeat_2 | Repeat_again -> true | _ -> false) t.rules in
   let endless found : Residual.t -> _ = function
@@ -109,16 +109,18 @@ let goes_round p (run : Timing.run) =
   | [], place :: _ -> Some ("the script at " ^ place)
   | repeats, _ -> Some ("the repeat at " ^ String.concat ", or at " repeats)
 
-let missed (o : Timing.outcome) = List.find_map (fun (_, missed) -> Option.map snd missed) o.deadlines
+let missed (o : Timed_analysis.outcome) = List.find_map (fun (_, missed) -> Option.map snd missed) o.deadlines
 
 type shown = Endless of [ `Cycle | `In_no_time | `Stuck ] | Late | Missed | Empty of string | Last
 
-let empty (o : Timing.outcome) =
-  let run_of (b : Timing.battery) =
-    match b.lowest with Some (_, run) when Timing.runs_empty b -> Some (Empty b.vehicle, run) | Some _ | None -> None in
+let empty (o : Timed_analysis.outcome) =
+  let run_of (b : Timed_analysis.battery) =
+    match b.lowest with
+    | Some (_, run) when Timed_analysis.runs_empty b -> Some (Empty b.vehicle, run)
+    | Some _ | None -> None in
   List.find_map run_of o.batteries
 
-let shown (o : Timing.outcome) =
+let shown (o : Timed_analysis.outcome) =
   match o.endless, o.late, missed o, empty o, o.last with
   | Some (run, why), _, _, _, _ -> Some (Endless why, run)
   | None, Some run, _, _, _ -> Some (Late, run)
@@ -145,8 +147,8 @@ let breaks ?deadline = function
   | Empty v -> "battery of " ^ v
   | Last -> ""
 
-let print_run ?deadline p (o : Timing.outcome) =
-  let print (why, (run : Timing.run)) =
+let print_run ?deadline p (o : Timed_analysis.outcome) =
+  let print (why, (run : Timed_analysis.run)) =
     Printf.printf "\n%s:\n" (what ?deadline why);
     print_columns p run;
     match why with
@@ -158,7 +160,7 @@ let print_run ?deadline p (o : Timing.outcome) =
   Option.iter print (shown o)
 
 let write_shown ?deadline program fleet path o =
-  let write (why, (run : Timing.run)) =
+  let write (why, (run : Timed_analysis.run)) =
     Witness_file.write program fleet path
       { breaks = breaks ?deadline why; description = what ?deadline why; steps = run.steps; cycle = run.cycle }
   in
@@ -168,12 +170,12 @@ let print_failing p run =
   print_endline "\na run that fails:";
   print_columns p run
 
-let print_deadline ?deadline (o : Timing.outcome) =
+let print_deadline ?deadline (o : Timed_analysis.outcome) =
   let say n =
-    Printf.printf "deadline %s: %s\n" (time n) (Dolphin_checker.Verdict.name (Timing.in_time ~deadline:n o)) in
+    Printf.printf "deadline %s: %s\n" (time n) (Dolphin_checker.Verdict.name (Timed_analysis.in_time ~deadline:n o)) in
   Option.iter say deadline
 
-let print_within p (o : Timing.outcome) (site, missed) =
+let print_within p (o : Timed_analysis.outcome) (site, missed) =
   let verdict =
     match missed with
     | Some (w, _) -> "missed, at " ^ window w
@@ -183,7 +185,7 @@ let print_within p (o : Timing.outcome) (site, missed) =
   say "%s: within: %s" (Option.value (Program_file.at p site) ~default:"") verdict
 
 (* Each once, though the program may start it again and again. *)
-let print_unknown p (o : Timing.outcome) =
+let print_unknown p (o : Timed_analysis.outcome) =
   let add found u =
     let line = item p u ^ hint u in
     if List.mem line found then found else line :: found
@@ -194,23 +196,23 @@ let print_unknown p (o : Timing.outcome) =
 let share x = Printf.sprintf "%g %%" (Float.floor ((x *. 1000.) +. 1e-6) /. 10.)
 
 (* A bound without a known run is marked as one. *)
-let battery (b : Timing.battery) =
+let battery (b : Timed_analysis.battery) =
   match b.lowest with
-  | _ when Timing.runs_empty b -> "runs empty"
+  | _ when Timed_analysis.runs_empty b -> "runs empty"
   | Some (lowest, _) when share lowest = share b.least -> share b.least
-  | Some (lowest, _) when Timing.may_run_empty b -> Printf.sprintf "unknown; %s in some run" (share lowest)
+  | Some (lowest, _) when Timed_analysis.may_run_empty b -> Printf.sprintf "unknown; %s in some run" (share lowest)
   | Some (lowest, _) -> Printf.sprintf "%s or more; %s in some run" (share b.least) (share lowest)
-  | None when Timing.may_run_empty b -> "unknown"
+  | None when Timed_analysis.may_run_empty b -> "unknown"
   | None -> share b.least ^ " or more"
 
-let print_batteries (o : Timing.outcome) =
-  let row (b : Timing.battery) = [ b.vehicle; battery b ] in
+let print_batteries (o : Timed_analysis.outcome) =
+  let row (b : Timed_analysis.battery) = [ b.vehicle; battery b ] in
   let heads = [ "vehicle"; "least battery" ] in
   if o.batteries <> [] then
     List.iter print_endline (Text_table.lines ?columns:(Run_columns.columns ()) heads (List.map row o.batteries))
 
-let print_apart (a : Timing.apart) =
-  let verdict = Timing.judge_apart a in
+let print_apart (a : Timed_analysis.apart) =
+  let verdict = Timed_analysis.judge_apart a in
   let why =
     match verdict, a.cut_short with
     | Violated, _ -> ": plans run side by side whose ways come nearer to each other"
@@ -220,11 +222,11 @@ let print_apart (a : Timing.apart) =
   in
   say "%s: %s%s" a.fence (Dolphin_checker.Verdict.name verdict) why
 
-let print_slacks (s : Timing.slacks) =
+let print_slacks (s : Timed_analysis.slacks) =
   let print bound = say "slack: inconclusive: %s" (bound_text bound) in
   Option.iter print s.cut_short
 
-let print ?from ?deadline ?slacks p (o : Timing.outcome) =
+let print ?from ?deadline ?slacks p (o : Timed_analysis.outcome) =
   Option.iter (Format.printf "%a@." Present.pp) from;
   (match o.stopped with
    | Some bound -> say "inconclusive: %s; times are of the runs until then" (bound_text bound)
@@ -239,18 +241,18 @@ let print ?from ?deadline ?slacks p (o : Timing.outcome) =
   Option.iter print_slacks slacks;
   print_batteries o;
   Printf.printf "%d states, depth %d, %.2f s, %d MiB\n" o.states o.depth o.seconds (o.bytes / 1024 / 1024);
-  Option.iter (fun (a : Timing.apart) -> Beside_report.print p a.pairs) o.apart;
+  Option.iter (fun (a : Timed_analysis.apart) -> Beside_report.print p a.pairs) o.apart;
   print_run ?deadline p o
 
 (* {1 For programs} *)
 
 let seconds ms : Yojson.Safe.t = if ms mod 1000 = 0 then `Int (ms / 1000) else `Float (float ms /. 1000.)
 
-let json_of_window (w : Timing.window) : Yojson.Safe.t =
+let json_of_window (w : Timed_analysis.window) : Yojson.Safe.t =
   let latest = match w.latest with At n -> seconds n | Unbounded -> `Null in
   `Assoc [ ("earliest", seconds w.earliest); ("latest", latest) ]
 
-let json_of_run p (run : Timing.run) : Yojson.Safe.t =
+let json_of_run p (run : Timed_analysis.run) : Yojson.Safe.t =
   let label (t : Transition.t) = `String (Format.asprintf "%a" Label.pp t.label) in
   let link (l : Schedule.link) =
     `Assoc [ ("what", `String (item ?at:l.at p l.pending)); ("seconds", seconds l.lasts) ] in
@@ -263,24 +265,27 @@ let json_of_slack : Slack.t option -> (string * Yojson.Safe.t) list = function
   | Some (By ms) -> [ ("slack", seconds ms) ]
   | None -> []
 
-let json_of_battery p (b : Timing.battery) : Yojson.Safe.t =
+let json_of_battery p (b : Timed_analysis.battery) : Yojson.Safe.t =
   let lowest (share, run) = [ ("lowest", `Float share); ("run", json_of_run p run) ] in
   let verdict =
-    if Timing.runs_empty b then "violated" else if Timing.may_run_empty b then "inconclusive" else "holds" in
+    if Timed_analysis.runs_empty b then "violated"
+    else if Timed_analysis.may_run_empty b then "inconclusive"
+    else "holds" in
   `Assoc
     ([ ("vehicle", `String b.vehicle); ("verdict", `String verdict); ("least", `Float b.least) ]
      @ Option.fold b.lowest ~none:[] ~some:lowest)
 
-let json_of_apart p (a : Timing.apart) : Yojson.Safe.t =
+let json_of_apart p (a : Timed_analysis.apart) : Yojson.Safe.t =
   let bound b = ("bound", `String (bound_text b)) in
   `Assoc
-    ([ ("fence", `String a.fence); ("verdict", `String (Dolphin_checker.Verdict.name (Timing.judge_apart a)));
+    ([ ("fence", `String a.fence); ("verdict", `String (Dolphin_checker.Verdict.name (Timed_analysis.judge_apart a)));
        ("pairs", Beside_report.json p a.pairs) ]
      @ Option.to_list (Option.map bound a.cut_short))
 
-let to_json ?from ?deadline ?slacks p (o : Timing.outcome) : Yojson.Safe.t =
-  let { Timing.known; cut_short } = Option.value slacks ~default:{ Timing.known = []; cut_short = None } in
-  let task ((t : Timing.task), windows) =
+let to_json ?from ?deadline ?slacks p (o : Timed_analysis.outcome) : Yojson.Safe.t =
+  let none = { Timed_analysis.known = []; cut_short = None } in
+  let { Timed_analysis.known; cut_short } = Option.value slacks ~default:none in
+  let task ((t : Timed_analysis.task), windows) =
     let window m = Option.map (fun w -> (Timed_system.moment_name m, json_of_window w)) (List.assoc_opt m windows) in
     let site = Option.fold ~none:`Null ~some:(fun s -> `String s) (Program_file.at p t.site) in
     `Assoc
@@ -298,7 +303,7 @@ let to_json ?from ?deadline ?slacks p (o : Timing.outcome) : Yojson.Safe.t =
   in
   let optional name f x = match x with Some x -> [ (name, f x) ] | None -> [] in
   let bound b : Yojson.Safe.t = `String (bound_text b) in
-  let verdict = Dolphin_checker.Verdict.name (Timing.verdict ?deadline o) in
+  let verdict = Dolphin_checker.Verdict.name (Timed_analysis.verdict ?deadline o) in
   let endless (run, why) : Yojson.Safe.t =
     let why = match why with `Cycle -> "cycle" | `In_no_time -> "cycle in no time" | `Stuck -> "stuck" in
     let round = Option.to_list (Option.map (fun place -> ("round", `String place)) (goes_round p run)) in
@@ -309,7 +314,7 @@ let to_json ?from ?deadline ?slacks p (o : Timing.outcome) : Yojson.Safe.t =
   `Assoc
     ([ ("verdict", `String verdict) ]
      @ optional "deadline" seconds deadline
-     @ [ ("inTime", `String (Dolphin_checker.Verdict.name (Timing.in_time ?deadline o))) ]
+     @ [ ("inTime", `String (Dolphin_checker.Verdict.name (Timed_analysis.in_time ?deadline o))) ]
      @ [ ("ends", `Assoc (List.map (fun (e, w) -> (Timed_system.ending_name e, json_of_window w)) o.endings));
          ("tasks", `List (List.map task o.tasks));
          ("within", `List (List.map within o.deadlines));

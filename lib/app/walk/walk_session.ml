@@ -89,7 +89,7 @@ let show s lines = List.iter s.print lines
 (* The number of choices that are shown unless all are asked for: a pick may have millions. *)
 let most = 20
 
-let rec take_while_shown n (choices : Course.choice Seq.t) =
+let rec take_while_shown n (choices : Manual_run.choice Seq.t) =
   if n = 0 then ([], match choices () with Nil -> false | Cons _ -> true)
   else
     match choices () with
@@ -104,22 +104,22 @@ let unclear s (fault : Dolphin_semantics.Fault.t) =
 
 let show_choices ?(most = most) s r =
   let v = view s in
-  match take_while_shown most (Course.choices r) with
+  match take_while_shown most (Manual_run.choices r) with
   | [], _ -> ()
   | choices, is_more ->
-    List.iteri (fun i x -> show s (Walk_view.choice v (i + 1) ~is_next:(Course.is_next r x) r x)) choices;
+    List.iteri (fun i x -> show s (Walk_view.choice v (i + 1) ~is_next:(Manual_run.is_next r x) r x)) choices;
     if is_more then s.print "      and more, which 'more' shows"
   | exception Environment.Unclear fault -> unclear s fault
 
 let is_stuck r =
-  match (Course.configuration r).control with
+  match (Manual_run.configuration r).control with
   | Ended _ -> false
   | Script _ | Waiting _ | Executing _ -> (
-      match Course.is_stuck r with stuck -> stuck | exception Environment.Unclear _ -> false)
+      match Manual_run.is_stuck r with stuck -> stuck | exception Environment.Unclear _ -> false)
 
 let title r =
-  let ahead = List.length (Course.ahead r) in
-  Printf.sprintf "state %d%s" (Course.length r) (if ahead = 0 then "" else Printf.sprintf ", %d ahead" ahead)
+  let ahead = List.length (Manual_run.ahead r) in
+  Printf.sprintf "state %d%s" (Manual_run.length r) (if ahead = 0 then "" else Printf.sprintf ", %d ahead" ahead)
 
 let show_state s r =
   s.print "";
@@ -131,42 +131,42 @@ let show_state s r =
 (* {1 What is done} *)
 
 let nth n r =
-  let rec go n (choices : Course.choice Seq.t) =
+  let rec go n (choices : Manual_run.choice Seq.t) =
     match choices () with
     | Nil -> None
     | Cons (choice, rest) -> if n <= 1 then Some choice else go (n - 1) rest
   in
-  if n < 1 then None else go n (Course.choices r)
+  if n < 1 then None else go n (Manual_run.choices r)
 
 let take r n =
   match nth n r with
-  | Some choice -> Ok (Course.take choice r)
+  | Some choice -> Ok (Manual_run.take choice r)
   | None -> Error (Printf.sprintf "no choice %d here" n)
 
 let enter r =
-  match take_while_shown 2 (Course.choices r), Course.next r with
-  | ([ only ], _), _ -> Ok (Course.take only r)
+  match take_while_shown 2 (Manual_run.choices r), Manual_run.next r with
+  | ([ only ], _), _ -> Ok (Manual_run.take only r)
   | ([], _), _ -> Error "nothing can happen here: 'undo' goes back, 'quit' leaves"
   | _, Some r -> Ok r
   | _, None -> Error "there are several choices: type the number of one"
 
 let goto r n =
-  match Course.goto n r with
+  match Manual_run.goto n r with
   | Some r -> Ok r
   | None ->
-    let last = Course.length r + List.length (Course.ahead r) in
+    let last = Manual_run.length r + List.length (Manual_run.ahead r) in
     Error (Printf.sprintf "no state %d: the last one is %d" n last)
 
 let forward r n =
-  match Course.goto (Course.length r + n) r with
+  match Manual_run.goto (Manual_run.length r + n) r with
   | Some r -> Ok r
   | None ->
-    let steps = Dolphin_trace.Phrase.count (List.length (Course.ahead r)) "step" in
-    Error (Printf.sprintf "not as many steps ahead: %s" (if Course.ahead r = [] then "nothing is" else steps))
+    let steps = Dolphin_trace.Phrase.count (List.length (Manual_run.ahead r)) "step" in
+    Error (Printf.sprintf "not as many steps ahead: %s" (if Manual_run.ahead r = [] then "nothing is" else steps))
 
 let back r n =
-  if n > Course.length r then Error "this is as far back as it goes"
-  else goto r (Course.length r - n)
+  if n > Manual_run.length r then Error "this is as far back as it goes"
+  else goto r (Manual_run.length r - n)
 
 let is_picture path =
   List.mem (String.lowercase_ascii (Filename.extension path)) [ ".svg"; ".html"; ".htm" ]
@@ -174,7 +174,7 @@ let is_picture path =
 let write s r path =
   if is_picture path then say s (Printf.sprintf "'%s' is the name of a picture, but JSON would be written" path)
   else
-    let steps = Course.steps r in
+    let steps = Manual_run.steps r in
     match
       Witness_file.write s.program s.fleet path { breaks = ""; description = "a walk"; steps; cycle = [] }
     with
@@ -187,7 +187,7 @@ let show_help s =
   show s (List.concat_map line help);
   say s "Words may be shortened, to one letter if you like."
 
-type outcome = Moved of (Course.t, string) result | Told | Left
+type outcome = Moved of (Manual_run.t, string) result | Told | Left
 
 let perform s r command =
   match command with
@@ -196,7 +196,7 @@ let perform s r command =
   | Next n -> Moved (forward r n)
   | Undo n -> Moved (back r n)
   | Goto n -> Moved (goto r n)
-  | Goto_end -> Moved (forward r (List.length (Course.ahead r)))
+  | Goto_end -> Moved (forward r (List.length (Manual_run.ahead r)))
   | More -> show_choices ~most:max_int s r; Told
   | State -> show_state s r; Told
   | Variables -> show s (Walk_view.variables (view s) r); Told
@@ -206,7 +206,7 @@ let perform s r command =
   | Quit -> Left
 
 let rec go ~read s r =
-  match read (Printf.sprintf "%d> " (Course.length r)) with
+  match read (Printf.sprintf "%d> " (Manual_run.length r)) with
   | None -> ()
   | Some line -> (
       match Result.map (perform s r) (parse line) with
@@ -223,18 +223,18 @@ let ( let* ) = Result.bind
 let recorded s path r =
   let* witness = Witness_file.read path in
   let misfit why = Error.Bad_input (Printf.sprintf "%s does not fit %s: %s" path s.program.path why) in
-  let* r = Result.map_error misfit (Course.recorded witness r) in
+  let* r = Result.map_error misfit (Manual_run.recorded witness r) in
   if witness.property <> "" then say s ("breaks: " ^ witness.property);
   say s "'next' takes the steps of the recorded run, 'goto N' and 'goto end' go to its states.";
   Ok r
 
 let run ~read ~print ~columns (program : Program_file.t) (fleet : Fleet_file.t) ~answers ~faults ~trace =
   let s = { program; fleet; columns; print } in
-  let world : Course.world =
+  let world : Manual_run.world =
     { program = program.program; world = Scenario_world.world fleet.scenario;
       options = Scenario_world.environment ~answers ~faults program.program fleet.scenario }
   in
-  let start = Course.start world in
+  let start = Manual_run.start world in
   let* r = Option.fold ~none:(Ok start) ~some:(fun path -> recorded s path start) trace in
   show_state s r;
   go ~read s r;

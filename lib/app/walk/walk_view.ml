@@ -44,7 +44,7 @@ let waiting v (c : Configuration.t) =
   | Waiting _ | Script _ | Executing _ | Ended _ -> all
 
 let state v r =
-  let c = Course.configuration r in
+  let c = Manual_run.configuration r in
   let running (u, (p : Core.platform_task)) = Printf.sprintf "%s -> %s" u p.name in
   let tuples = Tuples.bindings c.shared.tuples in
   let pairs (k, xs) = List.map (fun x -> Format.asprintf "%a" Value.pp_tuple (k, x)) xs in
@@ -55,19 +55,19 @@ let state v r =
       item v "N" (listed (List.concat_map pairs tuples));
       of_control v c;
       List.concat_map (fun w -> item v "waits for" (of_waiting w)) waits;
-      item_unless_empty v "lost" (String.concat ", " (Dolphin_environment.Environment.lost (Course.outside r))) ]
+      item_unless_empty v "lost" (String.concat ", " (Dolphin_environment.Environment.lost (Manual_run.outside r))) ]
 
 let variables v r =
   let named (i, x) =
     item v v.program.program.global_names.(i) (Format.asprintf "%a" Value.pp x) in
-  match Store.bindings (Course.configuration r).shared.store with
+  match Store.bindings (Manual_run.configuration r).shared.store with
   | [] -> [ "no variable has a value" ]
   | all -> List.concat_map named all
 
 (* {1 Steps} *)
 
 let choice v n ~is_next r ((t : Transition.t), _) =
-  let row = Columns.row v.program.program ~source:v.program.source (Some (Course.configuration r)) t in
+  let row = Columns.row v.program.program ~source:v.program.source (Some (Manual_run.configuration r)) t in
   let head = Printf.sprintf "%s%3d  " (if is_next then ">" else " ") n in
   let place = match Columns.place row with "" -> "" | place -> " (" ^ place ^ ")" in
   let text = if row.words = "" then row.text else row.words in
@@ -76,6 +76,6 @@ let choice v n ~is_next r ((t : Transition.t), _) =
   @ List.concat_map assumed row.assumed
 
 let run v r =
-  match Course.steps r with
+  match Manual_run.steps r with
   | [] -> [ "no step was taken" ]
   | steps -> Columns.lines ~columns:v.columns ~source:v.program.source v.program.program steps

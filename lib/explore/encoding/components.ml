@@ -34,8 +34,8 @@ type t = {
 let hole = Residual.hole
 
 let may_renew : Residual.context -> bool = function
-  | Round_of { left = None; _ } | Watched_by { anew = Some _; _ } -> true
-  | Round_of _ | Watched_by _ | Before _ | Branch_of _ | Body_until _ | Body_during _ | Holding _ | Having _
+  | Round_of { left = None; _ } | In_watch { anew = Some _; _ } -> true
+  | Round_of _ | In_watch _ | In_sequence _ | Branch_of _ | Body_until _ | Body_during _ | Holding _ | In_recruited _
   | With_keys _ -> false
 
 let new_path id contexts outer body =
@@ -209,7 +209,7 @@ and compile t home kin index (Step { offer; continue; _ } as source : Task_rules
   | Check _ when looks -> [ dependent None ]
   | Perform closure -> [ certain None (Guarded (guard t false closure)) (continue (Ok [])) ]
   | Check closure -> [ certain None (Guarded (guard t true closure)) (continue (Ok [])) ]
-  | Take _ | Refute _ | Decide _ | Measure _ | Make _ | Allocate _ -> [ dependent None ]
+  | Guard_values _ | Guard_false _ | Guard_either _ | Measure _ | Make _ | Allocate _ -> [ dependent None ]
   | Recruit_for (number, asked) ->
     let come v = dependent (Some (Transition.Recruited (number, v))) in
     List.map come (Fit.wherever t.world (Shared.initial t.program) asked)
@@ -244,9 +244,9 @@ let cover t steps =
     | Start (task, _) -> Coverage.start t.coverage task
     | Perform c -> Coverage.run t.coverage c
     | Check c -> Coverage.run t.coverage c
-    | Refute c -> Coverage.run t.coverage c
-    | Decide c -> Coverage.run t.coverage c
-    | Take c -> Coverage.run t.coverage c
+    | Guard_false c -> Coverage.run t.coverage c
+    | Guard_either c -> Coverage.run t.coverage c
+    | Guard_values c -> Coverage.run t.coverage c
     | Measure c -> Coverage.run t.coverage c
     | Make (c, _, _) -> Coverage.run t.coverage c
     | Allocate _ | End_of _ | Expiry_of _ | Answer_to _ | Recruit_for _ -> ()

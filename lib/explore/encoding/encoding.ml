@@ -128,7 +128,7 @@ let executing (layout : Layout.t) key : Residual.t * Core.platform_task Vehicle_
   let runs allocation (Task_rules.Step { offer; _ }) =
     match offer with
     | End_of (p, v) -> Vehicle_map.add v p allocation
-    | Start _ | Perform _ | Check _ | Refute _ | Decide _ | Take _ | Measure _ | Make _ | Allocate _
+    | Start _ | Perform _ | Check _ | Guard_false _ | Guard_either _ | Guard_values _ | Measure _ | Make _ | Allocate _
     | Expiry_of _ | Answer_to _ | Recruit_for _ -> allocation
   in
   let of_position allocation i = Seq.fold_left runs allocation (Task_rules.steps (component layout key i).residual) in

@@ -194,9 +194,9 @@ let footprint ?(own = []) c { source = Step { offer; continue; _ } as source; ev
     | Recruit_for _, _ -> { Footprint.empty with claims = Footprint.all_vehicles }
     | Perform a, _ -> Footprint.of_code c.code a
     | Check g, _ -> Footprint.of_guard c.code g
-    | Refute g, _ -> of_refuted c g
-    | Decide g, _ -> Footprint.of_code c.code g
-    | Take g, _ -> Footprint.of_guard c.code g
+    | Guard_false g, _ -> of_refuted c g
+    | Guard_either g, _ -> Footprint.of_code c.code g
+    | Guard_values g, _ -> Footprint.of_guard c.code g
     | Measure d, _ -> union breaking (Footprint.of_code c.code d)
     | Make (code, _, _), _ -> union breaking (Footprint.of_code c.code code)
     | Allocate (task, request), _ ->
@@ -224,14 +224,14 @@ let lost r outer ~failed { source = Step { offer; continue; _ }; _ } =
   | Start _ -> of_change (continue ())
   | Perform _ -> of_change (continue (Ok []))
   | Check _ -> of_change (continue (Ok []))
-  | Take _ -> of_change (continue (Ok []))
+  | Guard_values _ -> of_change (continue (Ok []))
   | End_of _ -> of_change (continue (Ok ()))
   | Measure _ -> of_change (continue (Ok 0.))
   | Expiry_of _ -> of_change (continue ())
   | Answer_to _ -> of_change (continue (Ok true))
   | Make _ | Allocate _ | Recruit_for _ -> Footprint.these []
-  | Decide _ -> Footprint.these (Residual.named r @ outer)
-  | Refute _ -> failed
+  | Guard_either _ -> Footprint.these (Residual.named r @ outer)
+  | Guard_false _ -> failed
 
 (* [f], the footprint of [step], with the vehicles that it frees. An ignored error also frees those that it cuts off. *)
 let with_lost c ~ignoring ~failed lost step (f : Footprint.t) =
@@ -290,19 +290,20 @@ let rec first_branches c around (r : Residual.t) =
 (* The footprint of handlers among the contexts, and of the tasks that start when everything in them is over. *)
 let handlers_of c contexts =
   let handler = function
-    | Residual.Watched_by handler -> Some (of_handler c handler)
-    | Before _ | Branch_of _ | Body_until _ | Body_during _ | Round_of _ | Holding _ | Having _ | With_keys _ -> None
+    | Residual.In_watch handler -> Some (of_handler c handler)
+    | In_sequence _ | Branch_of _ | Body_until _ | Body_during _ | Round_of _ | Holding _ | In_recruited _
+    | With_keys _ -> None
   in
   List.filter_map handler contexts
 
 let following c contexts =
   let following = function
-    | Residual.Before rest -> all (List.map (future c) rest)
+    | Residual.In_sequence rest -> all (List.map (future c) rest)
     | Branch_of bs -> all (List.map (of_branch c) bs)
     | Round_of again -> rounds c again
     | Holding vs -> { Footprint.empty with frees = freed c vs }
-    | Having v -> { Footprint.empty with frees = freed c [ v ] }
-    | Body_until _ | Body_during _ | Watched_by _ | With_keys _ -> Footprint.empty
+    | In_recruited v -> { Footprint.empty with frees = freed c [ v ] }
+    | Body_until _ | Body_during _ | In_watch _ | With_keys _ -> Footprint.empty
   in
   all (List.map following contexts)
 
@@ -311,8 +312,8 @@ let may_be_put_off c { source = Step { offer; _ }; _ } =
   let { Environment.faults; _ } = c.options in
   match offer with
   | Recruit_for _ -> Faults.is_possible faults.join || Faults.is_possible faults.loss
-  | Start _ | Perform _ | Check _ | Refute _ | Decide _ | Take _ | Measure _ | Make _ | Allocate _ | End_of _
-  | Expiry_of _ | Answer_to _ -> false
+  | Start _ | Perform _ | Check _ | Guard_false _ | Guard_either _ | Guard_values _ | Measure _ | Make _ | Allocate _
+  | End_of _ | Expiry_of _ | Answer_to _ -> false
 
 (* [first] is the future of the component itself. An error may reach any handler around. If none of these ignores it,
    the error cuts off the component alone, whose vehicles are [failed]. *)
@@ -347,18 +348,18 @@ let of_component c nests r steps =
   let c = for_one_component c in
   let around = all (List.concat_map (handlers_of c) nests) in
   let named = function
-    | Residual.Before rest -> List.concat_map Residual.named rest
+    | Residual.In_sequence rest -> List.concat_map Residual.named rest
     | Branch_of bs -> List.concat_map (fun (b : Residual.branch) -> Residual.named b.body) bs
     | Holding vs -> vs
-    | Having v -> [ v ]
+    | In_recruited v -> [ v ]
     | Round_of again -> Residual.named again.each
-    | Body_until _ | Body_during _ | Watched_by _ | With_keys _ -> []
+    | Body_until _ | Body_during _ | In_watch _ | With_keys _ -> []
   in
   let outer = if concerns_holding c then List.concat_map (List.concat_map named) nests else [] in
   let own = Residual.recruits (Residual.plug (fst (Residual.decompose r)) Residual.hole) in
   let holds = function
-    | Residual.Holding _ | Having _ -> true
-    | Before _ | Branch_of _ | Body_until _ | Body_during _ | Watched_by _ | Round_of _ | With_keys _ -> false
+    | Residual.Holding _ | In_recruited _ -> true
+    | In_sequence _ | Branch_of _ | Body_until _ | Body_during _ | In_watch _ | Round_of _ | With_keys _ -> false
   in
   let branches = if c.leaks || List.exists (List.exists holds) nests then [] else first_branches c around r in
   let failed = Footprint.these (Residual.named r @ outer) in
@@ -385,9 +386,9 @@ let looks c (Task_rules.Step { offer; _ } as source) =
     | _ when not c.asks_held -> false
     | Perform a -> claims a
     | Check g -> claims g
-    | Take g -> claims g
-    | Refute g -> claims g
-    | Decide g -> claims g
+    | Guard_values g -> claims g
+    | Guard_false g -> claims g
+    | Guard_either g -> claims g
     | Measure d -> claims d
     | Make (code, _, _) -> claims code
     | Start _ | End_of _ | Expiry_of _ | Answer_to _ -> false

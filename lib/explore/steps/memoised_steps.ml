@@ -40,7 +40,7 @@ let outside_after t (Task_rules.Step { offer; _ }) event outside =
     Option.map snd (List.find_opt is_it (Environment.task_ends (Components.options t.components) outside v task))
   | Recruit_for _ -> (
       match event with Transition.Recruited (_, v) -> Some (Environment.heard_of v outside) | _ -> Some outside)
-  | Start _ | Perform _ | Check _ | Refute _ | Decide _ | Take _ | Measure _ | Make _ | Allocate _
+  | Start _ | Perform _ | Check _ | Guard_false _ | Guard_either _ | Guard_values _ | Measure _ | Make _ | Allocate _
   | Expiry_of _ | Answer_to _ -> Some outside
 
 type taken = { local : Local_step.t; level : int; certain : bool; assumed : World.assumption list list }

@@ -261,12 +261,12 @@ let rec place_of (layout : Layout.t) (place : Layout.place) =
 (* Code of an action, and the ends of tasks, are never waited for in vain; a guard may be. *)
 let stays (Task_rules.Step { offer; _ }) =
   match offer with
-  | Start _ | Perform _ | Decide _ | Measure _ | Make _ | End_of _ | Expiry_of _ | Answer_to _ -> true
-  | Check _ | Take _ | Refute _ | Allocate _ | Recruit_for _ -> false
+  | Start _ | Perform _ | Guard_either _ | Measure _ | Make _ | End_of _ | Expiry_of _ | Answer_to _ -> true
+  | Check _ | Guard_values _ | Guard_false _ | Allocate _ | Recruit_for _ -> false
 
 let may_cut = function
   | Residual.Body_until _ | Body_during _ -> true
-  | Before _ | Branch_of _ | Watched_by _ | Round_of _ | Holding _ | Having _ | With_keys _ -> false
+  | In_sequence _ | Branch_of _ | In_watch _ | Round_of _ | Holding _ | In_recruited _ | With_keys _ -> false
 
 let repeats layers =
   let repeat (at, context) = match context with Residual.Round_of again -> Some (at, again) | _ -> None in

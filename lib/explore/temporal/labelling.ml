@@ -57,7 +57,7 @@ let answers t (p : Component.component) =
     | End_of (task, v) ->
       let bit i question = if is_asked task v question then 1 lsl i else 0 in
       List.fold_left ( lor ) bits (List.mapi bit t.questions)
-    | Start _ | Perform _ | Check _ | Refute _ | Decide _ | Take _ | Measure _ | Make _ | Allocate _
+    | Start _ | Perform _ | Check _ | Guard_false _ | Guard_either _ | Guard_values _ | Measure _ | Make _ | Allocate _
     | Expiry_of _ | Answer_to _ | Recruit_for _ -> bits
   in
   Seq.fold_left answer 0 (Task_rules.steps p.residual)

@@ -89,8 +89,8 @@ let certain t key found =
 
 let chooses (Task_rules.Step { offer; _ }) =
   match offer with
-  | Start _ | Perform _ | Decide _ | Measure _ | Make _ | End_of _ | Expiry_of _ | Answer_to _ -> true
-  | Check _ | Take _ | Refute _ | Allocate _ | Recruit_for _ -> false
+  | Start _ | Perform _ | Guard_either _ | Measure _ | Make _ | End_of _ | Expiry_of _ | Answer_to _ -> true
+  | Check _ | Guard_values _ | Guard_false _ | Allocate _ | Recruit_for _ -> false
 
 let examined t i =
   State_graph.visiting t.graph i (fun key arrived visitor ->
@@ -471,7 +471,7 @@ let left_by t members ~done_too =
       Some (Printf.sprintf "%s failing on %s: %s" task.name v why)
     | Step { offer = End_of (task, v); _ }, Some (Vehicle_done _) when done_too ->
       Some (Printf.sprintf "%s being done on %s" task.name v)
-    | Step { offer = Check c; _ }, _ | Step { offer = Refute c; _ }, _ | Step { offer = Decide c; _ }, _ ->
+    | Step { offer = Check c; _ }, _ | Step { offer = Guard_false c; _ }, _ | Step { offer = Guard_either c; _ }, _ ->
       let at = Fault.location t.program (Fault.make c.lambda.lambda_site "") in
       Option.map (Format.asprintf "the condition at %a" Dolphin_syntax.Location.pp) at
     | Step _, _ -> None

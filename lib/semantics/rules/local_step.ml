@@ -225,7 +225,7 @@ let internal program world (s : Shared.t) (Task_rules.Step { offer; continue; ar
     let gives world _ s deeds = go world ~asked:(Run_code.effects deeds) s (continue (Ok deeds)) in
     coded program world s code ~gives ~fails:(fails continue)
   | Check guard -> if_true guard continue
-  | Take guard -> if_true guard continue
+  | Guard_values guard -> if_true guard continue
   | Make (code, given, request) ->
     let gives world x after deeds =
       settled code x (fun x -> go world s (continue (Maker.task_of code given ~depth:request.depth s after x deeds)))
@@ -247,13 +247,13 @@ let internal program world (s : Shared.t) (Task_rules.Step { offer; continue; ar
         Decision.bind (Decision.look world look) go_on
     in
     Decision.bind (Maker.opened ~held program world s ~numbers ~depth:request.depth task) opened
-  | Refute guard ->
+  | Guard_false guard ->
     let gives world x _ _ =
       settled guard x (fun x ->
           if Value.truth x || Unknown.is x then Decision.Decided None else go world s (continue (Ok ())))
     in
     coded program world s guard ~gives ~fails:(guard_fails continue)
-  | Decide guard ->
+  | Guard_either guard ->
     let gives world x after deeds =
       settled guard x (fun x ->
           if Unknown.is x then Decision.Decided None
@@ -293,8 +293,8 @@ let on_event program world s (Task_rules.Step { offer; continue; around = surrou
     Decision.bind (recruitable world s asked v surroundings) come
   | ( ( Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Confirmed _ | Recruited _ | Answered _ | Nobody_answers _
       | Replied _ | Host_failed _ | Input _ | Interruption ),
-      (Start _ | Perform _ | Check _ | Refute _ | Decide _ | Take _ | Measure _ | Make _ | Allocate _ | End_of _
-      | Expiry_of _ | Answer_to _ | Recruit_for _) ) ->
+      (Start _ | Perform _ | Check _ | Guard_false _ | Guard_either _ | Guard_values _ | Measure _ | Make _
+      | Allocate _ | End_of _ | Expiry_of _ | Answer_to _ | Recruit_for _) ) ->
     Decided None
 
 (* {1 In configurations} *)

@@ -472,41 +472,41 @@ let may_go_round r =
 (* {1 Contexts} *)
 
 type context =
-  | Before of t list
+  | In_sequence of t list
   | Branch_of of branch list
   | Body_until of on_cut * closure
   | Body_during of on_cut * timer * duration
-  | Watched_by of handler
+  | In_watch of handler
   | Round_of of again
   | Holding of vehicle list
-  | Having of vehicle
+  | In_recruited of vehicle
   | With_keys of timer list
 
 let opened = function
-  | Sequence (a, rest) -> Some (Before rest, a)
+  | Sequence (a, rest) -> Some (In_sequence rest, a)
   | All_of (Some a, remaining) -> Some (Branch_of remaining, a)
   | Until (on_cut, condition, a) -> Some (Body_until (on_cut, condition), a)
   | During { duration = Given_by _; started = false; _ } -> None
   | During { on_cut; timer; duration; body; _ } -> Some (Body_during (on_cut, timer, duration), body)
-  | Watch (a, handler) -> Some (Watched_by handler, a)
+  | Watch (a, handler) -> Some (In_watch handler, a)
   | Repeat { round = Some a; again } -> Some (Round_of again, a)
   | Hold (vs, a) -> Some (Holding vs, a)
-  | Recruited (v, a) -> Some (Having v, a)
+  | Recruited (v, a) -> Some (In_recruited v, a)
   | Fresh (ns, a) -> Some (With_keys ns, a)
   | Ready _ | Running _ | Action _ | Condition _ | Parallel _ | All_of (None, _) | One_of _ | Idle _ | Confirm _
   | Made _ | Unallocated _ | Recruit _ | Repeat { round = None; _ } -> None
 
 let within context r =
   match context, r with
-  | Before rest, Sequence (a, before) -> Sequence (a, before @ rest)
-  | Before rest, r -> Sequence (r, rest)
+  | In_sequence rest, Sequence (a, before) -> Sequence (a, before @ rest)
+  | In_sequence rest, r -> Sequence (r, rest)
   | Branch_of remaining, r -> All_of (Some r, remaining)
   | Body_until (on_cut, condition), r -> Until (on_cut, condition, r)
   | Body_during (on_cut, timer, duration), body -> During { on_cut; timer; duration; started = true; body }
-  | Watched_by handler, r -> Watch (r, handler)
+  | In_watch handler, r -> Watch (r, handler)
   | Round_of again, r -> Repeat { round = Some r; again }
   | Holding vs, r -> Hold (vs, r)
-  | Having v, r -> Recruited (v, r)
+  | In_recruited v, r -> Recruited (v, r)
   | With_keys ns, r -> Fresh (ns, r)
 
 let decompose r =
@@ -566,11 +566,11 @@ let named_around around =
   Vehicle_set.elements (List.fold_left add Vehicle_set.empty around)
 
 let recruited_for around =
-  List.filter_map (function Inside (Having v) -> Some v | Inside _ | Beside _ | Around _ -> None) around
+  List.filter_map (function Inside (In_recruited v) -> Some v | Inside _ | Beside _ | Around _ -> None) around
 
 let beyond_watches around =
   let rec from beyond = function
-    | Inside (Watched_by _) :: outer -> from (List.rev outer :: beyond) outer
+    | Inside (In_watch _) :: outer -> from (List.rev outer :: beyond) outer
     | (Inside _ | Beside _ | Around _) :: outer -> from beyond outer
     | [] -> List.rev beyond
   in
@@ -578,7 +578,7 @@ let beyond_watches around =
 
 let inside_watches around =
   let rec from inside found = function
-    | Inside (Watched_by _) :: outer -> from inside (lazy (List.concat_map Lazy.force inside) :: found) outer
+    | Inside (In_watch _) :: outer -> from inside (lazy (List.concat_map Lazy.force inside) :: found) outer
     | (Inside _ | Around _) :: outer -> from inside found outer
     | Beside rs :: outer -> from (rs :: inside) found outer
     | [] -> List.rev found

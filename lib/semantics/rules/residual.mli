@@ -179,14 +179,14 @@ val may_go_round : t -> bool
     is not a context: several of its branches have begun. *)
 
 type context =
-  | Before of t list  (** [_ >> t1 >> ... >> tn] *)
+  | In_sequence of t list  (** [_ >> t1 >> ... >> tn] *)
   | Branch_of of branch list  (** [allOf(_; bs)] *)
   | Body_until of on_cut * closure
   | Body_during of on_cut * timer * duration  (** the timer runs *)
-  | Watched_by of handler
+  | In_watch of handler
   | Round_of of again
   | Holding of vehicle list
-  | Having of vehicle
+  | In_recruited of vehicle
   | With_keys of timer list
 
 val opened : t -> (context * t) option

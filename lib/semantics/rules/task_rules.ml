@@ -7,9 +7,9 @@ type _ offer =
   | Start : platform_task * vehicle -> unit offer
   | Perform : closure -> (Code.deed list, Fault.t) result offer
   | Check : closure -> (Code.deed list, Fault.t) result offer
-  | Refute : closure -> (unit, Fault.t) result offer
-  | Decide : closure -> (bool * Code.deed list, Fault.t) result offer
-  | Take : closure -> (Code.deed list, Fault.t) result offer
+  | Guard_false : closure -> (unit, Fault.t) result offer
+  | Guard_either : closure -> (bool * Code.deed list, Fault.t) result offer
+  | Guard_values : closure -> (Code.deed list, Fault.t) result offer
   | Measure : closure -> (float, Fault.t) result offer
   | Make : closure * value list * request -> (task, Fault.t) result offer
   | Allocate : task * request -> (vehicle list * t, Fault.t) result offer
@@ -117,7 +117,7 @@ let around_sequence rest =
     let next, timers = activate next in
     { (add Rule.Seq_2 (Next next) c) with timers = c.timers @ timers }
   in
-  { (around ~next:(within (Before rest)) (Rule.Seq_1, Rule.Seq_2, Rule.Seq_err)) with on_finished }
+  { (around ~next:(within (In_sequence rest)) (Rule.Seq_1, Rule.Seq_2, Rule.Seq_err)) with on_finished }
 
 (* {2 Side by side} *)
 
@@ -169,7 +169,7 @@ let around_watch handler =
     let recovered = recover handler c.label in
     { c with outcome = Handling { handler; fault; ignored; propagated; recovered } }
   in
-  { (around ~next:(within (Watched_by handler)) (Rule.Watch_1, Rule.Watch_2, Rule.Watch_propagate)) with on_failed }
+  { (around ~next:(within (In_watch handler)) (Rule.Watch_1, Rule.Watch_2, Rule.Watch_propagate)) with on_failed }
 
 (* The next round begins, and with it its timers. *)
 let next_round again next change =
@@ -190,7 +190,7 @@ let around_hold vs =
   around ~next:(within (Holding vs)) (Rule.Hold_1, Rule.Hold_2, Rule.Hold_err)
 
 let around_recruited v =
-  let plain = around ~next:(within (Having v)) (Rule.Recruit_1, Rule.Recruit_2, Rule.Recruit_err) in
+  let plain = around ~next:(within (In_recruited v)) (Rule.Recruit_1, Rule.Recruit_2, Rule.Recruit_err) in
   { plain with
     on_finished = (fun c -> undoing (Leave v) (plain.on_finished c));
     on_failed = (fun fault c -> undoing (Leave v) (plain.on_failed fault c)) }
@@ -203,13 +203,13 @@ let around_fresh ns =
 
 let around_context = function
   | Round_of again -> around_round again
-  | Before rest -> around_sequence rest
+  | In_sequence rest -> around_sequence rest
   | Branch_of remaining -> around_branch remaining
   | Body_until (on_cut, condition) -> around_until on_cut condition
   | Body_during (on_cut, timer, duration) -> around_during on_cut timer duration
-  | Watched_by handler -> around_watch handler
+  | In_watch handler -> around_watch handler
   | Holding vs -> around_hold vs
-  | Having v -> around_recruited v
+  | In_recruited v -> around_recruited v
   | With_keys ns -> around_fresh ns
 
 let change_within context change = lift (around_context context) change
@@ -233,7 +233,7 @@ let too_late = function
 let cut context body =
   let cut change = undoing (Cut [ body ]) change in
   match context with
-  | Before _ | Branch_of _ | Watched_by _ | Round_of _ | Holding _ | Having _ | With_keys _ -> None
+  | In_sequence _ | Branch_of _ | In_watch _ | Round_of _ | Holding _ | In_recruited _ | With_keys _ -> None
   | Body_until (Completes _, condition) ->
     let continue = function
       | Ok deeds -> cut (change (Label.Cut deeds) Rule.Until_cut Finished)
@@ -245,7 +245,7 @@ let cut context body =
       | Ok () -> cut (change (Label.Cut []) Rule.Assure_cut (Failed (Fault.make site (not_assured condition))))
       | Error fault -> cut (broke Rule.Until_err fault)
     in
-    Some (alone (Refute condition) continue)
+    Some (alone (Guard_false condition) continue)
   | Body_during (on_cut, timer, duration) ->
     let rule, outcome =
       match on_cut with
@@ -312,7 +312,7 @@ let choose (b : branch) around ~enters ~error =
       | Ok deeds -> enter (Label.Check deeds) enters around (Made { made with given = taken deeds })
       | Error fault -> broke error fault
     in
-    alone (Take b.guard) continue
+    alone (Guard_values b.guard) continue
   | body -> check b.guard ~holds:(fun label -> enter label enters around body) ~error
 
 let choose_of_all before b after =
@@ -343,7 +343,7 @@ let ask_again again condition =
     | Ok (false, _) -> next_round again (Asked again) (change (Label.Check []) Rule.Repeat_again Finished)
     | Error fault -> broke Rule.Repeat_err fault
   in
-  alone (Decide condition) continue
+  alone (Guard_either condition) continue
 
 let idle_end timer =
   alone (Expiry_of timer) (fun () -> change Label.Time_out Rule.Idle_end Finished)
@@ -427,9 +427,9 @@ let broken (Step { offer; continue; _ }) (fault : Fault.t) : change option =
       match change.outcome with Failed _ | Handling _ -> Some change | Next _ | Finished -> None)
   | Perform _ -> Some (continue (Error fault))
   | Check _ -> Some (continue (Error fault))
-  | Refute _ -> Some (continue (Error fault))
-  | Decide _ -> Some (continue (Error fault))
-  | Take _ -> Some (continue (Error fault))
+  | Guard_false _ -> Some (continue (Error fault))
+  | Guard_either _ -> Some (continue (Error fault))
+  | Guard_values _ -> Some (continue (Error fault))
   | Measure _ -> Some (continue (Error fault))
   | Make _ -> Some (continue (Error fault))
   | Allocate _ -> Some (continue (Error fault))

@@ -13,11 +13,11 @@ type _ offer =
   | Start : platform_task * vehicle -> unit offer  (** nothing; A(v) becomes the task *)
   | Perform : closure -> (Code.deed list, Fault.t) result offer  (** to run this action: its deeds *)
   | Check : closure -> (Code.deed list, Fault.t) result offer  (** that this guard is true: its deeds *)
-  | Refute : closure -> (unit, Fault.t) result offer  (** that this guard is not true; the deeds of its code are
-                                                          undone *)
-  | Decide : closure -> (bool * Code.deed list, Fault.t) result offer
+  | Guard_false : closure -> (unit, Fault.t) result offer  (** that this guard is not true; the deeds of its code are
+                                                               undone *)
+  | Guard_either : closure -> (bool * Code.deed list, Fault.t) result offer
   (** whether this guard is true, and its deeds; if not, the deeds of its code are undone *)
-  | Take : closure -> (Code.deed list, Fault.t) result offer  (** as [Check]; its result depends on the deeds *)
+  | Guard_values : closure -> (Code.deed list, Fault.t) result offer  (** as [Check]; its result depends on the deeds *)
   | Measure : closure -> (float, Fault.t) result offer  (** the seconds that this code gives *)
   | Make : closure * value list * request -> (task, Fault.t) result offer
   (** the task that this code gives of these values *)

@@ -174,7 +174,8 @@ let events (c : Configuration.t) : awaited Seq.t =
       | Expiry_of timer -> Some (Expiry_of timer)
       | Answer_to (question, prompt) -> Some (Answer_to (question, prompt))
       | Recruit_for (number, asked) -> Some (Recruit_for (number, asked))
-      | Start _ | Perform _ | Check _ | Refute _ | Decide _ | Take _ | Measure _ | Make _ | Allocate _ -> None
+      | Start _ | Perform _ | Check _ | Guard_false _ | Guard_either _ | Guard_values _ | Measure _ | Make _
+      | Allocate _ -> None
     in
     Seq.filter_map event (Task_rules.steps r)
 
@@ -188,8 +189,8 @@ let recruitable program world (c : Configuration.t) : event Seq.t =
       match offer with
       | Recruit_for (number, asked) ->
         List.to_seq (List.map (fun v -> Recruited (number, v)) (Fit.wherever world c.shared asked))
-      | Start _ | Perform _ | Check _ | Refute _ | Decide _ | Take _ | Measure _ | Make _ | Allocate _ | End_of _
-      | Expiry_of _ | Answer_to _ -> Seq.empty
+      | Start _ | Perform _ | Check _ | Guard_false _ | Guard_either _ | Guard_values _ | Measure _ | Make _
+      | Allocate _ | End_of _ | Expiry_of _ | Answer_to _ -> Seq.empty
     in
     Seq.flat_map of_step (Task_rules.marked_steps Recruits r)
   | Executing _ | Script _ | Waiting _ | Ended _ -> Seq.empty
@@ -208,9 +209,9 @@ let unknown program world (c : Configuration.t) =
   let of_step (Task_rules.Step { offer; _ }) =
     match offer with
     | Check guard -> of_guard guard
-    | Take guard -> of_guard guard
-    | Refute guard -> of_guard guard
-    | Decide guard -> of_guard guard
+    | Guard_values guard -> of_guard guard
+    | Guard_false guard -> of_guard guard
+    | Guard_either guard -> of_guard guard
     | Start _ | Perform _ | Measure _ | Make _ | Allocate _ | End_of _ | Expiry_of _ | Answer_to _
     | Recruit_for _ -> None
   in

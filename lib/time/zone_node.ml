@@ -6,26 +6,26 @@ type rest = No_rest | Unsaid | Said
 
 (* A step, with the inert items after it, and those of them that have begun with it. *)
 type arrow = {
-  step : Timed.step;
+  step : Clocked.step;
   inert : Inert.item list;
   begun : Inert.item list;
-  spelled : Likeness.execution -> Likeness.spelled;
+  spelled : Canonical_state.execution -> Canonical_state.spelled;
 }
 
 (* A state without its clocks, with the data that follow from it alone, and the numbers of the states with clocks. *)
 type t = {
-  state : Timed.state;
-  execution : Likeness.execution option;  (* if states that are alike are kept once *)
-  items : Timed.item list;  (* then what is awaited, in the order of the forms of states that are alike *)
+  state : Clocked.state;
+  execution : Canonical_state.execution option;  (* if states that are alike are kept once *)
+  items : Clocked.item list;  (* then what is awaited, in the order of the forms of states that are alike *)
   rest : rest;
   inert : Inert.item list;
-  follows : (arrow list * (Timed.item * int) list) Lazy.t;  (* and until when time may pass *)
-  clocks : (Timed.item * int) list;  (* waits that began at one time share one clock *)
+  follows : (arrow list * (Clocked.item * int) list) Lazy.t;  (* and until when time may pass *)
+  clocks : (Clocked.item * int) list;  (* waits that began at one time share one clock *)
   rest_clock : int option;  (* how long ago the last of the inert ends was: less than 0 as it is to come *)
   mutable here : int list;
 }
 
-type key = Exactly of Timed.state | Alike of int
+type key = Exactly of Clocked.state | Alike of int
 
 module Table = Hashtbl.Make (struct
     type t = key * (rest * int list)
@@ -33,18 +33,18 @@ module Table = Hashtbl.Make (struct
     let equal (key, more) (key', more') =
       more = more'
       && match key, key' with
-      | Exactly s, Exactly s' -> Timed.equal s s'
+      | Exactly s, Exactly s' -> Clocked.equal s s'
       | Alike form, Alike form' -> Int.equal form form'
       | (Exactly _ | Alike _), _ -> false
 
     let hash (key, more) =
-      Hashtbl.hash more + match key with Exactly s -> Timed.hash s | Alike form -> form
+      Hashtbl.hash more + match key with Exactly s -> Clocked.hash s | Alike form -> form
   end)
 
 type places = {
   successors : Successors.t;
   filled : Zone.t -> Zone.t;
-  note : Timed.state -> unit;
+  note : Clocked.state -> unit;
   table : t Table.t;
 }
 
@@ -56,17 +56,17 @@ let likeness t = Successors.likeness t.successors
 let successors t = t.successors
 let add place number = place.here <- number :: place.here
 
-let with_clocks (s : Timed.state) inert =
-  let is_inert (p : Timed.pending) = List.exists (fun (i : Inert.item) -> i.awaited = p.item) inert in
-  let has_clock (p : Timed.pending) =
+let with_clocks (s : Clocked.state) inert =
+  let is_inert (p : Clocked.pending) = List.exists (fun (i : Inert.item) -> i.awaited = p.item) inert in
+  let has_clock (p : Clocked.pending) =
     match p.bounds with Within _ -> not (is_inert p) | Some_time | Never -> false in
-  List.map (fun (p : Timed.pending) -> p.item) (List.filter has_clock s.pending)
+  List.map (fun (p : Clocked.pending) -> p.item) (List.filter has_clock s.pending)
 
-let course_item t = Option.map (fun c -> Timed.Course (Course.vehicle c)) (Successors.course t.successors)
+let course_item t = Option.map (fun c -> Clocked.Course (Course.vehicle c)) (Successors.course t.successors)
 
-let fresh t before (step : Timed.step) =
+let fresh t before (step : Clocked.step) =
   match Successors.course t.successors with
-  | Some c when Course.turns c before step -> Timed.Course (Course.vehicle c) :: step.fresh
+  | Some c when Course.turns c before step -> Clocked.Course (Course.vehicle c) :: step.fresh
   | Some _ | None -> step.fresh
 let is_among items (i : Inert.item) = List.exists (fun (j : Inert.item) -> j.awaited = i.awaited) items
 
@@ -87,10 +87,11 @@ let different e before clocks arrows =
     | Executing _ ->
       let clock item = Option.value (List.assoc_opt item clocks) ~default:0 in
       let color item = if List.mem item step.fresh then -1 else clock item in
-      let form = Likeness.form ~color ~colored:true (spelled e) in
-      let ends (i : Inert.item) = (i.least, i.most, Option.map (Likeness.orbit e) (Happening.ending step.next i)) in
+      let form = Canonical_state.form ~color ~colored:true (spelled e) in
+      let orbit = Canonical_state.orbit e in
+      let ends (i : Inert.item) = (i.least, i.most, Option.map orbit (Happening.ending step.next i)) in
       let due = Option.map (fun (item, bounds) -> (clock item, bounds)) step.due in
-      let happens = List.map (fun (moment, task) -> (moment, Likeness.orbit e task)) (Happening.tasks before step) in
+      let happens = List.map (fun (moment, task) -> (moment, orbit task)) (Happening.tasks before step) in
       let what = (step.transition.rules, List.sort Stdlib.compare happens, Happening.missed before step) in
       let key = (due, step.urgent, what, List.sort Stdlib.compare (List.map ends begun), form.number) in
       let is_new = not (Hashtbl.mem seen key) in
@@ -109,7 +110,7 @@ let arrows_of t state inert =
 
 let find_arrows t state execution inert clocks =
   let all = arrows_of t state inert in
-  let limits = Timed.holds_up (List.map (fun arrow -> arrow.step) all) in
+  let limits = Clocked.holds_up (List.map (fun arrow -> arrow.step) all) in
   match execution, all with
   | Some e, _ :: _ :: _ -> (different e state clocks all, limits)
   | _, _ -> (all, limits)
@@ -155,7 +156,7 @@ let ( let* ) = Option.bind
 (* As long as no step is urgent, time passes until something has to happen. *)
 let settled t place zone =
   let steps = steps t place and filled = t.filled in
-  if steps = [] || List.exists (fun (s : Timed.step) -> s.urgent) steps then Some (filled zone)
+  if steps = [] || List.exists (fun (s : Clocked.step) -> s.urgent) steps then Some (filled zone)
   else
     let limit zone (item, most) =
       match List.assoc_opt item place.clocks with
@@ -165,7 +166,7 @@ let settled t place zone =
     Option.map filled (List.fold_left limit (Some (Zone.delay zone)) (snd (follow t place)))
 
 (* Those valuations of [zone] in which [step] may be taken. *)
-let enabling place zone (step : Timed.step) =
+let enabling place zone (step : Clocked.step) =
   match step.due with
   | Some (item, Within { least; most }) -> (
       match List.assoc_opt item place.clocks with
@@ -200,7 +201,7 @@ let reached t ~clocks ~rest_clock ~fresh ~has_rest spelled state inert zone =
     match spelled with
     | Some spelled ->
       let color item = match List.assoc_opt item clocks with Some clock -> Zone.role clock zone | None -> 0 in
-      let { Likeness.number; items } = Likeness.form ~color ~colored:false spelled in
+      let { Canonical_state.number; items } = Canonical_state.form ~color ~colored:false spelled in
       (Alike number, items)
     | None -> (Exactly state, awaited)
   in
@@ -210,7 +211,7 @@ let reached t ~clocks ~rest_clock ~fresh ~has_rest spelled state inert zone =
   let clocks = List.map2 (fun (item, _) n -> (item, n)) in_order numbers in
   let last = if has_rest then [ Some (List.length origins + 1) ] else [] in
   let zone = Zone.rearranged (Array.of_list (List.map Option.some firsts @ last)) zone in
-  let execution = Option.map Likeness.execution_of spelled in
+  let execution = Option.map Canonical_state.execution_of spelled in
   fun rest ->
     let place = find t key state execution items inert rest clocks in
     match rest_clock, place.rest_clock with
@@ -238,10 +239,10 @@ let lasts place begun =
   | (No_rest | Unsaid), _ -> (None, Unsaid) :: List.map (fun (i : Inert.item) -> (Some i.awaited, Said)) begun
 
 (* All that is inert ends. *)
-let ends_of_rest t (state : Timed.state) =
+let ends_of_rest t (state : Clocked.state) =
   let inert = Successors.inert t.successors state in
-  let rec go steps (state : Timed.state) =
-    let is_end (step : Timed.step) =
+  let rec go steps (state : Clocked.state) =
+    let is_end (step : Clocked.step) =
       match step.due with
       | Some (item, _) -> List.exists (fun (i : Inert.item) -> i.awaited = item) inert
       | None -> false
@@ -263,13 +264,14 @@ let ends_later clock zone =
 (* {1 Executions} *)
 
 (* The rest of N when a task is over must be the same in all states that are alike. *)
-let check_left t before (next : Timed.state) =
+let check_left t before (next : Clocked.state) =
   match likeness t, before.execution, next.configuration.control with
-  | Some likeness, Some e, (Script _ | Waiting _) when not (Likeness.leaves_alike likeness e next) -> raise Broken
+  | Some likeness, Some e, (Script _ | Waiting _) when not (Canonical_state.leaves_alike likeness e next) ->
+    raise Broken
   | _, _, _ -> ()
 
-let execution_after t before (next : Timed.state) =
+let execution_after t before (next : Clocked.state) =
   match likeness t, before.state.configuration.control, next.configuration.control with
   | Some _, Executing _, Executing _ -> before.execution
-  | Some likeness, _, Executing _ -> Likeness.execution likeness next
+  | Some likeness, _, Executing _ -> Canonical_state.execution likeness next
   | _, _, _ -> check_left t before next; None

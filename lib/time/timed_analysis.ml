@@ -15,7 +15,7 @@ type run = {
   chain : Schedule.link list;
 }
 
-type reduction = Timed_system.reduction = Nothing | Inert_ends | Inert_ends_and_likeness
+type reduction = Timed_system.reduction = Nothing | Inert_ends | Inert_ends_and_canonical_states
 
 type task = Timed_system.task = { name : string; vehicle : Core.vehicle; site : Core.site }
 
@@ -31,7 +31,7 @@ type outcome = {
   last : run option;
   first : run option;
   endless : (run * [ `Cycle | `In_no_time | `Stuck ]) option;
-  unknown : Timed.pending list;
+  unknown : Clocked.pending list;
   deadlines : (Core.site * (window * run) option) list;
   late : run option;
   failing : run option;
@@ -51,7 +51,7 @@ type slacks = { known : (task * Slack.t) list; cut_short : Limits.bound option }
 
 (* Of steps from [start] with their dates, if these are known. *)
 let with_dates options start steps ~chain dates =
-  let found = Timed.transitions options start steps in
+  let found = Clocked.transitions options start steps in
   let date i = match dates with Some dates -> [ dates.(i) ] | None -> [] in
   let known = List.mapi (fun i t -> Option.map (fun t -> (t, date i)) t) found in
   let known = List.filter_map Fun.id known in
@@ -79,7 +79,7 @@ let run_around options system (c : Timed_system.cycle) =
   let around = without (List.length stem) whole @ [ c.back ] in
   let undated from steps = with_dates options from steps ~chain:[] None in
   let start = Timed_system.start system in
-  let from = List.fold_left (fun _ (s : Timed.step) -> s.next) start stem in
+  let from = List.fold_left (fun _ (s : Clocked.step) -> s.next) start stem in
   { (undated start stem) with cycle = (undated from around).steps }
 
 let endless options system =
@@ -189,7 +189,7 @@ let lowest options (v : Scenario.vehicle) known { bound; of_ways } =
 (* For programs that look at sensors no run is shown: their readings do not follow from the time. Neither does it
    follow whether a vehicle rests at a charger. *)
 let battery options ~observed ~last ~is_known ~charges (v : Scenario.vehicle) first =
-  let is_shown = is_known && (not options.Timed.program.reads_sensors) && v.chargers = [] in
+  let is_shown = is_known && (not options.Clocked.program.reads_sensors) && v.chargers = [] in
   let improved known found = if is_shown then lowest options v known found else None in
   let of_last (run : run) = if run.dates = [] then None else Some (left v run, run) in
   let known = if is_shown then Option.bind last of_last else None in
@@ -216,7 +216,7 @@ let batteries options system ~observed ~tasks ~last ~is_known vehicles =
     match List.filter (fun ((task : task), _) -> task.vehicle = v.id) tasks with
     | [] -> None
     | tasks ->
-      let charges = List.exists (fun ((task : task), _) -> options.Timed.durations.charges task.name <> None) tasks in
+      let charges = List.exists (fun ((task : task), _) -> options.Clocked.durations.charges task.name <> None) tasks in
       battery options ~observed ~last ~is_known ~charges v (List.assq_opt v bounds)
   in
   List.filter_map of_vehicle vehicles
@@ -270,17 +270,18 @@ let find ?start ~(reduction : reduction) ~started ?deadline ~vehicles limits opt
 (* With less left out where more was unsound. *)
 let rec attempt find (reduction : reduction) =
   try find reduction
-  with Timed_system.Broken -> attempt find (match reduction with Inert_ends_and_likeness -> Inert_ends | _ -> Nothing)
+  with Timed_system.Broken ->
+    attempt find (match reduction with Inert_ends_and_canonical_states -> Inert_ends | _ -> Nothing)
 
 (* {1 Plans side by side} *)
 
 (* Pairs that no run has at one time, whatever the times, need not be looked for. *)
-let untimed limits (options : Timed.options) =
+let untimed limits (options : Clocked.options) =
   Dolphin_explore.Search.(side_by_side { default with environment = options.environment; reduction = All; limits })
     options.program options.world
 
 (* Ends that are inert leave A too, and states that are alike have other plans: so all is followed. *)
-let pairs ?start ~started limits (options : Timed.options) ~candidates =
+let pairs ?start ~started limits (options : Clocked.options) ~candidates =
   let beside = Side_by_side.create options.program.fences in
   let system = Timed_system.create ?start Latest (Successors.create Nothing options) in
   let search = Search.create ~phase:"looking for plans side by side" ~started limits system in
@@ -296,7 +297,7 @@ let pairs ?start ~started limits (options : Timed.options) ~candidates =
   ignore (enough ());
   (Side_by_side.pairs beside, Search.stopped search)
 
-let apart ?start ~started limits (options : Timed.options) =
+let apart ?start ~started limits (options : Clocked.options) =
   let found (fence : Fences.fence) =
     let pairs, cut_short =
       match untimed limits options with
@@ -325,10 +326,10 @@ let dates_after ms o =
     failing = Option.map run o.failing; endless = Option.map (fun (r, why) -> (run r, why)) o.endless;
     deadlines = List.map missed o.deadlines }
 
-type start = { state : Timed.state; date : int }
+type start = { state : Clocked.state; date : int }
 
 (* What is reduced is alike, or inert, from the beginning. *)
-let run ?start ?(reduction = Inert_ends_and_likeness) ?deadline ?(vehicles = []) limits options =
+let run ?start ?(reduction = Inert_ends_and_canonical_states) ?deadline ?(vehicles = []) limits options =
   let started = limits.Limits.clock () in
   let state = Option.map (fun s -> s.state) start and past = Option.fold start ~none:0 ~some:(fun s -> s.date) in
   let reduction, vehicles = if start = None then (reduction, vehicles) else (Nothing, []) in
@@ -353,7 +354,7 @@ let latest_end ~started limits options =
     | None, None, None, Some (date, _) -> Some date
     | None, _, _, _ -> Some Unbounded
   in
-  attempt find Inert_ends_and_likeness
+  attempt find Inert_ends_and_canonical_states
 
 let latest o =
   let later found (_, w) = match found with Some d when not (is_later w.latest d) -> found | _ -> Some w.latest in

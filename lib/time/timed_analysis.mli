@@ -15,15 +15,15 @@
         fst (Result.get_ok (Elaborate.program ~source_name:"a.dol" ast))
 
       let options =
-        { Timed.program; world = Scenario_world.world scenario; dates = Dated_code.named program;
+        { Clocked.program; world = Scenario_world.world scenario; dates = Dated_code.named program;
           environment = Scenario_world.environment ~answers:[] ~faults:Faults.none program scenario;
           durations = Durations.of_scenario scenario }
 
       let () =
-        let outcome = Timing.run Dolphin_checker.Limits.none options in
+        let outcome = Timed_analysis.run Dolphin_checker.Limits.none options in
         assert (outcome.endings = [ (Completed, { earliest = 360_000; latest = At 1_080_000 }) ]);
-        assert (Timing.in_time ~deadline:1_080_000 outcome = Holds);
-        assert (Timing.in_time ~deadline:1_000_000 outcome = Violated)
+        assert (Timed_analysis.in_time ~deadline:1_080_000 outcome = Holds);
+        assert (Timed_analysis.in_time ~deadline:1_000_000 outcome = Violated)
     ]} *)
 
 open Dolphin_semantics
@@ -42,7 +42,7 @@ type run = {
   chain : Schedule.link list;  (** the durations that add up to its last date *)
 }
 
-type reduction = Timed_system.reduction = Nothing | Inert_ends | Inert_ends_and_likeness
+type reduction = Timed_system.reduction = Nothing | Inert_ends | Inert_ends_and_canonical_states
 type task = Timed_system.task = { name : string; vehicle : Core.vehicle; site : Core.site }
 
 (** How much is left in a battery, at any time until the end of a run. *)
@@ -67,7 +67,7 @@ type outcome = {
   last : run option;  (** one that ends last, if all end *)
   first : run option;  (** one that ends first *)
   endless : (run * [ `Cycle | `In_no_time | `Stuck ]) option;  (** one that never ends *)
-  unknown : Timed.pending list;  (** the events of unknown duration *)
+  unknown : Clocked.pending list;  (** the events of unknown duration *)
   deadlines : (Core.site * (window * run) option) list;
   (** the [within] of the program, each with when it is missed, and a run in which it is; [None]: it is kept *)
   late : run option;  (** one that is not over at the deadline *)
@@ -84,12 +84,12 @@ type outcome = {
   bytes : int;
 }
 
-type start = { state : Timed.state; date : int  (** milliseconds since the start of the run *) }
-(** Where a run is that goes on: {!Timed.onwards}. *)
+type start = { state : Clocked.state; date : int  (** milliseconds since the start of the run *) }
+(** Where a run is that goes on: {!Clocked.onwards}. *)
 
 val run :
   ?start:start -> ?reduction:reduction -> ?deadline:int -> ?vehicles:Dolphin_scenario.Scenario.vehicle list ->
-  Dolphin_checker.Limits.t -> Timed.options -> outcome
+  Dolphin_checker.Limits.t -> Clocked.options -> outcome
 (** [run ~deadline ~vehicles limits o] is the complete result, within [limits]; [deadline] is in milliseconds; of
     [vehicles], by default none, the batteries are analysed. The [reduction], all by default, makes no difference to
     the answers, but for how close the bounds of batteries are. With a [start], the result is of the rest of the run:
@@ -103,7 +103,7 @@ type slacks = {
   cut_short : Dolphin_checker.Limits.bound option;  (** an interruption, or a process ended early *)
 }
 
-val slacks : ?workers:int -> Dolphin_checker.Limits.t -> Timed.options -> outcome -> slacks
+val slacks : ?workers:int -> Dolphin_checker.Limits.t -> Clocked.options -> outcome -> slacks
 (** [slacks limits o outcome] is the slack of each task of [outcome], which is of [o], by searches of their own;
     without those that are not found within [limits], each search for itself but for the time. None is known if it is
     not known that all runs end by some date. [workers] processes look for them, by default 1, as in

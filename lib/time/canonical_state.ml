@@ -20,7 +20,7 @@ type execution = {
 
 (* The parts that no step of a task changes, by number. *)
 module Constants = Hashtbl.Make (struct
-    type t = Configuration.t * Timed.state
+    type t = Configuration.t * Clocked.state
 
     let equal ((c, s) : t) ((c', s') : t) =
       Environment.compare s.outside s'.outside = 0
@@ -60,20 +60,20 @@ module Heads = Dolphin_checker.Interner.Make (struct
   end)
 
 type t = {
-  options : Timed.options;
+  options : Clocked.options;
   skeletons : Skeleton.context;
   heads : Heads.t;
   numbers : Form.numbers;
   constants : int Constants.t;
-  executions : execution option Timed.Table.t;
+  executions : execution option Clocked.Table.t;
   apart : Core.vehicle option;  (* it is like no other vehicle *)
   possible : bool;
 }
 
-let create ?apart (options : Timed.options) =
+let create ?apart (options : Clocked.options) =
   let numbering = Dolphin_checker.Numbering.create () in
   { options; apart; skeletons = Skeleton.context numbering options.program; heads = Heads.create numbering;
-    numbers = Form.numbers numbering; constants = Constants.create 64; executions = Timed.Table.create 8;
+    numbers = Form.numbers numbering; constants = Constants.create 64; executions = Clocked.Table.create 8;
     possible = Inert.names_are_free options }
 
 let number e = e.number
@@ -88,8 +88,8 @@ type spelling = {
   t : t;
   orbit : label -> int;
   pairs : pairs;
-  awaited : Timed.item -> bool;
-  mutable items : Timed.item list;  (* latest first *)
+  awaited : Clocked.item -> bool;
+  mutable items : Clocked.item list;  (* latest first *)
 }
 
 let place pairs n = Option.value (Hashtbl.find_opt pairs.places n) ~default:(-1 - n)
@@ -145,7 +145,8 @@ let rec spell s (r : Residual.t) =
   | Repeat { round; again = { left; until; each; site = _ } } ->
     tree s (Repeat left) [ optional s (code s part) until; optional s (spell s) round; spell s each ]
   | Fresh (_, a) -> tree s Fresh [ spell s a ]
-  | Made _ | Unallocated _ | Hold _ | Recruit _ | Recruited _ -> invalid_arg "Likeness: a task that is made at its turn"
+  | Made _ | Unallocated _ | Hold _ | Recruit _ | Recruited _ ->
+    invalid_arg "Canonical_state: a task that is made at its turn"
 
 and optional : 'a. spelling -> ('a -> Form.tree) -> 'a option -> Form.tree =
   fun s spelled x -> tree s Some_of (List.map spelled (Option.to_list x))
@@ -157,8 +158,8 @@ and branches s bs =
 (* Without what is inert, but for tasks that move their vehicle. *)
 let root s inert (r : Residual.t) =
   let is_gone : Residual.t -> bool = function
-    | Running (p, v) -> List.mem (Timed.Task v) inert && Durations.moves p = None
-    | Idle { timer; _ } -> List.mem (Timed.Timer timer) inert
+    | Running (p, v) -> List.mem (Clocked.Task v) inert && Durations.moves p = None
+    | Idle { timer; _ } -> List.mem (Clocked.Timer timer) inert
     | _ -> false
   in
   let components = match r with Parallel bs -> Branches.to_list bs | r -> [ r ] in
@@ -172,7 +173,7 @@ let in_space t pairs tuples =
   in
   List.concat_map of_key (Tuples.bindings tuples)
 
-let constant t (s : Timed.state) m =
+let constant t (s : Clocked.state) m =
   let shared =
     { s.configuration.shared with allocation = Vehicle_map.empty; tuples = Tuples.empty t.options.program.ordered_keys }
   in
@@ -184,28 +185,28 @@ let constant t (s : Timed.state) m =
     Constants.add t.constants key n;
     n
 
-type parts = { tree : Form.tree; awaited : Timed.item array; placed : (int * int) list; constant : int }
+type parts = { tree : Form.tree; awaited : Clocked.item array; placed : (int * int) list; constant : int }
 type spelled = { likeness : t; execution : execution; parts : parts }
 
-let parts t ~orbit ~pairs inert (state : Timed.state) m r =
+let parts t ~orbit ~pairs inert (state : Clocked.state) m r =
   let inert = List.map (fun (i : Inert.item) -> i.awaited) inert in
-  let is_awaited item = List.exists (fun (p : Timed.pending) -> p.item = item) state.pending in
+  let is_awaited item = List.exists (fun (p : Clocked.pending) -> p.item = item) state.pending in
   let awaited item = is_awaited item && not (List.mem item inert) in
   let s = { t; orbit; pairs; awaited; items = [] } in
   let tree = root s inert r in
   { tree; awaited = Array.of_list (List.rev s.items); placed = in_space t pairs state.configuration.shared.tuples;
     constant = constant t state m }
 
-let spell t e inert (s : Timed.state) =
+let spell t e inert (s : Clocked.state) =
   match s.configuration.control with
   | Executing (m, r) ->
     let orbit l = Option.value (Hashtbl.find_opt e.orbits l) ~default:(-1) in
     { likeness = t; execution = e; parts = parts t ~orbit ~pairs:e.pairs inert s m r }
-  | Script _ | Waiting _ | Ended _ -> invalid_arg "Likeness.spell: nothing is executed"
+  | Script _ | Waiting _ | Ended _ -> invalid_arg "Canonical_state.spell: nothing is executed"
 
 let execution_of spelled = spelled.execution
 
-type form = { number : int; items : Timed.item list }
+type form = { number : int; items : Clocked.item list }
 
 let form ~color ~colored { likeness; execution; parts = { tree; awaited; placed; constant } } =
   let { Form.number; items } =
@@ -241,7 +242,7 @@ let classes key xs =
 
 let has_several members = Hashtbl.fold (fun _ xs found -> found || List.length xs > 1) members false
 
-let find_execution t (s : Timed.state) m r =
+let find_execution t (s : Clocked.state) m r =
   let skeletons = List.map (fun (handler, c) -> Skeleton.of_code t.skeletons ~handler c) (closures r) in
   if List.exists (fun (k : Skeleton.t) -> k.unclear) skeletons then None
   else
@@ -272,21 +273,21 @@ let find_execution t (s : Timed.state) m r =
     if has_several members || has_several same then
       let renamed = Hashtbl.fold (fun _ places all -> if List.length places > 1 then places @ all else all) same [] in
       let pair_orbits = Array.of_list (List.map (Hashtbl.find pair_orbits) places) in
-      Some { number = Timed.Table.length t.executions; orbits; members; pairs; pair_orbits; renamed }
+      Some { number = Clocked.Table.length t.executions; orbits; members; pairs; pair_orbits; renamed }
     else None
 
-let execution t (s : Timed.state) =
+let execution t (s : Clocked.state) =
   match s.configuration.control with
   | Executing (m, r) when t.possible && not (Residual.makes_tasks r || Residual.may_go_round r) -> (
-      match Timed.Table.find_opt t.executions s with
+      match Clocked.Table.find_opt t.executions s with
       | Some found -> found
       | None ->
         let found = find_execution t s m r in
-        Timed.Table.add t.executions s found;
+        Clocked.Table.add t.executions s found;
         found)
   | Executing _ | Script _ | Waiting _ | Ended _ -> None
 
-let leaves_alike t e (s : Timed.state) =
+let leaves_alike t e (s : Clocked.state) =
   let tuples = s.configuration.shared.tuples in
   let times = Array.map (fun _ -> 0) e.pair_orbits in
   List.iter (fun (n, _) -> if n >= 0 then times.(n) <- times.(n) + 1) (in_space t e.pairs tuples);

@@ -1,1 +1,0 @@
-let make_room () = Gc.set { (Gc.get ()) with minor_heap_size = 1024 * 1024 }

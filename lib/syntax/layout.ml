@@ -76,6 +76,11 @@ let same_line state i = i < Array.length state.raw && not state.raw.(i).newline
 
 let is_key state i = raw_token state (i + 1) = COLON
 
+(* Whether the word at [i] is a name there: of a member, [x.until], or of an argument, [until: x]. *)
+let is_named state i =
+  let is_member = i > 0 && match raw_token state (i - 1) with DOT | SAFE_DOT -> true | _ -> false in
+  is_member || is_key state i
+
 (* How far ahead the [run] of a [during] is looked for. *)
 let horizon = 100
 
@@ -84,9 +89,10 @@ let begins_expression state i =
   let rec run_follows i fuel =
     fuel > 0
     && match raw_token state i with
+    | word when is_word word && is_named state i -> run_follows (i + 1) (fuel - 1)
     | RUN -> true
     | SEPARATOR | COMMA | RPAREN | RBRACKET | RBRACE | HOLE_CLOSE | EOF -> false
-    | SHIFT_RIGHT | BAR | AMPERSAND | UNTIL _ | DURING _ | WAIT_FOR | WHEN | WATCH | REPEAT -> false
+    | UNTIL _ | DURING _ | WAIT_FOR | WHEN | WATCH | REPEAT -> false
     | LPAREN | LBRACKET | LBRACE | HOLE_OPEN -> run_follows (state.partner.(i) + 1) (fuel - 1)
     | token when state.raw.(i).newline && not (continues token) -> false
     | _ -> run_follows (i + 1) (fuel - 1)
@@ -176,7 +182,7 @@ let stands_behind state i (token : Token.t) =
 let classify state i (token : Token.t) =
   match token.token with
   | TRUE | FALSE | NULL when after_point state -> NAME (Token.text ~source:state.source token)
-  | word when is_word word && (after_point state || is_key state i) -> NAME (Token.text ~source:state.source token)
+  | word when is_word word && is_named state i -> NAME (Token.text ~source:state.source token)
   | UNTIL Completes when stands_behind state i token -> AFTER_UNTIL
   | UNTIL Fails when stands_behind state i token -> AFTER_ASSURE
   | DURING on_cut when stands_behind state i token -> AFTER_DURING on_cut

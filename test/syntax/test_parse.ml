@@ -151,6 +151,10 @@ let limits_on_lines =
       "x = a\nuntil { c } | during 3.min run b", "x = (until { c } run a) | (during 3.min run b)";
       "x = a\nduring d | during 3.min run b", "x = (during d run a) | (during 3.min run b)";
       "x = a\n\nduring d\nduring e run b", "x = during d run a; during e run b";
+      "a\nduring x.until[1] run b", "a; during x.until[1] run b"; "a\nwithin x?.watch run b", "a; within x?.watch run b";
+      "a\nduring x.run.min", "during x.run.min run a"; "a\nduring x\n.repeat run b", "a; during x.repeat run b";
+      "f a, during x.then.within run b", "f(a, during x.then.within run b)";
+      "a\nduring d & e run b", "a; during (d & e) run b"; "a\nwithin c >> d\n| e run b", "a; within (c >> d | e) run b";
       "f { a\n until { c } }", "f { until { c } run a }"; "repeat a\n until { c }", "(repeat a until { c })" ]
 
 let words =

@@ -1,5 +1,6 @@
 (** Plans of a program, asked of adapters before anything moves ([docs/platform.md]). *)
 
+(** A plan, and what adapters find wrong with it. *)
 type verdict = {
   found : Inline_plans.found;
   answers : (string * string list) list;  (** by the name of the platform, the problems that it finds in the plan *)

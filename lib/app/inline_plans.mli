@@ -3,6 +3,7 @@
 open Dolphin_plans
 open Dolphin_semantics
 
+(** A plan that a run gives to vehicles. *)
 type found = {
   name : string;
   plan : Inline_plan.t option;  (** [None]: vehicles know it by name *)

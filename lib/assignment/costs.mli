@@ -7,6 +7,8 @@ val add : int -> int -> int
 (** [add a b] is [a + b], or {!forbidden} if either is. *)
 
 type t = private { rows : int; columns : int; storage : storage }
+
+(** The costs, in elements of 3, 4 or 8 bytes. *)
 and storage
 
 val of_array : rows:int -> columns:int -> int array -> t

@@ -16,12 +16,15 @@ type seen = {
   ending : (string * string option) option;  (** how the run ended with it, and the message, if that is known *)
 }
 
+(** A step of a trace in a case. *)
 type step =
   | Until of string  (** on, leftmost first, until a step with this label has been made *)
   | Step of seen
 
+(** How a run ends, in words of [conformance/INTERPRETING.md]. *)
 type outcome = { how : string; message : string option; left : string list  (** of N, sorted *) }
 
+(** An expected result; [conformance/INTERPRETING.md] describes each kind. *)
 type expectation =
   | Rejected of (string * int option) list  (** codes, with the line if it matters, sorted *)
   | Trace of step list

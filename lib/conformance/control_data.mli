@@ -17,4 +17,7 @@ val machine : Nodes.t -> Data.json -> Machine.t
 (** @raise Data.Wrong, as {!residual} does. *)
 
 val of_residual : Data.budget -> Residual.t -> Data.json
+(** @raise Data.Too_large as {!Data.part} does. *)
+
 val residual : Nodes.t -> Data.json -> Residual.t
+(** @raise Data.Wrong if this program has no such residual. *)

@@ -2,6 +2,7 @@
     public functions give results. *)
 
 type json = Yojson.Safe.t
+(** JSON of any shape. *)
 
 exception Wrong of string
 (** The fault, in a sentence without a full stop. *)
@@ -31,15 +32,26 @@ val whole : json -> int
     @raise Wrong if it is something else; so do the others. *)
 
 val text : json -> string
+(** A text. *)
+
 val truth : json -> bool
+(** [true] or [false]. *)
+
 val list : (json -> 'a) -> json -> 'a list
+(** [list read] is an array, each element read by [read]. *)
+
 val pair : (json -> 'a) -> (json -> 'b) -> json -> 'a * 'b
+(** [pair read read'] is an array of two, the first read by [read] and the second by [read']. *)
 
 val of_list : ('a -> json) -> 'a list -> json
 (** These write what the readers of that name read. *)
 
 val of_pair : ('a -> json) -> ('b -> json) -> 'a * 'b -> json
+(** An array of two. *)
+
 val of_option : ('a -> json) -> 'a option -> json
+(** [null] for [None]. *)
+
 val option : (json -> 'a) -> json -> 'a option
 (** [null] is [None]: not for values that may be [null] themselves. *)
 
@@ -47,3 +59,4 @@ val of_float : float -> json
 (** With all of its digits; a number that JSON lacks is ["nan"], ["inf"] or ["-inf"]. *)
 
 val float : json -> float
+(** The number that {!of_float} wrote. *)

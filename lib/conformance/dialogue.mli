@@ -1,6 +1,7 @@
 (** The runner's side of the step protocol: requests to an implementation, and its replies. *)
 
 type json = Yojson.Safe.t
+(** JSON of any shape. *)
 
 exception Trouble of string
 (** The implementation does not answer, or its answer is not that of the protocol; why, without a full stop. *)
@@ -11,6 +12,7 @@ type ask = json -> (json, string) result
 (** The present place of a run. *)
 type place = { configuration : json; world : json; now : int  (** the date, in seconds *) }
 
+(** A transition that the implementation reports, in the words of the protocol. *)
 type transition = {
   event : json option;
   label : string;
@@ -19,6 +21,7 @@ type transition = {
   next : json;
 }
 
+(** The transitions from one place. *)
 type steps = {
   internal : transition list;  (** leftmost first *)
   caused : transition list;  (** by the events, in their order *)

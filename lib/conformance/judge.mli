@@ -6,6 +6,7 @@ type failure = {
   why : string;  (** one sentence without a full stop *)
 }
 
+(** The judgement of a case: the failed expectations, and the rules that were taken, sorted. *)
 type verdict = { failures : failure list; rules : string list  (** that were taken, sorted *) }
 
 val judge : Dialogue.ask -> Case.t -> verdict

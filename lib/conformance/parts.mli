@@ -11,8 +11,13 @@ type 'a t = {
 }
 
 val machine : Nodes.t -> Machine.t t
+(** The script's machine. *)
+
 val residual : Nodes.t -> Residual.t t
+(** An executing task. *)
+
 val shared : Nodes.t -> Core.program -> Shared.t t
+(** The shared part. *)
 
 val configuration : Nodes.t -> Core.program -> Configuration.t t
 (** For an end by an error, the kind of error is left out, as in {!Configuration.compare_ending}. *)

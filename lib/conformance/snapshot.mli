@@ -20,4 +20,7 @@ val state : Nodes.t -> Core.program -> Data.json -> Configuration.t
 (** @raise Data.Wrong, as {!shared} does. *)
 
 val of_shared : Data.budget -> Shared.t -> Data.json list
+(** @raise Data.Too_large as {!of_state} does. *)
+
 val shared : Nodes.t -> Core.program -> Data.json list -> Shared.t
+(** @raise Data.Wrong if the program has no such shared part. *)

@@ -2,6 +2,7 @@
 
 open Dolphin_semantics
 
+(** The program and the fleet that questions are about. *)
 type given = { program : Core.program; scenario : Dolphin_scenario.Scenario.t }
 
 val times : faults:Dolphin_environment.Faults.t -> given -> (Timed_data.times, string) result

@@ -2,12 +2,15 @@
     tasks and timers of one run were not over when they should have been. *)
 
 type json = Yojson.Safe.t
+(** JSON of any shape. *)
 
+(** The earliest and the latest date of something. *)
 type window = { earliest : int; latest : int option  (** [None]: without a latest date *) }
 
 (** All tasks of one name on one vehicle. *)
 type task = { name : string; vehicle : string; moments : (string * window) list  (** by name, sorted: ["starts"] *) }
 
+(** The dates of all runs of a program. *)
 type times = {
   ends : (string * window) list;  (** by how runs end, sorted *)
   tasks : task list;
@@ -15,6 +18,7 @@ type times = {
   missed : int list;  (** the lines of the [within] that some run misses, sorted *)
 }
 
+(** The event that came early or late: the end of a vehicle's task, or the expiry of a timer. *)
 type ended = Vehicle of string | Timer of int
 
 (** Something that was over before it could be, or was not when it had to be. *)
@@ -25,9 +29,16 @@ type finding = { at : int; ended : ended; too : string  (** ["early"] or ["late"
     Members that are not there are as in programs where nothing of that kind happens. *)
 
 val times : Dolphin_json.Field.members -> (times, string) result
+(** Reads the members that {!of_times} writes. *)
+
 val of_times : times -> Dolphin_json.Field.members
+(** The members of a case, or of a reply, for these dates. *)
+
 val findings : json -> (finding list, string) result
+(** Reads the array that {!of_findings} writes. *)
+
 val of_findings : finding list -> json
+(** An array with an object for each. *)
 
 val dated : json -> (int * json, string) result
 (** An event of a run, with its date, from an object with the members [at] and [event]. *)

@@ -2,6 +2,7 @@
     raise {!Dialogue.Trouble}. *)
 
 module Rules : Set.S with type elt = string
+(** Sets of rules, by their names. *)
 
 type found = (unit, string) result * Rules.t
 (** The fault, in a sentence without a full stop; and the rules of the transitions that were taken. *)

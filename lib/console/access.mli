@@ -1,6 +1,7 @@
 (** Checks of requests: a console answers its own pages, programs of this machine, and clients with a token; never a
     page of another server. *)
 
+(** What a client may do: each role may do what those before it may. *)
 type role = Operators.role = Watches | Answers | Steers
 
 type t = {

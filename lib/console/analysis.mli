@@ -11,6 +11,7 @@ type subject = Exploration | Timing | Graph
 val subject_name : subject -> string
 (** ["exploration"], ["timing"], ["graph"]. *)
 
+(** An analysis that a page has asked for. *)
 type order = {
   subject : subject;
   seconds : int;  (** at most *)
@@ -23,6 +24,7 @@ type order = {
 }
 
 val json_of_order : order -> json
+(** The order for another process, which reads it by {!order_of_json}. *)
 
 val order_of_json : json -> (order, refusal) result
 (** [order_of_json (json_of_order o)] is [o]. *)
@@ -41,10 +43,16 @@ val start :
     the run that it shows, or returns the reason why there is no result: neither is parsed in this process. *)
 
 val order : t -> order
+(** The order of {!start}. *)
+
 val goes_on : t -> bool
+(** Whether its command is still running. *)
+
 val cancel : t -> unit
+(** Ends its command, and the analysis has no result; without effect on one that is over. *)
 
 val finished : t -> unit Lwt.t
+(** Resolves when the command has ended and its result is there. *)
 
 val shown : t -> string option
 (** The run that it shows, a counterexample perhaps: the contents of a {!Dolphin_app.Witness_file}. *)

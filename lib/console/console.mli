@@ -4,6 +4,7 @@
 
 open Dolphin_app
 
+(** The options of a console. *)
 type settings = {
   folder : Folder.t;
   run : Run.settings;  (** of all runs: the platforms, the supplier *)
@@ -24,6 +25,7 @@ val start : settings -> port:int -> (t, string) result
 (** [start s ~port] serves from now on; port 0 is any free one. *)
 
 val port : t -> int
+(** The port that is served: a free one if 0 was asked for. *)
 
 val name : Unix.inet_addr option -> string
 (** [name listen] is the host name or address in the links of a console that listens there. *)

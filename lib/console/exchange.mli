@@ -3,6 +3,7 @@
 open Dolphin_json
 
 type json = Yojson.Safe.t
+(** JSON of any shape. *)
 
 (** {1 Replies} *)
 
@@ -22,11 +23,16 @@ val json : ?status:int -> json -> Dolphin_http.Response.t
 (** By default with status 200. *)
 
 val of_refusal : refusal -> Dolphin_http.Response.t
+(** The reply with the status of the refusal; its body is an object [error] with the code, the message and what is
+    [more]. *)
+
 val of_result : (json, refusal) result -> Dolphin_http.Response.t
+(** {!json}, or {!of_refusal}. *)
 
 (** {1 Arguments} *)
 
 val ( let* ) : ('a, 'e) result -> ('a -> ('b, 'e) result) -> ('b, 'e) result
+(** [Result.bind], for modules that open this one. *)
 
 val needed : ('a, string) result -> ('a, refusal) result
 (** An error is a bad request. *)

@@ -9,6 +9,7 @@ val make : string -> (t, string) result
 val root : t -> string
 (** Its real path. *)
 
+(** The kind of a file, by the end of its name. *)
 type kind = Program | Fleet | Journal | Layer
 
 val kind : string -> kind option

@@ -6,8 +6,11 @@ val free : t
 (** No client has the helm. *)
 
 val equal : t -> t -> bool
+(** Whether the holder, those who ask and the former holder are the same. *)
 
 val holder : t -> string option
+(** The client that has it. *)
+
 val asking : t -> string list
 (** The clients that ask for it, the first one first. *)
 

@@ -24,13 +24,19 @@ val enact :
     it goes. It has no journal. *)
 
 val id : t -> string
+(** The identity that {!start} was given. *)
+
 val feed : t -> Feed.t
+(** The messages of the run, for clients that follow it. *)
+
 val journal : t -> string option
 (** The file that it is kept in. *)
 
 val program : t -> Program_file.t
+(** The program that runs. *)
 
 val goes_on : t -> bool
+(** Whether it is not over. *)
 
 val now : t -> float
 (** Its time, in seconds. *)
@@ -45,6 +51,7 @@ type stopping =
   | All  (** its task of [onInterrupt], too *)
 
 val stop : ?by:operator -> t -> stopping -> unit
+(** [stop r extent] interrupts [r]; without effect on one that is over. *)
 
 val remark : t -> string -> unit
 (** A line of its log. *)

@@ -23,6 +23,7 @@ val configuration : t -> Configuration.t
 (** The configuration after the latest transition. *)
 
 val news : t -> time:float -> World.vehicle_state -> unit
+(** The lines of the log about this report on a vehicle, if there are any. *)
 
 val remark : t -> time:float -> string -> unit
 (** An unusual event. *)
@@ -31,6 +32,7 @@ val remark_on : tell -> time:float -> string -> unit
 (** The same for a run whose program is missing. *)
 
 val question : t -> time:float -> string -> unit
+(** [question n ~time prompt] is that the program asks [prompt]: a message [said]. *)
 
 type place_of_question = {
   at : string option;  (** ["3:5"], ["lib.dol:3:5"] *)

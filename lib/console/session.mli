@@ -2,6 +2,7 @@
 
 open Dolphin_app
 
+(** As {!Console.settings}. *)
 type settings = {
   folder : Folder.t;
   run : Run.settings;
@@ -19,9 +20,13 @@ type settings = {
 type t
 
 val make : settings -> t
+(** [make s] has no run and no client; {!served_at} gives it its port. *)
+
 val settings : t -> settings
+(** The settings of {!make}. *)
 
 val access : t -> Access.t
+(** The rights of clients, as the settings have them. *)
 
 val served_at : t -> int -> unit
 (** [served_at h port]: requests come to [port] from now on. *)
@@ -35,6 +40,7 @@ val run : t -> Live_run.t option
 (** The run that goes on, or the latest one. *)
 
 val busy : t -> bool
+(** Whether a run goes on. *)
 
 val begin_run : t -> (id:string -> changed:(unit -> unit) -> Live_run.t) -> Live_run.t
 (** [begin_run h start] has the run that [start] gives in place of the one before, which is over. *)
@@ -42,7 +48,10 @@ val begin_run : t -> (id:string -> changed:(unit -> unit) -> Live_run.t) -> Live
 (** One analysis of each subject at a time. *)
 
 val analysis : t -> Analysis.subject -> Analysis.t option
+(** [analysis h subject] is the latest analysis of [subject], if there was one. *)
+
 val analyses : t -> Analysis.t list
+(** The latest analysis of each subject. *)
 
 val set_analysis : t -> Analysis.subject -> Analysis.t -> unit
 (** [set_analysis h subject a] has [a] in place of the one before, which is cancelled. *)
@@ -50,6 +59,7 @@ val set_analysis : t -> Analysis.subject -> Analysis.t -> unit
 (** {1 Work in other processes} *)
 
 val workspace : t -> Workspace.t
+(** The data that workers get with each task. *)
 
 val workers : t -> Access.role -> Worker_pool.t
 (** Those for requests of clients with this role. *)
@@ -61,6 +71,7 @@ val own_workers : t -> Worker_pool.t
 (** Workers for tasks of the console itself. *)
 
 val worker_pids : t -> int list
+(** The processes of all workers. *)
 
 val close : t -> unit
 (** Ends all workers. *)
@@ -74,7 +85,10 @@ val name : t -> ?operator:string -> Access.role -> string -> string
 (** {!Visitors.name}: clients are known by it here. *)
 
 val helm : t -> Helm.t
+(** The present holder of the helm, and the clients that ask for it. *)
+
 val set_helm : t -> Helm.t -> unit
+(** [set_helm h helm] puts [helm] in place of the present one; clients are informed. *)
 
 val keep_helm : t -> string -> unit
 (** [keep_helm h client]: [client] is alive. From then on it loses the helm if it does not repeat this within

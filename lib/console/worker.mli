@@ -5,6 +5,7 @@
     An order is two frames, {!head} and a body. A reply is a head, for {!response_of}, the frames of its body, and an
     empty frame. *)
 
+(** A task for a worker, with its arguments. *)
 type order = {
   task : string;  (** its name in {!Worker}'s table, mostly that of the request of HTTP *)
   workspace : Workspace.t;

@@ -24,6 +24,7 @@ type severity =
   | Completed  (** that the run did *)
   | Ordinary
 
+(** A line of the log. *)
 type line = {
   about : Core.vehicle list;  (** its vehicles *)
   severity : severity;

@@ -12,6 +12,7 @@ val strong : t
 (** Bold: messages of the program. *)
 
 val faint : t
+(** Faint: what matters less. *)
 
 val paint : colour:bool -> t -> string -> string
 (** [paint ~colour t text] is [text] in [t] if [colour], else [text]. *)

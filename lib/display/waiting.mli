@@ -13,6 +13,7 @@ type t = {
 val text : Core.program -> source:string -> Core.site -> string option
 (** [text program ~source site] is the text at [site] of [source], the text of [program], in one line. *)
 
+(** A question of the program, or of a task. *)
 type question = {
   at : Dolphin_syntax.Location.t option;
   is_confirm : bool;  (** it takes yes or no; others take any value *)

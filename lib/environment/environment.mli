@@ -39,6 +39,7 @@ type input = {
   certain : bool;  (** as often as that, sooner or later; otherwise perhaps never *)
 }
 
+(** The possible events, beside what {!Transition.awaited} allows. *)
 type options = {
   endings : Core.vehicle -> string -> ending;
   (** of a vehicle's run of the plan with this name, without {!Faults} *)
@@ -90,8 +91,13 @@ val may_fail : options -> Core.vehicle -> string -> bool
 type t
 
 val initial : t
+(** Before anything has happened. *)
+
 val compare : t -> t -> int
+(** A total order. *)
+
 val hash : t -> int
+(** Equal memories have equal hashes. *)
 
 val lost : t -> Core.vehicle list
 (** The vehicles whose connection was lost and of which nothing was heard since, in ascending order. *)
@@ -114,6 +120,8 @@ type memory = {
 }
 
 val memory : t -> memory
+(** The value of a memory, from which {!of_memory} makes it again. *)
+
 val of_memory : memory -> t
 (** [of_memory (memory e)] is [e]. *)
 

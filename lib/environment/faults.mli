@@ -18,6 +18,7 @@ type t = {
 }
 
 val none : t
+(** No faults but those of the scenario. *)
 
 val of_string : string -> (t, string) result
 (** [of_string text] is the faults that [text] spells: ["fail"], ["fail=1,loss=2"], ["all,interrupt"]; or the error

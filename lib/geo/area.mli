@@ -108,8 +108,14 @@ val corners_of_circle : int
 (** 128. *)
 
 val union : t -> t -> (t, error) result
+(** The points of either area. *)
+
 val intersection : t -> t -> (t, error) result
+(** The points of both areas. [Error Empty] if there are none. *)
+
 val difference : t -> t -> (t, error) result
+(** [difference a b] has the points of [a] that are not in [b]. [Error Empty] if there are none. *)
+
 val hull : t list -> (t, error) result
 (** The smallest convex area around all of these. *)
 
@@ -142,12 +148,14 @@ val compare : t -> t -> int
 (** A total order. *)
 
 val hash : t -> int
+(** Equal areas have equal hashes. *)
 
 val pp : Format.formatter -> t -> unit
 (** ["(LATITUDE, LONGITUDE) ^ RADIUS m"], ["polygon [(LATITUDE, LONGITUDE), ...]"], of {!shown_corners} corners at
     most, ["area of N polygons, M corners"]. *)
 
 val shown_corners : int
+(** 8. *)
 
 val pp_error : Format.formatter -> error -> unit
 (** One sentence without a full stop. *)

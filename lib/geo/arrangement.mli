@@ -41,3 +41,4 @@ val combine : (bool -> bool -> bool) -> ring list -> ring list -> ring list opti
     units. [None] if there are too many crossings: more than {!most_sides} sides would arise. *)
 
 val most_sides : int
+(** 100,000. *)

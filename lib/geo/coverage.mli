@@ -7,6 +7,8 @@ type settings = {
   turn : float;  (** metres by which strips run on at both ends *)
 }
 
+(** The reason why there is no way: a setting out of its range, as {!settings} has it, or an area that cannot be
+    covered. *)
 type error =
   | Spacing of float  (** not above 0, or not finite *)
   | Wide of { spacing : float; across : float }  (** the area is nowhere as wide as a strip *)

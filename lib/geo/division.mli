@@ -1,5 +1,6 @@
 (** Connected regions divided by straight cuts. *)
 
+(** The reason why a region cannot be divided. [Intricate]: it has too many trapezoids ({!Slabs.most_trapezoids}). *)
 type failure =
   | Pieces of int  (** the region is not connected: of how many pieces it is *)
   | No_cut  (** no straight cut was found that leaves connected parts *)

@@ -15,8 +15,10 @@
         | None -> assert false
     ]} *)
 
+(** The side of an area's rim on which ways must stay. *)
 type side = Inside | Outside
 
+(** A limit to ways. *)
 type rule = {
   side : side;
   area : Area.t;

@@ -1,6 +1,7 @@
 (** The rims of an area on a plane, with an index by height: a question about a line or a place looks only at the sides
     beside it. *)
 
+(** An upright rectangle: from [left] to [right] and from [low] to [high], in metres to the east and to the north. *)
 type box = { left : float; right : float; low : float; high : float }
 
 val box_of : Plane.point -> Plane.point -> box

@@ -14,6 +14,7 @@
         assert (square ~spacing:0. = Error (Spacing 0.))
     ]} *)
 
+(** A number that makes no pattern. [Bearing]: it is not finite. *)
 type error =
   | Spacing of float  (** not above 0, or not finite *)
   | Radius of float  (** not above 0, or more than {!most_radius} *)

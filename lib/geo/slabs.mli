@@ -7,6 +7,7 @@ type side = { low : float * float; high : float * float }
 val at : side -> float -> float
 (** [at side y] is how far to the right [side] is at the height [y]. *)
 
+(** The region between two sides, [left] and [right], at the heights of one layer. *)
 type trapezoid = { left : side; right : side }
 
 val width : trapezoid -> float -> float

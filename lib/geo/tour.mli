@@ -7,6 +7,7 @@ type t
 (** Parts, and ways between strips along them that were asked for. It is mutable. *)
 
 val make : Bands.part array -> t
+(** [make parts] is [parts], of which no way has been asked for. *)
 
 val shortest : t -> strip list
 (** [shortest t] has each part once. Strips that follow one another without a choice, part above part, are gone
@@ -23,3 +24,5 @@ val way : t -> strip -> strip -> (float * float) list
     straight line suffices, or if the region has no way. *)
 
 val length : t -> strip list -> float
+(** [length t strips] is the length of the tour along [strips], in the unit of [parts]: the strips, and the ways between
+    them as {!way} has them. *)

@@ -27,6 +27,7 @@ type vector
 (** A position at height 0, as a point of space. *)
 
 val vector : Position.t -> vector
+(** [vector p] is [p] at height 0. *)
 
 val chord : vector -> vector -> float
 (** [chord (vector a) (vector b)] is the length in metres of the straight line through the earth from [a] to [b]: at

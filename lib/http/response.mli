@@ -1,5 +1,6 @@
 (** Replies to requests. *)
 
+(** The body of a reply. *)
 type body =
   | Text of string
   | Stream of ((string -> unit Lwt.t) -> unit Lwt.t)

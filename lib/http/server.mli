@@ -38,6 +38,7 @@ val start :
     reason why the port is not available. From then on SIGPIPE is ignored. *)
 
 val port : t -> int
+(** The port that is served: a free one if 0 was asked for. *)
 
 val connections : t -> int
 (** How many there are now. *)

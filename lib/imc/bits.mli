@@ -1,5 +1,6 @@
 (** Sets of named bits. *)
 
+(** Sets of the bits that one message defines. *)
 module type S = sig
   type t = private int
   (** The union of some bits, of those without a name too. *)
@@ -11,6 +12,7 @@ module type S = sig
   (** The bits that are 1 in a number. *)
 
   val to_int : t -> int
+  (** The number in which just these bits are 1. *)
 
   val mem : t -> t -> bool
   (** [mem x y]: every bit of [x] is in [y]. *)
@@ -28,6 +30,7 @@ module type S = sig
   (** ["CALIBRATE IGNORE_ERRORS"]. *)
 end
 
+(** Sets of the bits that [names] names, each a number in which just that bit is 1. *)
 module Make (_ : sig
     val names : (int * string) list
   end) : S

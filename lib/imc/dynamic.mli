@@ -18,6 +18,7 @@
         | Error _ -> assert false
     ]} *)
 
+(** The value of a field. [Int64] is for fields of type [i64] alone. *)
 type value =
   | Int of int
   | Int64 of int64

@@ -1,5 +1,6 @@
 (** Numbers that have names. *)
 
+(** The numbers of one enumeration, as a type. *)
 module type S = sig
   type t
   (** One constructor for each name, and [Other n] for values without one: IMC's enumerations grow, and a value that

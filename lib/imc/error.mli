@@ -13,6 +13,7 @@ type fault =
   (** The message [id] stands where the definition asks for another, or for one of a group. *)
   | Too_deep  (** Messages within messages, more than {!max_depth}. *)
 
+(** The reason why bytes are not a packet. *)
 type decode =
   | Too_short of int  (** The number of bytes: fewer than a header and a checksum. *)
   | Not_imc of int  (** The first two bytes, big-endian, are not [0x54FE] nor [0xFE54]. *)

@@ -15,6 +15,7 @@
       let () = assert (Packet.decode "not IMC" = Error (Too_short 7))
     ]} *)
 
+(** The message of a packet. *)
 type content =
   | Message of Message.t
   | Unknown of { id : int; payload : string }

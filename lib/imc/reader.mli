@@ -20,11 +20,22 @@ val u8 : t -> int
 (** From 0 to 255. *)
 
 val u16 : t -> int
+(** From 0 to 65,535. *)
+
 val u32 : t -> int
+(** From 0 to 2^32 - 1. *)
+
 val i8 : t -> int
+(** From -128 to 127. *)
+
 val i16 : t -> int
+(** From -32,768 to 32,767. *)
+
 val i32 : t -> int
+(** From -2^31 to 2^31 - 1. *)
+
 val i64 : t -> int64
+(** All 64 bits, which an [int] does not hold. *)
 
 val f32 : t -> float
 (** Exact, as every [f32] is an [f64]; only a signalling NaN becomes a quiet one. *)

@@ -17,11 +17,22 @@ val u8 : t -> string -> int -> unit
     @raise Fault with {!Error.Out_of_range} unless [0 <= n <= 255]; the others in the same way. *)
 
 val u16 : t -> string -> int -> unit
+(** [u16 w field n], with [0 <= n < 2^16]. *)
+
 val u32 : t -> string -> int -> unit
+(** [u32 w field n], with [0 <= n < 2^32]. *)
+
 val i8 : t -> string -> int -> unit
+(** [i8 w field n], with [-2^7 <= n < 2^7]. *)
+
 val i16 : t -> string -> int -> unit
+(** [i16 w field n], with [-2^15 <= n < 2^15]. *)
+
 val i32 : t -> string -> int -> unit
+(** [i32 w field n], with [-2^31 <= n < 2^31]. *)
+
 val i64 : t -> int64 -> unit
+(** Any number fits. *)
 
 val f32 : t -> float -> unit
 (** Rounds to the nearest [f32]; beyond the greatest one, to infinity. *)

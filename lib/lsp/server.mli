@@ -1,6 +1,7 @@
 (** A language server without its streams: messages of the Language Server Protocol in, messages out. *)
 
 type json = Yojson.Safe.t
+(** A message, or a part of one. *)
 
 type t
 

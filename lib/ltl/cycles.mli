@@ -1,5 +1,6 @@
 (** Cycles of a graph that meet each of several sets of its nodes. Nodes are numbers from 0. *)
 
+(** A graph by its successors, each with the label of the arrival in it. *)
 type 'label graph = {
   successors : int -> (int * 'label) list;
   sets : int;  (** how many sets there are *)
@@ -18,6 +19,7 @@ val first : component -> int
 (** The smallest node. *)
 
 val mem : component -> int -> bool
+(** [mem c i] is whether node [i] is in [c]. *)
 
 val around : 'label graph -> component -> int -> (int * 'label) list
 (** [around g c i] is a way from node [i] of [c] back to [i], not empty, that meets all sets: arrivals in nodes of [c].

@@ -26,6 +26,7 @@ type 'p t =
   | Weak_until of 'p t * 'p t  (** [f W g]: [f U g], or always [f] *)
 
 val map : ('p -> 'q) -> 'p t -> 'q t
+(** [map f formula] is [formula] with [f p] in the place of each proposition [p]. *)
 
 val propositions : 'p t -> 'p list
 (** From left to right, repetitions included. *)

@@ -41,6 +41,8 @@ val stays : t -> int -> int -> bool
 (** {1:runs Runs of the automaton} *)
 
 val automaton_states : t -> int
+(** As {!Automaton.states}. *)
+
 val members : t -> int -> int list
 (** [members m s] is the states in [s]. *)
 
@@ -48,6 +50,8 @@ val after : t -> int -> int -> int list
 (** [after m q l] is the states after [q] and letter [l]. *)
 
 val acceptance_sets : t -> int
+(** As {!Automaton.acceptance_sets}. *)
+
 val is_in : t -> int -> int -> bool
 (** As in {!Automaton}. *)
 

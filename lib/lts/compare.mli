@@ -14,6 +14,7 @@
         | Ok () -> assert false
     ]} *)
 
+(** One of the two graphs, in the order of the arguments. *)
 type side = Left | Right
 
 (** How two graphs differ in their traces, that is in the sequences of labels along runs from the initial state. *)
@@ -22,6 +23,7 @@ type traces =
   | Same  (** They have the same traces: they differ in when choices are made. *)
   | Not_known  (** It would have taken more than {!effort}. *)
 
+(** The reason why two graphs are not bisimilar. *)
 type difference = {
   formula : Formula.t;
   (** It holds in the left initial state and not in the right one. No formula that does is less deep; among those, it

@@ -19,6 +19,7 @@ type t
 
 (** {1:build To build} *)
 
+(** Graphs under construction. A builder is mutable. *)
 module Builder : sig
   type graph := t
   type t

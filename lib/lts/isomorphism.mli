@@ -1,5 +1,6 @@
 (** Whether two graphs are the same but for the numbers of their states and labels. *)
 
+(** One of the two graphs, in the order of the arguments. *)
 type side = Left | Right
 
 (** The first difference. Traces lead from the initial state. *)
@@ -15,6 +16,7 @@ type reason =
   | No_matching  (** Each state can be matched with one of the other graph, but not all at once. *)
   | Undecided  (** {!effort} was spent. Only graphs with rare symmetries need that much. *)
 
+(** The reason why two graphs are not the same, with their sizes. *)
 type difference = {
   states : int * int;  (** how many there are, left and right *)
   transitions : int * int;

@@ -15,6 +15,7 @@ val write : (string -> unit) -> Graph.t -> unit
 (** [write out g] calls [out] with the parts of the text, in order; a transition takes a line. *)
 
 val to_string : Graph.t -> string
+(** The text that {!write} writes. *)
 
 (** The fault of a text. Transitions and texts are numbered from 0. *)
 type error =

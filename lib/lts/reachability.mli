@@ -1,5 +1,6 @@
 (** The reachable states, and shortest runs to them. *)
 
+(** A transition of a run: its label, and the state that it leads to. *)
 type step = { label : string; target : int }
 
 type run = { start : int; steps : step list }

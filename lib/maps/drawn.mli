@@ -12,6 +12,7 @@ type shape =
   | Flawed of string  (** no shape can be made of it, for this reason *)
   | Note of string  (** no shape, but a remark for people *)
 
+(** A polygon: its rim, and the rims of its holes. *)
 and ring = { rim : Position.t list; holes : Position.t list list }
 
 type t = {

@@ -2,13 +2,16 @@
 
 open Dolphin_geo
 
+(** A place of a track, with the time at which it was passed. *)
 type sample = { time : float;  (** seconds since the beginning of 1970, in UTC *) position : Position.t }
 
+(** The place of a feature. *)
 type geometry =
   | Point of Position.t
   | Line of Position.t list  (** of at least two *)
   | Track of sample list list  (** parts in sight of each other, none of them empty, in order of time *)
 
+(** The value of a property. *)
 type property = Text of string | Number of float
 
 type t = { name : string; geometry : geometry; properties : (string * property) list }

@@ -17,6 +17,7 @@
 
 open Dolphin_geo
 
+(** A feature of a map. *)
 type thing = Point of Position.t | Line of Position.t list  (** of at least two *) | Area of Area.t
 
 type t = {

@@ -7,7 +7,10 @@ type schema = {
   json_schema : Yojson.Safe.t;
 }
 
+(** The messages of one topic, which have one schema. *)
 type channel = { topic : string; schema : schema }
+
+(** A message of a channel. *)
 type message = { channel : channel; time : float;  (** seconds since the beginning of 1970 *) content : Yojson.Safe.t }
 
 val nanoseconds : float -> int * int

@@ -12,6 +12,7 @@ val read : string -> (t, string) result
 (** [read path] is the description of the tiles at [path], or the reason why they cannot be shown, in a sentence.
     Without zoom levels in the metadata the index has to find them. *)
 
+(** A picture as the file has it. *)
 type image = { kind : string;  (** its media type *) bytes : string }
 
 val tile : string -> zoom:int -> column:int -> row:int -> (image option, string) result

@@ -18,6 +18,8 @@ val child : string -> t -> t option
 (** The first of that tag. *)
 
 val children : string -> t -> t list
+(** [children tag x] is the children of [x] with this tag, in order. *)
+
 val text_of : string -> t -> string
 (** That of the first child of that tag, [""] without one. *)
 

@@ -3,6 +3,7 @@
 
 open Dolphin_geo
 
+(** A limit to all plans and vehicles. *)
 type rule =
   | Inside of Area.t
   | Outside of Area.t
@@ -11,7 +12,9 @@ type rule =
   | Distance of float  (** metres between vehicles under way, at least *)
 
 val equal_rule : rule -> rule -> bool
+(** Whether kinds and limits are the same; areas by {!Area.equal}. *)
 
+(** A rule as a program or a fleet declares it. *)
 type fence = {
   rule : rule;
   margin : float;  (** metres that plans keep from it, at least 0 *)
@@ -23,16 +26,23 @@ type t
 (** Fences, ready to be asked. *)
 
 val none : t
+(** No fence: nothing breaks it. *)
+
 val is_none : t -> bool
+(** Whether there is no fence. *)
 
 val make : fence list -> t
+(** [make fences] is [fences], made ready once for all plans and vehicles. *)
+
 val list : t -> fence list
+(** The fences, in the order of {!make}. *)
 
 val least_distance : t -> fence option
 (** The greatest of the least distances between vehicles. *)
 
 (** {1 Plans} *)
 
+(** The place where a plan breaks a fence, and how. *)
 type breach = {
   fence : fence;
   maneuver : string option;  (** [None]: on the way to the plan *)

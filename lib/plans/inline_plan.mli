@@ -27,6 +27,7 @@ type t =
   | Mission of Mission_plan.t  (** [mission { ... }] *)
 
 val name : t -> string
+(** The name in the program, by which journals and vehicles know the plan. *)
 
 val vehicles : t -> string list
 (** The only ones that may run it; [[]]: any. *)
@@ -74,4 +75,7 @@ val start : t -> (Position.t * float) option
     without one, or if it depends on the vehicle's place. *)
 
 val compare : t -> t -> int
+(** A total order; plans are equal if all that is written in them is. *)
+
 val pp : Format.formatter -> t -> unit
+(** As {!Plan.pp} and {!Mission_plan.pp}. *)

@@ -4,6 +4,7 @@
 
 module Position = Dolphin_geo.Position
 
+(** The value of an argument. [Places] is a list of them, in order. *)
 type argument =
   | Number of float
   | Truth of bool
@@ -54,5 +55,7 @@ val heights : t -> (string * float option) list
     climb; [None] if it goes up again with each of several rounds. *)
 
 val compare : t -> t -> int
+(** A total order; missions are equal if all of their items are. *)
+
 val pp : Format.formatter -> t -> unit
 (** The mission's name and its items' words. *)

@@ -1,11 +1,13 @@
 (** Inline plans: the content of [imcPlan { ... }], ready for any platform that flies maneuvers. *)
 
+(** The unit of a maneuver's speed. *)
 type speed_unit = Metres_per_second | Revolutions_per_minute | Percent  (** of full thrust *)
 
 (** The reference of a [z]: metres below the surface, above the ground, above the ellipsoid; or the vehicle's own way
     of keeping its height, for any [z]. *)
 type z_unit = Depth | Altitude | Height | Unspecified
 
+(** The directions in which IMC lets a vehicle go round; with [Vehicle_dependent] the vehicle chooses. *)
 type direction = Vehicle_dependent | Clockwise | Counter_clockwise | Into_wind_or_current
 
 (** A device that a maneuver switches on, with its parameters by name. *)
@@ -43,6 +45,7 @@ type kind =
     }
   | Follow_path of (float * float * float) list  (** north, east, down from the maneuver's location *)
 
+(** A maneuver with its place, its speed and its height. *)
 type maneuver = {
   id : string;  (** ["1.Goto"], ["2.Loiter"]: unique in its plan *)
   kind : kind;
@@ -97,6 +100,7 @@ val metres_per_second : maneuver -> default:float -> float
 (** {1:plans Plans as values} *)
 
 val compare : t -> t -> int
+(** A total order; plans are equal if all that is written in them is. *)
 
 val pp : Format.formatter -> t -> unit
 (** The plan's name and its maneuvers' identifiers. *)

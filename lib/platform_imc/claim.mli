@@ -20,6 +20,7 @@ val patience : float
 (** 5 s: a console that has not repeated its claim for this time is gone. Claims are repeated every second. *)
 
 val to_message : t -> Message.t
+(** The message that announces it. *)
 
 val of_message : Message.Entity_parameters.t -> t option
 (** [None] if it is not a claim. *)

@@ -112,8 +112,10 @@ val report : t -> Plan_report.t option
 
 (** {1:displays For displays} *)
 
+(** How far a request has come. *)
 type stage = Attempt.stage = Starting | Running | Stopping
 
+(** The present plan of the vehicle, for displays. *)
 type progress = {
   plan : string;
   stage : stage;

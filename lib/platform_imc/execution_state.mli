@@ -6,6 +6,8 @@ open Dolphin_imc
 (** {!Execution.output}. *)
 type output = Keep of Durable_note.t | Send of Message.t | Done | Failed of string | Remark of string
 
+(** How far the plan of this console has come on the vehicle. Times are of our clock, but for [since] and [over], which
+    are of the vehicle's. *)
 type phase =
   | Idle
   | Starting of Attempt.t
@@ -89,6 +91,7 @@ val fail : ?watch:float -> ?ours:bool -> now:float -> ended:float -> Attempt.t -
 (** {!close}, and reports why it failed. *)
 
 val succeed : now:float -> ended:float -> Attempt.t -> t -> t * output list
+(** {!close}, and reports that it is done. *)
 
 (** {2 What VehicleState shows} *)
 

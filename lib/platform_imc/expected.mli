@@ -7,6 +7,7 @@ open Dolphin_runtime
 type t
 
 val none : t
+(** No vehicle is expected. *)
 
 val resume :
   deadline:(Core.vehicle -> float) ->

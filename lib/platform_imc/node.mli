@@ -78,7 +78,6 @@ val absence : float
 (** {1:telemetry Its reports} *)
 
 val hear : now:float -> ?jitter:float -> own:int -> Packet.t -> t -> t * Execution.output list
-
 (** [hear ~now ~jitter ~own p n] is [n] after its packet [p] came, and the consequences for its plan. Replies of
     PlanControl count if they are for the console [own]; values that are NaN, or out of range, are left out.
 

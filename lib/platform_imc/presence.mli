@@ -29,7 +29,13 @@ val due : t -> float
 (** {1:constants Constants} Seconds. *)
 
 val announce_interval : float
+(** 10: the time between two announcements. *)
+
 val eager_announce_interval : float
+(** 1: the same while a vehicle that has announced itself has not spoken to this console yet. *)
+
 val heartbeat_interval : float
+(** 1: the time between two heartbeats to all vehicles. *)
+
 val eager_heartbeat_interval : float
 (** See {!Station}. *)

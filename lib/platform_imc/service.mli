@@ -5,6 +5,7 @@
 
 open Dolphin_imc
 
+(** The address of a socket. *)
 type address = { host : Unix.inet_addr; port : int }
 
 val pp_address : Format.formatter -> address -> unit

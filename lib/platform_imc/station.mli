@@ -67,7 +67,11 @@ val due : t -> float
 (** {1:commands Commands} See {!Dolphin_runtime.Platform.S}. *)
 
 val start : now:float -> Core.vehicle -> Core.platform_task -> t -> t * output list
+(** As {!Dolphin_runtime.Platform.S.start}. *)
+
 val stop : now:float -> Core.vehicle -> t -> t * output list
+(** As {!Dolphin_runtime.Platform.S.stop}. *)
+
 val bind : now:float -> Core.vehicle list -> t -> t * output list
 (** Other consoles get a claim ({!Claim}). If there are any, tasks of these vehicles start {!Station_state.contest}
     later: a console that hears meanwhile that a console with a lower IMC address holds one, too, has lost it, and
@@ -78,10 +82,19 @@ val claims : now:float -> t -> output list
     of its own. *)
 
 val release : now:float -> Core.vehicle list -> t -> t * output list
+(** As {!Dolphin_runtime.Platform.S.release}: other consoles get a claim without these vehicles. *)
+
 val set_timer : now:float -> Residual.timer -> float -> t -> t
+(** As {!Dolphin_runtime.Platform.S.set_timer}. *)
+
 val cancel_timer : Residual.timer -> t -> t
+(** As {!Dolphin_runtime.Platform.S.cancel_timer}. *)
+
 val set_connection_timeout : Core.vehicle list option -> float -> t -> t
+(** As {!Dolphin_runtime.Platform.S.set_connection_timeout}. *)
+
 val telemetry : now:float -> bool -> t -> t
+(** Whether changes of positions and batteries of bound vehicles are events from now on. *)
 
 val leaves : now:float -> at:float -> Core.vehicle list -> t -> t
 (** [leaves ~now ~at vs s]: the requests to start for [vs] last leave at [at], not when they were made; [infinity]:

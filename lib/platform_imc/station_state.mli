@@ -6,7 +6,10 @@ open Dolphin_semantics
 open Dolphin_runtime
 open Dolphin_imc
 module Names : Map.S with type key = string
+(** Maps by names of systems. *)
+
 module Name_set : Set.S with type elt = string
+(** Sets of names of systems. *)
 
 (** As {!Station.settings}. *)
 type settings = {
@@ -63,13 +66,19 @@ type output =
   | Remark of Core.vehicle * string
 
 val create : settings -> t
+(** As {!Station.create}. *)
+
 val resume : now:float -> ?lingering:(Core.vehicle * (string * int)) list -> History.outstanding -> t -> t
+(** As {!Station.resume}. *)
 
 val timeout_of : Core.vehicle -> t -> float
 (** Seconds without a word after which a vehicle has lost its link. *)
 
 val add_timeouts : (Core.vehicle * float) list -> t -> t
+(** [add_timeouts ts s] is [s] in which these vehicles have these timeouts, in seconds. *)
+
 val hold : Core.vehicle list -> t -> t
+(** [hold vs s] is [s] in which [vs] are bound. *)
 
 (** {1:holds Who holds what} *)
 
@@ -96,7 +105,10 @@ val taken_by_another : Core.vehicle -> t -> string option
 (** The holder of the vehicle, in words, though it is bound here: another console had it first. *)
 
 val find : Core.vehicle -> t -> Node.t option
+(** [find v s] is the system with this name, if it is known. *)
+
 val update : Node.t -> t -> t
+(** [update n s] is [s] with [n] in place of the system with its address. *)
 
 val again : Node.t -> t -> Node.t
 (** [again n s] is [n] as it is in [s]. *)
@@ -112,15 +124,19 @@ val with_claims : t -> t
     consoles gives way ([twin]). *)
 
 val state_of : now:float -> Node.t -> t -> World.vehicle_state
+(** [state_of ~now n s] is {!Node.state} of [n], with the settings and holdings of [s]. *)
 
 (** {1:sending Sending} *)
 
 val encode : now:float -> dst:int -> Message.t -> t -> (string, Error.encode) result
+(** [encode ~now ~dst m s] is the packet with [m] from this console to the system [dst]. *)
 
 val to_node : now:float -> Node.t -> Message.t -> t -> output list
 (** Nothing, if it has no address. *)
 
 val announcement : now:float -> t -> string
+(** The packet that announces this console. *)
+
 val query : now:float -> Node.t -> t -> t * output list
 (** Asks for its list of entities. *)
 
@@ -133,6 +149,7 @@ val claims : now:float -> t -> output list
 (** {1:telling Telling the program} *)
 
 val push : Platform.event -> t -> t
+(** [push e s] is [s] with [e] after the events that wait to be handed out. *)
 
 val tell : ?urgent:bool -> now:float -> Node.t -> t -> t
 (** [tell ~now n s] reports the known state of [n], if it is a vehicle. *)
@@ -141,6 +158,7 @@ val gone : Node.t -> t -> t
 (** [gone n s]: nothing is heard any more under the name of [n]. *)
 
 val tell_all : now:float -> Core.vehicle list -> t -> t
+(** [tell_all ~now vs s] is {!tell} of each of [vs] that is known. *)
 
 (** {1:executions Executions} *)
 

@@ -5,6 +5,7 @@ open Dolphin_semantics
 type t
 
 val none : t
+(** No system has announced itself. *)
 
 val find : Core.vehicle -> t -> Node.t option
 (** [find name x] is the system that announced itself last under [name]. *)

@@ -24,5 +24,7 @@ val of_run : since:float -> Attempt.t -> Plan_report.t -> t
     clock (s). *)
 
 val refused : string
+(** The reason of a request that the vehicle refuses without one. *)
+
 val blocked : string
 (** Reasons where the vehicle gives none. *)

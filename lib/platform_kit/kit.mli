@@ -7,6 +7,7 @@ type plans = Situations.plans = {
   patience : float;  (** seconds that an answer may take *)
 }
 
+(** The verdict on an adapter in one situation. *)
 type verdict = {
   name : string;
   what : string;  (** the required behaviour *)

@@ -16,3 +16,4 @@ type t = {
 }
 
 val all : t list
+(** All situations, in the order in which the kit tries them. *)

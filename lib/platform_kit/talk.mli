@@ -12,6 +12,8 @@ val start : string -> t
 (** [start command] starts the adapter, without a greeting. *)
 
 val send : t -> Order.t -> unit
+(** [send t order] writes [order] to the adapter. *)
+
 val send_text : t -> string -> unit
 (** A line as it is, without its end. *)
 

@@ -22,6 +22,8 @@ val has_outstanding : t -> bool
 
 (** {1:outputs Outputs} *)
 
+(** The orders to send, the notes to keep, and the messages for people, in order. [Keep (v, note)]: keep [note] about
+    [v] in the journal. *)
 type output =
   | Send of Order.t
   | Keep of Core.vehicle * Yojson.Safe.t
@@ -41,6 +43,7 @@ val died : now:float -> t -> t * output list
 (** It is gone: its vehicles have no link. *)
 
 val report : now:float -> Report.t -> t -> t * output list
+(** [report ~now r d] is [d] after the adapter reported [r]. *)
 
 val refused : now:float -> string -> t -> t * output list
 (** [refused ~now why d]: a line of the adapter is not a report, because of [why]. The adapter is informed, about once
@@ -50,7 +53,10 @@ val last_refusals : t -> t * output list
 (** The remark on refused lines that waits for its second, if there is one, is made now. *)
 
 val durable : now:float -> string -> t -> t * output list
+(** [durable ~now request d]: the note of [Keep_before] with [request] survives this machine now. Its order leaves. *)
+
 val tick : now:float -> t -> t * output list
+(** [tick ~now d] is [d] after time has passed until [now]: timers, silences, pings. *)
 
 val due : t -> float
 (** When [tick] has something to do next. *)
@@ -58,14 +64,31 @@ val due : t -> float
 (** {1:commands Commands} See {!Dolphin_runtime.Platform.S}. *)
 
 val start : now:float -> Core.vehicle -> Core.platform_task -> t -> t * output list
+(** As {!Dolphin_runtime.Platform.S.start}. *)
+
 val stop : now:float -> Core.vehicle -> t -> t * output list
+(** As {!Dolphin_runtime.Platform.S.stop}. *)
+
 val stop_all : now:float -> t -> t * output list
+(** {!stop} of every vehicle that runs something for the program. *)
+
 val bind : Core.vehicle list -> t -> t * output list
+(** As {!Dolphin_runtime.Platform.S.bind}. *)
+
 val release : Core.vehicle list -> t -> t * output list
+(** As {!Dolphin_runtime.Platform.S.release}. *)
+
 val set_connection_timeout : Core.vehicle list option -> float -> t -> t * output list
+(** As {!Dolphin_runtime.Platform.S.set_connection_timeout}. *)
+
 val telemetry : bool -> t -> t * output list
+(** Whether changes of positions and batteries are events from now on. *)
+
 val set_timer : now:float -> Residual.timer -> float -> t -> t
+(** As {!Dolphin_runtime.Platform.S.set_timer}. *)
+
 val cancel_timer : Residual.timer -> t -> t
+(** As {!Dolphin_runtime.Platform.S.cancel_timer}. *)
 
 (** {1:events Events} *)
 
@@ -73,6 +96,8 @@ val take : t -> (Platform.event * t) option
 (** The next event that waits to be handed out. *)
 
 val waiting : t -> bool
+(** Whether an event waits to be handed out. *)
+
 val quiet : t -> bool
 (** No request lacks its end, but for those whose stop was given up. *)
 

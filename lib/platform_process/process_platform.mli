@@ -6,6 +6,7 @@ open Dolphin_semantics
 open Dolphin_runtime
 module Order := Dolphin_platform_protocol.Order
 
+(** The options of an adapter. *)
 type options = {
   command : string;  (** for [/bin/sh] *)
   purpose : Order.purpose;
@@ -43,6 +44,7 @@ val offers : t -> string list
 (** The kinds of plans that the adapter takes. *)
 
 val vehicles : t -> Dispatch.vehicle list
+(** The known vehicles, by id. *)
 
 val check : t -> ?vehicle:Core.vehicle -> Core.platform_task -> (string list, string) result Lwt.t
 (** The obstacles to running the plan on the vehicle, from the adapter; the error is the reason why it does not

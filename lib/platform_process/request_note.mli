@@ -11,6 +11,7 @@ type t =
   | Over of string  (** It was to be stopped, and has ended. *)
 
 val to_json : platform:string -> t -> Yojson.Safe.t
+(** [to_json ~platform k] is the object in a [platform] line of the journal. *)
 
 val platform : Yojson.Safe.t -> string option
 (** Which platform kept this. *)

@@ -18,7 +18,11 @@ val read :
 (** {1:fields Members} *)
 
 val text : string -> Yojson.Safe.t
+(** A member of a text. *)
+
 val count : Yojson.Safe.t -> (int, string) result
+(** A whole number, at least 0. *)
+
 val seconds : Yojson.Safe.t -> (float, string) result
 (** A number that is not negative. *)
 

@@ -2,6 +2,7 @@
 
 open Dolphin_semantics
 
+(** The purpose for which Dolphin starts an adapter: to run a program, to look at vehicles, to check plans. *)
 type purpose = Run | Look | Check
 
 type t =
@@ -26,6 +27,7 @@ type t =
   | Close
 
 val to_json : t -> Yojson.Safe.t
+(** The object of the line. *)
 
 val to_line : t -> string
 (** With its line feed. *)

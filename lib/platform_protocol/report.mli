@@ -11,6 +11,8 @@
 
 open Dolphin_semantics
 
+(** The first report of an adapter. [plans] is the kinds of plans that it takes, [patience] the time within which it
+    answers orders. *)
 type greeting = {
   version : int;  (** of the protocol *)
   name : string;
@@ -65,6 +67,7 @@ val is_end : word -> bool
 (** Whether a request is over after this word: [Done], [Failed], [Stopped], [Absent]. *)
 
 val to_json : t -> Yojson.Safe.t
+(** The object of the line. *)
 
 val to_line : t -> string
 (** With its line feed. *)

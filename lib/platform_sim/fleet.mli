@@ -38,13 +38,28 @@ val quiet : t -> bool
     succeeds: a vehicle that does not hear it is taken to stop because it lost the link. *)
 
 val start : Core.vehicle -> Core.platform_task -> t -> t
+(** As {!Platform.S.start}. *)
+
 val stop : Core.vehicle -> t -> t
+(** As {!Platform.S.stop}. *)
+
 val bind : Core.vehicle list -> t -> t
+(** As {!Platform.S.bind}. *)
+
 val release : Core.vehicle list -> t -> t
+(** As {!Platform.S.release}. *)
+
 val set_timer : Residual.timer -> float -> t -> t
+(** As {!Platform.S.set_timer}. *)
+
 val cancel_timer : Residual.timer -> t -> t
+(** As {!Platform.S.cancel_timer}. *)
+
 val set_connection_timeout : Core.vehicle list option -> float -> t -> t
+(** As {!Platform.S.set_connection_timeout}. *)
+
 val telemetry : Platform.telemetry -> t -> t
+(** As {!Platform.S.telemetry}. *)
 
 val look : t -> World.vehicle_state list * t
 (** [look f] is the state of each vehicle that was stopped and has not been reported since, and [f] after that. *)

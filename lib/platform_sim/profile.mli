@@ -10,6 +10,7 @@ type course =
   (** down to [low] and up to [high] again and again, at [slope] metres per second; first at [rate] to the nearest
       point of that *)
 
+(** A part of the way. *)
 type phase = { lasts : float;  (** seconds, perhaps [infinity] *) course : course }
 
 val make : float -> phase list -> t

@@ -7,6 +7,7 @@
 type t
 
 val make : unit -> t
+(** Nothing is computed, and nothing was broken off. *)
 
 val attempt : t -> (unit -> 'a) -> 'a option
 (** [attempt b f] is [Some (f ())], or [None] if {!break} broke it off: its request has then been carried out. [f] has

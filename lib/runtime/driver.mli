@@ -27,6 +27,7 @@
 
 open Dolphin_semantics
 
+(** The end of a run. *)
 type outcome =
   | Ended of Configuration.ending
   | Stuck of Residual.t

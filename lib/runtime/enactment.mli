@@ -7,6 +7,7 @@
 
 open Dolphin_semantics
 
+(** A step of the run, and its cause. *)
 type step = {
   cause : Transition.event option;  (** [None]: the program takes it by itself *)
   transition : Transition.t;

@@ -33,6 +33,7 @@ val breaking : Core.vehicle -> t -> (Core.vehicle * string) list
 
 (** {1 Resumption} *)
 
+(** The guard of a run so far, and the part of its history that concerns the platform. *)
 type past = {
   guard : t;
   history : History.t;  (** the requests to the platform, and its reports *)

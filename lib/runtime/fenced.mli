@@ -3,6 +3,7 @@
 
 open Dolphin_semantics
 
+(** The platform [P] with fences. *)
 module Make (P : Platform.S) : sig
   include Platform.S
 

@@ -2,6 +2,7 @@
 
 open Dolphin_semantics
 
+(** A line of a journal, as far as platforms have to know it. *)
 type what =
   | Saw of World.vehicle_state  (** The journal's line about the vehicle. *)
   | Noted of Core.vehicle * Yojson.Safe.t  (** The platform kept this note. *)
@@ -29,6 +30,7 @@ type commanded = {
   (** The task that was outstanding when this one was commanded; [notes] may show whether it is over. *)
 }
 
+(** The commands to a platform that are in force at the end of a history. *)
 type outstanding = {
   bound : Core.vehicle list;
   tasks : (Core.vehicle * commanded) list;

@@ -5,6 +5,7 @@ open Dolphin_semantics
 type t
 
 val create : unit -> t
+(** No item, and no question. *)
 
 val post : t -> string -> Core.value -> bool Lwt.t
 (** [post t k x] hands over the pair [k:x]. It resolves once the run has taken it, and the journal has it; to [false]
@@ -19,6 +20,7 @@ val is_closed : t -> bool
 
 (** {1:driver For the driver} *)
 
+(** The pair that is posted; {!tell} resolves [told]. *)
 type item = { key : string; value : Core.value; told : bool Lwt.u }
 
 val next : t -> item Lwt.t

@@ -4,6 +4,7 @@
 type t
 
 val make : unit -> t
+(** No receiver waits, and nothing is due. *)
 
 val settle : t -> has_event:bool -> quiet:(unit -> bool) -> due:float -> unit
 (** [settle s ~has_event ~quiet ~due] is called after changes of the state. A receiver that waits for an event goes
@@ -25,6 +26,7 @@ val fail : t -> exn -> unit
     counts; after {!close} none. Vehicles are served all the same, so that stops are seen through. *)
 
 val is_closed : t -> bool
+(** Whether {!close} was called. *)
 
 val close : t -> unit
 (** Ends {!watch}. *)

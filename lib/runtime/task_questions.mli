@@ -6,6 +6,7 @@ type 'news t
 (** ['news] is the type into which an answer of people is read. *)
 
 val create : unit -> 'news t
+(** No question stands. *)
 
 val put : 'news t -> Residual.timer -> string -> unit
 (** [put t q prompt] adds the question [q], after the others. *)

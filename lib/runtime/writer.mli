@@ -6,6 +6,7 @@ val write : Lwt_unix.file_descr -> string -> unit Lwt.t
 type t
 
 val make : Lwt_unix.file_descr -> t
+(** [make fd] writes to [fd], to which nothing else writes. *)
 
 val send : t -> string -> unit
 (** [send w text] has [text] written once all that was sent before is. Text without a reader is dropped: other code

@@ -15,5 +15,7 @@ val replies_at : file:string -> string -> (string * Location.t) list
 (** See {!Scenario.replies_at}. *)
 
 val vehicle_settings : string list
+(** The names of the settings of vehicles, as in {!Scenario}. *)
+
 val plan_settings : string list
 (** The names of settings, as in {!Scenario}. *)

@@ -3,6 +3,7 @@
 
 open Dolphin_syntax
 
+(** The dimension of a number with a unit. *)
 type dimension = Length | Time | Speed | Angle | Share
 
 type t =

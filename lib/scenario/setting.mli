@@ -3,6 +3,7 @@
 open Dolphin_syntax
 
 type value = Literal.t Ast.located
+(** A literal with its place in the text. *)
 
 (** A setting of a ['draft], the description of the block as far as it has been read. *)
 type 'draft t = {

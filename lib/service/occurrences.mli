@@ -2,6 +2,7 @@
 
 open Dolphin_syntax
 
+(** The kind of a name, and what is known of its definition. *)
 type kind =
   | Function of string list  (** with the names of its parameters *)
   | Global of Ast.expression option  (** the value that the first assignment gives it *)

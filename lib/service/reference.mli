@@ -1,7 +1,9 @@
 (** The meaning of the language's names: the short form of the reference manual, for editors. *)
 
+(** The kind of a word, for editors. *)
 type kind = Word | Procedure | Block | Setting | Maneuver | Member | Constant | Fleet_word
 
+(** The entry of a word. *)
 type entry = {
   name : string;
   kind : kind;

@@ -15,6 +15,7 @@
 
 open Dolphin_syntax
 
+(** As {!Occurrences.span}. *)
 type span = Occurrences.span = { start : int; stop : int }
 
 type fleet = { path : string; text : string }
@@ -29,12 +30,14 @@ val read : file:string -> ?fleet:fleet -> ?may_read:(string -> (unit, string) re
     names, to include or as a map, whether it may be read; by default all. *)
 
 val source : t -> string
+(** The text of {!read}. *)
 
 val diagnostics : t -> Diagnostic.t list
 (** The diagnostics of [dolphin check] for the text, in its order. *)
 
 (** {1:writing Writing} *)
 
+(** The kind of a name, for the symbols of editors. *)
 type item_kind = Keyword | Function | Variable | Setting | Member | Constant | Text
 
 type item = { label : string; kind : item_kind; form : string; text : string }
@@ -58,6 +61,7 @@ val rename : t -> int -> string -> (span list, string) result
 val hover : t -> int -> (span * string) option
 (** [hover d offset] is the name at [offset] and its meaning, in Markdown. *)
 
+(** A place in [file], whose text is [source]. *)
 type place = { file : string; source : string; span : span }
 
 val definition : t -> int -> place option
@@ -67,6 +71,7 @@ val definition : t -> int -> place option
 val references : t -> int -> span list
 (** [references d offset] is the places of the variable or function at [offset], its definition first. *)
 
+(** A function or a global variable, with the place of its name in its definition. *)
 type symbol = { name : string; is_function : bool; at : span }
 
 val symbols : t -> symbol list

@@ -43,6 +43,7 @@ type settings = {
 type t
 
 val create : settings -> t
+(** [create s] has run no plan. *)
 
 (** {1:outputs What comes of it} *)
 

@@ -4,6 +4,7 @@
 open Dolphin_imc
 
 type line
+(** An entry: its time is that of its sending. *)
 
 val entity : line -> int
 (** The author of the entry. *)
@@ -17,8 +18,13 @@ val engine : int
 (** Its entity: 55. *)
 
 val start_requested : plan:string -> line
+(** A START of [plan] came. *)
+
 val stop_requested : plan:string -> line
+(** A STOP of [plan] came. *)
+
 val initializing : plan:string -> line
+(** [plan] is being initialised. *)
 
 val executing : maneuver:string -> line
 (** A maneuver begins, each of a plan's. *)
@@ -30,7 +36,10 @@ val refused : why:string -> line
 (** The entry after the answer to a START that is refused: whether the plan could not be loaded or not be read. *)
 
 val completed : line
+(** The plan was carried out. *)
+
 val stopped : line
+(** The plan was stopped. *)
 
 val ready : line
 (** The engine takes plans again after it was BLOCKED. *)
@@ -44,6 +53,7 @@ val mode : Message.Vehicle_state.Op_mode.t -> line
 (** The vehicle is now in this mode. *)
 
 val aborted : why:string -> line
+(** The vehicle aborts, for this reason. *)
 
 val database : int
 (** The entity of the plan database: 54. *)
@@ -52,3 +62,4 @@ val storing : plan:string -> line
 (** A plan came with a START. *)
 
 val stored : plan:string -> info:string -> line
+(** A plan was stored in the database. *)

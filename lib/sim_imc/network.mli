@@ -5,6 +5,7 @@
 
 open Dolphin_scenario
 
+(** The options of a simulated network. [strict] is that of {!Engine.settings}, [faults] are those of every link. *)
 type settings = {
   scenario : Scenario.t;
   seed : int;
@@ -38,6 +39,7 @@ val create : ?clock:Dolphin_runtime.Clock.t -> settings -> (t, string) result
 (** [create ~clock s] has all sockets that it needs; the error is one sentence. Time starts in {!run}, by [clock] (by
     default {!Dolphin_runtime.Clock.system}); packets are stamped with the date then, and the time since. *)
 
+(** A vehicle as systems know it: its name, its type, its IMC address and the port of its data. *)
 type vehicle = { name : string; kind : string; id : int; port : int }
 
 val vehicles : t -> vehicle list

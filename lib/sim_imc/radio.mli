@@ -11,10 +11,12 @@ val create : ?faults:Faults.t -> seed:int -> Vehicle_node.settings -> t
 val node : t -> Vehicle_node.t
 (** The vehicle's node. *)
 
+(** The receivers of a datagram. *)
 type destination =
   | Discovery  (** those listening for announcements *)
   | System of Address.t
 
+(** A datagram to be sent. *)
 type datagram = { destination : destination; bytes : string }
 
 type outcome = datagram list * Activity.t list * t

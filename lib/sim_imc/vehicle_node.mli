@@ -18,6 +18,7 @@
 
 open Dolphin_imc
 
+(** The settings of a vehicle's node. *)
 type settings = {
   engine : Engine.settings;
   id : int;  (** its number as an IMC system *)
@@ -44,6 +45,7 @@ type destination =
   | Discovery  (** those listening for announcements *)
   | Systems of Address.t list  (** those in contact; at least one *)
 
+(** A packet to be sent, and its receivers. *)
 type output = { destination : destination; packet : Packet.t }
 
 type outcome = output list * Activity.t list * t

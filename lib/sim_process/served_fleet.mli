@@ -10,6 +10,7 @@ val create : seed:int -> is_remembered:bool -> Dolphin_scenario.Scenario.t -> t
     was never ordered. *)
 
 val greeting : Report.t
+(** The report with which an adapter greets. *)
 
 val order : now:float -> Order.t -> t -> t * Report.t list
 (** [order ~now o f] is [f] after it was ordered [o], at [now] if that is not before what has happened. *)

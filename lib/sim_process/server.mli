@@ -1,5 +1,6 @@
 (** A simulated fleet that speaks the platform protocol on standard input and output, as an adapter does. *)
 
+(** The options of the simulated adapter. *)
 type settings = {
   scenario : Dolphin_scenario.Scenario.t;
   seed : int;

@@ -17,6 +17,7 @@ val interval : level:float -> hits:int -> int -> interval
     [0 <= hits <= n], [0 < level < 1]; of no samples it is all of [0, 1]. *)
 
 val half_width : interval -> float
+(** Half of the difference between [most] and [least]. *)
 
 (** {1:looks Looking more than once}
 

@@ -16,6 +16,7 @@
       let () = assert (Diagnostic.suggest "exectue" [ "execute"; "message" ] = Some "execute")
     ]} *)
 
+(** An [Error] keeps a program from running, a [Warning] does not. *)
 type severity = Error | Warning
 
 (** The kind of a fault, for programs that read diagnostics and for tests that must outlive their wording. *)

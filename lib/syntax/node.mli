@@ -3,6 +3,7 @@
 open Ast
 
 val located : Lexing.position * Lexing.position -> 'a -> 'a located
+(** [located place x] is [x] at [place], its first and last position. *)
 
 (** The rest of a task in the postfix forms [T during D], [T within D], [T until { C }] and [T assure { C }]. *)
 type limit = During_limit of on_cut * expression | Until_limit of on_cut * closure
@@ -19,6 +20,7 @@ val limit : item -> limit -> Lexing.position -> item
 val settle : item -> expression
 (** [settle i] is the base of [i] within its limits. *)
 
+(** An argument as it is read: alone, [name: item] or [[key]: item]. *)
 type argument_item =
   | Positional_item of item
   | Named_item of string located * item

@@ -1,5 +1,6 @@
 (** Tokens of a text with the text between them, for a new layout. *)
 
+(** A comment between two tokens. *)
 type comment = {
   text : string;
   fresh : bool;  (** Whether it begins a line. *)

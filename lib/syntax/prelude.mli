@@ -7,6 +7,7 @@ val file : string
 (** ["<prelude>"], the file of its places. *)
 
 val text : string
+(** The text of the prelude, a program of declarations. *)
 
 (** A function, as the comment above it describes it. *)
 type entry = {

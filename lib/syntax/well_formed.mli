@@ -11,6 +11,7 @@ val program : Ast.program -> Diagnostic.t list
 val expression : Ast.expression -> Diagnostic.t list
 (** [expression e] is the faults of [e]. *)
 
+(** A node of the syntax tree that {!children} goes through. *)
 type node = Expression_node of Ast.expression | Statement_node of Ast.statement
 
 val children : node -> node list

@@ -22,6 +22,7 @@ val spans : Clocked.options -> Scenario.vehicle -> Clocked.state -> Clocked.step
     long ones where it is drained, and short ones where it is charged. *)
 
 type way = Timed_system.edge list
+(** A way through the graph of a {!Timed_system}, from state 0. *)
 
 val least : Timed_system.t -> Scenario.vehicle list -> (Scenario.vehicle * float * way option) list
 (** [least system vs] is, for each of [vs], a bound: no run of [system], whose goal is [Latest] and whose search has

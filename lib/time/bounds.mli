@@ -22,6 +22,7 @@ val from_the_start : t -> t
 (** [from_the_start b] is when something may happen that may come any time until [b] is over. *)
 
 val compare : t -> t -> int
+(** A total order of bounds as data, in which it has no meaning which one is less. *)
 
 val pp_time : Format.formatter -> int -> unit
 (** [pp_time ppf ms] is the time of a stop-watch: ["9:00"], ["1:02:03"], ["0:07.5"]. *)

@@ -22,6 +22,7 @@ val execution : t -> Clocked.state -> execution option
     identity. *)
 
 val number : execution -> int
+(** Its number, from 0 in the order in which executions were found. *)
 
 val orbit : execution -> label -> label list
 (** [orbit e l] is the platform tasks that automorphisms make of [l], itself included. *)
@@ -39,6 +40,7 @@ val spell : t -> execution -> Inert.item list -> Clocked.state -> spelled
 (** [spell t e inert s] is for a state [s] of [e]. *)
 
 val execution_of : spelled -> execution
+(** The execution that {!spell} was given. *)
 
 type form = {
   number : int;  (** states with the same one are alike *)

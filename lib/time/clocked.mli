@@ -4,6 +4,7 @@
 open Dolphin_semantics
 open Dolphin_environment
 
+(** A program with its world, and the times that all takes there. *)
 type options = {
   environment : Environment.options;
   program : Core.program;
@@ -33,6 +34,7 @@ type progress =
   | Ordered  (** the order waits for the link; the bounds of the task begin with it *)
   | Over  (** that it is waits for the link *)
 
+(** An awaited event that has begun, with the time that it takes. *)
 type pending = {
   item : item;
   bounds : Bounds.t;  (** from when it began *)
@@ -57,6 +59,7 @@ type state = private {
 }
 
 val initial : options -> state
+(** The state in which runs begin. *)
 
 val onwards :
   options -> state -> outside:Environment.t -> now:int -> began:(item -> int) ->
@@ -76,10 +79,16 @@ val may_do : options -> state -> Core.vehicle -> Dolphin_scenario.Battery.doing 
     drains may be over too, but a lower bound that counts it to its latest end holds all the same.) *)
 
 val compare : state -> state -> int
+(** A total order. *)
+
 val equal : state -> state -> bool
+(** [equal s s'] is [compare s s' = 0]. *)
+
 val hash : state -> int
+(** Equal states have equal hashes. *)
 
 module Table : Hashtbl.S with type key = state
+(** Tables by states. *)
 
 val site : state -> item -> Core.site option
 (** [site s i] is the place in the program of timer [i]; [None] for other items, and if the place is not known. *)

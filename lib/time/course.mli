@@ -6,7 +6,10 @@ open Dolphin_semantics
 type t
 
 val create : Clocked.options -> Core.vehicle -> t
+(** [create o v] is the course of [v] in the runs of [o]. *)
+
 val vehicle : t -> Core.vehicle
+(** The vehicle of {!create}. *)
 
 val may_do : t -> Clocked.state -> Dolphin_scenario.Battery.doing list
 (** {!Clocked.may_do} of its vehicle: it works or charges from the start of a task until its end, whichever it is. *)
@@ -21,6 +24,7 @@ val turns : t -> Clocked.state -> Clocked.step -> bool
 type range = { above : float; below : float }
 
 val anything : range
+(** From 0 to 1: any reading. *)
 
 val seen : t -> Clocked.state -> Clocked.step -> range
 (** [seen c s step] is the readings of the battery with which [step] is possible from [s]. *)

@@ -1,5 +1,6 @@
 (** Dates that are as late, or as early, as bounds on their differences allow. *)
 
+(** A bound on the difference of two dates, which are given by their numbers. *)
 type 'a bound = {
   sooner : int;
   later : int;
@@ -14,6 +15,7 @@ val at_least : ?due_to:'a -> int -> after:int -> int -> 'a bound
 (** [at_least later ~after:sooner by] is that [later] is [by] after [sooner] or more. *)
 
 exception Contradiction
+(** No dates meet the bounds. *)
 
 val latest : int -> 'a bound list -> int option array * 'a bound option array
 (** [latest n bounds] is the latest dates 0 to [n] that meet [bounds], date 0 being 0; [None] without latest ones. With

@@ -6,8 +6,10 @@ type numbers
 (** Trees have numbers in one of these. *)
 
 val numbers : Dolphin_checker.Numbering.t -> numbers
+(** [numbers n] has given no number; its numbers are of the numberings [n]. *)
 
 type tree
+(** A tree with its number, in one table of {!numbers}. *)
 
 val tree : numbers -> ?item:int -> ?names:int list -> ?ordered:bool -> int -> tree list -> tree
 (** [tree ns ~item ~names ~ordered head parts] is a tree, by default without an item and without names, and in order.

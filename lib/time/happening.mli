@@ -5,6 +5,7 @@ open Dolphin_semantics
 (** The events of a task. *)
 type moment = Starts | Ends | Fails | Stopped
 
+(** A platform task by its plan, its vehicle and its place in the program. *)
 type task = Canonical_state.label = { name : string; vehicle : Core.vehicle; site : Core.site }
 
 val deadlines : Clocked.state -> (Residual.timer * Core.site) list

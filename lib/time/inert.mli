@@ -10,6 +10,7 @@ val names_are_free : Clocked.options -> bool
     posts from outside, no interruptions, and no changes of links during tasks. *)
 
 val create : Clocked.options -> t
+(** [create o] finds the inert ends in runs of [o]. Mutable: results are memoised. *)
 
 type item = { awaited : Clocked.item; least : int; most : int }
 (** Its bounds, from its beginning. *)

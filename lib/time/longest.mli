@@ -1,6 +1,7 @@
 (** Longest ways in a graph without cycles. *)
 
 type 'edge graph
+(** A graph without cycles, with what edges are known by. *)
 
 val order : int -> (int -> int list) -> int list
 (** [order n successors] is those of the vertices 0 to [n - 1] that 0 leads to, each before those that it leads to, but

@@ -28,6 +28,8 @@ type walk
 (** How far a run is, and with which step what is awaited began. *)
 
 val set_out : Clocked.state -> walk
+(** [set_out s] is a run that begins in [s], before its first step. *)
+
 val walk : walk -> int -> Clocked.step -> walk
 (** [walk w k s] is [w] after step [s], number [k] of the run. *)
 

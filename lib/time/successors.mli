@@ -10,7 +10,10 @@ val create : ?course:Course.t -> reduction -> Clocked.options -> t
 (** [create ~course r o] knows nothing yet. The vehicle of [course] is like no other, and its ends are not inert. *)
 
 val options : t -> Clocked.options
+(** The options of {!create}. *)
+
 val course : t -> Course.t option
+(** The course of {!create}. *)
 
 val likeness : t -> Canonical_state.t option
 (** [None] if states that are alike are not taken for one. *)
@@ -18,6 +21,7 @@ val likeness : t -> Canonical_state.t option
 val inert : t -> Clocked.state -> Inert.item list
 (** [inert t s] is the inert ends of [s] that are left out. *)
 
+(** A step, with what is known of the state that it leads to. *)
 type successor = {
   step : Clocked.step;
   inert : Inert.item list Lazy.t;  (** in the state that it leads to *)

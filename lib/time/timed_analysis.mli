@@ -28,6 +28,7 @@
 
 open Dolphin_semantics
 
+(** A latest date. *)
 type date = Timed_system.date = At of int | Unbounded  (** milliseconds since the start *)
 
 (** From the earliest to the latest date; both are reached by some run. *)
@@ -42,7 +43,10 @@ type run = {
   chain : Schedule.link list;  (** the durations that add up to its last date *)
 }
 
+(** As {!Successors.reduction}. *)
 type reduction = Timed_system.reduction = Nothing | Inert_ends | Inert_ends_and_canonical_states
+
+(** A platform task by its plan, its vehicle and its place in the program. *)
 type task = Timed_system.task = { name : string; vehicle : Core.vehicle; site : Core.site }
 
 (** How much is left in a battery, at any time until the end of a run. *)
@@ -61,6 +65,7 @@ type apart = {
   cut_short : Dolphin_checker.Limits.bound option;  (** there may be more of them *)
 }
 
+(** The results for all runs; [seconds] are of the [clock] of the limits, [bytes] of memory. *)
 type outcome = {
   endings : (Timed_system.ending * window) list;  (** the ways in which runs end *)
   tasks : (task * (Timed_system.moment * window) list) list;  (** all that run in some run *)
@@ -98,6 +103,7 @@ val run :
 val latest : outcome -> date option
 (** [latest o] is when the last run is over; [None] if none that was looked at ends. *)
 
+(** The slack of tasks: how much longer each could take without a later end of the last run. *)
 type slacks = {
   known : (task * Slack.t) list;
   cut_short : Dolphin_checker.Limits.bound option;  (** an interruption, or a process ended early *)
@@ -109,6 +115,7 @@ val slacks : ?workers:int -> Dolphin_checker.Limits.t -> Clocked.options -> outc
     not known that all runs end by some date. [workers] processes look for them, by default 1, as in
     {!Share_out.all}. *)
 
+(** The verdict on a program and its deadline. *)
 type verdict = Dolphin_checker.Verdict.t = Holds | Violated | Inconclusive
 
 (** Why a program does not do what it should in time. *)

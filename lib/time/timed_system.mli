@@ -13,6 +13,7 @@ exception Broken
 (** An event taken for inert is not ({!Inert}), or one taken for alike ({!Canonical_state}): the results so far do not
     count. *)
 
+(** As {!Successors.reduction}. *)
 type reduction = Successors.reduction = Nothing | Inert_ends | Inert_ends_and_canonical_states
 
 val create : ?working:bool -> ?start:Clocked.state -> goal -> Successors.t -> t
@@ -30,6 +31,7 @@ type moment = Happening.moment = Starts | Ends | Fails | Stopped
 val moment_name : moment -> string
 (** In lower case: ["starts"]. *)
 
+(** As {!Happening.task}. *)
 type task = Happening.task = { name : string; vehicle : Core.vehicle; site : Core.site }
 
 val tasks : t -> (task * (moment * date) list) list
@@ -57,6 +59,8 @@ type cycle = {
 }
 
 val cycle : t -> cycle option
+(** The cycle of a run without end, if one was found; one that takes no time before others. *)
+
 val stuck : t -> int option
 (** The first state in which nothing happens any more although the run is not over. *)
 
@@ -115,6 +119,7 @@ val ends : t -> (int * date) list
 (** The states in which runs are over, each with its date. *)
 
 val count : t -> int
+(** The number of states of which {!state} knows. *)
 
 val state : t -> int -> Clocked.state
 (** [state t n] is the state number [n], below {!count}. *)
@@ -127,6 +132,7 @@ type stay = {
 }
 
 val course : t -> Course.t option
+(** The course of {!create}. *)
 
 val stay : t -> int -> stay option
 (** [stay t n] is for state [n]; [None]: nothing is observed. *)
@@ -136,9 +142,13 @@ val deadlines : t -> (Core.site * (date * arrival list) option) list
     missed, and the moves that lead there; [None]: never. *)
 
 val start : t -> Clocked.state
+(** The state from which runs go on. *)
 
 val is_reduced : t -> bool
 (** Whether anything was inert, or states might be alike. *)
 
 val successors : t -> Successors.t
+(** The successors of {!create}. *)
+
 val places : t -> Zone_node.places
+(** The places of the search. *)

@@ -6,6 +6,7 @@ type t = (Core.vehicle * int) list
 (** Milliseconds, in all, for each vehicle; {!unknown} without a bound. *)
 
 val unknown : int
+(** The greatest integer: there is no bound. *)
 
 val of_step :
   Clocked.options -> Zone_node.t -> Zone.t -> Zone_node.arrow -> Canonical_state.execution option -> t

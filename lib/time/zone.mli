@@ -23,6 +23,7 @@ val are_equal : int -> int -> t -> bool
 (** [are_equal i j z] is whether clocks [i] and [j] are equal in all of [z]. *)
 
 val equal : t -> t -> bool
+(** Whether they have the same valuations. *)
 
 val delayed : t -> t -> int
 (** [delayed z z'] is the most milliseconds by which all dates of [z] may be put off such that it is a {!subset} of
@@ -51,6 +52,7 @@ val at_least : int -> int -> t -> t option
 (** [at_least i n z] is those of [z] with clock [i] at [n] or more. *)
 
 val at_most : int -> int -> t -> t option
+(** [at_most i n z] is those of [z] with clock [i] at [n] or less; [None] if there are none. *)
 
 val rearranged : int option array -> t -> t
 (** [rearranged from z] has clock 0 of [z], and as clock [k + 1] clock [i] of [z] if [from.(k)] is [Some i], or a new

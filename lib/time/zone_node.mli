@@ -26,6 +26,7 @@ type t = private {
 }
 
 type places
+(** The places of one search, each once. Mutable. *)
 
 exception Broken
 (** Something that was taken for inert is not, or for alike. *)
@@ -41,7 +42,10 @@ val fresh : places -> Clocked.state -> Clocked.step -> Clocked.item list
 (** [fresh ps s step] is the waits that begin with [step] of [s], the course included if it turns. *)
 
 val successors : places -> Successors.t
+(** The successors of {!places}. *)
+
 val add : t -> int -> unit
+(** [add p n] notes that the state number [n] of a search is in [p]. *)
 
 val check_dates : places -> unit
 (** Whether code does no more with the date than is known here.
@@ -53,6 +57,7 @@ val arrows : places -> t -> arrow list
     @raise Broken *)
 
 val steps : places -> t -> Clocked.step list
+(** [steps ps p] is the steps of {!arrows}. *)
 
 val followed : places -> Clocked.state -> Clocked.step list
 (** [followed ps s] is the steps of [s] that are not inert ends. *)

@@ -22,6 +22,7 @@
 open Dolphin_semantics
 module Environment = Dolphin_environment.Environment
 
+(** A file of the model. *)
 type file = { name : string;  (** without a directory *) text : string }
 
 val of_program :

@@ -7,6 +7,7 @@ module Position = Dolphin_geo.Position
 type t
 
 val create : unit -> t
+(** No position. Mutable. *)
 
 val index : t -> Position.t -> int
 (** [index ps p] is the number of [p] in [ps], from 1; it is added if it is not there yet. *)

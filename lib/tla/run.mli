@@ -3,6 +3,7 @@
 val main : string
 (** ["MC"], the name of the module. *)
 
+(** A property of a configuration of TLC, by its name in the model. *)
 type property = { name : string; of_runs : bool  (** a temporal property; otherwise an invariant *) }
 
 val check : string

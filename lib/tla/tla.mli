@@ -10,6 +10,8 @@ type t =
   | Name of string  (** an operator without arguments *)
 
 val least : int
+(** -(2^31 - 1): the least whole number that TLC computes with. *)
+
 val greatest : int
 (** The whole numbers that TLC computes with are of 32 bits. *)
 

@@ -7,6 +7,7 @@ type t
 (** Mutable: the translation so far. *)
 
 val create : Core.program -> World.t -> t
+(** [create p w] has translated nothing of [p], which runs in [w]. *)
 
 val lambda : t -> Core.lambda -> int
 (** [lambda t l] is the number of [l], with all that it contains translated. *)
@@ -36,7 +37,16 @@ val code : t -> (Tla.t * Dolphin_syntax.Location.t option) list
 (** The expressions, each with its place in the program. *)
 
 val lambdas : t -> (Tla.t * Dolphin_syntax.Location.t option) list
+(** The lambdas in the order of their numbers, each with its place in the program. *)
+
 val lambda_names : t -> Tla.t
+(** The labels of the lambdas, in the order of their numbers. *)
+
 val plans : t -> Tla.t
+(** The plans that tasks of the program name. *)
+
 val places : t -> Tla.t
+(** The positions that matter ({!Places}). *)
+
 val distances : t -> Tla.t
+(** The distances between them. *)

@@ -1,6 +1,7 @@
 (** The meaning of TLC's messages. The codes are those of its class [EC], of TLC 2.18; a message with another code is
     {!Trouble} if TLC calls it an error, and otherwise {!Other}. *)
 
+(** The thing that a counterexample violates. *)
 type violation =
   | Invariant of string  (** its name in the configuration *)
   | Property of string  (** a property of single steps, by its name *)
@@ -33,6 +34,7 @@ type t =
   | Other
 
 val of_message : Message.t -> t
+(** [of_message m] is the meaning of [m]. *)
 
 val variable : string -> string -> string option
 (** [variable x text] is the value of the variable [x], as TLC prints it, in the text of a {!State}, if it stands on

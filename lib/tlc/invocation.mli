@@ -3,6 +3,7 @@
 (** How many threads search. *)
 type workers = Automatic  (** one for each core *) | Workers of int
 
+(** How TLC runs: in one process, or as the server of others. *)
 type mode =
   | Local of workers
   | Server of { host : string; port : int }

@@ -7,6 +7,7 @@ Finished computing initial states: 1 distinct state generated at 2026-01-01 12:0
 \@!\@!\@ENDMSG 2190 \@!\@!\@
     v} *)
 
+(** The severity of a message, as TLC numbers them. *)
 type severity = Information | Error | Bug_of_tlc | Warning | State
 
 type t =
@@ -17,6 +18,7 @@ type reader
 (** The part read of a message that has not ended yet, if any. *)
 
 val start : reader
+(** No line was read. *)
 
 val line : reader -> string -> reader * t list
 (** [line r s] takes in the next line, [s], and gives the messages that it completes. A message that begins before the

@@ -9,6 +9,7 @@ type repetition = Once | Stays | Back_to of int  (** that many steps from the st
 (** {!Event.Unnamed} comes with its last steps only. *)
 type counter_example = { violation : Event.violation; steps : step list; repetition : repetition }
 
+(** TLC's verdict on all that it was asked. *)
 type verdict =
   | Holds
   | Violated of counter_example  (** the first that TLC came across: it looks no further *)
@@ -26,9 +27,13 @@ type t = {
 }
 
 type reader
+(** The result so far. *)
 
 val start : reader
+(** No event was read. *)
+
 val event : reader -> Event.t -> reader
+(** [event r e] is [r] after [e]. *)
 
 val finish : reader -> t
 (** The result, when the output has ended. *)

@@ -13,6 +13,7 @@ T <tab> program <tab> date <tab> moment
 type t
 
 val none : t
+(** No line was read. *)
 
 val line : t -> string -> t option
 (** [line d s] takes in a line of TLC's output; [None] if it is not one of the above. *)

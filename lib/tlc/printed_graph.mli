@@ -19,7 +19,9 @@ open Dolphin_lts
 type t
 
 val create : unit -> t
+(** No line was read. Mutable. *)
 
+(** The fault of a line, or of all of them. *)
 type problem =
   | Not_a_line of string  (** which begins as such a line does *)
   | No_state_yet  (** a transition or a mark before any state *)
@@ -39,6 +41,8 @@ val label : rules:string -> string -> string
     is both. *)
 
 val states : t -> int
+(** The number of lines with a state so far. *)
+
 val transitions : t -> int
 (** Lines of each so far; marks are not transitions. *)
 
@@ -49,3 +53,4 @@ val graphs : t -> ((int * Graph.t) list, problem) result
 (** [graphs g], when all lines were read, is the graphs by program, in ascending order. *)
 
 val pp_problem : Format.formatter -> problem -> unit
+(** One sentence without a full stop. *)

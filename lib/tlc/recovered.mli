@@ -3,6 +3,7 @@
 open Dolphin_semantics
 module Environment := Dolphin_environment.Environment
 
+(** A run of the semantics. *)
 type run = {
   steps : Transition.t list;
   cycle : Transition.t list;  (** goes on from there without end, if it does *)
@@ -22,3 +23,4 @@ val run :
     If there are several, one for whose last state and transitions [broken] holds is preferred. *)
 
 val pp_trouble : Format.formatter -> trouble -> unit
+(** One sentence without a full stop. *)

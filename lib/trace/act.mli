@@ -1,5 +1,6 @@
 (** Acts of operators on a run, by name. They mean nothing to the semantics: a run with them is the same without. *)
 
+(** What an operator did. *)
 type deed =
   | Start
   | Resume

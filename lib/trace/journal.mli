@@ -27,6 +27,7 @@ val of_channel : in_channel -> t
 val of_string : string -> t
 (** Reads the journal that the text is. *)
 
+(** The next line of a journal, or its end. *)
 type item =
   | Line of { number : int;  (** from 1 *) entry : Entry.t }
   | Torn of int  (** the last line, of this number, was not written to its end: the console died *)

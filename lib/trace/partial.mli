@@ -14,6 +14,7 @@ val start : observed:string list -> most:int -> World.t -> Core.program -> t
 (** Why no step fits a line. *)
 type mismatch = { reason : string;  (** without a full stop *) possible : string list  (** labels that could come *) }
 
+(** The reason why no run is known to have this trace. *)
 type trouble = Impossible of mismatch | Too_many  (** more than [most] configurations: it is not known *)
 
 val feed : t -> Entry.t -> (t, trouble) result

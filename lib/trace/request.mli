@@ -3,6 +3,7 @@
 
 open Dolphin_semantics
 
+(** How a run ended, and its message. *)
 type ending = { how : string;  (** see {!how} *) message : string option }
 
 type t =
@@ -35,8 +36,10 @@ val to_json : t -> Yojson.Safe.t
 (** An object, as {!of_json} reads it. *)
 
 val of_json : Yojson.Safe.t -> (t, string) result
+(** Reads the object that {!to_json} writes. *)
 
 val ending_members : ending -> Dolphin_json.Field.members
 (** As {!ending_of_members} reads them. *)
 
 val ending_of_members : Dolphin_json.Field.members -> (ending, string) result
+(** Reads the members that {!ending_members} writes. *)

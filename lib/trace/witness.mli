@@ -4,12 +4,14 @@
 
 open Dolphin_semantics
 
+(** The cause of a step. *)
 type cause =
   | Choice of int
   (** the transition that the program took by itself: its index in {!Transition.internal}, in the world with the
       assumptions *)
   | Event of Event.t
 
+(** A step of the run. *)
 type step = {
   cause : cause;
   assumed : World.assumption list;  (** the assumptions of the step about an open world *)
@@ -31,6 +33,7 @@ val steps : Core.program -> World.t -> Configuration.t -> Transition.t list -> s
 (** [steps p w c run] is the transitions [run], one after the other from [c].
     @raise Invalid_argument if the semantics does not have these transitions. *)
 
+(** The step that the semantics does not have, and the reason. *)
 type misfit = { number : int;  (** of the step, from 1 *) why : string }
 
 val follow : Core.program -> World.t -> t -> (Transition.t list * Transition.t list, Transition.t list * misfit) result

@@ -11,6 +11,7 @@ val with_implementation : name:string -> timeout:float -> string option -> (Dial
     [command], which has [timeout] seconds for each reply, or without it this implementation, by the name [name].
     Signals that ask to stop then raise [Sys.Break]. *)
 
+(** A case with its verdict; [passed] is {!Judge.passes}. *)
 type judged = { case : Case.t; verdict : Judge.verdict; passed : bool }
 
 val judge : Dialogue.ask -> (judged -> unit) -> Case.t list -> judged list * Matrix.t

@@ -9,3 +9,4 @@ val print : Program_file.t -> Side_by_side.pair list -> unit
 (** A line for each, after an empty one; nothing without any. *)
 
 val json : Program_file.t -> Side_by_side.pair list -> Yojson.Safe.t
+(** The pairs for programs: an array, with an object for each. *)

@@ -41,6 +41,7 @@ val is_remark : Property.t -> bool
 (** Whether a violation of it is only worth a note unless the check is strict: a program may mean to halt, or to leave
     tuples. *)
 
+(** The verdict on a whole program. *)
 type verdict = Dolphin_checker.Verdict.t = Holds | Violated | Inconclusive
 
 val verdict : strict:bool -> Search.outcome -> verdict

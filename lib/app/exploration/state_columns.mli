@@ -4,6 +4,7 @@
 type t
 
 val create : unit -> t
+(** No states. *)
 
 (** A state as others know it. *)
 type state = {
@@ -14,7 +15,10 @@ type state = {
 }
 
 val add : t -> state -> unit
+(** [add c s] adds [s] after the others. *)
+
 val count : t -> int
+(** The number of states. *)
 
 val states : t -> state list
 (** [states c] is the states added to [c], in that order. *)

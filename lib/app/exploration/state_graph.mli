@@ -1,5 +1,6 @@
 (** State graphs of programs, for other tools, and graphs compared. *)
 
+(** The world in which a program is explored, and the limits. *)
 type world = {
   set : (string * string) list;  (** parameters of the program *)
   fleet : string option;  (** the file; [None]: the one beside the program, or the built-in one *)
@@ -19,6 +20,7 @@ val load :
     [docs/semantics.md]. The error is {!Error.Inconclusive} if a bound is met. [interrupted] and [progress] are as in
     {!Dolphin_checker.Limits}. *)
 
+(** Aldebaran's, Graphviz's, and {!Dolphin_lts.Json}. *)
 type format = Aut | Dot | Json
 
 val write : format -> out_channel -> Dolphin_lts.Graph.t -> unit

@@ -10,6 +10,7 @@ val over : Dolphin_trace.Layer.t list -> t -> t
 (** [over layers d] is [d] with [layers] below the ways of the run. *)
 
 val path : t -> string
+(** The path of the file. *)
 
 val check : t -> (unit, Error.t) result
 (** [check d] fails if it is clear already that [d] cannot be written. It writes nothing. *)

@@ -9,6 +9,7 @@ type state =
   | Going_on  (** its console lives *)
   | Broken_off  (** its console died, and it was not resumed *)
 
+(** A journal in the folder. *)
 type run = {
   name : string;  (** of its file, without the ending [.run] *)
   path : string;

@@ -2,6 +2,7 @@
 
 open Dolphin_semantics
 
+(** A recorded run. *)
 type run = {
   breaks : string;  (** the property that it breaks; [""] if it was not recorded for one *)
   description : string;  (** its contents, in a line *)

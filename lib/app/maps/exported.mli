@@ -17,6 +17,7 @@ val of_plans : title:string -> Inline_plans.found list -> t
     maneuvers. The rows are the way points. Plans that vehicles know by name are left out. *)
 
 val to_string : Dolphin_maps.Map_format.t -> t -> string
+(** [to_string format e] is the contents of a file in this format. *)
 
 val write : Dolphin_maps.Map_format.t -> string option -> t -> (unit, Error.t) result
 (** [write format path map] writes into the file [path], to standard output without one. Nothing to write is an error:

@@ -3,12 +3,14 @@
 open Dolphin_semantics
 open Dolphin_runtime
 
+(** The platforms that a user asks for. *)
 type choice = {
   imc : Dolphin_platform_imc.Udp_platform.options option;
   adapters : string list;  (** commands ([docs/platform.md]) *)
 }
 
 val is_any : choice -> bool
+(** Whether a user asks for some platform; otherwise the fleet is simulated. *)
 
 val name : choice -> string
 (** As the headers of journals have it: ["imc"], ["process"], ["imc+process"]. *)
@@ -24,6 +26,7 @@ type estimate = {
   remaining : float option;  (** seconds *)
 }
 
+(** A platform of a run, with what is known only of platforms of its kind. *)
 type opened = {
   part : Several.part;
   estimates : unit -> estimate list;

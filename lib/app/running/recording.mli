@@ -2,6 +2,7 @@
 
 open Dolphin_trace
 
+(** The records to be made; [None]: not this one. *)
 type settings = {
   journal : string option;  (** a file *)
   drawing : Drawing.t option;

@@ -8,6 +8,7 @@
 open Dolphin_runtime
 open Dolphin_trace
 
+(** The options of a run. *)
 type settings = {
   network : Dolphin_platform_imc.Udp_platform.options option;  (** vehicles that speak IMC *)
   adapters : string list;  (** commands that speak for further vehicles; without them and [network], the fleet is
@@ -23,6 +24,7 @@ type settings = {
 }
 
 val is_simulated : settings -> bool
+(** Whether neither [network] nor [adapters] has vehicles. *)
 
 val simulated : settings
 (** On the simulated fleet, as fast as it goes, with seed 0, without answers and supplier; nothing is kept. *)
@@ -45,6 +47,7 @@ type view = {
   acted : Act.t -> (unit, string) result;  (** keeps an operator's act in the journal: {!Recording.act} *)
 }
 
+(** The side of a run that is turned to people: a terminal or a page. {!unattended} has neither. *)
 type front = {
   replayed : Entry.t -> Replay.t -> unit;
   (** gets each line of the journal of a run that is resumed, with its result, before all else *)

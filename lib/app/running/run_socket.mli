@@ -30,6 +30,7 @@ val close : t -> unit Lwt.t
 (** {1:clients Clients} *)
 
 type connection
+(** A connection to the socket of a run that goes on. *)
 
 val connect : journal:string -> (connection, string) result
 (** [connect ~journal] is a connection to the run with this journal, or a sentence why there is none. *)

@@ -9,6 +9,7 @@ type ending =
   | Failed of Fault.t
   | Stuck of Core.site option  (** in rounds that begin there, or for nothing can happen any more *)
 
+(** A platform task by its plan, its vehicle and its place in the program. *)
 type task = { name : string; vehicle : Core.vehicle; site : Core.site }
 
 (** How often a task did what. *)

@@ -1,5 +1,6 @@
 (** Many simulated runs of a program, and the counts over all of them. *)
 
+(** The runs that are asked for: up to [runs], or [until] the share of those that complete is known. *)
 type settings = {
   seed : int;  (** of the first run; the others have the numbers that follow *)
   runs : int option;  (** how many, at most *)
@@ -17,18 +18,21 @@ type stop =
   | Known  (** the share of runs that complete is known as well as was asked for *)
   | Interrupted of int list  (** by the user; the seeds of runs that were under way *)
 
+(** A way in which some runs ended. *)
 type ending = {
   ending : Sample.ending;
   runs : int;
   seed : int;  (** of the first run that ended so *)
 }
 
+(** A platform task that began in some run. *)
 type task = {
   task : Sample.task;
   counts : Sample.counts;  (** of all runs together *)
   failing : int;  (** runs in which it failed *)
 }
 
+(** A handler of errors: how often it ran in all runs together, and in how many of them. *)
 type handler = { site : Dolphin_semantics.Core.site; ran : int; runs : int  (** in which it ran *) }
 
 type t = {

@@ -7,6 +7,7 @@ val percent : float -> string
 (** ["12.50 %"]. *)
 
 val ending : Program_file.t -> Sample.ending -> string
+(** The ending in words, with the place of a fault. *)
 
 val lines : columns:int -> Program_file.t -> Sampling.t -> string list
 (** For people: the endings of runs with their numbers, their times, the outcomes of tasks, and the handlers that

@@ -9,6 +9,7 @@ type trouble =
   | Bound of Dolphin_checker.Limits.bound  (** met by the exploration: unknown *)
 
 type vehicles = Dolphin_semantics.Core.vehicle list
+(** A part of a fleet, in the order of the fleet. *)
 
 type t =
   | Least of {
@@ -29,9 +30,12 @@ val find :
     many parts were looked at: all that are smaller. *)
 
 val verdict : t -> Sweep.verdict
+(** [Holds] for [Least] without [unsure] fleets; [Violated] if no part of the fleet does, and each is known not to; else
+    [Inconclusive]. *)
 
 val print : ?deadline:int -> Program_file.t -> Fleet_file.t -> t * int -> unit
 (** The fleet; the fault without each of its vehicles; a run with the fault without the first of them, and one that
     ends last with all. *)
 
 val to_json : ?deadline:int -> Program_file.t -> t * int -> Yojson.Safe.t
+(** The same as {!print}, for programs. *)

@@ -3,6 +3,7 @@
 (** The question. *)
 type t = { parameter : string; values : int list; load : int -> (Program_file.t, Error.t) result }
 
+(** One program, or one for each value. *)
 type question = One of Program_file.t | Several of t
 
 val question : set:(string * string) list -> string -> (question, Error.t) result
@@ -12,6 +13,7 @@ val question : set:(string * string) list -> string -> (question, Error.t) resul
 val within : Fleet_file.t -> question -> (question, Error.t) result
 (** [within fleet q] is the same of {!Program_file.within} that fleet. *)
 
+(** The answer to one question. *)
 type verdict = Dolphin_checker.Verdict.t = Holds | Violated | Inconclusive
 
 (** The answer for a value. *)
@@ -31,6 +33,7 @@ type 'a fewest = {
 }
 
 val fewest : 'a row list -> 'a fewest option
+(** [fewest rows] is the least value that holds; [None] if none does. *)
 
 val verdict : 'a row list -> verdict
 (** [Holds] if the {!fewest} is known; [Violated] if none holds; else [Inconclusive]. *)
@@ -44,3 +47,4 @@ val print : t -> heads:string list -> ('a row -> string list) -> 'a row list -> 
 (** [print s ~heads cells rows] is a table with the value, [cells], and the verdict; and below it the fewest. *)
 
 val to_json : t -> ('a row -> Yojson.Safe.t) -> 'a row list -> Yojson.Safe.t
+(** [to_json s found rows] is the answers for programs: the fewest, and for each value its verdict and [found row]. *)

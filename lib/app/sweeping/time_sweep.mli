@@ -13,3 +13,4 @@ val print : ?deadline:int -> Sweep.t -> Timed_analysis.outcome Sweep.row list ->
     fewest. If none holds, a run that breaks it with the last value. *)
 
 val to_json : ?deadline:int -> Sweep.t -> Timed_analysis.outcome Sweep.row list -> Yojson.Safe.t
+(** The answers for programs, an object for each value. *)

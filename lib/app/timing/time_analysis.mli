@@ -2,6 +2,7 @@
 
 module Timed_analysis = Dolphin_time.Timed_analysis
 
+(** The options of an analysis; [None]: no limit. *)
 type settings = {
   answers : string list;
   faults : Dolphin_environment.Faults.t;

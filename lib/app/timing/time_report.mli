@@ -21,6 +21,7 @@ val window : Timed_analysis.window -> string
 (** ["4:00 to 7:00"]. *)
 
 val moments : Dolphin_time.Timed_system.moment list
+(** All of them, in the order of columns. *)
 
 val item : ?at:Dolphin_semantics.Core.site -> Program_file.t -> Dolphin_time.Clocked.pending -> string
 (** The awaited event: ["mission.dol:3:10: survey on noptilus-1"]; [at] is the place of a timer. *)

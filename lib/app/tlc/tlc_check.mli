@@ -2,6 +2,7 @@
 
 open Dolphin_tlc
 
+(** The options of a check. *)
 type settings = {
   mode : Invocation.mode;
   directory : string option;  (** the folder of the model; otherwise it is removed afterwards *)

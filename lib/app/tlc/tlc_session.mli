@@ -15,6 +15,7 @@ val in_directory : string option -> model -> (string -> ('a, Error.t) result) ->
 (** [in_directory directory m f] is [f d] where [d] is a directory with the files of [m]: the one that is given, or a
     temporary one, which is removed afterwards. *)
 
+(** What TLC found until it ended or was stopped. *)
 type ended = Ended of Outcome.t | Interrupted of Outcome.t  (** by a signal, before its end *)
 
 val run : Installation.t -> Invocation.mode -> directory:string -> main:string -> configuration:string ->

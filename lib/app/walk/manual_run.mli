@@ -4,6 +4,7 @@
 open Dolphin_semantics
 open Dolphin_environment
 
+(** The program, and what may happen to it. *)
 type world = { program : Core.program; world : World.t; options : Environment.options }
 
 type choice = Transition.t * Environment.t
@@ -15,7 +16,10 @@ val start : world -> t
 (** The run without steps, and nothing ahead. *)
 
 val configuration : t -> Configuration.t
+(** The configuration now. *)
+
 val outside : t -> Environment.t
+(** The environment's memory now. *)
 
 val length : t -> int
 (** How many steps were taken. *)

@@ -11,6 +11,7 @@ val hashes : int
 (** How many hash functions there are. *)
 
 val bytes : t -> int
+(** The length of the array, in bytes. *)
 
 val states : t -> int
 (** How many states were marked. *)
@@ -20,7 +21,10 @@ val states : t -> int
     It is known by numbers: after {!begin_state}, each is given by {!add}, in order. *)
 
 val begin_state : t -> unit
+(** From now on {!add} is for another state, of which no number is known yet. *)
+
 val add : t -> int -> unit
+(** [add t n] adds [n] to the numbers of the present state. *)
 
 val hash : t -> int
 (** One hash of it, with many bits. *)
@@ -33,6 +37,7 @@ val mark : t -> unit
 
 (** {1:omission What is left out} *)
 
+(** The outcome of a search by bitstate hashing. *)
 type summary = {
   bytes : int;
   states : int;

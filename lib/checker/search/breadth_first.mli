@@ -87,6 +87,7 @@ type violation =
   | Around of { stem : int list; cycle : (int * int) list }
   (** [cycle] is arrivals in states, with valuations, that repeat without end after [stem] and come back to its last *)
 
+(** The search of a system [S]. *)
 module Make (S : System.S) : sig
   type t
 
@@ -148,15 +149,23 @@ module Make (S : System.S) : sig
   (** {1:findings What was found} *)
 
   val system : t -> S.t
+  (** The system that is searched, with its findings. *)
+
   val stopped : t -> Limits.bound option
+  (** The bound that ended the search early; [None] if no bound was met, or it has not ended. *)
+
   val count : t -> int
+  (** The number of states so far, expanded or not. *)
 
   val iter : t -> (int -> unit) -> unit
   (** [iter t f] calls [f] with the number of each state: unless several processes have searched, these are those below
       [count t]. *)
 
   val transitions : t -> int
+  (** The transitions of the expanded states, as {!System.S.expand} counts them. *)
+
   val expanded : t -> int
+  (** The number of states that were expanded. *)
 
   val depth : t -> int
   (** The most transitions of a shortest run to an expanded state. *)
@@ -178,7 +187,10 @@ module Make (S : System.S) : sig
       Each a shortest run to the first state that shows the violation. *)
 
   val no_deadlock : t -> int list verdict
+  (** No state is a {!deadlock}. *)
+
   val never : t -> S.property -> int list verdict
+  (** [never t p] is that no state violates [p] by being reached. *)
 
   val termination : t -> exact:(int -> bool) -> lasso verdict
   (** The absence of a cycle; otherwise a cycle with a shortest run to it and the shortest way around. The run comes
@@ -204,6 +216,8 @@ module Make (S : System.S) : sig
   (** [path t i] is states from the initial one to [i], as few as can be; after {!run_bitstate}, of some run, and [i] is
       the last of one that is kept. *)
 
+  (** The state [into] that a transition of number [action] leads to, with the [valuation] of the monitor there, 0
+      without one. *)
   type arrival = { into : int; action : int; valuation : int; via : S.via }
 
   val visiting : t -> int -> (int array -> (int -> int -> unit) ref -> S.via System.visitor -> 'a) -> 'a

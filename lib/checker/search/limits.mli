@@ -16,6 +16,7 @@ type t = {
   progress : progress -> unit;  (** called about once a second *)
 }
 
+(** The state of a search, as its progress reports show it. *)
 and progress = {
   phase : string;  (** the present phase *)
   states : int;
@@ -42,6 +43,7 @@ type bound =
   | Unsettled of string  (** something that was asked has no answer, for this reason *)
 
 exception Stop of bound
+(** A bound was met: the search ends there. *)
 
 val pp_bound : Format.formatter -> bound -> unit
 (** ["the time was up"] *)
@@ -58,6 +60,7 @@ val guard : ?started:float -> t -> guard
 (** [guard ~started t] looks after what started when [t.clock] showed [started]: now by default. *)
 
 val started : guard -> float
+(** The time of [clock] from which seconds count. *)
 
 (** How far a search has come. *)
 type measures = {

@@ -1,5 +1,6 @@
 (** A search along random walks, in place of all states. *)
 
+(** Walks of a system [S]. *)
 module Make (S : System.S) : sig
   type state := Search_state.Make(S).t
 

@@ -4,6 +4,7 @@
 type t
 
 val create : seed:int -> t
+(** [create ~seed] has drawn nothing and visited no state. *)
 
 (** {1:chance Chance} *)
 
@@ -17,7 +18,10 @@ val see : t -> int -> from:int -> unit
 (** [see t i ~from:j] notes that state [i] has been seen first, from [j]. *)
 
 val from : t -> int -> int
+(** [from t i] is the state from which [i] was seen first. *)
+
 val begin_walk : t -> unit
+(** Counts one walk more. *)
 
 val is_new : t -> int -> bool
 (** [is_new t i] is whether [i], which is seen, has not been visited. *)
@@ -30,6 +34,7 @@ val visit : t -> int -> unit
 
 (** {1:estimates Estimates} *)
 
+(** The outcome of random walks. *)
 type summary = {
   seed : int;
   walks : int;

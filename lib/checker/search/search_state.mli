@@ -1,6 +1,7 @@
 (** A search under way: the states that were found, how it arrives in more, and how one is expanded. All ways to search
     share it: {!Breadth_first}, {!Together}, {!Random_walks} and {!Depth_first}. *)
 
+(** The search of a system [S]. *)
 module Make (S : System.S) : sig
   (** Of a depth-first search by bitstate hashing. *)
   type deep = {
@@ -17,6 +18,7 @@ module Make (S : System.S) : sig
     mutable findings : S.findings option;  (** in a worker that can find no more *)
   }
 
+  (** A search. Its fields are for the modules named above; the functions below keep them consistent. *)
   type t = {
     system : S.t;
     limits : Limits.t;
@@ -56,31 +58,58 @@ module Make (S : System.S) : sig
   (** As {!Breadth_first.Make.create}. *)
 
   val close : t -> unit
+  (** As {!Breadth_first.Make.close}. *)
 
   (** {1 What was found} *)
 
   val system : t -> S.t
+  (** As {!Breadth_first.Make.system}, and so are those below of the same names. *)
+
   val stopped : t -> Limits.bound option
+  (** The bound that was met, if any. *)
+
   val count : t -> int
+  (** The number of states so far. *)
+
   val iter : t -> (int -> unit) -> unit
+  (** [iter t f] calls [f] with the number of each state. *)
+
   val transitions : t -> int
+  (** The transitions of expanded states, those of running workers included. *)
+
   val expanded : t -> int
+  (** The number of expanded states, those of running workers included; of walks, of visited states; of a depth-first
+      search, of marked ones. *)
 
   val visited : deep -> int
   (** How many states bitstate hashing has marked. *)
 
   val sample : t -> Sample.summary option
+  (** The outcome of random walks, if there were any. *)
+
   val bitstate : t -> Bitstate.summary option
+  (** The outcome of bitstate hashing, if it was used. *)
+
   val depth : t -> int
+  (** The most transitions of a shortest run to an expanded state; 0 before any is. *)
 
   val heap : unit -> int
   (** Bytes of this process's heap. *)
 
   val memory : t -> int
+  (** Bytes: of the states, of the bits, and of the heaps of all processes. *)
+
   val found : int -> int option
+  (** [found i] is [Some i] for the number of a state, [None] for -1. *)
+
   val deadlock : t -> int option
+  (** The first deadlock that was found. *)
+
   val broken : t -> S.property -> int option
+  (** [broken t p] is the first state that was found to violate [p]. *)
+
   val is_violated : t -> bool
+  (** Whether a state was found after which the formula is violated. *)
 
   val is_settled : t -> bool
   (** Whether it {!is_violated} and no state less deep can show it. *)
@@ -99,6 +128,7 @@ module Make (S : System.S) : sig
   (** The same, but not at other processes. *)
 
   val ticker : t -> string -> unit -> unit
+  (** As {!Breadth_first.Make.ticker}. *)
 
   val worked : t -> unit
   (** Is called at each visit and each expansion: now and then it looks around. *)
@@ -127,6 +157,7 @@ module Make (S : System.S) : sig
       latest. *)
 
   val flush : t -> unit
+  (** Adds the states that have been arrived in and wait to be added. *)
 
   val widen : t -> unit
   (** Makes the fields of vectors as wide as they must be now, and rewrites all states. *)

@@ -22,10 +22,16 @@ type 'via visitor = {
       it was handed over *)
 }
 
+(** A transition system with its encoding, its properties and its findings. *)
 module type S = sig
   type t
+  (** A system, with what it remembers between expansions. *)
+
   type via
+  (** The way in which a successor became its representative; [unit] if each state stands for itself. *)
+
   type property
+  (** A property that states violate by being reached; compared and hashed by the polymorphic operations. *)
 
   (** {1:encoding Encoding}
 
@@ -70,6 +76,7 @@ module type S = sig
       on the state and on earlier numberings, and on nothing else. *)
 
   val numbering : t -> Numbering.t
+  (** The numberings of [t], which a search in several processes closes. *)
 
   val check_fit : t -> unit
   (** @raise Outgrown if a number that has been given does not fit *)

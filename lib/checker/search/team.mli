@@ -24,6 +24,7 @@ val create : (unit -> Shared_states.t) -> Numbering.t -> workers:int -> look:(un
     @raise Out_of_memory if the system does not grant the addresses *)
 
 val close : t -> unit
+(** Gives back the memory of [t], in this process. *)
 
 (** {1 Levels} *)
 
@@ -31,6 +32,7 @@ val begin_levels : t -> depth:int -> from:int -> unit
 (** [begin_levels t ~depth ~from] makes the states from place [from] on of the leader's segment a level, at [depth]. *)
 
 val depth : t -> int
+(** The depth of the present level. *)
 
 type block = { segment : int; mutable first : int; upto : int }
 (** Places of a worker's segment from [first] on, before [upto]. *)
@@ -77,6 +79,8 @@ val lead : t -> work:(unit -> unit) -> report:(unit -> string) -> string list * 
     @raise Limits.Stop if a worker ends otherwise than after its report *)
 
 val is_worker : t -> bool
+(** Whether this process is a worker, and not the leader. *)
+
 val look : t -> unit
 (** In a worker: ends the process if the leader has ended.
     @raise Over

@@ -1,5 +1,6 @@
 (** A search that goes on in several processes: all expand a level, and wait for each other before the next ([Team]). *)
 
+(** The search of a system [S]. *)
 module Make (S : System.S) : sig
   type state := Search_state.Make(S).t
   type shared := Search_state.Make(S).shared

@@ -1,5 +1,6 @@
 (** The data of a depth-first search: the {e path} to its present state, and the states that {e wait}. *)
 
+(** A state of the path, or one that waits. *)
 type entry = {
   state : int array;
   depth : int;  (** transitions from the initial state *)
@@ -9,6 +10,7 @@ type entry = {
 type t
 
 val create : unit -> t
+(** No path, and no state that waits. *)
 
 val waiting : t -> int
 (** How many states wait. *)

@@ -3,6 +3,7 @@
 type t
 
 exception Failed of string
+(** The system refused to write, to read or to make the file, for this reason. *)
 
 val create : directory:string -> t
 (** @raise Failed as the others do *)
@@ -17,3 +18,4 @@ val read : t -> at:int -> Bytes.t -> words:int -> unit
 (** [read f ~at b ~words] reads [words] words, from the one at place [at] on. *)
 
 val close : t -> unit
+(** Closes the file, which is gone then. *)

@@ -13,3 +13,4 @@ val find : t -> int -> (int -> bool) -> int
 (** [find t h is_it] is the first state of hash [h] for which [is_it i], or [-1]. *)
 
 val close : t -> unit
+(** Closes its file, which is gone then. *)

@@ -5,7 +5,10 @@
 type t
 
 val create : unit -> t
+(** The empty set. *)
+
 val count : t -> int
+(** The number of members. *)
 
 val add : t -> int -> int
 (** [add t x] is [i] if [x] is member [i] already, and [-1 - i] if it becomes member [i] now. *)

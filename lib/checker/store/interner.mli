@@ -1,5 +1,6 @@
 (** Hash-consing by numbers: equal values have the same number, from 0 in order of first sight. *)
 
+(** Numbers for keys, which [Key.equal] compares. *)
 module Make (Key : Hashtbl.HashedType) : sig
   type t
 
@@ -17,4 +18,5 @@ module Make (Key : Hashtbl.HashedType) : sig
   (** [value t n] is the value with number [n]. *)
 
   val count : t -> int
+  (** The number of values so far: the next new one gets this number. *)
 end

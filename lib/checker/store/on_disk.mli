@@ -16,21 +16,34 @@ val of_packed : Packed.t -> directory:string -> tick:(unit -> unit) -> t
     @raise Failed *)
 
 val words : t -> int
+(** As {!States.words}. *)
+
 val count : t -> int
+(** As {!States.count}: on disk, without states that wait in memory. *)
 
 val push : t -> int array -> parent:int -> fresh:(int -> int -> unit) -> unit
 (** @raise Failed as the others do *)
 
 val flush : t -> fresh:(int -> int -> unit) -> unit
+(** As {!States.flush}: reads all states on disk. *)
+
 val find : t -> int array -> int
+(** As {!States.find}. *)
+
 val load : t -> int -> int array -> unit
+(** As {!States.load}. *)
+
 val parent : t -> int -> int
+(** As {!States.parent}. *)
 
 val bytes : t -> int
 (** Of memory. *)
 
 val forget_waiting : t -> unit
+(** As {!States.forget_waiting}. *)
+
 val rewrite : t -> words:int -> (int array -> int array -> unit) -> t
+(** As {!States.rewrite}. *)
 
 val close : t -> unit
 (** [close t] gives back what is on disk; [t] is of no use then. *)

@@ -4,6 +4,7 @@
 type t
 
 val create : unit -> t
+(** The parents of no state. *)
 
 val add : t -> int -> unit
 (** [add t p] makes [p] the parent of the next state, from state 0 on. [p] is at least the parent before. *)

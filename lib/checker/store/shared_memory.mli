@@ -3,6 +3,7 @@
 
 type ('a, 'b) t = ('a, 'b, Bigarray.c_layout) Bigarray.Array1.t
 type words = (int, Bigarray.int_elt) t
+(** Words: OCaml's integers, 8 bytes each. *)
 
 val map : ('a, 'b) Bigarray.kind -> int -> ('a, 'b) t
 (** [map kind n] is [n] zeros. They take memory once they are written to, page by page: so [n] may be large. It is not
@@ -22,7 +23,10 @@ val unmap : ('a, 'b) t -> unit
     No index is checked. *)
 
 val read : words -> int -> int
+(** [read a i] is word [i]. *)
+
 val write : words -> int -> int -> unit
+(** [write a i x] makes word [i] [x]. *)
 
 val add : words -> int -> int -> int
 (** [add a i n] adds [n] to word [i]; the result is its value before. *)

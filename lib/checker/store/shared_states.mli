@@ -16,6 +16,7 @@ val become : t -> int -> unit
 (** [become t w] makes this process worker [w]. *)
 
 val words : t -> int
+(** As {!States.words}. *)
 
 val count : t -> int
 (** All that have been added by a {!flush} that has ended. *)
@@ -28,7 +29,10 @@ val when_full : t -> (t -> unit) -> unit
     which must not be full then. *)
 
 val push : t -> int array -> parent:int -> fresh:(int -> int -> unit) -> unit
+(** As {!States.push}; another worker may add the same state first. *)
+
 val flush : t -> fresh:(int -> int -> unit) -> unit
+(** As {!States.flush}, for the states that this worker has pushed. *)
 
 val grow_alone : t -> unit
 (** Makes the table larger; no other process uses it meanwhile. *)
@@ -37,24 +41,37 @@ val begin_growing : t -> unit
 (** First one worker calls this, then each of them {!fill_part}, and none uses the table until all have. *)
 
 val fill_part : t -> unit
+(** Puts this worker's share of the states into the table that {!begin_growing} has made. *)
 
 val find : t -> int array -> int
 (** As {!States.find}, once the other workers are gone. *)
 
 val load : t -> int -> int array -> unit
+(** As {!States.load}, of any worker's state. *)
+
 val parent : t -> int -> int
+(** As {!States.parent}, of any worker's state. *)
+
 val bytes : t -> int
+(** As {!States.bytes}. *)
+
 val bytes_to_grow : t -> by:int -> int
+(** As {!States.bytes_to_grow}. *)
+
 val bytes_to_rewrite : t -> words:int -> int
 (** @raise Out_of_memory if there are too few addresses *)
 
 val forget_waiting : t -> unit
+(** As {!States.forget_waiting}, for the states that this worker has pushed. *)
+
 val rewrite : t -> words:int -> (int array -> int array -> unit) -> t
+(** As {!States.rewrite}, once the other workers are gone. *)
 
 val iter : t -> (int -> unit) -> unit
 (** [iter t f] calls [f] with the number of each state. *)
 
 val close : t -> unit
+(** As {!States.close}. *)
 
 (** {1 Segments} *)
 

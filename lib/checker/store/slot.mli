@@ -2,6 +2,7 @@
     of one word, plus 1; otherwise an {e entry}: the number of a state, plus 1, below the high bits of its hash. *)
 
 type table = (int, Bigarray.int_elt, Bigarray.c_layout) Bigarray.Array1.t
+(** The slots of a table, a power of two. *)
 
 val most : int -> int
 (** [most n] is how many states a table of [n] slots may have. *)

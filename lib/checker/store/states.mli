@@ -12,7 +12,10 @@ val create : compress:bool -> words:int -> t
 (** [create ~compress ~words] is an empty set of vectors of [words] words. No word may be [-1]. *)
 
 val words : t -> int
+(** The number of words of each vector. *)
+
 val count : t -> int
+(** The number of states that have been added. *)
 
 val push : t -> int array -> parent:int -> fresh:(int -> int -> unit) -> unit
 (** [push t key ~parent ~fresh] adds the state in the first words of [key] unless it is a member: now, or at a later
@@ -51,6 +54,7 @@ val rewrite : t -> words:int -> (int array -> int array -> unit) -> t
 (** {1:disk On disk} *)
 
 val is_on_disk : t -> bool
+(** Whether {!spill} has put it on disk. *)
 
 val spill : t -> directory:string -> tick:(unit -> unit) -> t
 (** [spill t ~directory ~tick] is [t] on disk, in a file of [directory] without a name. [t] is not compressed,
@@ -66,7 +70,10 @@ val share : t -> workers:int -> t
     @raise Out_of_memory if the system does not grant the addresses; [t] is as it was then *)
 
 val is_shareable : t -> bool
+(** Whether {!share} takes it: it is neither compressed nor on disk nor shared. *)
+
 val shared : t -> Shared_states.t option
+(** The shared set, if {!share} has made it. *)
 
 val iter : t -> (int -> unit) -> unit
 (** [iter t f] calls [f] with the number of each state. Only of shared states some numbers below the largest may be left

@@ -9,12 +9,14 @@ val most : int
 (** The limit on waiting states. *)
 
 val create : words:int -> t
+(** [create ~words] is for vectors of [words] words; none waits. *)
 
 val add : t -> int array -> parent:int -> bool
 (** [add w key ~parent] adds the state in the first words of [key], and is whether {!most} wait now: then they are to be
     taken, and {!clear} called, before another one comes. *)
 
 val clear : t -> unit
+(** Takes all of them away. *)
 
 val read_slots : t -> Slot.table -> int -> unit
 (** [read_slots w table mask] reads the slot at which the search for each of them will start, in a table of [mask + 1]

@@ -11,13 +11,19 @@ val create : ?foreseen:int -> Dolphin_checker.Numbering.t -> Environment.options
     default. *)
 
 val options : t -> Environment.options
+(** The environment of {!create}. *)
+
 val program : t -> Core.program
+(** The program of {!create}. *)
+
 val world : t -> World.t
+(** The world of {!create}. *)
 
 val dismisses : t -> bool
 (** Whether some handler may dismiss vehicles: its effect then depends on all vehicles needed around it. *)
 
 val coverage : t -> Coverage.t
+(** The code that was reached so far. *)
 
 (** {1:components Components} *)
 
@@ -35,6 +41,7 @@ val note_rounds : t -> Dolphin_semantics.Task_rules.round list -> unit
 (** [note_rounds t rs] notes that a step begins [rs]. *)
 
 val root : t -> Component.path
+(** The path of whole tasks: the one that no nest is around. *)
 
 val reach : t -> Component.component -> unit
 (** [reach t p] compiles the steps of [p], which some run reaches. *)
@@ -76,6 +83,7 @@ val lay_out : Component.family -> unit
 (** [lay_out f] makes [f] as wide as its members need. *)
 
 val numbering : t -> Dolphin_checker.Numbering.t
+(** The numberings of {!create}. *)
 
 val outgrown : t -> bool
 (** Whether a family has outgrown its width since it was laid out. *)

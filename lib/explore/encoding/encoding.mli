@@ -16,10 +16,13 @@ val create :
     nothing, or a task that begins: itself by default. *)
 
 val layouts : t -> Layouts.t
+(** The layouts of executing configurations so far. *)
+
 val outside : t -> int -> Environment.t
 (** [outside t n] is the environment's memory in the shared part with number [n]. *)
 
 val shareds : t -> Surroundings.Numbers.t
+(** The numbers of shared parts. *)
 
 val frame : t -> Machine.t -> Task_group.t option -> Layout.frame
 (** [frame t m g] is the frame of layouts in which [m] waits for a task with the symmetry [g]. *)

@@ -57,6 +57,7 @@ val residual : t -> place -> (int -> Residual.t) -> Residual.t
     and the number of the shared state. The components follow; none lies across the end of a word. Layout 0 stands for
     configurations that execute nothing: the rest of the first word is the configuration's number. *)
 
+(** The bits of the fields of the first word, in this order. *)
 type widths = { reserved : int; layout : int; shared : int }
 
 val lay_out : widths -> t -> int

@@ -17,6 +17,7 @@ type 'a part = {
   read : string -> 'a;  (** @raise Wrong *)
 }
 
+(** The writers and readers of all parts of states. *)
 type codec = {
   machine : Machine.t part;
   residual : Residual.t part;

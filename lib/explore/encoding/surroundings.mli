@@ -10,7 +10,10 @@ val make : Shared.t -> Environment.t -> t
 (** [make s e] is [s], less its A, and [e]. *)
 
 val equal : t -> t -> bool
+(** Whether the shared parts and the memories are the same. *)
+
 val hash : t -> int
+(** Equal surroundings have equal hashes. *)
 
 (** Numbers for surroundings, from 0: the shared states that the encoding speaks of. *)
 module Numbers : sig
@@ -18,7 +21,15 @@ module Numbers : sig
   type t
 
   val create : Dolphin_checker.Numbering.t -> t
+  (** No surroundings have a number. *)
+
   val number : t -> surroundings -> int
+  (** [number t s] is the number of [s], a new one if [s] is new. @raise Dolphin_checker.Numbering.Closed then, if
+      numberings are closed *)
+
   val value : t -> int -> surroundings
+  (** [value t n] is the surroundings with number [n]. *)
+
   val count : t -> int
+  (** The number of surroundings so far. *)
 end

@@ -6,6 +6,7 @@ open Dolphin_semantics
 (** {1:footprints Footprints} *)
 
 module Globals : Set.S with type elt = int
+(** Global variables, by their indices. *)
 
 (** Pairs of N by key and value; without value: all with that key. *)
 module Pairs : sig
@@ -19,7 +20,10 @@ end
 type vehicles
 
 val these : Core.vehicle list -> vehicles
+(** [these vs] is just the vehicles [vs]. *)
+
 val all_vehicles : vehicles
+(** All of B, whatever it is. *)
 
 type t = {
   posts : Pairs.t;
@@ -40,10 +44,13 @@ type t = {
 }
 
 val empty : t
+(** Of code that touches nothing. *)
+
 val anything : t
 (** Of code that cannot be seen. *)
 
 val union : t -> t -> t
+(** [union a b] is the footprint of code that does what [a] and [b] do. *)
 
 val touches_nothing : t -> bool
 (** [touches_nothing f] is whether [f] touches nothing, so that it conflicts with nothing. *)
@@ -68,8 +75,10 @@ val of_posts : Core.program -> (string * Core.value) list -> t
 (** {1:code Code} *)
 
 type code
+(** The footprints of a program's code, memoised. Mutable. *)
 
 val code : Core.program -> code
+(** [code p] is for the code of [p], of which none has been looked at. *)
 
 val of_code : code -> Core.closure -> t
 (** Of any code. *)

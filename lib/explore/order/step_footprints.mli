@@ -26,8 +26,10 @@ type t = {
 type step = { index : int; source : Task_rules.step; event : Transition.event option }
 
 type context
+(** The footprints of a program's code, and what the environment lets happen. Mutable: results are memoised. *)
 
 val context : Environment.options -> Core.program -> context
+(** [context o p] is for tasks of [p] in the environment [o]. *)
 
 val with_holding : context -> context
 (** [with_holding c] is [c] for tasks that make tasks at their turn: footprints include held and freed vehicles. In

@@ -8,6 +8,8 @@ type t
 
 val create :
   Environment.options -> Components.t -> Encoding.t -> Memoised_steps.t -> Quotient.t -> Observer.t option -> t
+(** [create o components encoding steps quotient observer] is for states of these components in this encoding, whose
+    vectors are then of unknown length ({!widen}). [observer] numbers actions; without one all are 0. *)
 
 val follows : t -> int -> int -> unit
 (** [follows t p p'] notes that place [p'] of the script may come after place [p], by the numbers of

@@ -35,3 +35,4 @@ val look : t -> Component.step -> around:Residual.surrounding list -> int -> Com
     [s]. *)
 
 val ends_run : Component.outcome -> bool
+(** Whether the run ends by it. *)

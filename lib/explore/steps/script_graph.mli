@@ -4,6 +4,7 @@
 type t
 
 val create : unit -> t
+(** No place follows another. *)
 
 val follows : t -> int -> int -> unit
 (** [follows t p p'] notes that [p'] comes after [p], by numbers. *)

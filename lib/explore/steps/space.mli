@@ -32,6 +32,7 @@ type view =
   | Up_to of Task_group.t * Task_group.state  (** all states that become this one by symmetry *)
 
 val view : t -> int array -> view
+(** [view t key] is the content of the state [key]. *)
 
 val is_in_class : t -> Task_group.t -> Task_group.state -> Configuration.t -> Environment.t -> bool
 (** [is_in_class t g s c e] is whether [c] with [e] executes a task of [g], and is [s] as [g] sees it. *)
@@ -43,6 +44,7 @@ val breadth : t -> int array -> int
 (** [breadth t key] is how many components the task of [key] has; 0 if none executes. *)
 
 val program : t -> Core.program
+(** The program of {!create}. *)
 
 val unsettled : Core.program -> Fault.t -> Dolphin_checker.Limits.bound
 (** [unsettled p fault] reports that the successors of some state of [p] cannot be listed, because of [fault]: more
@@ -88,6 +90,7 @@ val may_all_stay_away : t -> int array -> Dolphin_semantics.Core.vehicle list ->
 (** [may_all_stay_away t key vs] is {!Environment.may_all_stay_away} in the state [key], in which a task executes. *)
 
 val inside : int
+(** Stands in [at] for the inside of a context; it is not a position. *)
 
 type layers = (int list * Dolphin_semantics.Residual.again) list
 (** The repeats around a step, the innermost first, each with its place. *)
@@ -120,6 +123,8 @@ val portable : ?digest:(string -> string) -> Portable.codec -> t -> portable
 (** [portable codec t] is for a [t] without symmetry. *)
 
 val give : portable -> string -> unit
+(** As {!Portable.give}. *)
+
 val news : portable -> string list
 (** As {!Portable.give} and {!Portable.news}: the parts that states name. *)
 

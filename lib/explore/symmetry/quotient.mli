@@ -3,6 +3,7 @@
 type t
 
 val create : Components.t -> Encoding.t -> t
+(** [create components encoding] is for tasks of these components in this encoding. *)
 
 val state : t -> Task_group.t -> Layout.t -> int array -> int -> Task_group.state
 (** [state t g s key n] is the state [key] of layout [s], with shared [n], for [g]. *)

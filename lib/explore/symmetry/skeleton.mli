@@ -4,8 +4,10 @@
 open Dolphin_semantics
 
 type context
+(** The skeletons of a program's code, memoised, and the numbers of its pairs. Mutable. *)
 
 val context : Dolphin_checker.Numbering.t -> Core.program -> context
+(** [context n p] is for the code of [p]; its numbers are of the numberings [n]. *)
 
 (** {1:pairs Pairs of N} *)
 
@@ -13,7 +15,10 @@ val pair : context -> string -> Core.value -> int
 (** [pair c k x] is a number for the pair [k: x]. *)
 
 val key_of : context -> int -> string
+(** [key_of c n] is the key of the pair with number [n]. *)
+
 val value_of : context -> int -> Core.value
+(** [value_of c n] is the value of the pair with number [n]. *)
 
 (** {1:skeletons Skeletons} *)
 

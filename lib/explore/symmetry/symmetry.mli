@@ -23,9 +23,11 @@ exception Broken of t
 (** The remaining assumed symmetries. Earlier results do not count. *)
 
 val none : t
+(** No symmetry: each state stands for itself. *)
 
 val find : Environment.options -> Core.program -> asked:Condition.t list -> World.t -> t
 (** [find o p ~asked w] is the symmetry that can be assumed before the exploration: {!Vehicle_orbits.find}, and
     symmetries of tasks unless the environment remembers vehicles, or posts, or some task recruits. *)
 
 val without_tasks : t -> t
+(** [without_tasks s] is the symmetries of vehicles and of the environment in [s], without those of tasks. *)

@@ -38,6 +38,7 @@ val equivalent : t -> Task_isomorphism.label -> Task_isomorphism.label list
 
     A state is the component classes of the parallel parts at the top, each a number, and the shared part. *)
 
+(** The component classes, ascending, and the number of the shared part. *)
 type state = { classes : int array; shared : int }
 
 val class_of : t -> Residual.t -> int
@@ -54,6 +55,7 @@ type permutation
 (** Of blocks. *)
 
 val identity : t -> permutation
+(** [identity s] moves no block of [s]. *)
 
 val compose : permutation -> permutation -> permutation
 (** [compose p q] is [q], then [p]. *)

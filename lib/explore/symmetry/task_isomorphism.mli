@@ -6,9 +6,13 @@ open Dolphin_semantics
 open Dolphin_environment
 
 type context
+(** The data that comparisons of one program's tasks share. Mutable. *)
 
 val context : Dolphin_checker.Numbering.t -> Environment.options -> Core.program -> context
+(** [context n o p] is for tasks of [p] in the environment [o]; its numbers are of the numberings [n]. *)
+
 val skeletons : context -> Skeleton.context
+(** The skeletons of the program's code. *)
 
 (** {1:labels Labels} *)
 

@@ -17,6 +17,7 @@ val find : Environment.options -> Core.program -> asked:Condition.t list -> Worl
     is broken after all ({!Canonical_vehicles}). *)
 
 val is_none : t -> bool
+(** Whether no two vehicles are in one orbit. *)
 
 val of_vehicle : t -> Core.vehicle -> Core.vehicle array
 (** [of_vehicle p v] is the orbit of [v], in the order of the world, if there are others in it; otherwise [[||]]. *)
@@ -30,6 +31,7 @@ type naming
 (** A permutation that is being made: it names the vehicles of each orbit in the order in which they are met. *)
 
 val naming : t -> naming
+(** [naming t] is a permutation of which nothing is decided. *)
 
 val name : naming -> Core.vehicle -> Core.vehicle
 (** [name n v] is the name that [v] has, or else the first of its orbit that no vehicle has yet, which is now its. *)

@@ -16,7 +16,9 @@ val vehicles : t -> Core.vehicle list
 (** Those that it asks for by name. *)
 
 val to_string : t -> string
+(** The text that {!of_string} read. *)
 
+(** The value of a condition in a state. *)
 type answer =
   | Holds
   | Fails
@@ -24,6 +26,7 @@ type answer =
   | Broken of string  (** its code is faulty, or does something *)
 
 val eval : Core.program -> World.t -> t -> Configuration.t -> answer
+(** [eval p w c configuration] is the value of [c] in [configuration], whose deeds are undone. *)
 
 val running : t -> (string * string option) list
 (** The plans, each perhaps with a vehicle, of which it asks whether they run. Otherwise the answer is a function of the

@@ -12,6 +12,7 @@ val monitor : t -> Dolphin_ltl.Monitor.t
 (** Of runs that violate the formula. *)
 
 val valuations : t -> Valuation.t
+(** The numbers of the valuations that the monitor's letters are. *)
 
 val observer : t -> Observer.t
 (** Its actions are those of the {!valuations}; its [valuation] raises {!Valuation.Broken}. *)

@@ -26,6 +26,7 @@ type observed = {
 }
 
 val observed : Transition.t -> observed
+(** [observed t] is that part of [t]. *)
 
 val holds_after : t -> observed -> bool
 (** [holds_after p (observed t)] is whether [p], which is of transitions, holds of [t]. *)

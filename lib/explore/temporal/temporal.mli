@@ -13,6 +13,7 @@ val of_string : Core.program -> string -> (t, string) result
 (** The error is one sentence. A formula may ask of 62 plans, with or without a vehicle, whether they run. *)
 
 val to_string : t -> string
+(** The text that {!of_string} read. *)
 
 val propositions : t -> Proposition.t array
 (** Each once. *)

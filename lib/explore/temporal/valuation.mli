@@ -9,6 +9,7 @@ exception Broken of string
 (** A condition in a formula is faulty. *)
 
 val create : Core.program -> World.t -> Proposition.t array -> t
+(** [create p w propositions] knows no valuation yet. Mutable. *)
 
 val action : t -> Transition.t -> int
 (** [action t x] is the number of the propositions that hold for [x]: {!Observer.nothing} if there are none. *)

@@ -5,8 +5,10 @@ open Dolphin_semantics
 type t
 
 val create : unit -> t
+(** Nothing is reached. *)
 
 val copy : t -> t
+(** [copy t] is what [t] has now; later changes of one leave the other as it is. *)
 
 val add : t -> t -> unit
 (** [add t t'] adds to [t] what [t'] has. *)

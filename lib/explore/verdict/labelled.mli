@@ -4,6 +4,7 @@ open Dolphin_semantics
 open Dolphin_environment
 
 type state = Configuration.t * Environment.t
+(** A configuration, with the environment's memory. *)
 
 val start : Core.program -> state
 (** The start of every run. *)

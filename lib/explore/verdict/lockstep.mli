@@ -4,6 +4,7 @@
 open Dolphin_semantics
 open Dolphin_environment
 
+(** A run: the steps, and a cycle that repeats without end after them, unless it is empty. *)
 type run = { steps : Transition.t list; cycle : Transition.t list }
 
 val follow :

@@ -10,6 +10,7 @@ val none : t
 (** Nothing. *)
 
 val of_transition : Transition.t -> t
+(** [of_transition t] is the assumptions of [t]. *)
 
 val is_event : Transition.t -> bool
 (** Whether it answers an event, which time may go before. *)
@@ -20,6 +21,7 @@ val contradict : World.assumption -> World.assumption -> bool
 (** {1:concerns Concerns} *)
 
 type concerns = World.assumption -> bool
+(** The assumptions that count; others are left out. *)
 
 val at_one_moment : Core.program -> concerns
 (** All that sensors and the date show. A comparison with a variable is left out, for the variable may be assigned. *)
@@ -33,6 +35,7 @@ type known
 (** Assumptions that hold at that moment, and others that do not. *)
 
 val nothing : known
+(** No assumption. *)
 
 val admits : concerns -> known -> t -> bool
 (** [admits c k looks] is whether some list of [looks] agrees with [k], as far as [c] concerns it. *)

@@ -29,6 +29,7 @@ val question : t -> string
 (** The meaning of a violation, in a sentence without a full stop. *)
 
 val pp : Format.formatter -> t -> unit
+(** {!name}. *)
 
 val broken_by_end : Core.program -> Rule.t list -> Configuration.t -> t option
 (** [broken_by_end program rules c] is the property of [program] violated by a run that reaches [c] by a transition

@@ -10,8 +10,13 @@ type t =
   | All  (** both *)
 
 val by_order : t -> bool
+(** Whether it leaves out orders of independent steps. *)
+
 val by_symmetry : t -> bool
+(** Whether it leaves out states that are others up to symmetry. *)
+
 val without_symmetry : t -> t
+(** [without_symmetry r] is [r], but for symmetry. *)
 
 val names : t -> string list
 (** Of the reductions: ["partial order"], ["symmetry"]. *)

@@ -4,6 +4,7 @@
 open Dolphin_semantics
 open Dolphin_environment
 
+(** A state: its configuration, and the environment's memory. *)
 type state = { configuration : Configuration.t; outside : Environment.t }
 
 type t = {
@@ -20,7 +21,10 @@ val explore :
     the program, or [None] if it has more than [limit] states, 100,000 by default. *)
 
 val transitions : t -> int
+(** The number of transitions. *)
+
 val depth : t -> int
+(** The most transitions of a shortest run to a state. *)
 
 val goes_round : t -> bool
 (** Whether some cycle stays within a task, made by a [repeat] without a number of rounds: fairness decides whether

@@ -26,6 +26,7 @@ open Dolphin_checker
 
 (** {1:options Options} *)
 
+(** This number of random walks, from this seed. *)
 type walks = { number : int; seed : int }
 
 (** Of which runs formulas are asked. *)
@@ -33,6 +34,7 @@ type fairness =
   | Weak  (** runs that are fair as for {!Property.Termination}, and endless runs without any event *)
   | No_fairness  (** all *)
 
+(** The contents of an exploration. *)
 type options = {
   environment : Environment.options;
   reduction : Reduction.t;
@@ -80,6 +82,7 @@ type run = {
       [shortest] speaks of these steps. [None]: the cycle violates it, or no formula is asked *)
 }
 
+(** The verdict on one property. [Unreached] is of {!Property.All_reached}: the pieces that no run reaches. *)
 type verdict =
   | Holds
   | Violated of run  (** without reduction, or if [search_again] states suffice, by a shortest run; for cycles,
@@ -90,6 +93,7 @@ type verdict =
   | Unreached of Coverage.piece list
   | Inconclusive of Limits.bound
 
+(** The results of an exploration. [seconds] are of the [clock] of its limits. *)
 type outcome = {
   states : int;
   transitions : int;

@@ -11,6 +11,7 @@ type nearness =
   | Near of Fences.near  (** nearer than the least distance *)
   | Unknown  (** the way of one of them is unknown: vehicles know it by name, or it depends on their positions *)
 
+(** Two plans that run at the same time in some run, each with its vehicle. *)
 type pair = {
   one : Core.vehicle * Core.platform_task;
   other : Core.vehicle * Core.platform_task;  (** of no lesser site *)
@@ -26,6 +27,8 @@ type t
 (** The pairs seen so far. *)
 
 val create : Fences.t -> t
+(** [create fences] has seen no pair. *)
+
 val fence : t -> Fences.fence option
 (** The least distance between vehicles, if there is one. *)
 

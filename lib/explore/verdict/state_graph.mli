@@ -13,9 +13,16 @@ val all : t -> int list
 (** The numbers of all states. *)
 
 val state : t -> int -> Configuration.t * Environment.t
+(** [state t i] is {!Space.state} of state [i]. *)
+
 val view : t -> int -> Space.view
+(** [view t i] is {!Space.view} of state [i]. *)
+
 val shared : t -> int -> int option
+(** [shared t i] is {!Space.shared} of state [i]. *)
+
 val breadth : t -> int -> int
+(** [breadth t i] is {!Space.breadth} of state [i]. *)
 
 val broken_by : t -> int -> Property.t option
 (** [broken_by t i] is the property that reaching state [i] breaks. *)

@@ -44,6 +44,7 @@ val explore :
     processes is returned when the process ends. *)
 
 val states : t -> int
+(** The number of states. *)
 
 val state : t -> int -> Configuration.t * Environment.t
 (** [state t i] is the configuration of state [i], with the environment's memory. *)

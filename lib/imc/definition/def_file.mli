@@ -1,5 +1,6 @@
 (** The project's own format for message definitions. [lib/imc/messages.def] describes it at its head. *)
 
+(** The first fault of a text, with its reason in a sentence without a full stop. *)
 type error = {
   line : int;  (** From 1; 0 if the fault is not of one line: a name that nothing defines. *)
   why : string;

@@ -5,6 +5,7 @@
 
 (** {1:numbers Numbers and their meaning} *)
 
+(** The numbers on the wire: unsigned, signed and floating-point ones, with their bits. *)
 type scalar = U8 | U16 | U32 | I8 | I16 | I32 | I64 | F32 | F64
 
 val scalar_name : scalar -> string
@@ -26,6 +27,7 @@ type meaning =
 
 (** {1:messages Messages} *)
 
+(** The type of a field on the wire. *)
 type typ =
   | Number of scalar * meaning
   | Text of { tuples : bool }
@@ -35,6 +37,7 @@ type typ =
   (** A message or none; [Some name] restricts it to a message or a group. *)
   | List of string option  (** Any number of messages, with the same restriction. *)
 
+(** A field of a message, in the order of the wire. *)
 type field = {
   name : string;
   typ : typ;
@@ -42,7 +45,10 @@ type field = {
   title : string;  (** Its description, when the name does not suffice. May be empty. *)
 }
 
+(** A message: its number on the wire, its abbreviation (["EstimatedState"]), its title in words. *)
 type message = { id : int; name : string; title : string; fields : field list }
+
+(** Messages that may stand in the same fields, by their abbreviations. *)
 type group = { name : string; members : string list }
 
 (** {1:definitions Definitions} *)
@@ -50,6 +56,7 @@ type group = { name : string; members : string list }
 type t
 (** A set of messages in which every name that is mentioned is defined. *)
 
+(** A definition that contradicts itself. *)
 type fault = { about : string;  (** The message or group that is at fault. *) why : string }
 
 val make :

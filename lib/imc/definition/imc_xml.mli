@@ -2,6 +2,7 @@
 
     The file is the user's: any version, extended or not. Sources: [IMC.xsd] beside it. *)
 
+(** The first fault of a document, with its place and its reason. *)
 type error = {
   line : int;  (** The end of the faulty tag, from 1; 0 if the fault is not of one tag. *)
   column : int;

@@ -55,9 +55,17 @@ let bits name members =
   let constants = List.map constant (List.filter Ocaml_types.constant members) in
   enclosed (spf "module %s : sig" name) (paragraphs ([ line "include Bits.S" ] :: constants)) "end"
 
-let set = function
-  | name, Ocaml_types.Enumeration_of members -> enumeration name members
-  | name, Ocaml_types.Bits_of members -> bits name members
+let set comment = function
+  | name, Ocaml_types.Enumeration_of members -> line "%s" (comment "The values") :: enumeration name members
+  | name, Ocaml_types.Bits_of members -> line "%s" (comment "The bits") :: bits name members
+
+let shared_set = set (spf "(** %s of fields of several messages. *)")
+
+(* Of the field that has the set for its own. *)
+let own_set (m : message) (name, members) =
+  let is_its (f : field) = String.equal (Names.module_ f.name) name in
+  let title = Option.fold (List.find_opt is_its m.fields) ~none:"" ~some:(fun (f : field) -> colon f.title) in
+  set (fun what -> spf "(** %s of a field%s. *)" what title) (name, members)
 
 (* {1 Messages and groups} *)
 
@@ -73,7 +81,7 @@ let message o (m : message) =
     match m.fields with
     | [] -> id
     | _ ->
-      let sets = List.map set (Ocaml_types.own_sets m) in
+      let sets = List.map (own_set m) (Ocaml_types.own_sets m) in
       paragraphs (sets @ [ Ocaml_types.record o m ~comment:field_comment; id; default ])
   in
   let title = if m.title = "" then "" else prose m.title ^ ". " in
@@ -83,7 +91,8 @@ let message o (m : message) =
 let group o (g : group) members =
   let item = Outline.Group (g, members) in
   let body = Ocaml_types.variant o item (List.map (fun m -> Outline.Message m) members) in
-  enclosed (spf "module %s : sig" (Names.module_ g.name)) body "end"
+  line "(** A message of IMC's group %s. *)" (prose g.name)
+  :: enclosed (spf "module %s : sig" (Names.module_ g.name)) body "end"
 
 let item o = function
   | Outline.Message m -> message o m
@@ -102,6 +111,7 @@ let head =
 
 let functions =
   {|val id : t -> int
+(** The number of the message. *)
 
 val name : t -> string
 (** The name in IMC's definition: ["PlanControl"]. *)
@@ -135,7 +145,7 @@ let title label words = [ line "(** {1:%s %s} *)" label words ]
 let code o =
   paragraphs
     ([ text head; title "values" "Values that several messages share" ]
-     @ List.map set (Ocaml_types.shared_sets o)
+     @ List.map shared_set (Ocaml_types.shared_sets o)
      @ [ title "messages" "Messages" ]
      @ List.map (item o) (Outline.items o)
      @ [ title "any" "Any message"; Ocaml_types.all o; text functions ])

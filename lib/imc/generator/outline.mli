@@ -2,6 +2,7 @@
 
 open Dolphin_imc_definition
 
+(** A part of the generated module. *)
 type item =
   | Message of Definition.message
   | Group of Definition.group * Definition.message list  (** With its members, by id. *)

@@ -15,6 +15,7 @@ type kind =
 val describe : kind -> string
 (** ["a number"]; {!Other} and {!Any} are ["a value"]. *)
 
+(** The functions whose arguments are pairs of N. *)
 type pairs = Post | Consume | Poll | Count
 
 (** The arguments of a function. *)
@@ -32,6 +33,7 @@ type arguments =
   | Assert  (** code, and perhaps a text *)
   | Fresh  (** code of keys *)
 
+(** The code in which a procedure may be called. *)
 type place =
   | Anywhere
   | Script_only  (** may wait, or changes B: not in code inside of a task *)

@@ -32,13 +32,19 @@ val constant : env -> Location.t -> value -> expression
 (** [constant env at x], like those below, makes an expression that stands at [at]. *)
 
 val apply : env -> Location.t -> operation -> expression list -> expression
+(** [apply env at o es] applies the operation [o] to the values of [es]. *)
 
 val block : env -> Location.t -> expression list -> expression
 (** One expression is itself. *)
 
 val local : env -> Location.t -> int -> expression
+(** [local env at slot] is the value of the local in [slot]. *)
+
 val set_local : env -> Location.t -> int -> expression -> expression
+(** [set_local env at slot e] puts the value of [e] into [slot], and has that value. *)
+
 val null : env -> Location.t -> expression
+(** [null env at] is the literal [null]. *)
 
 val unless_null : env -> Location.t -> expression -> (expression -> expression) -> expression
 (** [unless_null env at e f] is [null] if [e] is, otherwise [f x] of the local [x] that keeps the value of [e]. *)
@@ -55,8 +61,10 @@ val hint_for_setting : Ast.builder -> string -> string option
 (** [hint_for_setting b name] is the replacement for [name], which is not a setting of [b]. *)
 
 val sends_message : string
+(** The name of a procedure of the original language that is left out. *)
+
 val hint_for_message : string
-(** The name of a procedure of the original language that is left out, and its replacement. *)
+(** Its replacement, as a hint. *)
 
 (** {1:kinds Kinds} *)
 

@@ -7,6 +7,7 @@ module Location = Dolphin_syntax.Location
 (** {1:program One program} *)
 
 type program
+(** The tables of a program. Mutable. *)
 
 val create :
   ?first_site:Core.site ->
@@ -111,8 +112,13 @@ val goes_round : program -> bool
 (** Whether any may. *)
 
 val reads_sensors : program -> bool
+(** Whether {!note_sensor} was called. *)
+
 val reads_now : program -> bool
+(** Whether {!note_now} was called. *)
+
 val asks_running : program -> bool
+(** Whether {!note_running} was called. *)
 
 val note_hint : program -> certain:bool -> Location.t -> (string -> string) -> unit
 (** [note_hint program ~certain at hint]: if the name there is unknown, [hint name] is the correction; if it is not
@@ -131,6 +137,7 @@ val has_like : program -> string -> bool
 (** Whether this may be a misspelt variable of the program. *)
 
 val is_parameter : program -> string -> bool
+(** Whether this is the name of a parameter that the program declares. *)
 
 val chart : program -> string -> (Chart.t, string) result
 (** The arguments of {!create}. *)
@@ -159,6 +166,7 @@ type purpose =
   | Handler
 
 type code
+(** A piece of code, with its locals and what is around it. Mutable. *)
 
 val code : program -> purpose -> code option -> code
 (** [code p purpose outer] is a new piece inside of [outer]. *)
@@ -188,6 +196,7 @@ val in_block : code -> (unit -> 'a) -> 'a
 val at_top : code -> bool
 (** Whether a [def] here makes a global: in the script, outside of any block. *)
 
+(** A local by its slot: [Own] of the piece, or [Captured] by it. *)
 type local = Own of int | Captured of int
 
 val find_local : code -> string -> local option

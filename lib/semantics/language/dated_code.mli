@@ -6,6 +6,7 @@ open Core
 type t
 
 val of_program : program -> t
+(** [of_program p] finds the dates of all code in [p], once. *)
 
 val next : t -> program -> World.t -> now:int -> Store.t -> int option
 (** [next t p w ~now s] is a date after [now], and none after the first at which code of [p] may do something else

@@ -33,6 +33,7 @@ type frame =
       at : site;
     }
 
+(** The next thing to do: evaluate an expression, or give a value to the top of the stack. *)
 type focus = Evaluate of expression | Give of value
 
 type t = { focus : focus; locals : value array; stack : frame list; calls : int;  (** as many as [Leave] in [stack] *)
@@ -71,6 +72,7 @@ val name_of_call : subject:string option -> member:string -> string
 val compare_request : Code.request -> Code.request -> int
 (** A total order. *)
 
+(** The reason why a machine stops. *)
 type stop =
   | Exhausted  (** the fuel ran out; the machine can go on *)
   | Finished of value

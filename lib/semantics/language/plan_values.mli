@@ -25,6 +25,7 @@ val string : string reader
 (** Not empty. *)
 
 val boolean : bool reader
+(** [true] or [false]. *)
 
 val within : float -> float -> string -> float reader
 (** [within from upto unit] reads numbers from [from] to [upto], both included. Faults have [unit] after the numbers,

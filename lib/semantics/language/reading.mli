@@ -4,6 +4,7 @@
 
 open Core
 
+(** A sensor that a program looks at: its place, or another. *)
 type subject = Position | Sensor of sensor
 
 val subject : string -> subject option
@@ -34,3 +35,4 @@ type applied =
   | As_any  (** the operation treats readings as it does any values *)
 
 val apply : World.t -> site -> operation -> value list -> applied
+(** [apply w at o xs] is the result of [o], which stands at [at], for [xs] in the world [w]. *)

@@ -11,8 +11,10 @@ type filter = Vehicle_filter.t = {
   region : Dolphin_geo.Area.t option;
 }
 
+(** The number of vehicles that a [pick] asks for. *)
 type count = Exactly of int | All  (** [count _] *)
 
+(** The contents of a [pick] block. *)
 type pick = {
   filter : filter;
   count : count;

@@ -4,6 +4,7 @@
 
 open Core
 
+(** Metres over the ground; seconds; the share of a battery, from 0 to 1. *)
 type quantity = Length | Duration | Energy
 
 val quantity : string -> quantity option

@@ -14,6 +14,7 @@ type applied =
   | As_any  (** the operation treats them as it does any values *)
 
 val apply : operation -> value list -> applied
+(** [apply o xs] is the result of [o] for [xs]. *)
 
 val iterated : Code.iteration -> value list -> (value option, unknown) result
 (** [iterated i results] is the combined results of an iteration, if some of them are unknown and decide it; [None]:

@@ -12,6 +12,7 @@ type mark =
   | Within  (** has an index of its own, of all but [Alone] *)
 
 val compare_marks : mark -> mark -> int
+(** A total order of marks. *)
 
 val of_list : 'a list -> 'a t
 (** [of_list rs] has the branches [rs], without an index. *)
@@ -20,11 +21,13 @@ val begun : marks:('a -> mark list) -> 'a list -> 'a t
 (** [begun ~marks rs] has the branches [rs], with an index by [marks] if they are many. *)
 
 val to_list : 'a t -> 'a list
+(** The branches, from left to right. *)
 
 val only : 'a t -> 'a option
 (** [only bs] is the branch of [bs], if there is no other. *)
 
 val is_indexed : 'a t -> bool
+(** Whether it has an index: there are many branches, and they have begun. *)
 
 (** {1:places Places} *)
 

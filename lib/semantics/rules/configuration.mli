@@ -28,6 +28,7 @@ type ending =
 val compare_ending : ending -> ending -> int
 (** A total order; faults are compared with their sites. *)
 
+(** The control part: the place of the script, and the task that it executes. *)
 type control =
   | Script of Machine.t
   | Waiting of Machine.t * Code.request  (** the script waits; never for [Execute] *)
@@ -53,6 +54,7 @@ val compare : t -> t -> int
     control, store, A, B and N. *)
 
 val equal : t -> t -> bool
+(** [equal c d] is [compare c d = 0]. *)
 
 val hash : t -> int
 (** Equal configurations have equal hashes. *)

@@ -48,6 +48,7 @@ val compare : t -> t -> int
 (** A total order; values of tuples are compared by their texts. *)
 
 val equal : t -> t -> bool
+(** [equal l m] is [compare l m = 0]. *)
 
 val pp : Format.formatter -> t -> unit
 (** ["start(noptilus-1, survey1)"], ["check(consume ready:1)"]. *)

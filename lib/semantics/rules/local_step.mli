@@ -24,6 +24,7 @@ type event =
   | Interruption
 
 val equal_event : event -> event -> bool
+(** Whether all parts are the same; values as {!Value.compare} has it, so that [1] and [1.0] differ. *)
 
 (** The new residual. *)
 type outcome =

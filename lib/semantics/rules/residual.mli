@@ -49,6 +49,7 @@ type t =
   | Recruited of vehicle * t  (** has the vehicle, which is released when it ends *)
   | Fresh of timer list * t  (** has the keys of these numbers, for itself alone *)
 
+(** A branch [when { guard } then body] of an [allOf] or [oneOf]. *)
 and branch = { guard : closure; body : t }
 
 (** The code that errors come to. If it may recover ({!Recovery}), [anew] is the watched task, and the vehicles that
@@ -71,7 +72,10 @@ val compare : t -> t -> int
     values. *)
 
 val equal : t -> t -> bool
+(** [equal r s] is [compare r s = 0]. *)
+
 val hash : t -> int
+(** Equal residuals have equal hashes. *)
 
 val pp : Format.formatter -> t -> unit
 (** A short text in the language's syntax. *)
@@ -178,6 +182,7 @@ val may_go_round : t -> bool
     the whole, not the parts beside it ({!Task_rules.change_within}); so its steps can be computed once. A [Parallel]
     is not a context: several of its branches have begun. *)
 
+(** One layer around a running part. *)
 type context =
   | In_sequence of t list  (** [_ >> t1 >> ... >> tn] *)
   | Branch_of of branch list  (** [allOf(_; bs)] *)

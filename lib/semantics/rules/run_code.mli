@@ -2,11 +2,13 @@
 
 open Core
 
+(** The end of a piece of code. *)
 type outcome =
   | Gives of value * Shared.t * Code.deed list  (** the deeds of the code, first deed first *)
   | Faulty of Fault.t * Code.deed list  (** its messages before; all its other deeds are undone *)
   | Halts of string * Shared.t * Code.deed list
 
+(** The outcome of a piece of code, with the world and the mode that it leaves. *)
 type result = {
   world : World.t;  (** with its assumptions *)
   outcome : outcome;

@@ -26,6 +26,7 @@ val compare : t -> t -> int
 (** A total order, of which {!equal} is the equality. *)
 
 val equal : t -> t -> bool
+(** [equal s s'] is [compare s s' = 0]. *)
 
 val hash : t -> int
 (** Equal shared parts have equal hashes. *)

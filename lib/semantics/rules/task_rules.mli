@@ -44,6 +44,7 @@ type round = Endless of again | Asked of again | Retried of site
 (** The task that a handler runs in the place of its own: that task again, or the task that it gives. *)
 type recovery = Anew | Instead of task
 
+(** The state of a task after a step. [Handling]: its error goes to [handler], whose verdict decides the change. *)
 type outcome =
   | Next of t
   | Finished

@@ -46,6 +46,7 @@ type event = Local_step.event =
   | Interruption
 
 val equal_event : event -> event -> bool
+(** As {!Local_step.equal_event}. *)
 
 type t = Conclusion.t = {
   rules : Rule.t list;  (** the derivation, from the axiom outwards *)

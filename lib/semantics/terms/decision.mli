@@ -13,7 +13,10 @@ val look : World.t -> (World.t -> ('a, World.question) result) -> 'a t
 (** [look w f] is [f w], with its questions asked one after the other. *)
 
 val map : ('a -> 'b) -> 'a t -> 'b t
+(** [map f d] is [d] with [f x] for each result [x]. *)
+
 val bind : 'a t -> ('a -> 'b t) -> 'b t
+(** [bind d f] is [d] with the decisions of [f x] in the place of each result [x]. *)
 
 val leaves : 'a t -> (World.assumption list * ('a, Fault.t) result) Seq.t
 (** [leaves d] is all results of [d], computed on demand, each with its assumptions; an error where they are unclear. *)

@@ -40,11 +40,13 @@ module type VALUE = sig
   (** [normal x] is the same for all values that programs take for equal. *)
 
   val pp : Format.formatter -> t -> unit
+  (** A value as messages show it. *)
 end
 
 (** Metavariables: [k] is a key, [x] a value, [n] a space. Costs: [p] is the number of pairs with key [k]. *)
 module type S = sig
   type value
+  (** The values of pairs. *)
 
   type t
 

@@ -24,12 +24,16 @@ val compare_task : Core.task -> Core.task -> int
 (** As {!compare}; so is {!compare_closure}. *)
 
 val compare_closure : Core.closure -> Core.closure -> int
+(** A total order: by the piece of program, then by the captured values. *)
+
 val compare_on_cut : Core.on_cut -> Core.on_cut -> int
+(** A total order. *)
 
 val hash : t -> int
 (** Equal values have equal hashes. *)
 
 val hash_closure : Core.closure -> int
+(** Closures that are equal by {!compare_closure} have equal hashes. *)
 
 (** {1:language As the language has it} *)
 

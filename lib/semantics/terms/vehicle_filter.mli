@@ -8,3 +8,4 @@ type t = {
 }
 
 val compare : t -> t -> int
+(** A total order. *)

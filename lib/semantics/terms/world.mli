@@ -17,6 +17,7 @@
         assert (not (List.exists World.is_ready (World.vehicles world)))
     ]} *)
 
+(** The latest reports of a vehicle. *)
 type vehicle_state = {
   id : Core.vehicle;
   kind : string;  (** ["UUV"], ["UAV"], ["USV"], ["ROV"], ... *)
@@ -83,6 +84,7 @@ type assumption =
   | Claim of string * bool  (** this comparison with a sensor's value holds, or does not *)
 
 val compare_assumption : assumption -> assumption -> int
+(** A total order. *)
 
 val pp_assumption : Format.formatter -> assumption -> unit
 (** ["battery(x8-02) is 0.2"], ["battery(x8-02) < 0.3 is true"], ["x8-02 is missing"]. *)
@@ -136,6 +138,7 @@ val position : t -> vehicle_state -> Dolphin_geo.Position.t shown
 (** [position w s] is the place of [s]. *)
 
 val date : t -> date
+(** The date of the world, as {!at} sets it. *)
 
 type question = assumption list
 (** The open values, by the possible assumptions: one of these, and no two of them. *)

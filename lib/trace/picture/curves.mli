@@ -1,8 +1,11 @@
 (** The reports of vehicles over time, one curve each. *)
 
 type quantity
+(** A quantity that vehicles report. *)
 
 val batteries : quantity
+(** Charges, from 0 to 1. *)
+
 val heights : quantity
 (** Metres above the ellipsoid; below the surface they are less than 0. *)
 

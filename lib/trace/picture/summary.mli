@@ -4,6 +4,7 @@
 (** The unit of times: seconds since the start, or numbers of steps, for a run without times. *)
 type clock = Seconds | Steps
 
+(** The end of a vehicle's task. *)
 type ending =
   | Done
   | Failed of string  (** why *)
@@ -19,7 +20,10 @@ type task = {
   way : Entry.way option;  (** [None]: not in the journal *)
 }
 
+(** A report of a vehicle on its place, with its battery then, from 0 to 1. *)
 type sample = { time : float; position : Dolphin_geo.Position.t; battery : float option }
+
+(** The seconds, or steps, from [from] to [until]. *)
 type span = { from : float; until : float }
 
 (** All lists are in order of time. *)

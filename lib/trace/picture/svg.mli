@@ -36,6 +36,7 @@ val path : ?name:string -> ?tip:string -> string -> t
 val text_only : string -> t
 (** Text for an element of another kind. *)
 
+(** The point of a text that stands at its place. *)
 type anchor = Start | Middle | End
 
 val text : ?name:string -> ?anchor:anchor -> ?tip:string -> float * float -> string -> t

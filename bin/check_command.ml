@@ -1,7 +1,8 @@
 open Cmdliner
 open Dolphin_app
+module Safe_print = Dolphin_display.Safe_print
 
-let verdict path found = Format.printf "%s: %s@." (Dolphin_trace.Phrase.harmless path) (Report.counts found)
+let verdict path found = Safe_print.pp "%s: %s@." path (Report.counts found)
 
 (* Reports the faults of the file [path], if it can be read at all. *)
 let checked path = function
@@ -22,7 +23,7 @@ let checked_plans program fleet = function
     | Error (Error.Interrupted _ as e) -> Report.error e
     | Error e -> Report.tell e; Bad_input
     | Ok verdicts ->
-      List.iter (fun v -> List.iter print_endline (Adapter_check.lines v)) verdicts;
+      List.iter (fun v -> List.iter Safe_print.line (Adapter_check.lines v)) verdicts;
       if List.for_all Adapter_check.is_fine verdicts then Done else Bad_input
 
 let run path set fleet adapters =

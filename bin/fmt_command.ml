@@ -1,5 +1,6 @@
 open Cmdliner
 open Dolphin_app
+module Safe_print = Dolphin_display.Safe_print
 
 let ( let* ) = Result.bind
 let standard_input = "standard input"
@@ -10,7 +11,7 @@ let format_input check =
   let* source = Text_file.read_input () in
   let* text = Source_file.formatted ~file:standard_input source in
   if not check then print_string text
-  else if text <> source then Printf.printf "%s\n" standard_input;
+  else if text <> source then Safe_print.f "%s\n" standard_input;
   Ok (text = source)
 
 let format_file check path =
@@ -19,7 +20,7 @@ let format_file check path =
   if text = source then Ok true
   else begin
     let* () = if check then Ok () else Source_file.replace path text in
-    Printf.printf "%s\n" path;
+    Safe_print.line path;
     Ok false
   end
 

@@ -1,5 +1,6 @@
 open Cmdliner
 open Dolphin_app
+module Safe_print = Dolphin_display.Safe_print
 
 let ( let* ) = Result.bind
 
@@ -8,7 +9,7 @@ let is_program topic = Filename.extension topic <> "" || Sys.file_exists topic
 let of_program path =
   Report.result
     (let* program = Program_file.load path in
-     List.iter print_endline (Program_help.lines program);
+     List.iter Safe_print.line (Program_help.lines program);
      Ok Exit_status.Done)
 
 (* A pager would have the output, and the error if it cannot be written. *)

@@ -1,6 +1,7 @@
 open Cmdliner
 open Dolphin_app
 open Dolphin_lts
+module Safe_print = Dolphin_display.Safe_print
 
 type equivalence = Strong
 
@@ -15,9 +16,9 @@ let write format output graph =
 
 let compare_graphs left right =
   match Compare.strong (Graph.without_doubles left) (Graph.without_doubles right) with
-  | Ok () -> print_endline "strongly bisimilar"; Exit_status.Done
+  | Ok () -> Safe_print.line "strongly bisimilar"; Exit_status.Done
   | Error difference ->
-    Format.printf "not bisimilar@.%a@." Compare.pp_difference difference;
+    Safe_print.pp "not bisimilar@.%a@." Compare.pp_difference difference;
     Exit_status.Violated
 
 (* Writing and comparing are ended by Ctrl-C at once. *)

@@ -1,8 +1,9 @@
 open Cmdliner
 open Dolphin_app
+module Safe_print = Dolphin_display.Safe_print
 
 let tell folder =
-  Printf.printf
+  Safe_print.f
     "%s is a mission to start from; see its README.md. Try there:\n\
     \  dolphin exec mission.dol      runs it on the simulated fleet\n\
     \  dolphin explore mission.dol   checks every possible run\n"

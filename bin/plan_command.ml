@@ -1,6 +1,7 @@
 open Cmdliner
 open Dolphin_app
 open Dolphin_runtime
+module Safe_print = Dolphin_display.Safe_print
 
 let ( let* ) = Result.bind
 
@@ -42,7 +43,7 @@ let print_all fences found outcome : Exit_status.t =
         (Option.fold ~none:"" ~some:told (Inline_plans.broken fences f))
     | None -> f.name ^ " (by name)"
   in
-  List.iter (fun f -> print_endline (line f)) found;
+  List.iter (fun f -> Safe_print.line (line f)) found;
   Done
 
 let print_summary fences name found outcome : Exit_status.t =
@@ -62,7 +63,7 @@ let print_checked adapters name found =
     let* verdicts = Platform_options.ask adapters chosen in
     if name <> None then
       List.iter (fun f -> print_endline (Dolphin_json.Canonical.to_lines (Adapter_check.to_json f))) chosen;
-    List.iter (fun v -> List.iter print_endline (Adapter_check.lines v)) verdicts;
+    List.iter (fun v -> List.iter Safe_print.line (Adapter_check.lines v)) verdicts;
     Ok (if List.for_all Adapter_check.is_fine verdicts then Exit_status.Done else Failed)
 
 (* {1 For maps} *)

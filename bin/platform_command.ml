@@ -1,5 +1,6 @@
 open Cmdliner
 open Dolphin_app
+module Safe_print = Dolphin_display.Safe_print
 module Kit = Dolphin_platform_kit.Kit
 
 let ( let* ) = Result.bind
@@ -8,11 +9,11 @@ let tell (v : Kit.verdict) =
   (match v.wrong with
    | None ->
      let remark = Option.fold v.remark ~none:"" ~some:(fun text -> " (" ^ text ^ ")") in
-     Printf.printf "ok    %-16s %s%s\n" v.name v.what remark
+     Safe_print.f "ok    %-16s %s%s\n" v.name v.what remark
    | Some why ->
-     Printf.printf "FAIL  %-16s %s\n" v.name v.what;
-     Printf.printf "      %s\n" why;
-     List.iter (fun line -> Printf.printf "      | %s\n" line) v.transcript);
+     Safe_print.f "FAIL  %-16s %s\n" v.name v.what;
+     Safe_print.f "      %s\n" why;
+     List.iter (fun line -> Safe_print.f "      | %s\n" line) v.transcript);
   flush stdout
 
 let known only =
@@ -25,7 +26,7 @@ let known only =
 
 let conclude command junit verdicts =
   let failed = List.filter (fun (v : Kit.verdict) -> v.wrong <> None) verdicts in
-  Printf.printf "%d of %d situations passed\n%!" (List.length verdicts - List.length failed) (List.length verdicts);
+  Safe_print.f "%d of %d situations passed\n%!" (List.length verdicts - List.length failed) (List.length verdicts);
   let* () = Option.fold junit ~none:(Ok ()) ~some:(fun path ->
       Text_file.write path (fun channel -> output_string channel (Kit.to_junit ~command verdicts))) in
   Ok (if failed = [] then Exit_status.Done else Failed)
@@ -41,7 +42,7 @@ let run command short long vehicle patience only junit =
      match Lwt_main.run judged with
      | Some verdicts -> conclude command junit verdicts
      | None ->
-       print_endline "interrupted; the adapter is ended";
+       Safe_print.line "interrupted; the adapter is ended";
        Ok Exit_status.Interrupted)
 
 (* {1 The command line} *)

@@ -1,5 +1,6 @@
 open Cmdliner
 open Dolphin_app
+module Safe_print = Dolphin_display.Safe_print
 
 let ( let* ) = Result.bind
 let trouble result = Result.map_error (fun why -> Error.Bad_input why) result
@@ -17,14 +18,14 @@ let post connection words =
 let status connection =
   let* json = trouble (Run_socket.ask connection [ ("request", `String "status") ]) in
   let open Yojson.Safe.Util in
-  Printf.printf "%s, at %s\n" (to_string (member "program" json))
+  Safe_print.f "%s, at %s\n" (to_string (member "program" json))
     (Dolphin_trace.Phrase.time (to_number (member "time" json)));
   let questions = match member "questions" json with `List found -> found | _ -> [] in
   (match to_list (member "inputs" json), questions with
-   | [], [] -> print_endline "nothing can be posted: the program declares no input"
+   | [], [] -> Safe_print.line "nothing can be posted: the program declares no input"
    | keys, questions ->
-     List.iter (fun key -> print_endline ("input '" ^ to_string key ^ "'")) keys;
-     List.iter (fun prompt -> print_endline ("question '" ^ to_string prompt ^ "': yes or no")) questions);
+     List.iter (fun key -> Safe_print.line ("input '" ^ to_string key ^ "'")) keys;
+     List.iter (fun prompt -> Safe_print.line ("question '" ^ to_string prompt ^ "': yes or no")) questions);
   Ok ()
 
 let follow connection =

@@ -1,6 +1,7 @@
 open Cmdliner
 open Dolphin_app
 open Dolphin_trace
+module Safe_print = Dolphin_display.Safe_print
 
 (* {1 List} *)
 
@@ -15,8 +16,8 @@ let row ({ name; header; time; state; _ } : Run_folder.run) =
 let heads = [ "RUN"; "PROGRAM"; "PLATFORM"; "STATE"; "TIME" ]
 
 let tell = function
-  | [] -> print_endline "no run has been kept: dolphin exec --keep keeps one"
-  | runs -> List.iter print_endline (Dolphin_display.Text_table.lines heads (List.map row runs))
+  | [] -> Safe_print.line "no run has been kept: dolphin exec --keep keeps one"
+  | runs -> List.iter Safe_print.line (Dolphin_display.Text_table.lines heads (List.map row runs))
 
 let list () =
   Report.result
@@ -32,7 +33,7 @@ let show transitions name =
   Report.result
     (Result.map
        (fun path ->
-          Format.printf "%s@.@." path;
+          Safe_print.pp "%s@.@." path;
           Trace_command.show transitions path)
        (Run_folder.find name))
 

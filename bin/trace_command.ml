@@ -1,6 +1,7 @@
 open Cmdliner
 open Dolphin_app
 open Dolphin_trace
+module Safe_print = Dolphin_display.Safe_print
 
 (* {1 Files} *)
 
@@ -37,7 +38,7 @@ let check_times program_path set path fleet tolerance =
     let recorded = Journal_file.settings path in
     let* p, fleet = Program_file.load_with_fleet ~set ?recorded ~fleet program_path in
     let* findings = Time_check.check ?tolerance p fleet path in
-    List.iter print_endline findings;
+    List.iter Safe_print.line findings;
     Ok (if findings = [] then Exit_status.Done else Failed)
 
 let check program_path set path fleet most timed tolerance =
@@ -54,7 +55,7 @@ let check program_path set path fleet most timed tolerance =
      in
      Option.iter (tell_change program_path p) header;
      let* status = status path verdict in
-     Format.printf "@[<v 2>%s: %a@]@." path Verdict.pp verdict;
+     Safe_print.pp "@[<v 2>%s: %a@]@." path Verdict.pp verdict;
      times status)
 
 let check_exits =

@@ -3,11 +3,13 @@ open Cmdliner
 let reporter =
   let report src level ~over k message =
     message @@ fun ?header:_ ?tags:_ format ->
-    let finish _ = over (); k () in
-    Format.kfprintf finish Format.err_formatter
-      ("%s %s: @[<h>" ^^ format ^^ "@]@.")
-      (Logs.Src.name src)
-      (Logs.level_to_string (Some level))
+    (* Names and texts of vehicles, fleets and clients are part of messages. *)
+    let finish text =
+      Format.eprintf "%s@." (Dolphin_trace.Phrase.harmless text);
+      over ();
+      k ()
+    in
+    Format.kasprintf finish ("%s %s: @[<h>" ^^ format ^^ "@]") (Logs.Src.name src) (Logs.level_to_string (Some level))
   in
   { Logs.report }
 

@@ -1,5 +1,6 @@
 open Cmdliner
 open Dolphin_app
+module Safe_print = Dolphin_display.Safe_print
 
 let ( let* ) = Result.bind
 
@@ -9,7 +10,7 @@ let columns () =
   else Option.value (Option.bind (Sys.getenv_opt "COLUMNS") int_of_string_opt) ~default:80
 
 (* Choices and traces may quote texts from anywhere. *)
-let print text = print_endline (Dolphin_trace.Phrase.harmless text)
+let print = Safe_print.line
 
 (* Text typed on a terminal stands there already. *)
 let read prompt =

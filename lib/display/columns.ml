@@ -169,7 +169,7 @@ let row ?shown (program : Core.program) ~source (before : Configuration.t option
 
 let place row =
   match row.at with
-  | Some at -> Printf.sprintf "%s:%d" (Filename.basename (Location.file at)) (Location.line at)
+  | Some at -> Phrase.one_line (Printf.sprintf "%s:%d" (Filename.basename (Location.file at)) (Location.line at))
   | None -> ""
 
 let is_shown (t : Transition.t) = match t.label with Silent -> t.assumed <> [] | _ -> true

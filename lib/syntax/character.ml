@@ -10,7 +10,7 @@ let printable text =
       match length text i with
       | 1 when text.[i] = '\n' -> Buffer.add_char buffer '\n'; from (i + 1)
       | 0 -> Buffer.add_char buffer '?'; from (i + 1)
-      | n when Utf8.is_control text i -> Buffer.add_char buffer '?'; from (i + n)
+      | n when Utf8.is_unfit text i -> Buffer.add_char buffer '?'; from (i + n)
       | n -> Buffer.add_substring buffer text i n; from (i + n)
   in
   from 0;

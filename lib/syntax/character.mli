@@ -5,5 +5,5 @@ val length : string -> int -> int
     it is a zero byte. *)
 
 val printable : string -> string
-(** [printable text] is [text] with ["?"] for each control character but line ends, and for each byte that is not part
-    of a character: fit for terminals. *)
+(** [printable text] is [text] with ["?"] for each character but line ends that {!Dolphin_utf8.Utf8.is_unfit}, and for
+    each byte that is not part of a character: fit for terminals. *)

@@ -1,4 +1,5 @@
 open Ast
+module Utf8 = Dolphin_utf8.Utf8
 
 (* {1 Precedence}
 
@@ -75,6 +76,12 @@ let builder = function
 
 (* {1 Words and texts} *)
 
+(* The code of the character of [n] bytes, two or three, at [i]. *)
+let code text i n =
+  let byte k = Char.code text.[i + k] in
+  let tail k = byte k land 0x3F in
+  if n = 2 then ((byte 0 land 0x1F) lsl 6) lor tail 1 else ((byte 0 land 0x0F) lsl 12) lor (tail 1 lsl 6) lor tail 2
+
 let escaped ~quote text =
   let buffer = Buffer.create (String.length text + 8) in
   let add = function
@@ -84,10 +91,19 @@ let escaped ~quote text =
     | '\r' -> Buffer.add_string buffer "\\r"
     | '$' when quote = '"' -> Buffer.add_string buffer "\\$"
     | c when c = quote -> Buffer.add_char buffer '\\'; Buffer.add_char buffer c
-    | c when c < ' ' || c = '\x7F' -> Buffer.add_string buffer (Printf.sprintf "\\u%04x" (Char.code c))
+    | c when c < ' ' || c = '\x7F' -> Printf.bprintf buffer "\\u%04x" (Char.code c)
     | c -> Buffer.add_char buffer c
   in
-  String.iter add text;
+  (* Characters of two bytes and more that people could not see, or that would reorder the line. *)
+  let rec from i =
+    if i < String.length text then
+      match Utf8.length text i with
+      | (2 | 3) as n when Utf8.is_unfit text i ->
+        Printf.bprintf buffer "\\u%04x" (code text i n);
+        from (i + n)
+      | _ -> add text.[i]; from (i + 1)
+  in
+  from 0;
   Buffer.contents buffer
 
 let quoted text = "'" ^ escaped ~quote:'\'' text ^ "'"

@@ -11,8 +11,8 @@ val count : int -> string -> string
     Names of vehicles and messages may come from anywhere. *)
 
 val harmless : string -> string
-(** [harmless text] is [text] without control characters, which could command the terminal, and in UTF-8; lines
-    stay lines. *)
+(** [harmless text] is [text] without characters that could command the terminal or reorder the line
+    ({!Dolphin_utf8.Utf8.is_unfit}), and in UTF-8; lines stay lines. *)
 
 val one_line : string -> string
 (** [one_line text] is [harmless text] with a blank for each end of a line. *)

@@ -22,6 +22,15 @@ let is_control text i =
   | '\xC2' -> i + 1 < String.length text && text.[i + 1] >= '\x80' && text.[i + 1] <= '\x9F'
   | _ -> false
 
+let is_unfit text i =
+  let second = if i + 1 < String.length text then text.[i + 1] else ' ' in
+  let third = if i + 2 < String.length text then text.[i + 2] else ' ' in
+  match text.[i], second with
+  | '\xE2', '\x80' -> third >= '\xA8' && third <= '\xAE'
+  | '\xE2', '\x81' -> third >= '\xA6' && third <= '\xA9'
+  | '\xEF', '\xBF' -> third = '\xBE' || third = '\xBF'
+  | _ -> is_control text i
+
 let is_valid text =
   let rec from i = i >= String.length text || match length text i with 0 -> false | n -> from (i + n) in
   from 0
@@ -53,8 +62,8 @@ let strays text =
 let is_line text =
   let rec from i =
     i >= String.length text
-    || match length text i with 0 -> false | n -> (not (is_control text i)) && from (i + n)
+    || match length text i with 0 -> false | n -> (not (is_unfit text i)) && from (i + n)
   in
   from 0
 
-let line text = if is_line text then text else replace ~odd:is_control text
+let line text = if is_line text then text else replace ~odd:is_unfit text

@@ -45,8 +45,8 @@ A file with errors stays, and others are formatted.
     1 | execute (
       |         ^
       hint: a ')' is missing
-  dolphin: missing.dol: No such file or directory
   again.dol
+  dolphin: missing.dol: No such file or directory
   [2]
   $ cat bad.dol
   execute (

@@ -20,13 +20,14 @@ import tempfile
 import time
 
 import consoles
+import doors
 import readers
 import searches
 from readers import Bench
 
 ROOT = pathlib.Path(__file__).absolute().parents[2]
 MOST_KEPT = 100
-READERS = {**readers.READERS, **searches.READERS, **consoles.READERS}
+READERS = {**readers.READERS, **searches.READERS, **consoles.READERS, **doors.READERS}
 
 
 def arguments():

@@ -197,7 +197,7 @@ def definitions(bench, random, folder):
   planName 'p'
   speed 1.5, Speed.Units.METERS_PS
   z 2, Z.Units.DEPTH
-  locate location 41.18, -8.7
+  locate location(41.18, -8.7)
   goTo()
 }
 execute p[pick { type 'UUV' }]

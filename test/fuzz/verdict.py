@@ -10,7 +10,8 @@ import tempfile
 import xml.parsers.expat
 
 MEMORY = 1 << 20  # KiB of address space
-CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f]")
+# Control characters, ends of lines and changes of direction in Unicode, and characters that XML does not have.
+CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ufffe\uffff]")
 LIMITED = 'ulimit -S -t "$1"; ulimit -v "$2"; ulimit -c 0; shift 2; exec "$@"'
 
 

@@ -18,6 +18,7 @@ WRONG = {
     "utf-8": lambda: sys.stderr.buffer.write(b"unexpected '\xff'\n"),
     "control": lambda: sys.stderr.write("unexpected '\x1b[2J'\n"),
     "c1": lambda: sys.stderr.write("unexpected '\x9b2J'\n"),
+    "direction": lambda: sys.stderr.write("unexpected '\u202e'\n"),
     "json": lambda: sys.stdout.write('{"battery": NaN}\n'),
     "infinite": lambda: sys.stdout.write('{"height": 1e999}\n'),
     "bug": lambda: sys.exit(125),

@@ -15,6 +15,11 @@ let every_character () =
       let control = code < 0x20 || (code >= 0x7F && code <= 0x9F) in
       if Utf8.length text 0 <> String.length text then Alcotest.failf "U+%04X has no length" code;
       if Utf8.is_control text 0 <> control then Alcotest.failf "U+%04X as a control character" code;
+      let is_unfit =
+        control || (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069)
+        || code = 0xFFFE || code = 0xFFFF
+      in
+      if Utf8.is_unfit text 0 <> is_unfit then Alcotest.failf "U+%04X as a character for people" code;
       if String.length text > 1 && Utf8.is_valid (String.sub text 0 (String.length text - 1)) then
         Alcotest.failf "U+%04X cut short" code
     end
@@ -56,6 +61,10 @@ let texts =
 let case name law = Property.case ~count:2000 name ~print:String.escaped texts law
 let is_line text = not (String.exists (fun c -> c < ' ' || c = '\x7F') text)
 
+let is_fit text =
+  List.for_all (fun i -> not (Utf8.is_unfit text i)) (List.init (String.length text) Fun.id)
+
+
 let laws =
   [ case "repaired texts are valid, and valid texts stay" (fun text ->
         let repaired = Utf8.repaired text in
@@ -63,7 +72,7 @@ let laws =
         && String.length repaired = String.length text + (2 * Utf8.strays text));
     case "a line is valid, has no control characters, and stays as it is" (fun text ->
         let line = Utf8.line text in
-        Utf8.is_valid line && is_line line && Utf8.line line == line) ]
+        Utf8.is_valid line && is_line line && is_fit line && Utf8.line line == line) ]
 
 let () =
   let case name test = Alcotest.test_case name `Quick test in

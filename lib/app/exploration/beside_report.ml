@@ -1,4 +1,5 @@
 open Dolphin_semantics
+module Safe_print = Dolphin_display.Safe_print
 module Side_by_side = Dolphin_explore.Side_by_side
 module Position = Dolphin_geo.Position
 
@@ -16,8 +17,8 @@ let line program (pair : Side_by_side.pair) =
 
 let print program pairs =
   if pairs <> [] then begin
-    print_endline "\nplans that may run side by side:";
-    List.iter (fun pair -> print_endline ("  " ^ line program pair)) pairs
+    Safe_print.line "\nplans that may run side by side:";
+    List.iter (fun pair -> Safe_print.line ("  " ^ line program pair)) pairs
   end
 
 let json_of_pair program (pair : Side_by_side.pair) : Yojson.Safe.t =

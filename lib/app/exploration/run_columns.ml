@@ -1,6 +1,7 @@
 module Columns = Dolphin_display.Columns
 module Waiting = Dolphin_display.Waiting
 open Dolphin_semantics
+module Safe_print = Dolphin_display.Safe_print
 
 (* A terminal's own width; for other outputs, the user's. *)
 let columns () =
@@ -9,8 +10,8 @@ let columns () =
 
 let say text =
   match columns () with
-  | Some columns -> List.iter print_endline (Dolphin_display.Paragraph.hanging ~columns text)
-  | None -> print_endline text
+  | Some columns -> List.iter Safe_print.line (Dolphin_display.Paragraph.hanging ~columns text)
+  | None -> Safe_print.line text
 
 let last steps cycle = match List.rev (steps @ cycle) with [] -> None | (t : Transition.t) :: _ -> Some t.next
 
@@ -32,7 +33,7 @@ let lines ?columns ?decided (p : Program_file.t) ~steps ~cycle =
   let remarks = Option.fold decided ~none:[] ~some:(fun n -> [ (n - 1, decides) ]) in
   lines ~first:1 ~before:None ~remarks steps @ around @ tuples steps cycle
 
-let print ?decided p ~steps ~cycle = List.iter print_endline (lines ?columns:(columns ()) ?decided p ~steps ~cycle)
+let print ?decided p ~steps ~cycle = List.iter Safe_print.line (lines ?columns:(columns ()) ?decided p ~steps ~cycle)
 let text ?decided p ~steps ~cycle = String.concat "\n" (lines ?decided p ~steps ~cycle)
 
 let print_waiting (p : Program_file.t) steps =
@@ -45,5 +46,5 @@ let print_waiting (p : Program_file.t) steps =
   match last steps [] with
   | Some ({ control = Executing _; _ } as c) ->
     let all = List.map guard (Waiting.list p.program ~source:p.source (World.at Any World.empty) c) in
-    List.iter print_endline (List.rev (List.fold_left add [] all))
+    List.iter Safe_print.line (List.rev (List.fold_left add [] all))
   | Some _ | None -> ()

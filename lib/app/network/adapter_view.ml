@@ -46,7 +46,8 @@ let lines adapters ~json:as_json =
   | found -> Dolphin_display.Text_table.lines heads (List.map row found)
 
 let tell vehicle text =
-  prerr_endline ("dolphin: " ^ match vehicle with Some v -> v ^ ": " ^ text | None -> text)
+  let text = match vehicle with Some v -> v ^ ": " ^ text | None -> text in
+  prerr_endline ("dolphin: " ^ Dolphin_trace.Phrase.harmless text)
 
 let rec open_all opened = function
   | [] -> Lwt.return (Ok (List.rev opened))

@@ -5,8 +5,8 @@ module Phrase = Dolphin_trace.Phrase
 
 type t = { head : unit -> string; lines : json:bool -> string list; patience : float }
 
-let print lines =
-  List.iter print_endline lines;
+let print l ~json =
+  List.iter (if json then print_endline else Safe_print.line) (l.lines ~json);
   flush stdout
 
 let wait interruption seconds = Lwt.pick [ Interruption.promise interruption; Lwt_unix.sleep seconds ]
@@ -34,12 +34,12 @@ let rec report l interruption ~until =
   if is_over interruption ~until then Lwt.return_unit
   else
     wait interruption 1. >>= fun () ->
-    print (l.lines ~json:true);
+    print l ~json:true;
     report l interruption ~until
 
 let show l interruption ~as_json ~once ~seconds =
   let until = Option.fold seconds ~none:infinity ~some:(fun seconds -> Clock.system.elapsed () +. seconds) in
   if once || not (as_json || Terminal.is_live ()) then
-    wait interruption (Option.value seconds ~default:l.patience) >|= fun () -> print (l.lines ~json:as_json)
+    wait interruption (Option.value seconds ~default:l.patience) >|= fun () -> print l ~json:as_json
   else if as_json then report l interruption ~until
-  else watch l interruption ~until >|= fun () -> print (l.lines ~json:false)
+  else watch l interruption ~until >|= fun () -> print l ~json:false

@@ -130,7 +130,7 @@ let offer t text =
 
 let answered t text =
   t.answered <- Screen.is_asking t.screen;
-  Screen.answered t.screen text
+  Screen.answered t.screen (Option.map Phrase.one_line text)
 
 (* A pair with a declared key is an input, also where an answer is awaited. *)
 let is_input t text =

@@ -1,4 +1,5 @@
 open Dolphin_semantics
+module Safe_print = Dolphin_display.Safe_print
 module Witness = Dolphin_trace.Witness
 module Log = Dolphin_display.Log
 module Scenario_world = Dolphin_environment.Scenario_world
@@ -16,8 +17,8 @@ let without_time number text =
 let print_log first log transitions =
   let print (number, log) (t : Transition.t) =
     let log, lines = Log.transition log ~time:0. t in
-    List.iter (fun (line : Log.line) -> print_endline (without_time number line.text)) lines;
-    List.iter (fun a -> print_endline (Format.asprintf "      if %a" World.pp_assumption a)) t.assumed;
+    List.iter (fun (line : Log.line) -> Safe_print.line (without_time number line.text)) lines;
+    List.iter (fun a -> Safe_print.line (Format.asprintf "      if %a" World.pp_assumption a)) t.assumed;
     (number + 1, log)
   in
   List.fold_left print (first, log) transitions
@@ -25,7 +26,7 @@ let print_log first log transitions =
 let ending transitions =
   match List.rev transitions with
   | ({ next = { control = Ended ending; _ }; _ } : Transition.t) :: _ -> Some ending
-  | _ -> print_endline "      here the recorded run stops"; None
+  | _ -> Safe_print.line "      here the recorded run stops"; None
 
 let draw program fleet (witness : Witness.t) steps cycle drawing =
   let description = if witness.property = "" then "as recorded" else witness.property in
@@ -37,12 +38,12 @@ let follow (program : Program_file.t) (fleet : Fleet_file.t) ~drawing path witne
     ignore (print_log 1 Log.start taken);
     Error (Error.Bad_input (Printf.sprintf "%s: %s does not fit, at step %d: %s" path program.path number why))
   | Ok (steps, cycle) ->
-    if witness.property <> "" then Printf.printf "breaks: %s\n" (Dolphin_trace.Phrase.one_line witness.property);
+    if witness.property <> "" then Safe_print.f "breaks: %s\n" (Dolphin_trace.Phrase.one_line witness.property);
     let number, log = print_log 1 Log.start steps in
     let ending =
       if cycle = [] then ending steps
       else begin
-        print_endline "and from there, again and again:";
+        Safe_print.line "and from there, again and again:";
         ignore (print_log number log cycle);
         None
       end

@@ -1,4 +1,5 @@
 open Dolphin_semantics
+module Safe_print = Dolphin_display.Safe_print
 module Bounds = Dolphin_time.Bounds
 module Distribution = Dolphin_statistics.Distribution
 module Share = Dolphin_statistics.Share
@@ -130,7 +131,7 @@ let lines ~columns p (s : Sampling.t) =
 
 let print p s =
   let columns = Option.value (Run_columns.columns ()) ~default:80 in
-  List.iter print_endline (lines ~columns p s)
+  List.iter Safe_print.line (lines ~columns p s)
 
 (* {1 For programs} *)
 

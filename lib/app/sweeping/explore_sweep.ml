@@ -1,3 +1,5 @@
+module Safe_print = Dolphin_display.Safe_print
+
 module Search = Dolphin_explore.Search
 module Property = Dolphin_explore.Property
 
@@ -19,7 +21,7 @@ let cells ~strict ({ found; verdict; _ } : Search.outcome Sweep.row) =
   [ string_of_int found.states; words ]
 
 let print_run ~strict s (row : Search.outcome Sweep.row) =
-  Printf.printf "\n%s:" (Sweep.name s row);
+  Safe_print.f "\n%s:" (Sweep.name s row);
   Exploration_report.print_violations ~strict row.program row.found
 
 let print ~strict s rows =

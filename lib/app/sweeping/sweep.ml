@@ -1,3 +1,5 @@
+module Safe_print = Dolphin_display.Safe_print
+
 module Parameters = Dolphin_syntax.Parameters
 module Text_table = Dolphin_display.Text_table
 
@@ -73,13 +75,13 @@ let name s row = Printf.sprintf "%s=%d" s.parameter row.value
 let print s ~heads cells rows =
   let line row = string_of_int row.value :: cells row in
   let columns = Run_columns.columns () in
-  List.iter print_endline (Text_table.lines ?columns (s.parameter :: heads) (List.map line rows));
-  if List.length rows < List.length s.values then print_endline "interrupted: the other values were not asked for";
+  List.iter Safe_print.line (Text_table.lines ?columns (s.parameter :: heads) (List.map line rows));
+  if List.length rows < List.length s.values then Safe_print.line "interrupted: the other values were not asked for";
   match fewest rows with
-  | Some { row; is_least = true; _ } -> Printf.printf "fewest: %s\n" (name s row)
-  | Some { row; is_least = false; _ } -> Printf.printf "fewest: %s, or one that is inconclusive\n" (name s row)
-  | None when verdict rows = Violated -> print_endline "fewest: none of them"
-  | None -> print_endline "fewest: none of which it is known"
+  | Some { row; is_least = true; _ } -> Safe_print.f "fewest: %s\n" (name s row)
+  | Some { row; is_least = false; _ } -> Safe_print.f "fewest: %s, or one that is inconclusive\n" (name s row)
+  | None when verdict rows = Violated -> Safe_print.line "fewest: none of them"
+  | None -> Safe_print.line "fewest: none of which it is known"
 
 let to_json s json rows : Yojson.Safe.t =
   let row r =

@@ -1,6 +1,7 @@
 open Dolphin_semantics
 open Dolphin_time
 module Timed_analysis = Dolphin_time.Timed_analysis
+module Safe_print = Dolphin_display.Safe_print
 module Columns = Dolphin_display.Columns
 module Text_table = Dolphin_display.Text_table
 
@@ -65,7 +66,7 @@ let print_tasks ?slacks (p : Program_file.t) (o : Timed_analysis.outcome) =
   in
   let slack = if slacks = None then [] else [ "slack" ] in
   if o.tasks <> [] then
-    List.iter print_endline
+    List.iter Safe_print.line
       (Text_table.lines ?columns:(Run_columns.columns ())
          (("task" :: "vehicle" :: List.map Timed_system.moment_name used) @ slack @ [ "where" ])
          (List.map row o.tasks))
@@ -74,11 +75,11 @@ let print_columns (p : Program_file.t) (run : Timed_analysis.run) =
   let heads = if run.dates = [] then None else Some (List.map time run.dates) in
   let columns = Run_columns.columns () in
   let lines ?first ?heads ?before steps =
-    List.iter print_endline (Columns.lines ?first ?heads ?columns ?before ~source:p.source p.program steps)
+    List.iter Safe_print.line (Columns.lines ?first ?heads ?columns ?before ~source:p.source p.program steps)
   in
   lines ?heads run.steps;
   if run.cycle <> [] then begin
-    print_endline "and from there, again and again:";
+    Safe_print.line "and from there, again and again:";
     let before = List.fold_left (fun _ (t : Transition.t) -> Some t.next) None run.steps in
     lines ~first:(List.length run.steps + 1) ?before run.cycle
   end
@@ -149,7 +150,7 @@ let breaks ?deadline = function
 
 let print_run ?deadline p (o : Timed_analysis.outcome) =
   let print (why, (run : Timed_analysis.run)) =
-    Printf.printf "\n%s:\n" (what ?deadline why);
+    Safe_print.f "\n%s:\n" (what ?deadline why);
     print_columns p run;
     match why with
     | Endless `Stuck -> Run_columns.print_waiting p run.steps
@@ -167,12 +168,12 @@ let write_shown ?deadline program fleet path o =
   Option.fold (shown o) ~none:(Ok ()) ~some:write
 
 let print_failing p run =
-  print_endline "\na run that fails:";
+  Safe_print.line "\na run that fails:";
   print_columns p run
 
 let print_deadline ?deadline (o : Timed_analysis.outcome) =
   let say n =
-    Printf.printf "deadline %s: %s\n" (time n) (Dolphin_checker.Verdict.name (Timed_analysis.in_time ~deadline:n o)) in
+    Safe_print.f "deadline %s: %s\n" (time n) (Dolphin_checker.Verdict.name (Timed_analysis.in_time ~deadline:n o)) in
   Option.iter say deadline
 
 let print_within p (o : Timed_analysis.outcome) (site, missed) =
@@ -209,7 +210,7 @@ let print_batteries (o : Timed_analysis.outcome) =
   let row (b : Timed_analysis.battery) = [ b.vehicle; battery b ] in
   let heads = [ "vehicle"; "least battery" ] in
   if o.batteries <> [] then
-    List.iter print_endline (Text_table.lines ?columns:(Run_columns.columns ()) heads (List.map row o.batteries))
+    List.iter Safe_print.line (Text_table.lines ?columns:(Run_columns.columns ()) heads (List.map row o.batteries))
 
 let print_apart (a : Timed_analysis.apart) =
   let verdict = Timed_analysis.judge_apart a in
@@ -227,12 +228,12 @@ let print_slacks (s : Timed_analysis.slacks) =
   Option.iter print s.cut_short
 
 let print ?from ?deadline ?slacks p (o : Timed_analysis.outcome) =
-  Option.iter (Format.printf "%a@." Present.pp) from;
+  Option.iter (Safe_print.pp "%a@." Present.pp) from;
   (match o.stopped with
    | Some bound -> say "inconclusive: %s; times are of the runs until then" (bound_text bound)
    | None -> ());
   List.iter print_ending o.endings;
-  if o.endings = [] && o.stopped = None then print_endline "no run ends";
+  if o.endings = [] && o.stopped = None then Safe_print.line "no run ends";
   print_deadline ?deadline o;
   List.iter (print_within p o) o.deadlines;
   Option.iter print_apart o.apart;
@@ -240,7 +241,7 @@ let print ?from ?deadline ?slacks p (o : Timed_analysis.outcome) =
   print_tasks ?slacks p o;
   Option.iter print_slacks slacks;
   print_batteries o;
-  Printf.printf "%d states, depth %d, %.2f s, %d MiB\n" o.states o.depth o.seconds (o.bytes / 1024 / 1024);
+  Safe_print.f "%d states, depth %d, %.2f s, %d MiB\n" o.states o.depth o.seconds (o.bytes / 1024 / 1024);
   Option.iter (fun (a : Timed_analysis.apart) -> Beside_report.print p a.pairs) o.apart;
   print_run ?deadline p o
 

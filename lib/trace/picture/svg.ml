@@ -80,12 +80,12 @@ let fit ?(size = default_size) available text =
 (* {1 Text} *)
 
 let escape buffer text =
+  let text = Dolphin_utf8.Utf8.line (String.map (function '\000' .. '\031' -> ' ' | c -> c) text) in
   let character = function
     | '&' -> Buffer.add_string buffer "&amp;"
     | '<' -> Buffer.add_string buffer "&lt;"
     | '>' -> Buffer.add_string buffer "&gt;"
     | '"' -> Buffer.add_string buffer "&quot;"
-    | '\000' .. '\031' | '\127' -> Buffer.add_char buffer ' '
     | c -> Buffer.add_char buffer c
   in
   String.iter character text

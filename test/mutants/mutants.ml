@@ -1,23 +1,12 @@
-(* usage: mutants.exe [TEXT...]: the mistakes whose names or files contain one of these texts, or all.
+(* usage: mutants.exe drawn              COUNT mistakes (40), drawn by SEED (random), in files whose paths begin with
+                                         one of FOLDERS (all)
+          mutants.exe at FILE[:LINE]     every mistake there
+          mutants.exe by-hand [TEXT...]  those of [Mistake] whose names or files contain one of these texts, or all
+          mutants.exe --check            only that each of these can be made: the text that it replaces occurs once
 
-   The exit status is 0 if each is noticed by the test that must notice it.
+   The exit status of [by-hand] is 0 if each is noticed by the test that must notice it. The other two report. *)
 
-   mutants.exe --check only checks that each can be made: the text that it replaces occurs once. *)
-
-open Mistake
-
-let read path =
-  let channel = open_in_bin path in
-  let text = really_input_string channel (in_channel_length channel) in
-  close_in channel;
-  text
-
-let write path text =
-  let channel = open_out_bin path in
-  output_string channel text;
-  close_out channel
-
-(* {1 One mistake} *)
+(* {1 By hand} *)
 
 (* The positions at which [part] starts in [text]. *)
 let occurrences part text =
@@ -28,7 +17,7 @@ let occurrences part text =
   in
   from 0 []
 
-let applied mistake text =
+let applied (mistake : Mistake.t) text =
   match occurrences mistake.find text with
   | [ i ] ->
     let after = i + String.length mistake.find in
@@ -36,74 +25,82 @@ let applied mistake text =
   | [] -> Error "the text that it replaces is not there"
   | _ :: _ :: _ -> Error "the text that it replaces is there more than once"
 
-let shell format = Printf.ksprintf (fun command -> Sys.command command = 0) format
-
-let build tree target = shell "dune build --root %s %s >%s/build.log 2>&1" tree target tree
-
-(* A mistake may make a test run or wait without end, or take all memory. The limit is in seconds of CPU, so that
-   other load makes no test fail. Random tests take their usual inputs, which are known to notice it. *)
-let run tree target =
-  let within = "unset SEED DOLPHIN_SEED; ulimit -v 4000000; ulimit -t 100; timeout 1000" in
-  shell "cd %s/%s && (%s %s/_build/default/%s >%s/run.log 2>&1)" tree (Filename.dirname target) within tree target tree
-
-type verdict = Noticed | Not_noticed | Trouble of string
-
-let judged tree mistake =
-  let path = Filename.concat tree mistake.file in
-  let text = read path in
-  let target = Printf.sprintf "test/%s.exe" mistake.noticed_by in
-  let verdict =
-    match applied mistake text with
-    | Error why -> Trouble why
-    | Ok wrong ->
-      write path wrong;
-      if not (build tree target) then Trouble "it does not build"
-      else if run tree target then Not_noticed
-      else Noticed
-  in
-  write path text;
-  verdict
-
-(* {1 All} *)
-
-let chosen =
-  match List.tl (Array.to_list Sys.argv) with
-  | [] -> all
+let chosen = function
+  | [] -> Mistake.all
   | parts ->
-    let is_of m part = occurrences part m.name <> [] || occurrences part m.file <> [] in
-    List.filter (fun m -> List.exists (is_of m) parts) all
-
-(* Tests that fail anyway would notice anything. *)
-let sound tree =
-  let targets = List.sort_uniq String.compare (List.map (fun m -> m.noticed_by) chosen) in
-  let is_sound target =
-    let target = Printf.sprintf "test/%s.exe" target in
-    let sound = build tree target && run tree target in
-    if not sound then Printf.printf "%s fails without any mistake\n%!" target;
-    sound
-  in
-  List.for_all is_sound targets
+    let is_of (m : Mistake.t) part = occurrences part m.name <> [] || occurrences part m.file <> [] in
+    List.filter (fun m -> List.exists (is_of m) parts) Mistake.all
 
 let check () =
-  let tell mistake why = Printf.printf "%s: %s: %s\n" mistake.file mistake.name why; true in
-  let is_wrong mistake = Result.fold (applied mistake (read mistake.file)) ~ok:(fun _ -> false) ~error:(tell mistake) in
-  if List.filter is_wrong all <> [] then exit 1
-
-let make_all () =
-  let tree = Filename.temp_file "mutants" "" in
-  Sys.remove tree;
-  Unix.mkdir tree 0o700;
-  at_exit (fun () -> ignore (shell "rm -rf %s" tree));
-  if not (shell "tar --exclude=./_build --exclude='./.[a-z]*' -cf - . | tar -xf - -C %s" tree && sound tree) then exit 2;
-  let each unnoticed mistake =
-    let tell what = Printf.printf "%-12s %s: %s\n%!" what mistake.file mistake.name in
-    match judged tree mistake with
-    | Noticed -> tell "noticed"; unnoticed
-    | Not_noticed -> tell "NOT NOTICED"; unnoticed + 1
-    | Trouble why -> tell ("TROUBLE, " ^ why); unnoticed + 1
+  let is_wrong (mistake : Mistake.t) =
+    match applied mistake (Working_copy.read mistake.file) with
+    | Ok _ -> false
+    | Error why -> Printf.printf "%s: %s: %s\n" mistake.file mistake.name why; true
   in
-  let unnoticed = List.fold_left each 0 chosen in
-  Printf.printf "%d of %d mistakes noticed\n" (List.length chosen - unnoticed) (List.length chosen);
+  if List.filter is_wrong Mistake.all <> [] then exit 1
+
+let judged_by_hand copy (mistake : Mistake.t) =
+  match applied mistake (Working_copy.read mistake.file) with
+  | Error why -> "TROUBLE, " ^ why
+  | Ok text -> (
+      match Working_copy.judge copy ~file:mistake.file text ~tests:[ mistake.noticed_by ] with
+      | Noticed _ -> "noticed"
+      | Passed -> "NOT NOTICED"
+      | Not_built -> "TROUBLE, it does not build")
+
+let by_hand parts =
+  let mistakes = chosen parts in
+  let each copy unnoticed (mistake : Mistake.t) =
+    let verdict = judged_by_hand copy mistake in
+    Printf.printf "%-12s %s: %s\n%!" verdict mistake.file mistake.name;
+    if String.equal verdict "noticed" then unnoticed else unnoticed + 1
+  in
+  let unnoticed = Working_copy.with_copy (fun copy -> List.fold_left (each copy) 0 mistakes) in
+  Printf.printf "%d of %d mistakes noticed\n" (List.length mistakes - unnoticed) (List.length mistakes);
   if unnoticed > 0 then exit 1
 
-let () = match Array.to_list Sys.argv with [ _; "--check" ] -> check () | _ -> make_all ()
+(* {1 By syntax} *)
+
+let judge copy (d : Drawn.t) =
+  let source = Working_copy.read d.file in
+  let text = Mutation.apply d.mutation source in
+  let tests = Option.fold ~none:[] ~some:(fun (row : Judges.t) -> row.tests) (Judges.of_file d.file) in
+  let verdict = Working_copy.judge copy ~file:d.file text ~tests in
+  let kind = d.mutation.kind in
+  let print word more = Printf.printf "%-9s %s:%d: %s%s\n%!" word d.file d.mutation.line (Mutation.name kind) more in
+  (match verdict with
+   | Noticed test -> print "noticed" (", by " ^ test)
+   | Not_built -> print "not built" ""
+   | Passed -> print "SURVIVED" (Printf.sprintf ": %s\n%s" (Mutation.meaning kind) (Mutation.difference source text)));
+  verdict
+
+let judge_all mistakes =
+  if mistakes = [] then (print_endline "no place for a mistake there"; exit 2);
+  let verdicts = Working_copy.with_copy (fun copy -> List.map (judge copy) mistakes) in
+  let count is = List.length (List.filter is verdicts) in
+  let noticed = count (function Working_copy.Noticed _ -> true | Passed | Not_built -> false) in
+  let survived = count (fun verdict -> verdict = Passed) in
+  Printf.printf "%d of %d mistakes noticed; %d drawn, %d survived, the others do not build\n" noticed (noticed + survived)
+    (List.length verdicts) survived
+
+let variable name = Option.value (Sys.getenv_opt name) ~default:""
+let number name ~default = match int_of_string_opt (variable name) with Some n -> n | None -> default ()
+
+let begins_with prefix file =
+  String.length file >= String.length prefix && String.equal prefix (String.sub file 0 (String.length prefix))
+
+let drawn () =
+  let new_seed () = Random.self_init (); Random.int 1_000_000 in
+  let seed = number "SEED" ~default:new_seed and count = number "COUNT" ~default:(fun () -> 40) in
+  let folders = List.filter (( <> ) "") (String.split_on_char ' ' (variable "FOLDERS")) in
+  let is_wanted file = folders = [] || List.exists (fun folder -> begins_with folder file) folders in
+  Printf.printf "SEED=%d COUNT=%d\n%!" seed count;
+  judge_all (Drawn.draw ~seed ~count ~is_wanted)
+
+let () =
+  match List.tl (Array.to_list Sys.argv) with
+  | [ "--check" ] -> check ()
+  | [ "drawn" ] -> drawn ()
+  | [ "at"; place ] -> judge_all (Drawn.at place)
+  | "by-hand" :: parts -> by_hand parts
+  | _ -> prerr_endline "usage: mutants.exe drawn | at FILE[:LINE] | by-hand [TEXT...] | --check"; exit 2

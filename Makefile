@@ -32,10 +32,19 @@ mutate: tlc
 	dune build test/crosscheck/crosscheck.exe
 	_build/default/test/crosscheck/crosscheck.exe mutate
 
-# Mistakes in lib/, each of which a test must notice. MISTAKES="words of their names or files" makes some of them only.
+# Mistakes in lib/: COUNT of them (40) at places drawn by SEED, below FOLDERS="lib/time lib/runtime" or anywhere; then
+# those made by hand, each of which a test must notice. AT=FILE:LINE makes every mistake of that line instead, MISTAKES=
+# "words of their names or files" some of those made by hand. COPY=FOLDER keeps what is built. See CONTRIBUTING.md.
 mutate-code:
 	dune build test/mutants/mutants.exe
-	_build/default/test/mutants/mutants.exe $(MISTAKES)
+ifdef AT
+	_build/default/test/mutants/mutants.exe at $(AT)
+else ifdef MISTAKES
+	_build/default/test/mutants/mutants.exe by-hand $(MISTAKES)
+else
+	_build/default/test/mutants/mutants.exe drawn
+	_build/default/test/mutants/mutants.exe by-hand
+endif
 
 # That the examples use every rule of the specification, by TLC's own -coverage.
 coverage: tlc

@@ -40,7 +40,7 @@ let check () =
   if List.filter is_wrong Mistake.all <> [] then exit 1
 
 let judged_by_hand copy (mistake : Mistake.t) =
-  match applied mistake (Working_copy.read mistake.file) with
+  match applied mistake (Working_copy.source copy mistake.file) with
   | Error why -> "TROUBLE, " ^ why
   | Ok text -> (
       match Working_copy.judge copy ~file:mistake.file text ~tests:[ mistake.noticed_by ] with
@@ -62,7 +62,7 @@ let by_hand parts =
 (* {1 By syntax} *)
 
 let judge copy (d : Drawn.t) =
-  let source = Working_copy.read d.file in
+  let source = Working_copy.source copy d.file in
   let text = Mutation.apply d.mutation source in
   let tests = Option.fold ~none:[] ~some:(fun (row : Judges.t) -> row.tests) (Judges.of_file d.file) in
   let verdict = Working_copy.judge copy ~file:d.file text ~tests in

@@ -58,6 +58,8 @@ let passes copy test =
     let program = Filename.concat copy.root ("_build/default/" ^ executable test) in
     shell "cd %s && (%s %s >%s/run.log 2>&1)" folder limited program copy.root
 
+let source copy file = read (Filename.concat copy.root file)
+
 type verdict = Noticed of string | Passed | Not_built
 
 (* In the tree without a mistake. *)

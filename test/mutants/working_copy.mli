@@ -16,5 +16,8 @@ val judge : t -> file:string -> string -> tests:string list -> verdict
     [file] has the contents [text]. A test that notices a mistake runs without it too, once; if it fails there, it is
     reported on standard output and judges nothing. Unused values are no errors in the copy. *)
 
+val source : t -> string -> string
+(** [source copy file] is the contents of [file] in the copy. *)
+
 val read : string -> string
 (** The contents of a file. *)

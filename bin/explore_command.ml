@@ -357,8 +357,9 @@ let man =
   [ `S Manpage.s_description;
     `P "$(tname) follows every run of $(i,PROG): every order in which tasks end and timers expire, every choice of \
         vehicles, every branch that is ready. It uses the transition function of $(mname) $(b,exec). For each of \
-        these properties it reports that it holds, or shows a run that violates it (a shortest one where so marked), \
-        with a column for the program and one for each vehicle:";
+        these properties it reports that it holds, or shows a run that violates it (a shortest one where so marked, \
+        and with $(b,--faults) one with as few faults as can be), with a column for the program and one for each \
+        vehicle:";
     `I ("no deadlock", "some transition is possible until the program ends.");
     `I
       ("termination",

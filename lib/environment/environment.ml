@@ -12,6 +12,7 @@ type options = {
   replies : string -> (Core.value, string) result list list;
   inputs : input list;
   faults : Faults.t;
+  most_faults : int option;
   who_is_lost_matters : bool;
 }
 
@@ -22,7 +23,7 @@ let clear = function Ok x -> x | Error fault -> raise (Unclear fault)
 let default =
   { endings = (fun _ _ -> Succeeds); plans = []; may_be_late = (fun _ -> true); answers = (fun _ -> []);
     replies = (fun _ -> []);
-    inputs = []; faults = Faults.none; who_is_lost_matters = true }
+    inputs = []; faults = Faults.none; most_faults = None; who_is_lost_matters = true }
 
 let ending options v name =
   match options.endings v name, options.faults.fail with
@@ -50,6 +51,7 @@ let may_fail options v name =
 type memory = {
   failed : int;
   losses : int;
+  spent : int;  (* faults of all kinds, with [most_faults] *)
   lost : Core.vehicle list;  (* and not heard of since *)
   late : Core.vehicle list;  (* those that were late, or missing, at some time *)
   asked : (string * int) list;  (* by prompt *)
@@ -62,26 +64,29 @@ type t = memory
 let memory e = e
 let of_memory e = e
 
-let initial = { failed = 0; losses = 0; lost = []; late = []; asked = []; called = []; sent = [] }
+let initial = { failed = 0; losses = 0; spent = 0; lost = []; late = []; asked = []; called = []; sent = [] }
 
 let compare a b =
-  let both first second = if first <> 0 then first else second () in
+  let ( <?> ) first second = if first <> 0 then first else Lazy.force second in
   if a == b then 0
   else
-    let compare_times (name, n) (name', n') = both (String.compare name name') (fun () -> Int.compare n n') in
+    let compare_times (name, n) (name', n') = String.compare name name' <?> lazy (Int.compare n n') in
     let compare_times = List.compare compare_times in
     let compare_vehicles = List.compare String.compare in
-    both (Int.compare a.failed b.failed) (fun () ->
-        both (Int.compare a.losses b.losses) (fun () ->
-            both (compare_vehicles a.lost b.lost) (fun () ->
-                both (compare_vehicles a.late b.late) (fun () ->
-                    both (compare_times a.asked b.asked) (fun () ->
-                        both (compare_times a.called b.called) (fun () -> Stdlib.compare a.sent b.sent))))))
+    Int.compare a.failed b.failed
+    <?> lazy (Int.compare a.losses b.losses)
+    <?> lazy (Int.compare a.spent b.spent)
+    <?> lazy (compare_vehicles a.lost b.lost)
+    <?> lazy (compare_vehicles a.late b.late)
+    <?> lazy (compare_times a.asked b.asked)
+    <?> lazy (compare_times a.called b.called)
+    <?> lazy (Stdlib.compare a.sent b.sent)
 
 let hash e =
   let mix h x = (h * 31) + Hashtbl.hash x in
   let times h (_, n) = (h * 31) + n in
-  let counted = List.fold_left times (List.fold_left times ((e.failed * 7) + e.losses) e.asked) e.called in
+  let faults = (((e.failed * 7) + e.losses) * 7) + e.spent in
+  let counted = List.fold_left times (List.fold_left times faults e.asked) e.called in
   let counted = List.fold_left (fun h (i, n) -> (h * 31) + (i * 7) + n) counted e.sent in
   List.fold_left mix (List.fold_left mix counted e.lost) e.late
 
@@ -99,6 +104,21 @@ let renamed f e =
 let add v vs = List.sort_uniq String.compare (v :: vs)
 let less v vs = List.filter (fun v' -> not (String.equal v v')) vs
 
+(* {1 Counting faults} *)
+
+let spent e = e.spent
+let may_spend options e = Option.fold options.most_faults ~none:true ~some:(fun most -> e.spent < most)
+let spend ?(faults = 1) options e = if options.most_faults = None then e else { e with spent = e.spent + faults }
+
+(* How many vehicles of one run may be late, those that were late before included. *)
+let join_limit options e : Faults.limit =
+  let left most = List.length e.late + max 0 (most - e.spent) in
+  match options.faults.join, options.most_faults with
+  | limit, None -> limit
+  | Never, Some _ -> Never
+  | Any_number, Some most -> At_most (left most)
+  | At_most n, Some most -> At_most (min n (left most))
+
 let heard_of v e = if List.mem v e.lost then { e with lost = less v e.lost } else e
 
 (* {1 Ends of tasks} *)
@@ -110,7 +130,7 @@ let endings_remember options =
   match options.faults.loss with
   | Never | At_most 0 -> false
   | At_most _ -> true
-  | Any_number -> options.who_is_lost_matters
+  | Any_number -> options.who_is_lost_matters || options.most_faults <> None
 
 let forgetting_losses options = { options with who_is_lost_matters = false }
 
@@ -118,20 +138,24 @@ let task_ends options e v (p : Core.platform_task) : (Transition.event * t) list
   let is_lost = List.mem v e.lost in
   let heard = if is_lost then { e with lost = less v e.lost } else e in
   let succeeded = (Transition.Vehicle_done v, heard) and failed e = (Transition.Vehicle_failed (v, failure), e) in
+  let is_fault = options.endings v p.name = Succeeds in
+  let failing e = [ succeeded; failed (if is_fault then spend options e else e) ] in
   let ends =
     match ending options v p.name, options.faults.fail with
     | Succeeds, _ -> [ succeeded ]
     | Fails, _ -> [ failed heard ]
-    | May_fail, (Never | Any_number) -> [ succeeded; failed heard ]
-    | May_fail, At_most most when e.failed < most -> [ succeeded; failed { heard with failed = e.failed + 1 } ]
+    | May_fail, _ when is_fault && not (may_spend options e) -> [ succeeded ]
+    | May_fail, (Never | Any_number) -> failing heard
+    | May_fail, At_most most when e.failed < most -> failing { heard with failed = e.failed + 1 }
     | May_fail, At_most _ -> [ succeeded ]
   in
   let after_loss e = if endings_remember options then { e with lost = add v e.lost } else e in
   let lost e = [ (Transition.Vehicle_failed (v, loss), after_loss e) ] in
   match options.faults.loss with
   | _ when is_lost -> ends @ lost e
-  | Any_number -> ends @ lost e
-  | At_most most when e.losses < most -> ends @ lost { e with losses = e.losses + 1 }
+  | (Any_number | At_most _) when not (may_spend options e) -> ends
+  | Any_number -> ends @ lost (spend options e)
+  | At_most most when e.losses < most -> ends @ lost (spend options { e with losses = e.losses + 1 })
   | At_most _ | Never -> ends
 
 (* {1 Answers and replies} *)
@@ -227,6 +251,11 @@ let without_contact vs (options, e) =
     in
     ({ options with faults = { options.faults with loss } },
      { e with losses; lost = List.fold_left (fun lost v -> add v lost) e.lost vs })
+
+let without_faults (options, e) =
+  let fail = match options.faults.fail with At_most _ as limit -> limit | Never | Any_number -> Faults.Never in
+  let options = { options with faults = { Faults.none with fail }; most_faults = Some 0 } in
+  without_contact e.lost (options, { e with losses = 0; spent = 0; late = [] })
 
 (* Of several inputs with one key, the first whose turn has this value. *)
 let posted options program e k x =
@@ -339,9 +368,10 @@ let assuming assumed choice =
 
 (* With remembered late vehicles, it matters which one of a class was late. *)
 let picking ?alike options program world e (c : Configuration.t) (pick : Settings.pick) =
+  let join = join_limit options e in
   let company_in world =
-    let alike = match options.faults.join with At_most _ -> None | Never | Any_number -> alike in
-    Attendance.company ?alike options.faults ~may_be_late:options.may_be_late ~lost:e.lost ~late:e.late
+    let alike = match join with At_most _ -> None | Never | Any_number -> alike in
+    Attendance.company ?alike { options.faults with join } ~may_be_late:options.may_be_late ~lost:e.lost ~late:e.late
       ~bound:c.shared.bound world pick
   in
   let company = company_in world in
@@ -349,8 +379,10 @@ let picking ?alike options program world e (c : Configuration.t) (pick : Setting
     let is_picked v = List.mem v transition.next.shared.bound && not (List.mem v c.shared.bound) in
     let lost = List.filter (fun v -> not (is_picked v)) e.lost in
     let noted = List.filter (fun v -> List.mem v (Attendance.unsure company)) (a.coming @ a.missing) in
-    let noted = match options.faults.join with At_most _ -> noted | Never | Any_number -> [] in
-    { transition; on; outside = { e with lost; late = List.fold_left (fun vs v -> add v vs) e.late noted } }
+    let noted = match join with At_most _ -> noted | Never | Any_number -> [] in
+    let late = List.fold_left (fun vs v -> add v vs) e.late noted in
+    let faults = List.length late - List.length e.late in
+    { transition; on; outside = spend ~faults options { e with lost; late } }
   in
   let assumed (a : Attendance.t) =
     List.map (fun v -> World.Late v) a.coming @ List.map (fun v -> World.Missing v) a.missing
@@ -361,7 +393,7 @@ let picking ?alike options program world e (c : Configuration.t) (pick : Setting
   in
   let too_few n =
     let ways = Attendance.too_few company n in
-    let remembered = match options.faults.join with At_most _ -> pick.otherwise | Never | Any_number -> false in
+    let remembered = match join with At_most _ -> pick.otherwise | Never | Any_number -> false in
     if remembered then ways else match ways () with Seq.Nil -> Seq.empty | Seq.Cons (way, _) -> Seq.return way
   in
   let attended_in world a = given a (in_world options program (World.suppose (assumed a) world) e c) in
@@ -445,7 +477,7 @@ let may_stay_away options e v =
 let may_all_stay_away options e vs =
   let is_new v = not (List.mem v e.lost || List.mem v e.late) in
   List.for_all (may_stay_away options e) vs
-  && match options.faults.join with
+  && match join_limit options e with
   | Never | Any_number -> true
   | At_most n -> List.length (List.filter is_new (List.sort_uniq String.compare vs)) <= n - List.length e.late
 

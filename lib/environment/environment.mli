@@ -54,6 +54,9 @@ type options = {
       none. Tasks come from the place of the call. Without any, the call fails ({!no_reply}). *)
   inputs : input list;  (** those with keys that the program does not declare do not count *)
   faults : Faults.t;
+  most_faults : int option;
+  (** how many faults one run may have, of all kinds together: failures of tasks that otherwise succeed, losses, and
+      vehicles that are late or missing. Only with a number are they counted; interruptions are not *)
   who_is_lost_matters : bool;
   (** whether the program may look for vehicles after a loss. If not, it makes no difference who is lost, and it is not
       remembered unless losses are counted. *)
@@ -105,6 +108,9 @@ val lost : t -> Core.vehicle list
 val late : t -> Core.vehicle list
 (** The vehicles that were late, or missing, at some time, as far as that is remembered, in ascending order. *)
 
+val spent : t -> int
+(** How many faults there were, with [most_faults]; else 0. *)
+
 val renamed : (Core.vehicle -> Core.vehicle) -> t -> t
 (** [renamed f e] is [e] with each vehicle [v] in it as [f v]; [f] is injective. *)
 
@@ -112,6 +118,7 @@ val renamed : (Core.vehicle -> Core.vehicle) -> t -> t
 type memory = {
   failed : int;
   losses : int;
+  spent : int;  (** faults, with [most_faults] *)
   lost : Core.vehicle list;
   late : Core.vehicle list;
   asked : (string * int) list;  (** by prompt *)
@@ -128,6 +135,10 @@ val of_memory : memory -> t
 val without_contact : Core.vehicle list -> options * t -> options * t
 (** [without_contact vs (o, e)] is [(o, e)] where the connections of [vs] are lost and nothing was heard of these
     vehicles since. They count as losses that [o.faults] had besides those that are still to come. *)
+
+val without_faults : options * t -> options * t
+(** [without_faults (o, e)] is [(o, e)] where no fault happens any more: vehicles that are lost stay so, and a limit on
+    failures holds of those of plans that may fail by themselves. *)
 
 val after : options -> Core.program -> Configuration.t -> Transition.event -> t -> t
 (** [after o p c event e] is the memory after a real run had [event] in the configuration [c], with [e] before.

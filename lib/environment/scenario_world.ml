@@ -83,5 +83,6 @@ let environment ~answers:given ~faults (program : Core.program) (scenario : Scen
     replies = (fun call -> Option.value (Scenario.rounds scenario call) ~default:[]);
     inputs = List.map input scenario.inputs;
     faults;
+    most_faults = None;
     who_is_lost_matters = true;
   }

@@ -98,7 +98,8 @@ val run :
 (** [run ~deadline ~vehicles limits o] is the complete result, within [limits]; [deadline] is in milliseconds; of
     [vehicles], by default none, the batteries are analysed. The [reduction], all by default, makes no difference to
     the answers, but for how close the bounds of batteries are. With a [start], the result is of the rest of the run:
-    nothing is reduced, and batteries, whose charge then is not known, are not analysed. *)
+    nothing is reduced, and batteries, whose charge then is not known, are not analysed. Without a [start], [endless]
+    and [failing] are runs without faults of the environment if there are such runs. *)
 
 val latest : outcome -> date option
 (** [latest o] is when the last run is over; [None] if none that was looked at ends. *)

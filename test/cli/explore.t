@@ -24,12 +24,12 @@ The same, if a plan may fail once.
   $ explore ../../examples/rendezvous.dol --faults fail=1
   no deadlock: holds
   termination: holds
-  no unhandled error: violated after 10 steps: an unhandled error ends the program
+  no unhandled error: violated after 10 steps, with 1 fault: an unhandled error ends the program
   assertions: holds
   vehicles for all tasks: holds
   41 states, 50 transitions, depth 35; reduced by partial order, symmetry
   
-  no unhandled error: a shortest run in which an unhandled error ends the program
+  no unhandled error: a shortest run with 1 fault in which an unhandled error ends the program
        program                                   noptilus-1                 where              variables
    1   ask(Radius of operation area? (km))                                  rendezvous.dol:2
    2   answer(2)                                                            rendezvous.dol:2
@@ -350,17 +350,17 @@ Formulas of temporal logic.
   > END
   $ explore again.dol --faults fail --ltl 'G (start(a) -> F (done(a) | fail(a, noptilus-1)))' --ltl 'G F {n == 1}' --ltl 'message("done") R !end' --ltl 'G (fail -> X consume(failed: 1))'
   no deadlock: holds
-  termination: violated: after 3 steps, 4 steps that can repeat without end
+  termination: violated, with 1 fault: after 3 steps, 4 steps that can repeat without end
   no unhandled error: holds
   assertions: holds
   vehicles for all tasks: holds
   formula G (start(a) -> F (done(a) | fail(a, noptilus-1))): holds
-  formula G F {n == 1}: violated: after 3 steps, 4 steps that can repeat without end
+  formula G F {n == 1}: violated, with 1 fault: after 3 steps, 4 steps that can repeat without end
   formula message("done") R !end: holds
   formula G (fail -> X consume(failed: 1)): holds
   10 states, 10 transitions, depth 7; reduced by partial order; 38 states for formulas
   
-  termination: a run in which the program may never end
+  termination: a run with 1 fault in which the program may never end
       program                               where        variables
   1   pick(1 vehicle with id 'noptilus-1')  again.dol:1
   2   picks noptilus-1                      again.dol:1
@@ -372,7 +372,7 @@ Formulas of temporal logic.
   6   consume failed:1                       again.dol:5
   7   execute                                again.dol:4
   
-  formula G F {n == 1}: a run in which it does not hold
+  formula G F {n == 1}: a run with 1 fault in which it does not hold
       program                               where        variables
   1   pick(1 vehicle with id 'noptilus-1')  again.dol:1
   2   picks noptilus-1                      again.dol:1
@@ -386,9 +386,9 @@ Formulas of temporal logic.
   [1]
   $ explore again.dol --faults fail=1 --ltl 'F ended' --ltl 'F (done(a) & running(a))' | grep formula
   formula F ended: holds
-  formula F (done(a) & running(a)): violated after 7 steps: it does not hold
+  formula F (done(a) & running(a)): violated after 7 steps, without a fault: it does not hold
   15 states, 14 transitions, depth 11; reduced by partial order; 24 states for formulas
-  formula F (done(a) & running(a)): a shortest run in which it does not hold
+  formula F (done(a) & running(a)): a shortest run without a fault in which it does not hold
       decides the formula: the rest of the run does not matter
   $ explore deadlock.dol --ltl 'F ended' | grep violated
   no deadlock: violated after 6 steps: nothing can happen any more, and the program has not ended
@@ -399,18 +399,18 @@ Beside a violation that a reduced search has found.
   $ explore ../../examples/rendezvous.dol --faults fail --ltl 'F ended' --ltl 'G !error' | grep -e '^[a-z ]*: ' -e '^formula.*: [hv]'
   no deadlock: holds
   termination: holds
-  no unhandled error: violated after 10 steps: an unhandled error ends the program
+  no unhandled error: violated after 10 steps, with 1 fault: an unhandled error ends the program
   assertions: holds
   vehicles for all tasks: holds
   formula F ended: holds
-  formula G !error: violated after 10 steps: it does not hold
-  no unhandled error: a shortest run in which an unhandled error ends the program
+  formula G !error: violated after 10 steps, with 1 fault: it does not hold
+  no unhandled error: a shortest run with 1 fault in which an unhandled error ends the program
        decides the formula: the rest of the run does not matter
 
 What has been violated stays so: not all states need be seen. What nobody can list is not followed where it cannot matter.
 
   $ explore again.dol --faults fail --ltl 'G !start(a)' --ltl 'X X X X running(a)' | grep -e '^formula.*violated' -e 'for formulas'
-  formula G !start(a): violated after 4 steps: it does not hold
+  formula G !start(a): violated after 4 steps, without a fault: it does not hold
   10 states, 10 transitions, depth 7; reduced by partial order; 9 states for formulas
   $ cat > unlisted.dol <<'END'
   > v = pick { id 'noptilus-1' }
@@ -620,7 +620,7 @@ Of vehicles that are alike it does not matter which are picked. A run that is sh
   vehicles for all tasks: holds
   34 states, 33 transitions, depth 33; reduced by partial order, symmetry, symmetry of vehicles
   $ explore teams.dol --faults fail=1,loss --trace teams.run | grep -E 'violated|states|fails'
-  no unhandled error: violated after 7 steps: an unhandled error ends the program
+  no unhandled error: violated after 7 steps, with 1 fault: an unhandled error ends the program
   42 states, 49 transitions, depth 33; reduced by partial order, symmetry of vehicles
   7                                   fails in p: failure  teams.dol:4
   $ dolphin exec teams.dol --follow teams.run | tail -n 4
@@ -651,10 +651,10 @@ The orders in which vehicles come are counted out one after another, also by a p
   $ for i in 1 2 3 4 5 6 7 8 9; do echo "vehicle 'uuv-$i', { type 'UUV' }"; done > nine.fleet
   $ echo 'v = pick { count 9 }' > nine.dol
   $ (ulimit -s 512; explore nine.dol --fleet nine.fleet --faults join --reduction por --max-states 3000 | grep -v inconclusive)
-  vehicles for all picks: violated after 2 steps: vehicles are missing
+  vehicles for all picks: violated after 2 steps, with 1 fault: vehicles are missing
   3001 states, 1 transitions, depth 1; reduced by partial order
   
-  vehicles for all picks: a shortest run in which vehicles are missing
+  vehicles for all picks: a shortest run with 1 fault in which vehicles are missing
       program                                   where
   1   pick(9 vehicles)                          nine.dol:1
   2   no-vehicles(could not pick 9 vehicles...  nine.dol:1
@@ -994,10 +994,49 @@ A vehicle that may be missing does not hide that a task cannot be executed:
   > END
   $ echo "vehicle 'a', { type 'UUV' }" > masked.fleet
   $ dolphin explore masked.dol --faults all | grep '^vehicles.*: violated'
-  vehicles for all picks: violated after 2 steps: vehicles are missing
-  vehicles for all tasks: violated after 3 steps: a task cannot be executed
+  vehicles for all picks: violated after 2 steps, with 1 fault: vehicles are missing
+  vehicles for all tasks: violated after 3 steps, without a fault: a task cannot be executed
   $ dolphin explore masked.dol | grep '^vehicles.*: violated'
   vehicles for all tasks: violated after 3 steps: a task cannot be executed
+
+Of each violation a run with the fewest faults is shown, also where another one is shorter, in reports for programs, for
+invariants, and from the middle of a run:
+
+  $ cat > fewest.dol << 'END'
+  > v = pick { type 'UUV' }
+  > n = 0
+  > execute (watch task('p') onError { action { n = 1 / 0 } }) >> task('q') >> action { n = 5 } >> action { x = [1][n] }
+  > END
+  $ cp masked.fleet fewest.fleet
+  $ explore fewest.dol --faults fail | tail -n 11
+  no unhandled error: a shortest run without a fault in which an unhandled error ends the program
+       program                                   a         where         variables
+   1   pick(1 vehicle of type 'UUV')                       fewest.dol:1
+   2   picks a                                             fewest.dol:1
+   3   execute                                             fewest.dol:3  v = a, n = 0
+   4                                             starts p  fewest.dol:3
+   5                                             ends p    fewest.dol:3
+   6                                             starts q  fewest.dol:3
+   7                                             ends q    fewest.dol:3
+   8   act                                                 fewest.dol:3  n = 5
+   9   broken(index 5 is out of range: a lis...            fewest.dol:3
+  $ dolphin explore fewest.dol --faults fail,loss --invariant 'n < 1' | grep '^invariant'
+  invariant n < 1: violated after 8 steps, without a fault: it does not hold
+  invariant n < 1: a shortest run without a fault in which it does not hold
+  $ dolphin explore fewest.dol --faults fail --ltl 'G !error' --ltl 'G !fail' | grep '^formula.*: v'
+  formula G !error: violated after 9 steps, without a fault: it does not hold
+  formula G !fail: violated after 5 steps, with 1 fault: it does not hold
+  $ dolphin explore fewest.dol --faults all --json | grep -o '"faults":[0-9]*,"fewest_faults":[a-z]*'
+  "faults":0,"fewest_faults":true
+  "faults":1,"fewest_faults":true
+  $ cat > twice.dol << 'END'
+  > v = pick { type 'UUV' }
+  > execute watch task('p') onError { watch task('q') onError { action { x = 1 / 0 } } }
+  > END
+  $ dolphin explore twice.dol --fleet masked.fleet --faults fail | grep ', with'
+  no unhandled error: violated after 10 steps, with 2 faults: an unhandled error ends the program
+  $ dolphin explore twice.dol --fleet masked.fleet --faults fail=1 | grep ', with'
+  [1]
 
 A step of a task has the place of its own code, and labels are cut only where there is no room:
 

@@ -44,11 +44,11 @@ A vehicle that is out of contact then may stay away.
   from 5:00 of ./gone.run, after 6 transitions
   no deadlock: holds
   termination: holds
-  no unhandled error: violated after 1 step: an unhandled error ends the program
+  no unhandled error: violated after 1 step, without a fault: an unhandled error ends the program
   assertions: holds
   vehicles for all tasks: holds
   
-  no unhandled error: a shortest run in which an unhandled error ends the program
+  no unhandled error: a shortest run without a fault in which an unhandled error ends the program
       program  a                              where  variables
   1            fails in out: connection lost         side = 'starboard', v = a
   dolphin: a is out of contact: its tasks may fail, and a pick may miss it

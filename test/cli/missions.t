@@ -40,7 +40,7 @@ Whoever comes, as long as anybody comes, and whatever fails or is lost: a time t
   no unhandled error: holds
   assertions: holds
   vehicles for all tasks: holds
-  note: no leftover tuples: violated after 7 steps: tuples are left when the program completes
+  note: no leftover tuples: violated after 7 steps, without a fault: tuples are left when the program completes
 
 Those among the examples that go on whatever happens: who fails, is lost or does not come. A search with whoever is
 there ends well in every run.
@@ -52,7 +52,7 @@ there ends well in every run.
   no unhandled error: holds
   assertions: holds
   vehicles for all tasks: holds
-  note: no leftover tuples: violated after 15 steps: tuples are left when the program completes
+  note: no leftover tuples: violated after 15 steps, with 2 faults: tuples are left when the program completes
 
 A team that replaces who is lost, a patrol of 24 hours, an AUV that samples and one with an escort come to their ends
 whatever happens; they stop if their vehicles are not there.

@@ -29,7 +29,7 @@ Each of its lines matters. A failure on the way home that nobody watches stops t
   [1]
   $ explore unwatched.dol --fleet home.fleet --faults interrupt,loss=1 | grep -B 1 -A 30 'no unhandled error: a'
   
-  no unhandled error: a shortest run in which an unhandled error ends the program
+  no unhandled error: a shortest run with 1 fault in which an unhandled error ends the program
       program                                   noptilus-1                      where
   1   pick(3 vehicles of type 'UUV')                                            unwatched.dol:19
   2   picks noptilus-1, noptilus-2, noptilus-3                                  unwatched.dol:19

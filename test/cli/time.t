@@ -658,3 +658,35 @@ charges, and of a run the place counts.
   $ dolphin time ../../examples/charging.dol --fleet undocked.fleet | least
   noptilus-1  36.6 % or more
   noptilus-2  47.4 % or more
+
+A run that fails, or never ends, is shown without faults if there is one, although one with faults takes longer:
+
+  $ cat > masked.dol <<'END'
+  > parameter n = 1, 'rounds'
+  > v = pick { type 'UUV' }
+  > execute (watch task('p') onError { task('long') }) >> (repeat n, task('p')) >> action { x = 1 / 0 }
+  > END
+  $ cat > masked.fleet <<'END'
+  > vehicle 'a', { type 'UUV' }
+  > plan 'p', { duration 1.min }
+  > plan 'long', { duration 1.hours }
+  > END
+  $ dolphin time masked.dol --faults fail --set n=1..2 | grep -e ' p ' -e ' long ' -e broken
+  0:00                                  starts p  masked.dol:3
+  1:00                                  ends p    masked.dol:3
+  1:00                                  starts p  masked.dol:3
+  2:00                                  ends p    masked.dol:3
+  2:00                                  starts p  masked.dol:3
+  3:00                                  ends p    masked.dol:3
+  3:00   broken(division by zero)                 masked.dol:3
+  $ cat > endless.dol <<'END'
+  > v = pick { type 'UUV' }
+  > execute (watch task('p') onError { repeat task('long') }) >> task('p') >> repeat task('p')
+  > END
+  $ dolphin time endless.dol --fleet masked.fleet --faults fail | grep -e ' p ' -e ' long '
+  4                                  starts p  endless.dol:2
+  5                                  ends p    endless.dol:2
+  6                                  starts p  endless.dol:2
+  7                                  ends p    endless.dol:2
+   8            starts p  endless.dol:2
+   9            ends p    endless.dol:2

@@ -137,12 +137,12 @@ Vehicles may be late or missing: those that join, leave or drop, or if the fleet
   no unhandled error: holds
   assertions: holds
   vehicles for all tasks: holds
-  no halt: violated after 3 steps: the program halts
+  no halt: violated after 3 steps, with 1 fault: the program halts
   no leftover tuples: holds
   all code reached: holds
   6 states, 5 transitions, depth 3; reduced by partial order
   
-  no halt: a shortest run in which the program halts
+  no halt: a shortest run with 1 fault in which the program halts
       program                           where       variables
   1   pick(all vehicles of type 'UUV')  late.dol:1
   2   picks a                           late.dol:1
@@ -188,11 +188,11 @@ A lost vehicle stays bound. It is not there for a pick until something is heard 
   termination: holds
   no unhandled error: holds
   assertions: holds
-  vehicles for all picks: violated after 8 steps: vehicles are missing
+  vehicles for all picks: violated after 8 steps, with 1 fault: vehicles are missing
   vehicles for all tasks: holds
   16 states, 15 transitions, depth 9; reduced by partial order
   
-  vehicles for all picks: a shortest run in which vehicles are missing
+  vehicles for all picks: a shortest run with 1 fault in which vehicles are missing
       program                                   noptilus-1                        where       variables
   1   pick(1 vehicle with id 'noptilus-1')                                        lost.dol:1
   2   picks noptilus-1                                                            lost.dol:1

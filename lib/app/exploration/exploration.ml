@@ -1,5 +1,6 @@
 module Search = Dolphin_explore.Search
 module Property = Dolphin_explore.Property
+module Fewest_faults = Dolphin_explore.Fewest_faults
 module Scenario_world = Dolphin_environment.Scenario_world
 
 type settings = {
@@ -51,10 +52,10 @@ let explore ?from ~interrupted ~progress s (program : Program_file.t) (fleet : F
       invariants; formulas; fairness = s.fairness }
   in
   match from with
-  | None -> Ok (Search.run options core (Scenario_world.world fleet.scenario))
+  | None -> Ok (Fewest_faults.run options core (Scenario_world.world fleet.scenario))
   | Some present ->
     let environment, start = Present.start present environment core in
-    Ok (Search.run ~start { options with environment } core (Present.world present fleet.scenario))
+    Ok (Fewest_faults.run ~start { options with environment } core (Present.world present fleet.scenario))
 
 (* {1 Verdicts} *)
 

@@ -53,8 +53,9 @@ let unanswered (run : Search.run) =
 let print_run program property (run : Search.run) =
   print_newline ();
   Run_columns.say
-    (Printf.sprintf "%s: a%s run in which %s" (Property.name property)
+    (Printf.sprintf "%s: a%s run%s in which %s" (Property.name property)
        (if run.shortest then " shortest" else "")
+       (Option.fold run.faults ~none:"" ~some:(fun faults -> " " ^ Search.faults_text faults))
        (Property.question property));
   Run_columns.print ?decided:run.decided program ~steps:run.steps ~cycle:run.cycle;
   if property = Property.No_deadlock then Run_columns.print_waiting program run.steps;
@@ -106,9 +107,11 @@ let json_of_run (run : Search.run) =
     if t.assumed = [] then None
     else Some (`Assoc [ ("step", `Int (i + 1)); ("assumed", `List (List.map what t.assumed)) ])
   in
+  let faults { Search.number; fewest } = [ ("faults", `Int number); ("fewest_faults", `Bool fewest) ] in
   let assumptions = List.filter_map Fun.id (List.mapi assumed (run.steps @ run.cycle)) in
   [ ("shortest", `Bool run.shortest); ("run", labels run.steps); ("cycle", labels run.cycle) ]
   @ Option.fold run.decided ~none:[] ~some:(fun n -> [ ("decided", `Int n) ])
+  @ Option.fold run.faults ~none:[] ~some:faults
   @ if assumptions = [] then [] else [ ("assumptions", `List assumptions) ]
 
 let to_json ?from (p : Program_file.t) (o : Search.outcome) : Yojson.Safe.t =

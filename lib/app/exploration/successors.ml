@@ -51,7 +51,7 @@ let part (p : _ Parts.t) : _ Portable.part =
   { write = p.write; read = (fun text -> match p.read text with Ok x -> x | Error why -> wrong why) }
 
 let of_memory e =
-  let { Environment.failed; losses; lost; late; asked; called; sent } = Environment.memory e in
+  let { Environment.failed; losses; spent = _; lost; late; asked; called; sent } = Environment.memory e in
   let times name counted = `List (List.map (fun (x, n) -> `List [ name x; `Int n ]) counted) in
   let named name = `String name in
   Dolphin_json.Canonical.to_string
@@ -67,7 +67,7 @@ let memory text =
   match Yojson.Safe.from_string text with
   | `List [ failed; losses; lost; late; asked; called; sent ] ->
     Environment.of_memory
-      { failed = whole failed; losses = whole losses; lost = list name lost; late = list name late;
+      { failed = whole failed; losses = whole losses; spent = 0; lost = list name lost; late = list name late;
         asked = times name asked; called = times name called; sent = times whole sent }
   | _ -> amiss ()
   | exception Yojson.Json_error _ -> amiss ()

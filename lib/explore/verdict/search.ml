@@ -41,7 +41,15 @@ let default =
     fairness = Weak;
   }
 
-type run = { steps : Transition.t list; cycle : Transition.t list; shortest : bool; decided : int option }
+type faults = { number : int; fewest : bool }
+
+type run = {
+  steps : Transition.t list;
+  cycle : Transition.t list;
+  shortest : bool;
+  decided : int option;
+  faults : faults option;
+}
 
 type verdict =
   | Holds
@@ -78,11 +86,13 @@ type subject = {
   start : (Configuration.t * Environment.t) option;
   symmetry : Symmetry.t;
   started : float;
+  phase : string option;  (* by default that of each search *)
 }
 
 let with_graph ?labelling ?phase x (options : options) f =
   let { environment; reduction; compress; spill; workers; fork_from; spare_bits; limits; invariants; _ } = options in
-  let { program; world; start; symmetry; started } = x in
+  let { program; world; start; symmetry; started; phase = given } = x in
+  let phase = if given = None then phase else given in
   let observer = Option.map Labelling.observer labelling in
   let space =
     Space.create ~reduction ~symmetry ~asked:invariants ?observer ?spare_bits ?start environment program world in
@@ -111,7 +121,7 @@ let termination_of_script graph ~shortest =
   let run ({ stem; around } : Breadth_first.lasso) =
     let steps, cycle = Replay.around graph ~stem around in
     let is_as_short = List.compare_lengths stem steps > 0 && List.compare_lengths around cycle > 0 in
-    { steps; cycle; shortest = shortest && is_as_short; decided = None }
+    { steps; cycle; shortest = shortest && is_as_short; decided = None; faults = None }
   in
   of_verdict run (State_graph.termination graph ~exact:(State_graph.is_exact graph))
 
@@ -119,7 +129,7 @@ let termination_of_script graph ~shortest =
 let rec termination_of_rounds x (options : options) graph =
   let shown ({ stem; around } : Fair_cycles.lasso) =
     let steps, cycle = Replay.around graph ~stem around in
-    Violated { steps; cycle; shortest = false; decided = None }
+    Violated { steps; cycle; shortest = false; decided = None; faults = None }
   in
   let all = not (Reduction.by_order options.reduction) in
   match State_graph.stopped graph with
@@ -147,7 +157,8 @@ let termination x options graph ~shortest =
       termination_of_rounds x options graph
     | Holds | Violated _ | Inconclusive _ -> termination_of_script graph ~shortest
 
-let run_through graph ~shortest states = { steps = Replay.through graph states; cycle = []; shortest; decided = None }
+let run_through graph ~shortest states =
+  { steps = Replay.through graph states; cycle = []; shortest; decided = None; faults = None }
 
 let invariant graph ~shortest i : verdict =
   match Invariant.broken i, Invariant.trouble i, State_graph.stopped graph with
@@ -227,7 +238,8 @@ let formula x (options : options) f : verdict * int * int =
     let tick = State_graph.ticker graph "checking formulas" in
     let run violation =
       let found = Counterexample.of_violation ~tick options.environment x.program x.world graph labelling violation in
-      { steps = found.steps; cycle = found.cycle; shortest = found.decided <> None; decided = found.decided }
+      { steps = found.steps; cycle = found.cycle; shortest = found.decided <> None; decided = found.decided;
+        faults = None }
     in
     let in_fair_runs (verdict : _ Breadth_first.verdict) : _ Breadth_first.verdict =
       let fair = options.fairness = Weak in
@@ -410,7 +422,7 @@ let relevant program (options : options) =
 let reducible program (options : options) =
   if Environment.may_leave options.environment program then { options with reduction = Whole } else options
 
-let judged ?start (options : options) program world =
+let judged ?start ?phase ~started (options : options) program world =
   let symmetry =
     if Reduction.by_symmetry options.reduction then
       Symmetry.find options.environment program ~asked:options.invariants world
@@ -421,7 +433,7 @@ let judged ?start (options : options) program world =
     if options.invariants = [] then (options, symmetry)
     else ({ options with reduction = Whole }, Symmetry.without_tasks symmetry)
   in
-  explore { program; world; start; symmetry; started = options.limits.clock () } options
+  explore { program; world; start; symmetry; started; phase } options
 
 let without_symmetry (options : options) program =
   let options = relevant program (reducible program options) in
@@ -451,33 +463,33 @@ let in_step options program world ~image found =
   if List.exists Option.is_none verdicts then None
   else Some { found with verdicts = List.filter_map Fun.id verdicts; alike_values = true }
 
-let judged_with_alike_values ?start (options : options) program world =
+let judged_with_alike_values ?start ?phase ~started (options : options) program world =
   let unified =
     if Reduction.by_symmetry options.reduction && options.invariants = [] then
       Alike_values.unify options.environment program
     else None
   in
   match unified with
-  | None -> judged ?start options program world
+  | None -> judged ?start ?phase ~started options program world
   | Some image -> (
-      match in_step options program world ~image (judged options image world) with
+      match in_step options program world ~image (judged ?phase ~started options image world) with
       | Some found -> found
-      | None -> judged options program world)
+      | None -> judged ?phase ~started options program world)
 
 (* In the middle of a run, vehicles and values that the whole program treats alike have parts of their own. *)
 let unlike (options : options) = { options with reduction = Reduction.without_symmetry options.reduction }
 
-let run ?start (options : options) program world =
+let run ?start ?phase ?started (options : options) program world =
   let options = reducible program options in
   let options = if start = None then relevant program options else unlike options in
-  let started = options.limits.clock () in
-  let found = judged_with_alike_values ?start options program world in
-  let x = { program; world; start; symmetry = Symmetry.none; started } in
+  let started = match started with Some started -> started | None -> options.limits.clock () in
+  let found = judged_with_alike_values ?start ?phase ~started options program world in
+  let x = { program; world; start; symmetry = Symmetry.none; started; phase } in
   apart x options (with_formulas x options found)
 
 let side_by_side (options : options) program world =
   let options = relevant program (reducible program options) in
-  let x = { program; world; start = None; symmetry = Symmetry.none; started = options.limits.clock () } in
+  let x = { program; world; start = None; symmetry = Symmetry.none; started = options.limits.clock (); phase = None } in
   let pairs, all = beside x options in
   (pairs, all.stopped)
 
@@ -488,9 +500,13 @@ let reductions o =
   @ (if o.vehicle_symmetry then [ "symmetry of vehicles" ] else [])
   @ if o.alike_values then [ "symmetry of values" ] else []
 
+let faults_text { number; _ } =
+  match number with 0 -> "without a fault" | 1 -> "with 1 fault" | n -> Printf.sprintf "with %d faults" n
+
 let pp_verdict (program : Core.program) ppf (property, verdict) =
   let print format = Format.fprintf ppf format in
   let steps n = if n = 1 then "1 step" else Printf.sprintf "%d steps" n in
+  let with_faults { faults; _ } = Option.fold faults ~none:"" ~some:(fun faults -> ", " ^ faults_text faults) in
   print "%a: " Property.pp property;
   match verdict with
   | Holds -> print "holds"
@@ -503,19 +519,21 @@ let pp_verdict (program : Core.program) ppf (property, verdict) =
     let all = List.map (fun site -> ("repeat", site)) repeats @ List.map (fun site -> ("retry", site)) retries in
     let left_by = if left_by = [] then "nothing that may happen here" else String.concat ", " left_by in
     print "by design not: %a; ended by %s" (Fmt.list ~sep:(Fmt.any ", ") at) all left_by
-  | Violated { steps = run; cycle = []; _ } when property = Assertions -> (
-      print "violated after %s: " (steps (List.length run));
+  | Violated ({ steps = run; cycle = []; _ } as found) when property = Assertions -> (
+      print "violated after %s%s: " (steps (List.length run)) (with_faults found);
       match (List.nth run (List.length run - 1)).next.control with
       | Ended (Failed fault) ->
         Option.iter (print "%a: " Dolphin_syntax.Location.pp) (Fault.location program fault);
         print "%s" fault.message
       | Ended (Completed | Halted _ | Interrupted) | Script _ | Waiting _ | Executing _ ->
         print "%s" (Property.question property))
-  | Violated { decided = Some n; _ } -> print "violated after %s: %s" (steps n) (Property.question property)
-  | Violated { steps = run; cycle = []; _ } ->
-    print "violated after %s: %s" (steps (List.length run)) (Property.question property)
-  | Violated { steps = run; cycle; _ } ->
-    print "violated: after %s, %s that can repeat without end" (steps (List.length run)) (steps (List.length cycle))
+  | Violated ({ decided = Some n; _ } as found) ->
+    print "violated after %s%s: %s" (steps n) (with_faults found) (Property.question property)
+  | Violated ({ steps = run; cycle = []; _ } as found) ->
+    print "violated after %s%s: %s" (steps (List.length run)) (with_faults found) (Property.question property)
+  | Violated ({ steps = run; cycle; _ } as found) ->
+    print "violated%s: after %s, %s that can repeat without end" (with_faults found) (steps (List.length run))
+      (steps (List.length cycle))
   | Unreached pieces ->
     let piece ppf (p : Coverage.piece) =
       match Fault.location program (Fault.make p.site "") with

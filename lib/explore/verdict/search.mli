@@ -72,14 +72,21 @@ val space : options -> Core.program -> World.t -> Space.t
 
 (** {1:outcomes Outcomes} *)
 
+type faults = {
+  number : int;  (** as {!Environment.options.most_faults} counts them, those on a cycle once *)
+  fewest : bool;  (** no run that violates the property has fewer *)
+}
+
 (** A run from the initial configuration, or from the [start] of {!run}. *)
 type run = {
   steps : Transition.t list;
   cycle : Transition.t list;  (** repeats without end after that, unless empty *)
-  shortest : bool;  (** no run shows it in fewer steps; with a cycle, none comes to it in fewer *)
+  shortest : bool;
+  (** no run with as few [faults] shows it in fewer steps; with a cycle, none comes to it in fewer *)
   decided : int option;
   (** after how many steps a formula is known not to hold, whatever follows, or if the run rests there; then
       [shortest] speaks of these steps. [None]: the cycle violates it, or no formula is asked *)
+  faults : faults option;  (** by {!Fewest_faults}; [None] from {!run} *)
 }
 
 (** The verdict on one property. [Unreached] is of {!Property.All_reached}: the pieces that no run reaches. *)
@@ -119,15 +126,21 @@ type outcome = {
 val side_by_side : options -> Core.program -> World.t -> Side_by_side.pair list * Limits.bound option
 (** [side_by_side o p w] is [beside] of {!run}, and the bound that was met, if not all states were visited. *)
 
-val run : ?start:Configuration.t * Environment.t -> options -> Core.program -> World.t -> outcome
+val run :
+  ?start:Configuration.t * Environment.t -> ?phase:string -> ?started:float -> options -> Core.program -> World.t ->
+  outcome
 (** [run ~start o p w] explores [p] in [w], from [start] on, by default from its beginning. With a [start], to which
     some run of [p] must lead and which is not an end, nothing is reduced by symmetry, and formulas are of the runs
     from there on. A property holds only if all states were visited; violations found before a bound was met are
-    real. *)
+    real. [phase] is the present phase in reports of progress, and [started] as for {!Limits.guard}. *)
 
 val reductions : outcome -> string list
 (** Those that were used: {!Reduction.names}, and ["symmetry of vehicles"] for [vehicle_symmetry],
     ["symmetry of values"] for [alike_values]. *)
 
+val faults_text : faults -> string
+(** ["without a fault"], ["with 2 faults"] *)
+
 val pp_verdict : Core.program -> Format.formatter -> Property.t * verdict -> unit
-(** One line, without the runs: ["no deadlock: violated after 12 steps"]. *)
+(** One line, without the runs: ["no deadlock: violated after 12 steps"], with the number of faults if it
+    is known. *)

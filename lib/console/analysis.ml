@@ -24,8 +24,6 @@ type t = {
   changed : unit -> unit;
   conclude : text:string -> witness:string option -> (string, string) result Lwt.t;
   witness : string;  (* the file of the run that is shown *)
-  finished : unit Lwt.t;
-  finish : unit Lwt.u;
   mutable progress : string;
   mutable state : state;
   mutable found : string option;  (* the contents of that file *)
@@ -33,7 +31,6 @@ type t = {
 
 let order e = e.order
 let goes_on e = match e.state with Running -> true | Cancelled | Over _ -> false
-let finished e = Lwt.protected e.finished
 let shown e = e.found
 
 (* {1 Orders in JSON} *)
@@ -90,8 +87,7 @@ let rec read_all e buffer =
 
 let over e result =
   if e.state = Running then e.state <- Over result;
-  e.changed ();
-  Lwt.wakeup_later e.finish ()
+  e.changed ()
 
 (* The witness is read as it is: its parts matter to the process that shows it and to the run that enacts it. *)
 let conclude e text told =
@@ -112,10 +108,8 @@ let start ~dolphin ~changed ~conclude:concluding order =
   in
   let command = (dolphin :: order.arguments) @ limits @ order.inputs in
   let process = Lwt_process.open_process_full (dolphin, Array.of_list command) in
-  let finished, finish = Lwt.wait () in
   let e =
-    { order; process; changed; conclude = concluding; witness; finished; finish; progress = ""; state = Running;
-      found = None }
+    { order; process; changed; conclude = concluding; witness; progress = ""; state = Running; found = None }
   in
   let whole () =
     Lwt_io.close process#stdin >>= fun () ->

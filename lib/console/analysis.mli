@@ -51,9 +51,6 @@ val goes_on : t -> bool
 val cancel : t -> unit
 (** Ends its command, and the analysis has no result; without effect on one that is over. *)
 
-val finished : t -> unit Lwt.t
-(** Resolves when the command has ended and its result is there. *)
-
 val shown : t -> string option
 (** The run that it shows, a counterexample perhaps: the contents of a {!Dolphin_app.Witness_file}. *)
 

@@ -6,8 +6,6 @@ let create ~run =
   Unix.unlink path;
   { run; fd; length = 0; closed = false }
 
-let length f = f.length
-
 let rec write fd text start =
   if start < String.length text then
     write fd text (start + Unix.write_substring fd text start (String.length text - start))

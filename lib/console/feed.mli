@@ -10,9 +10,6 @@ val create : run:string -> t
 val add : t -> event:string -> string -> unit
 (** [add f ~event data] adds the message [data], one line, of kind [event]. *)
 
-val length : t -> int
-(** Bytes. *)
-
 val read : t -> int -> string * int
 (** [read f offset] is the next whole messages from [offset] on, some 64 KiB of them, and where they end. *)
 

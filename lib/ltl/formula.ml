@@ -35,11 +35,6 @@ and both : 'p 'q. ('p -> 'q) -> 'p t -> 'p t -> ('q t -> 'q t -> 'q t) -> 'q t =
   let f = map on f in
   build f (map on g)
 
-let propositions f =
-  let found = ref [] in
-  ignore (map (fun p -> found := p :: !found) f);
-  List.rev !found
-
 (* {1 Text} *)
 
 let rec pp proposition ppf f =

@@ -28,9 +28,6 @@ type 'p t =
 val map : ('p -> 'q) -> 'p t -> 'q t
 (** [map f formula] is [formula] with [f p] in the place of each proposition [p]. *)
 
-val propositions : 'p t -> 'p list
-(** From left to right, repetitions included. *)
-
 val of_string : string -> (string t, string) result
 (** [of_string text] is the formula that [text] spells, with propositions as they are written: a name, perhaps with
     arguments in parentheses, or anything in braces. [!], [X], [F], [G] bind tightest, then [U], [R] and [W], which

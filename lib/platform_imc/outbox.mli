@@ -23,9 +23,6 @@ val vehicle : now:float -> urgent:bool -> periodic:periodic -> World.vehicle_sta
 (** [vehicle ~now ~urgent ~periodic state b] reports [state] if it differs from the last report on the vehicle: at
     once if link, readiness, type or payload differ, or if [urgent]; other changes as [periodic] allows. *)
 
-val move : float
-(** 5 m. *)
-
 val forget : Core.vehicle -> t -> t
 (** [forget v b] is [b] without any report on [v]. *)
 

@@ -468,7 +468,6 @@ let resume ~now ~announce_period history d =
   let d = List.fold_left (resume_task ~now) d o.tasks in
   List.fold_left (resume_unsettled ~now) d (Request_note.unsettled ~platform:d.platform history)
 
-let has_outstanding d = d.given_up <> [] || Names.exists (fun _ slot -> Order_state.is_sent slot.errand) d.slots
 
 (* {1 Displays} *)
 

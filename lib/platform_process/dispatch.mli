@@ -17,9 +17,6 @@ val resume : now:float -> announce_period:float -> History.t -> t -> t
 (** [resume ~now ~announce_period history d] is [d], as {!create} made it, taking over at [now] from a console that
     died after [history], the part of it that concerns this platform. *)
 
-val has_outstanding : t -> bool
-(** Whether an adapter is to be asked what became of something. *)
-
 (** {1:outputs Outputs} *)
 
 (** The orders to send, the notes to keep, and the messages for people, in order. [Keep (v, note)]: keep [note] about

@@ -18,10 +18,6 @@ let to_json ~platform kept : Yojson.Safe.t =
   in
   `Assoc (("platform", text platform) :: members)
 
-let platform : Yojson.Safe.t -> string option = function
-  | `Assoc (("platform", `String name) :: _) -> Some name
-  | _ -> None
-
 let of_json ~platform : Yojson.Safe.t -> t option = function
   | `Assoc (("platform", `String name) :: members) when name = platform -> (
       match members with

@@ -13,9 +13,6 @@ type t =
 val to_json : platform:string -> t -> Yojson.Safe.t
 (** [to_json ~platform k] is the object in a [platform] line of the journal. *)
 
-val platform : Yojson.Safe.t -> string option
-(** Which platform kept this. *)
-
 val latest : platform:string -> Yojson.Safe.t list -> (string * Yojson.Safe.t list) option
 (** [latest ~platform notes] is the latest request that was asked and is not over by [notes], latest first, with the
     adapter's own notes on it, latest first. *)

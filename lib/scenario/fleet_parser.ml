@@ -399,5 +399,4 @@ let names_at word ~file source =
   in
   match Parse.program ~file source with Ok program -> List.filter_map at program | Error _ -> []
 
-let vehicles_at = names_at "vehicle"
 let replies_at = names_at "reply"

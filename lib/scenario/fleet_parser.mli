@@ -8,9 +8,6 @@ val read :
   (Entry.t, Diagnostic.t list) result
 (** See {!Scenario.read}. *)
 
-val vehicles_at : file:string -> string -> (string * Location.t) list
-(** See {!Scenario.vehicles_at}. *)
-
 val replies_at : file:string -> string -> (string * Location.t) list
 (** See {!Scenario.replies_at}. *)
 

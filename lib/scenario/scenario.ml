@@ -5,7 +5,6 @@ include Entry
 
 let no_chart _ = Error "no file can be read here"
 let read ?(chart = no_chart) ~file source = Fleet_parser.read ~chart ~file source
-let vehicles_at = Fleet_parser.vehicles_at
 let replies_at = Fleet_parser.replies_at
 
 let equal_reply (a : reply) (b : reply) = a.call = b.call && List.equal (List.equal Reply.equal) a.rounds b.rounds

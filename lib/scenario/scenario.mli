@@ -34,9 +34,6 @@ val read :
     diagnostic and at most {!Dolphin_syntax.Parse.most_faults}, in the order of the text. [file] is only a name.
     [chart] reads the file of a [map] in a fence; by default no file can be read. No text makes it raise. *)
 
-val vehicles_at : file:string -> string -> (string * Dolphin_syntax.Location.t) list
-(** [vehicles_at ~file source] is the places in [source], which {!read} reads, that name each vehicle, by their ids. *)
-
 val replies_at : file:string -> string -> (string * Dolphin_syntax.Location.t) list
 (** The same for replies, by the names of their calls. *)
 

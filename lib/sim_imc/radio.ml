@@ -16,16 +16,14 @@ type t = {
   queue : passage Event_queue.t;
   sent : int;
   received : int;
-  broken : int;
 }
 
 type outcome = datagram list * Activity.t list * t
 
 let create ?(faults = Faults.none) ~seed settings =
-  { faults; seed; node = Vehicle_node.create settings; queue = Event_queue.empty; sent = 0; received = 0; broken = 0 }
+  { faults; seed; node = Vehicle_node.create settings; queue = Event_queue.empty; sent = 0; received = 0 }
 
 let node r = r.node
-let broken r = r.broken
 
 (* {1 Out} *)
 
@@ -69,7 +67,7 @@ let tell ~at ~src_ent ~content r =
 let arrive ~at channel ~host bytes r =
   match Packet.decode bytes with
   | Ok packet -> after_node ~at r (Vehicle_node.receive ~at channel ~host packet r.node)
-  | Error _ -> [], [], { r with broken = r.broken + 1 }
+  | Error _ -> [], [], r
 
 let both (sent, activities, r) step =
   let more_sent, more_activities, r = step r in

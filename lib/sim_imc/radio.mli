@@ -29,10 +29,7 @@ val advance : at:float -> t -> outcome
 (** The events of its own up to that time. *)
 
 val receive : at:float -> Vehicle_node.channel -> host:string -> string -> t -> outcome
-(** [receive ~at channel ~host bytes r]. Datagrams that are not IMC packets are dropped, and counted. *)
+(** [receive ~at channel ~host bytes r]. Datagrams that are not IMC packets are dropped. *)
 
 val tell : at:float -> src_ent:int -> content:Packet.content -> t -> outcome
 (** See {!Vehicle_node.tell}. *)
-
-val broken : t -> int
-(** How many datagrams that came in were not IMC packets. *)

@@ -2,11 +2,6 @@
 
 open Dolphin_imc
 
-val system_type : string -> Message.System_type.t
-(** [system_type kind] is the type of system that a fleet file calls [kind], without regard to case: ["UUV"] or ["AUV"],
-    ["USV"] or ["ASV"], ["UAV"], ["UGV"], and the names of IMC for the others. A kind without a number is a mobile
-    sensor. *)
-
 val announce :
   name:string ->
   kind:string ->

@@ -76,8 +76,6 @@ let create ?apart (options : Clocked.options) =
     numbers = Form.numbers numbering; constants = Constants.create 64; executions = Clocked.Table.create 8;
     possible = Inert.names_are_free options }
 
-let number e = e.number
-
 let orbit e label =
   match Hashtbl.find_opt e.orbits label with Some orbit -> List.rev (Hashtbl.find e.members orbit) | None -> [ label ]
 

@@ -21,9 +21,6 @@ val execution : t -> Clocked.state -> execution option
 (** [execution t s] is for the task that is about to be executed in [s]; [None] if it has no automorphism but the
     identity. *)
 
-val number : execution -> int
-(** Its number, from 0 in the order in which executions were found. *)
-
 val orbit : execution -> label -> label list
 (** [orbit e l] is the platform tasks that automorphisms make of [l], itself included. *)
 

@@ -103,9 +103,6 @@ type step = {
   urgent : bool;  (** whether no time passes while it is possible *)
 }
 
-val is_of_program : step -> bool
-(** Whether it is a transition of the semantics. *)
-
 val steps : options -> state -> step list
 (** [steps o s] is the possible steps in [s]. If some step is urgent, only steps without an event; of [START]s only the
     first, unless its vehicle's place matters: docs/time.md shows why that is enough.

@@ -1201,6 +1201,14 @@ let streams_of_one_client _ port =
   Client.watch ~port "other" >>= fun other ->
   Client.until other (fun m -> m.event = "status") >>= fun _ -> Lwt_list.iter_s Client.leave (other :: streams)
 
+(* docs/openapi.json describes all requests, and no others. *)
+let described () =
+  let paths = Yojson.Safe.Util.(to_assoc (member "paths" (Yojson.Safe.from_file "../../docs/openapi.json"))) in
+  let of_path (path, methods) =
+    List.map (fun (verb, _) -> (String.uppercase_ascii verb, path)) (Yojson.Safe.Util.to_assoc methods) in
+  let sorted = List.sort compare in
+  Alcotest.(check (list (pair string string))) "requests" (sorted Api.routes) (sorted (List.concat_map of_path paths))
+
 let with_limits change f = served (fun folder -> { (settings folder) with workers = change Worker_pool.limits }) f
 
 (* The console starts this program for its workers. *)
@@ -1222,7 +1230,7 @@ let () =
        [ slow "who may ask" (console who_may_ask);
          slow "with tokens"
            (served (fun folder -> { (settings folder) with listen = Some Unix.inet_addr_loopback }) with_tokens); slow "no escape from the folder" (console no_escape);
-         slow "malformed requests" (console malformed); slow "tiles" tiles;
+         slow "malformed requests" (console malformed); slow "tiles" tiles; slow "described" described;
          slow "hostile watchers"
            (served (fun folder -> { (settings folder) with listen = Some Unix.inet_addr_loopback }) hostile_watchers);
          slow "the operators' file" operators_file;

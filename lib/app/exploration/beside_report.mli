@@ -2,9 +2,6 @@
 
 module Side_by_side := Dolphin_explore.Side_by_side
 
-val line : Program_file.t -> Side_by_side.pair -> string
-(** [line program pair] is both plans with their places in the text, and how near they come, in one line. *)
-
 val print : Program_file.t -> Side_by_side.pair list -> unit
 (** A line for each, after an empty one; nothing without any. *)
 

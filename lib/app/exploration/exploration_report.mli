@@ -12,6 +12,3 @@ val print_violations : strict:bool -> Program_file.t -> Search.outcome -> unit
 
 val to_json : ?from:Present.t -> Program_file.t -> Search.outcome -> Yojson.Safe.t
 (** [to_json ~from program o] is [o] as one object. *)
-
-val mebibytes : int -> int
-(** [mebibytes bytes] is [bytes] in MiB, rounded down. *)

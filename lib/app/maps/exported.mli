@@ -16,9 +16,6 @@ val of_plans : title:string -> Inline_plans.found list -> t
 (** [of_plans ~title plans] has the way of each plan that the program describes, and the end of each of its
     maneuvers. The rows are the way points. Plans that vehicles know by name are left out. *)
 
-val to_string : Dolphin_maps.Map_format.t -> t -> string
-(** [to_string format e] is the contents of a file in this format. *)
-
 val write : Dolphin_maps.Map_format.t -> string option -> t -> (unit, Error.t) result
 (** [write format path map] writes into the file [path], to standard output without one. Nothing to write is an error:
     {!Error.Bad_input}. *)

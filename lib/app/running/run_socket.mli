@@ -4,9 +4,6 @@
 open Dolphin_semantics
 open Dolphin_runtime
 
-val beside : string -> string
-(** [beside journal] is the place of the socket of the run with this journal. *)
-
 (** The permissions of clients. *)
 type run = {
   program : Program_file.t;

@@ -24,8 +24,3 @@ type t = {
 
 val run : seed:int -> answers:string list -> Program_file.t -> Fleet_file.t -> (t, Error.t) result
 (** [run ~seed ~answers program fleet] is the run that [dolphin exec --seed] makes, at once. *)
-
-val handlers :
-  Core.program -> World.t -> Configuration.t -> Transition.event option -> Transition.t -> Core.site list
-(** [handlers p w c e t] is the places of the handlers of errors that run in the transition [t] of [c], which it makes
-    on [e] or by itself: the innermost first. *)

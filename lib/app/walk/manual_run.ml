@@ -15,7 +15,6 @@ let configuration r = r.now.configuration
 let outside r = r.now.outside
 let length r = List.length r.past
 let ahead r = r.ahead
-let before r = match r.past with [] -> None | (state, _) :: _ -> Some state.configuration
 let steps r = List.rev_map (fun (_, (t, _)) -> t) r.past
 
 let choices_of { program; world; options } state =

@@ -27,9 +27,6 @@ val length : t -> int
 val ahead : t -> choice list
 (** The steps that {!next} takes, one after the other. *)
 
-val before : t -> Configuration.t option
-(** The configuration before the latest step. *)
-
 val steps : t -> Transition.t list
 (** The steps that were taken, the first one first. *)
 

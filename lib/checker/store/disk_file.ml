@@ -21,8 +21,6 @@ let create ~directory =
   | exception Unix.Unix_error (error, _, _) -> fail directory error
   | exception Sys_error _ -> raise (Failed (directory ^ ": no file can be made there"))
 
-let length f = (f.written + f.filled) / 8
-
 let rec whole f operation at upto =
   if at < upto then
     match operation at (upto - at) with

@@ -8,9 +8,6 @@ exception Failed of string
 val create : directory:string -> t
 (** @raise Failed as the others do *)
 
-val length : t -> int
-(** In words. *)
-
 val append : t -> int -> unit
 (** [append f x] appends the word [x]. *)
 

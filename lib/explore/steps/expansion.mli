@@ -62,9 +62,6 @@ val interrupt : source -> int
     are explored, verdicts are the same with it. If the program prints the tasks that it executes, all states are
     explored. The result is how many transitions that makes. *)
 
-val visit_script : t -> Task_group.permutation option System.visitor -> int -> action:int -> unit
-(** [visit_script t v n ~action] visits configuration [n], which executes nothing. *)
-
 val write_and_visit :
   t -> Task_group.permutation option System.visitor -> Rule.t list -> Configuration.t -> Environment.t ->
   action:int -> int

@@ -15,9 +15,6 @@ val of_transition : Transition.t -> t
 val is_event : Transition.t -> bool
 (** Whether it answers an event, which time may go before. *)
 
-val contradict : World.assumption -> World.assumption -> bool
-(** Whether no world has both at one moment. *)
-
 (** {1:concerns Concerns} *)
 
 type concerns = World.assumption -> bool

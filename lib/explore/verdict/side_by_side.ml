@@ -27,7 +27,6 @@ let create fences =
   { fences; plans = Hashtbl.create 16; nearness = Hashtbl.create 64; seen = Hashtbl.create 64; interesting = 0;
     near = false }
 
-let fence t = Fences.least_distance t.fences
 
 let plan t (task : Core.platform_task) =
   let key = (task.task_site, task.name, task.plan) in

@@ -29,9 +29,6 @@ type t
 val create : Fences.t -> t
 (** [create fences] has seen no pair. *)
 
-val fence : t -> Fences.fence option
-(** The least distance between vehicles, if there is one. *)
-
 val see : t -> Core.platform_task Vehicle_map.t -> unit
 (** [see t a] takes note of all that run at the same time, each on its vehicle. *)
 

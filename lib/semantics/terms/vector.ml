@@ -47,11 +47,6 @@ let rec all holds xs i = i = xs.length || (holds xs.buffer.(i) && all holds xs (
 let for_all holds xs = all holds xs 0
 let exists holds xs = not (for_all (fun x -> not (holds x)) xs)
 
-let iter f xs =
-  for i = 0 to xs.length - 1 do
-    f xs.buffer.(i)
-  done
-
 let map f xs = of_array (Array.init xs.length (fun i -> f xs.buffer.(i)))
 
 let equal same xs ys =

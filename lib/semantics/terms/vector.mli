@@ -37,9 +37,6 @@ val set : 'a t -> int -> 'a -> 'a t
 val map : ('a -> 'b) -> 'a t -> 'b t
 (** [map f xs] is [f x] for each element [x] of [xs], in order. *)
 
-val iter : ('a -> unit) -> 'a t -> unit
-(** [iter f xs] is [f x] for each element [x] of [xs], in order. *)
-
 val for_all : ('a -> bool) -> 'a t -> bool
 (** [for_all p xs] is whether [p] holds of each element. *)
 

@@ -11,8 +11,13 @@ export interface Diagnostic {
 export interface RunStatus {
   id: string; state: "running" | "stopping" | "over"; speed: number | null; simulated: boolean; inputs: string[];
   question: Question | null; questions: OpenQuestion[]; outcome: { how: string; text: string; diagnostics: Diagnostic[] } | null;
-  program: string | null; journal: string | null; counterexample: string | null;
+  program: string | null; journal: string | null; counterexample: string | null; outlook: Outlook | null;
 }
+// Of the run from its present on, or why that is unknown.
+export type Outlook = { error: string } | {
+  from: { time: number; transitions: number }; over: { earliest: number; latest: number | null } | null;
+  violated: string[]; by_faults: string[]; complete: boolean;
+};
 export interface Going { number: number; state: string; progress: string }
 export interface Status {
   instance: string; folder: string; tiles: string | null; simulated: boolean; version: string; run: RunStatus | null;

@@ -11,6 +11,7 @@ import { ChartMap } from "./map";
 import { type Message, Run, clock } from "./model";
 import { VehicleTable } from "./vehicles";
 import { beside, inWords, read as readPlace } from "./place";
+import { outlook } from "./outlook";
 import { type Picked, happenings, timeline } from "./timeline";
 import { Plans } from "./plans";
 import { Alarms } from "./alarms";
@@ -551,6 +552,7 @@ function renderHead() {
   setTitle(world ? `${world} – ${going ? run.program ?? "a program" : "Dolphin console"}` : "Dolphin console");
   $("link").textContent = !linked ? "no server: this is what was known last" : going ? `${run.counterexample !== null ? "counterexample of " : ""}${run.program ?? "a program"} ${clock(live.time)}` : "";
   $("link").className = linked ? "" : "trouble";
+  outlook($("outlook"), going && linked && !past ? run.outlook : null, live.time);
   helm.show(linked ? status?.helm ?? null : null, me, answers ? "answers" : watches ? "watches" : "steers");
 }
 

@@ -30,6 +30,8 @@ type t = {
   open_ : unit Lwt.u;
   mutable view : Run.view;
   mutable last : float;  (* the time of the latest news *)
+  mutable transitions : int;
+  stepped : unit Lwt_condition.t;
   mutable question : question option;
   mutable questions : int;
   mutable refused : string option;
@@ -46,6 +48,11 @@ let program r = r.order.program
 let goes_on r = match r.state with Running | Stopping -> true | Over _ -> false
 let now r = if goes_on r then Float.max r.last (r.view.now ()) else r.last
 let finished r = Lwt.protected r.finished
+let transitions r = r.transitions
+
+let rec after r n =
+  if r.transitions > n || not (goes_on r) then Lwt.return_unit
+  else Lwt.pick [ Lwt_condition.wait r.stepped; finished r ] >>= fun () -> after r n
 
 (* {1 Messages} *)
 
@@ -72,6 +79,8 @@ let note_timers r ~time (t : Dolphin_semantics.Transition.t) =
 let observer r : Observer.t =
   let transition ~time ~cause:_ t =
     r.last <- time;
+    r.transitions <- r.transitions + 1;
+    Lwt_condition.broadcast r.stepped ();
     note_timers r ~time t;
     let stuck = Interruption.is_unasked r.interruption (Narrator.configuration r.narrator) in
     Narrator.transition r.narrator ~stuck ~time t;
@@ -180,7 +189,8 @@ let begin_ ~id ~changed ?journal ?enacts order go =
   let r =
     { id; order; journal; enacts; feed;
       narrator = Narrator.make order.program (fun ~event data -> Feed.add feed ~event data);
-      interruption = Interruption.make (); changed; finished; finish; opened; open_; view; last = 0.; question = None;
+      interruption = Interruption.make (); changed; finished; finish; opened; open_; view; last = 0.;
+      transitions = 0; stepped = Lwt_condition.create (); question = None;
       questions = 0; refused = None; state = Running; stale = false; early = []; expiries = Hashtbl.create 8 }
   in
   let whole () =

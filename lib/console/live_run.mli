@@ -44,6 +44,12 @@ val now : t -> float
 val finished : t -> unit Lwt.t
 (** Resolves when it is over, and its vehicles are released. *)
 
+val transitions : t -> int
+(** How many this console has taken: a resumed run begins with 0. *)
+
+val after : t -> int -> unit Lwt.t
+(** [after r n] resolves when [r] has taken more than [n] {!transitions}, or is over. *)
+
 (** The extent of a Stop. *)
 type stopping =
   | Next  (** as Ctrl-C does: the program, or, if it is being stopped already, its task of [onInterrupt] *)

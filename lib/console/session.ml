@@ -41,6 +41,7 @@ type t = {
   grown : unit Lwt_condition.t;
   mutable access : Access.t;
   mutable run : Live_run.t option;
+  mutable outlook : Outlook.t option;  (* of the run *)
   mutable run_path : string option;  (* of its program, in the folder *)
   pools : pools;
   mutable runs : int;
@@ -58,7 +59,7 @@ let make settings =
   let operators = if settings.listen = None then [] else settings.operators in
   { settings; instance = String.sub instance 0 8; grown = Lwt_condition.create ();
     access = { port = 0; tls = settings.certificate <> None; operators }; run = None;
-    run_path = None; pools = pools settings; runs = 0;
+    outlook = None; run_path = None; pools = pools settings; runs = 0;
     analyses = []; begun = 0; visitors = Visitors.make (); helm = Helm.free; alive = []; watching = [] }
 
 let settings h = h.settings
@@ -83,11 +84,13 @@ let watchers h role = List.length (List.filter (fun (_, of_client) -> of_client 
 
 let close h =
   let { steerers; watchers; replays_of_steerers; replays_of_watchers; own } = h.pools in
-  List.iter Worker_pool.close [ steerers; watchers; replays_of_steerers; replays_of_watchers; own ]
+  List.iter Worker_pool.close [ steerers; watchers; replays_of_steerers; replays_of_watchers; own ];
+  Option.iter Outlook.close h.outlook
 
 let worker_pids h =
   let { steerers; watchers; replays_of_steerers; replays_of_watchers; own } = h.pools in
   List.concat_map Worker_pool.pids [ steerers; watchers; replays_of_steerers; replays_of_watchers; own ]
+  @ Option.fold h.outlook ~none:[] ~some:Outlook.pids
 
 let workers h (role : Access.role) =
   match role with Steers | Answers -> h.pools.steerers | Watches -> h.pools.watchers
@@ -106,6 +109,10 @@ let begin_run h start =
   h.runs <- h.runs + 1;
   let run = start ~id:(Printf.sprintf "%s-%d" h.instance h.runs) ~changed:(fun () -> changed h) in
   h.run <- Some run;
+  Option.iter Outlook.close h.outlook;
+  let workspace () = workspace h in
+  let follow = Outlook.follow ~dolphin:h.settings.dolphin ~changed:(fun () -> changed h) ~workspace in
+  h.outlook <- Some (follow run);
   h.run_path <- Folder.inside h.settings.folder (Live_run.program run).path;
   Option.iter (fun run -> Feed.close (Live_run.feed run)) before;
   changed h;
@@ -161,7 +168,8 @@ let of_run h run : Yojson.Safe.t =
   | `Assoc members ->
     `Assoc
       (members
-       @ [ ("program", Field.of_option (fun path -> `String path) h.run_path);
+       @ [ ("outlook", Option.fold h.outlook ~none:`Null ~some:Outlook.to_json);
+           ("program", Field.of_option (fun path -> `String path) h.run_path);
            ("journal", Field.of_option (fun path -> `String (Filename.remove_extension (Filename.basename path)))
               (Live_run.journal run)) ])
   | json -> json

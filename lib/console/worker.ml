@@ -34,6 +34,7 @@ let tasks =
     ("world", look Worlds.get); ("plans", compute Plans.prepare);
     ("exploration", compute (Analysis_work.prepare Exploration)); ("timing", compute (Analysis_work.prepare Timing));
     ("graph", compute (Analysis_work.prepare Graph)); ("conclude", look Analysis_work.conclude);
+    ("outlook", compute Outlook_work.compute);
     ("start", look check_start); ("broken-off", compute Kept_runs.broken_off);
     ("runs", look Kept_runs.list); ("journal", look Kept_runs.check); ("replay", Pieces Kept_runs.replay) ]
 

@@ -646,6 +646,43 @@ let stopped _ port =
   text "interrupted" {|"interrupted"|} (Yojson.Safe.to_string (member [ "run"; "outcome"; "how" ] ended));
   Client.leave first
 
+(* From the present of the run on, and only as long as its program is the one that runs. *)
+let outlook folder port =
+  let file name text = write (Filename.concat folder name) text in
+  let fleet = "vehicle 'a', { type 'UUV' }\nplan 'survey', { duration 1.hour, 90.min }\n" in
+  let member path (m : Client.message) = member ("run" :: "outlook" :: path) (Yojson.Safe.from_string m.data) in
+  let seconds path m = match member path m with `Int n -> float_of_int n | `Float x -> x | _ -> Float.nan in
+  let has path (m : Client.message) = m.event = "status" && member path m <> `Null in
+  let begun program = Client.ask ~body:(Printf.sprintf {|{"program": "%s", "speed": 10}|} program) ~port "/api/run" in
+  let stop () = Client.ask ~body:"{}" ~port "/api/run/stop" in
+  let last seen = List.hd (List.rev seen) in
+  file "twice.dol" "v = pick { count 1 }\nexecute v: task('survey') >> task('survey')\n";
+  file "twice.fleet" fleet;
+  Client.watch ~port "first" >>= fun first ->
+  begun "twice.dol" >>= fun _ ->
+  Client.until first (fun m -> has [ "over" ] m && seconds [ "from"; "transitions" ] m >= 4.) >>= fun seen ->
+  let found = last seen in
+  let within least most x = least <= x && x < most in
+  holds "over after two hours" true (within 7200. 7300. (seconds [ "over"; "earliest" ] found));
+  holds "over by three hours" true (within 10800. 10900. (seconds [ "over"; "latest" ] found));
+  text "nothing goes wrong" "[]" (Yojson.Safe.to_string (member [ "violated" ] found));
+  text "but by faults" {|["no unhandled error"]|} (Yojson.Safe.to_string (member [ "by_faults" ] found));
+  text "all was looked at" "true" (Yojson.Safe.to_string (member [ "complete" ] found));
+  stop () >>= fun _ ->
+  Client.until first is_over >>= fun seen ->
+  text "none at the end" "null" (Yojson.Safe.to_string (member [] (last seen)));
+  let waits = "input 'go'\nv = pick { count 1 }\nexecute v: task('survey') >> condition { poll go: true }\n" in
+  file "twice.dol" waits;
+  begun "twice.dol" >>= fun _ ->
+  Client.until first (has [ "from" ]) >>= fun _ ->
+  file "twice.dol" (waits ^ "message 'another end'\n");
+  Client.ask ~body:{|{"key": "go", "value": true}|} ~port "/api/run/post" >>= fun _ ->
+  Client.until first (has [ "error" ]) >>= fun seen ->
+  text "another program" {|"the program has changed since the run began"|}
+    (Yojson.Safe.to_string (member [ "error" ] (last seen)));
+  stop () >>= fun _ ->
+  Client.until first is_over >>= fun _ -> Client.leave first
+
 (* The end of what a stuck program executes is told as the terminal tells it. *)
 let stuck folder port =
   write (Filename.concat folder "home.dol")
@@ -1254,5 +1291,5 @@ let () =
        [ slow "threads" threads_interrupt_nothing; slow "a run" (console a_run); slow "journals of the folder" (console journals); slow "answers and posts" (console answers_and_posts);
          slow "what is asked" (console what_is_asked);
          slow "open questions" (console open_questions); slow "on the map" (console on_the_map);
-         slow "stopped" (console stopped); slow "stuck" (console stuck);
+         slow "stopped" (console stopped); slow "outlook" (console outlook); slow "stuck" (console stuck);
          slow "interrupted is not stuck" (console interrupted_is_not_stuck); slow "faults" (console faults) ]) ]

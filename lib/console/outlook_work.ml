@@ -1,0 +1,92 @@
+open Dolphin_app
+open Dolphin_json
+open Exchange
+module Faults = Dolphin_environment.Faults
+module Property = Dolphin_explore.Property
+module Search = Dolphin_explore.Search
+module Timed_analysis = Dolphin_time.Timed_analysis
+
+let hash program = (Program_file.header program).Dolphin_trace.Header.hash
+
+let order ~program ~journal : json =
+  `Assoc
+    [ ("journal", `String journal); ("program", `String program.Program_file.path);
+      ("hash", `String (hash program)) ]
+
+(* {1 The questions} *)
+
+(* Of each question. All three, with the reading of the journal, are over before a worker is. *)
+let seconds = 4.
+let most_memory = 512 * 1024 * 1024
+
+let never () = false
+let unseen _ = ()
+
+let over from program fleet =
+  let settings =
+    { Time_analysis.answers = []; faults = Faults.none; deadline = None; workers = 1; max_states = None;
+      max_depth = None; max_memory = Some most_memory; timeout = Some seconds }
+  in
+  Time_analysis.run ~from ~interrupted:never ~progress:unseen settings program fleet
+
+let violations from faults program fleet =
+  let settings =
+    { Exploration.answers = []; faults; reduction = All; compress = false; spill = None; walks = None; bitstate = None;
+      workers = 1; max_states = None; max_depth = None; max_memory = Some most_memory; timeout = Some seconds;
+      invariants = []; formulas = []; fairness = Weak }
+  in
+  let is_violated = function
+    | _, (Search.Violated _ | Unreached _) -> true
+    | _, (Holds | By_design _ | Inconclusive _) -> false
+  in
+  let counts (property, verdict) = is_violated (property, verdict) && not (Exploration.is_remark property) in
+  let of_outcome (o : Search.outcome) = (List.map fst (List.filter counts o.verdicts), o.stopped = None) in
+  Result.map of_outcome (Exploration.explore ~from ~interrupted:never ~progress:unseen settings program fleet)
+
+(* {1 The reply} *)
+
+let json_of_over (o : Timed_analysis.outcome) : json =
+  let windows = List.map snd o.endings in
+  let latest found (w : Timed_analysis.window) =
+    match found, w.latest with
+    | Timed_analysis.At n, At m -> Timed_analysis.At (max n m)
+    | (At _ | Unbounded), _ -> Unbounded
+  in
+  let seconds ms = Canonical.number (float_of_int ms /. 1000.) in
+  match windows with
+  | [] -> `Null
+  | first :: rest ->
+    let earliest = List.fold_left (fun least (w : Timed_analysis.window) -> min least w.earliest) first.earliest rest in
+    let latest = if o.stopped = None then List.fold_left latest first.latest rest else Unbounded in
+    `Assoc
+      [ ("earliest", seconds earliest);
+        ("latest", (match latest with At n -> seconds n | Unbounded -> `Null)) ]
+
+(* The page does not need the path of the journal. *)
+let from_json from : json =
+  match Present.to_json from with
+  | `Assoc members -> `Assoc (List.remove_assoc "journal" members)
+  | json -> json
+
+let no_outlook e = refusal 422 "no-outlook" (String.concat "; " (Error.sentences e))
+
+let compute (_ : Workspace.t) found =
+  let* journal = get Field.text "journal" found in
+  let* path = get Field.text "program" found in
+  let* of_run = get Field.text "hash" found in
+  let of_error result = Result.map_error no_outlook result in
+  let* from, program, fleet = of_error (Present.load path ~set:[] ~fleet:None ~journal) in
+  let* () =
+    if hash program = of_run then Ok ()
+    else refuse 409 "changed" "the program has changed since the run began"
+  in
+  let* all = Result.map_error (refusal 500 "trouble") (Faults.of_string "all") in
+  let over = over from program fleet in
+  let* violated, whole = of_error (violations from Faults.none program fleet) in
+  let* with_faults, whole_with_faults = of_error (violations from all program fleet) in
+  let by_faults = List.filter (fun p -> not (List.mem p violated)) with_faults in
+  let names found = Field.texts (List.map Property.name found) in
+  Ok
+    (`Assoc
+       [ ("from", from_json from); ("over", json_of_over over); ("violated", names violated);
+         ("by_faults", names by_faults); ("complete", `Bool (whole && whole_with_faults && over.stopped = None)) ])

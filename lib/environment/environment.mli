@@ -39,7 +39,7 @@ type input = {
   certain : bool;  (** as often as that, sooner or later; otherwise perhaps never *)
 }
 
-(** The possible events, beside what {!Transition.awaited} allows. *)
+(** The ways in which awaited events may come out, and the events that come unasked. *)
 type options = {
   endings : Core.vehicle -> string -> ending;
   (** of a vehicle's run of the plan with this name, without {!Faults} *)

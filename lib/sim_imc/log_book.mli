@@ -4,7 +4,7 @@
 open Dolphin_imc
 
 type line
-(** An entry: its time is that of its sending. *)
+(** An entry, without its time. *)
 
 val entity : line -> int
 (** The author of the entry. *)

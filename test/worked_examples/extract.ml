@@ -21,12 +21,17 @@ let rec interfaces folder =
   in
   List.concat_map of_name (List.sort String.compare (Array.to_list (Sys.readdir folder)))
 
+let has_mark line =
+  let rec from i = i + 1 < String.length line && (String.sub line i 2 = "{[" || from (i + 1)) in
+  from 0
+
 (* Line by line: the examples, each with the number of its first line. Their marks stand alone on lines, but for the
    end of the comment. *)
 let examples path =
   let rec outside n = function
     | [] -> []
     | line :: rest when String.trim line = "{[" -> inside (n + 1) (n + 1) [] rest
+    | line :: _ when has_mark line -> failwith (Printf.sprintf "%s:%d: {[ stands alone on its line" path n)
     | _ :: rest -> outside (n + 1) rest
   and inside first n example = function
     | [] -> failwith (Printf.sprintf "%s:%d: the example has no end" path first)

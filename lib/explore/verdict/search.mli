@@ -34,7 +34,7 @@ type fairness =
   | Weak  (** runs that are fair as for {!Property.Termination}, and endless runs without any event *)
   | No_fairness  (** all *)
 
-(** The contents of an exploration. *)
+(** The questions of an exploration, the way of its search, and its limits. *)
 type options = {
   environment : Environment.options;
   reduction : Reduction.t;

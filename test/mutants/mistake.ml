@@ -10,7 +10,7 @@ let all =
     [
       in_file "lib/app/exploration/successors.ml" ~noticed_by:"explore/test_successors"
         [
-          ( "what was reached before fields grew is in the old encoding",
+          ( "states keep the old encoding after fields grow",
             {|    t.reached <- States.rewrite t.reached ~words:(Space.words t.space) renewed;|},
             {|    t.reached <- States.rewrite t.reached ~words:(Space.words t.space) (fun old fresh ->
         if States.count t.reached < 0 then renewed old fresh
@@ -19,7 +19,7 @@ let all =
       in_file "lib/app/sampling/sample_lines.ml" ~noticed_by:"time/test_sampled"
         [
           ("times to the second", {|Canonical.number s.seconds|}, {|Canonical.number (Float.round s.seconds)|});
-          ( "tasks failed whoever had them",
+          ( "failures name another vehicle",
             {|("cause", `String "task"); ("vehicle", `String vehicle); ("task", `String task)|},
             {|("cause", `String "task"); ("vehicle", `String (vehicle ^ "?")); ("task", `String task)|} );
         ];
@@ -31,12 +31,12 @@ let all =
         ];
       in_file "lib/checker/search/bitstate.ml" ~noticed_by:"checker/test_search"
         [
-          ("one bit tells a state", {|number = hashes |||}, {|number = 1 |||});
+          ("one bit identifies a state", {|number = hashes |||}, {|number = 1 |||});
           ("hashes begin with a small number", {|0x2D35_8DCC_AA6C_78A5|}, {|1|});
         ];
       in_file "lib/checker/search/team.ml" ~noticed_by:"explore/test_workers"
         [
-          ( "what others have learnt is not learnt before",
+          ( "a process misses words of other processes",
             {|      catch_up t ~words f;
       let key|},
             {|      t.known <- get t logged;
@@ -48,7 +48,7 @@ let all =
         ];
       in_file "lib/checker/store/on_disk.ml" ~noticed_by:"checker/test_states"
         [
-          ("what is known is added again", {|known i '\001'|}, {|known i '\000'|});
+          ("known states are added again", {|known i '\001'|}, {|known i '\000'|});
         ];
       in_file "lib/checker/store/shared_states.ml" ~noticed_by:"checker/test_search"
         [
@@ -69,7 +69,7 @@ let all =
         ];
       in_file "lib/explore/encoding/encoding.ml" ~noticed_by:"reduction/test_told_apart"
         [
-          ( "where a task begins, names and what nothing reads are kept",
+          ( "the encoding where a task begins is not canonical",
             {|  let (c : Configuration.t), outside = t.canonical c outside in
   match|},
             {|  let (c : Configuration.t), outside =
@@ -83,8 +83,8 @@ let all =
         ];
       in_file "lib/explore/encoding/portable.ml" ~noticed_by:"explore/test_successors"
         [
-          ("states do not say what is shared", {|(shared_name t above)|}, {|(shared_name t 0)|});
-          ("what a process met first is what stands there", {|memoised members name|}, {|memoised members 0|});
+          ("states lack the name of their shared part", {|(shared_name t above)|}, {|(shared_name t 0)|});
+          ("each part of a state has number 0", {|memoised members name|}, {|memoised members 0|});
         ];
       in_file "lib/explore/order/footprint.ml" ~noticed_by:"reduction/test_traps"
         [
@@ -103,8 +103,10 @@ let all =
             {|  | Sequence (r, _) | All_of (Some r, _) -> first_branches c around r|},
             {|  | Sequence (r, _) | All_of (Some r, _) -> first_branches c around r
   | Hold (_, r) when not (is_settled c r) -> first_branches c around r|} );
-          ("nobody sees a task start", {|Start (_, v), _ -> turning c v|}, {|Start _, _ -> Footprint.empty|});
-          ( "nobody sees a task end while its vehicle is held",
+          ( "the start of a task has no footprint",
+            {|Start (_, v), _ -> turning c v|},
+            {|Start _, _ -> Footprint.empty|} );
+          ( "the end of a task on a held vehicle has no footprint",
             {|{ (turning c v) with remembered|},
             {|{ Footprint.empty with remembered|} );
         ];
@@ -161,15 +163,15 @@ let all =
       in_file "lib/explore/symmetry/vehicle_orbits.ml" ~noticed_by:"reduction/test_told_apart"
         [
           ("places do not matter", {|if_read flow.places|}, {|if_read false|});
-          ("what sensors show does not matter", {|if_read flow.sensors|}, {|if_read false|});
+          ("values of sensors do not matter", {|if_read flow.sensors|}, {|if_read false|});
           ("payloads do not matter", {|s.kind, s.payload, s.connected|}, {|s.kind, s.connected|});
         ];
       in_file "lib/explore/temporal/observer.ml" ~noticed_by:"explore/test_transition_system"
         [
-          ( "what is checked is not seen",
+          ( "checks are silent actions",
             {|label = named; effects|},
             {|label = (match named with Check _ -> Silent | label -> label); effects|} );
-          ( "whoever has no end in sight sees nothing",
+          ( "an action without an ending is not observed",
             {|let of_event observer ?ending label = seen observer|},
             {|let of_event observer ?ending label = seen (if ending = None then None else observer)|} );
         ];
@@ -178,7 +180,7 @@ let all =
           ( "all of the repeat that goes on is renewed",
             {|begins_with (repeat @ [ Space.inside ]) at) renewed|},
             {|begins_with [] at && repeat <> []) renewed|} );
-          ( "the first who comes decides whether a recruit is owed",
+          ( "the first vehicle alone decides whether a recruit is owed",
             {|may_all_stay_away system key vs|},
             {|may_all_stay_away system key [ List.hd vs ]|} );
         ];
@@ -228,7 +230,7 @@ let all =
         ];
       in_file "lib/maps/xml_text.ml" ~noticed_by:"maps/test_maps"
         [
-          ( "a fault is told behind its place",
+          ( "the place of a fault has its line twice",
             {|place = line }|},
             {|place = "line " ^ string_of_int (fst (Xmlm.pos input)) }|} );
         ];
@@ -238,7 +240,7 @@ let all =
         ];
       in_file "lib/plans/plan_room.ml" ~noticed_by:"runtime/test_runtime"
         [
-          ( "nobody looks at ways to plans",
+          ( "the way to a plan needs no room",
             {|parts_of_legs from (Inline_plan.path ~from:here ~speed:1. p)|},
             {|anywhere p|} );
         ];
@@ -255,7 +257,7 @@ let all =
         ];
       in_file "lib/processes/workers.ml" ~noticed_by:"processes/test_workers"
         [
-          ("what was written in part is written again", {|Unix.single_write|}, {|Unix.write|});
+          ("a partial write is repeated", {|Unix.single_write|}, {|Unix.write|});
           ("each process computes all", {|from (n + jobs)|}, {|from (n + min jobs 1)|});
           ( "processes heed Ctrl-C",
             {|Sys.Signal_ignore) [ Sys.sigint; Sys.sighup; Sys.sigxfsz ]|},
@@ -282,7 +284,7 @@ let all =
           ( "a variable has the value that was assigned last",
             {|Hashtbl.find_all assigned i|},
             {|Option.to_list (Hashtbl.find_opt assigned i)|} );
-          ( "what is said may be compared",
+          ( "comparisons count as arithmetic",
             {|Binary (Add | Subtract | Multiply | Divide)), es)|},
             {|Binary (Add | Subtract | Multiply | Divide | Greater)), es)|} );
         ];
@@ -317,7 +319,7 @@ let all =
         ];
       in_file "lib/semantics/rules/local_step.ml" ~noticed_by:"semantics/test_rules"
         [
-          ("a task that is made takes what others hold", {|(from free)|}, {|(from bound)|});
+          ("a made task takes vehicles that others hold", {|(from free)|}, {|(from bound)|});
         ];
       in_file "lib/semantics/rules/maker.ml" ~noticed_by:"semantics/test_rules"
         [
@@ -353,7 +355,7 @@ let all =
           ( "WATCH-PROPAGATE ignores the error",
             {|Rule.Watch_propagate (Failed fault)|},
             {|Rule.Watch_propagate Finished|} );
-          ( "WATCH-RETRY keeps nobody to watch",
+          ( "WATCH-RETRY drops the watch",
             {|Next (Watch (Unallocated { task; request }, handler))|},
             {|Next (Unallocated { task; request })|} );
           ( "a round counts twice",
@@ -377,13 +379,13 @@ let all =
         ];
       in_file "lib/syntax/prelude.dol" ~noticed_by:"prelude/test_prelude"
         [
-          ("one less than atLeast says is enough", {|count((done): _) >= k|}, {|count((done): _) >= k - 1|});
-          ( "a barrier holds nobody",
+          ("atLeast accepts one less", {|count((done): _) >= k|}, {|count((done): _) >= k - 1|});
+          ( "a barrier holds no task",
             {|condition { count((name): { it == 'came' }) == n }|},
             {|condition { count((name): _) >= 1 }|} );
-          ("a follower is told of one end again and again", {|consume((name): 'done')|}, {|poll((name): 'done')|});
-          ("the goal of who fails is lost", {|post((goal): g, (out): 1)|}, {|post((out): 1)|});
-          ("who is at the very distance is not near", {|<= d }|}, {|< d }|});
+          ("a follower reads one end several times", {|consume((name): 'done')|}, {|poll((name): 'done')|});
+          ("the goal of a failed vehicle is lost", {|post((goal): g, (out): 1)|}, {|post((out): 1)|});
+          ("a vehicle at exactly the distance is not near", {|<= d }|}, {|< d }|});
         ];
       in_file "lib/time/batteries.ml" ~noticed_by:"time/test_exact"
         [
@@ -406,9 +408,9 @@ let all =
         ];
       in_file "lib/time/course.ml" ~noticed_by:"time/test_missions"
         [
-          ( "what is known of a battery before its link went is taken for now",
-            {|  && not (Links.may_go (Durations.links_with faults c.options.durations) c.vehicle)|},
-            {|  && not (Links.may_go (Links.only_first (Durations.links_with faults c.options.durations)) c.vehicle)|} );
+          ( "the last known charge counts as the present one",
+            {|Links.may_go (Durations.links_with faults c.options.durations)|},
+            {|Links.may_go (Links.only_first (Durations.links_with faults c.options.durations))|} );
         ];
       in_file "lib/time/levels.ml" ~noticed_by:"time/test_exact"
         [
@@ -469,7 +471,7 @@ let all =
           ( "a bound is not carried over to other clocks",
             {|let by = before + c ++ get z b j in|},
             {|let by = if i = a || j = b then before + c ++ get z b j else unbounded in|} );
-          ("what begins keeps the clock of another", {|None -> zero in|}, {|None -> date in|});
+          ("a new clock has the value of the date", {|None -> zero in|}, {|None -> date in|});
         ];
       in_file "lib/time/zone_node.ml" ~noticed_by:"time/test_exact"
         [

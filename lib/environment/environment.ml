@@ -28,6 +28,7 @@ let default =
 let ending options v name =
   match options.endings v name, options.faults.fail with
   | (Fails | May_fail | Succeeds) as ending, Never -> ending
+  | (Fails | May_fail | Succeeds) as ending, (At_most _ | Any_number) when options.most_faults = Some 0 -> ending
   | Fails, (At_most _ | Any_number) -> Fails
   | (May_fail | Succeeds), (At_most _ | Any_number) -> May_fail
 

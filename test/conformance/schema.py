@@ -44,7 +44,7 @@ def has_type(value, name):
 
 
 def wrong(value, schema, path, at="$"):
-    """What is wrong with a value, as a list of sentences."""
+    """The faults of a value, as a list of sentences."""
     unknown = set(schema) - KNOWN
     assert not unknown, unknown
     found = []

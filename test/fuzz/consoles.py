@@ -84,7 +84,7 @@ class Server:
             time.sleep(0.01)
 
     def ask(self, request, is_stream=False):
-        """What comes back, until all of it is there, or for a while if it is a stream."""
+        """The reply, as soon as all of it is there; of a stream, its first part."""
         reply, until = b"", time.monotonic() + (STREAM if is_stream else self.patience)
         try:
             with socket.create_connection(("127.0.0.1", self.port), timeout=2) as client:
@@ -104,7 +104,7 @@ class Server:
 
 
 def bad_reply(reply):
-    """What is wrong with a reply of the server; None: nothing, or there is none since the request was cut off."""
+    """The fault of a reply of the server; None if it has none, or if the request was cut off and has no reply."""
     if reply is None:
         return "no reply"
     head, _, body = reply.partition(b"\r\n\r\n")
@@ -132,7 +132,7 @@ def bad_reply(reply):
 
 
 def judged(bench, folder, requests):
-    """What is wrong with how a console of `folder` replies to requests, and then to one more, a valid one."""
+    """The fault of a console of `folder`: in its replies to requests, or to one more, a valid one; or None."""
     (folder / "command").write_text("dolphin console --no-browser --port 0 .\n")
     server = Server(bench, folder)
     why = None

@@ -1,4 +1,4 @@
-"""Each door of Dolphin with hostile texts and numbers at the places where texts and numbers stand: what comes in is
+"""Each door of Dolphin with hostile texts and numbers at the places where texts and numbers stand: the input is
 valid otherwise, so that it reaches outputs. Each reader is as those of readers.py."""
 
 import json
@@ -75,7 +75,7 @@ EXPORTS = {"geojson": "json", "kml": "xml", "gpx": "xml", "csv": "source"}
 
 
 def journal_read(bench, random, folder, program):
-    """What is wrong with a journal `m.run` in the folder, if it is there, or with what commands make of it."""
+    """The fault of a journal `m.run`, if the folder has it, or of the output of commands that read it; or None."""
     journal = folder / "m.run"
     if not journal.exists():
         return None
@@ -90,7 +90,7 @@ def journal_read(bench, random, folder, program):
 
 
 def outputs(folder):
-    """What is wrong with the files that commands have written there."""
+    """The fault of the files that commands have written there; or None."""
     forms = {"junit.xml": "xml", "sarif.json": "json", "m.svg": "xml", "trace.itf.json": "json", "trace.run": "lines"}
     for name, form in forms.items():
         if (folder / name).exists() and (why := bad_output(name, form, (folder / name).read_bytes())):
@@ -136,7 +136,7 @@ def door_examples(bench, random, folder):
 
 
 def door_file_names(bench, random, folder):
-    """A program, its fleet and what it includes, with hostile names."""
+    """A program, its fleet and its included files, with hostile names."""
     name = hostile.file_name(random, b".dol")
     for path, content in [(name, PROGRAM), (name[:-4] + b".fleet", FLEET)]:
         with open(os.path.join(os.fsencode(folder), path), "wb") as file:
@@ -294,7 +294,7 @@ def door_editor(bench, random, folder):
 
 
 def door_adapter(bench, random, folder):
-    """What an adapter says: at the start, or of a plan that it has taken; to `exec`, `fleet`, `check` and the kit."""
+    """Lines of an adapter, at the start or about a plan that it has taken; to `exec`, `fleet`, `check` and the kit."""
     if random.random() < 0.5:
         write(folder, m_dol=ADAPTED, reports=hostile.in_json(random, REPORTS))
         adapter = "cat reports; sleep 1"
@@ -394,7 +394,7 @@ def door_mission(bench, random, folder):
 
 
 def door_answers(bench, random, folder):
-    """What a person types."""
+    """Lines typed by a person."""
     write(folder, m_dol=b"x = ask 'what?'\ny = confirm('sure?')\nn = ask 'n', 0\npost k: [x, y, n]\nmessage \"${x} ${n}\"\n")
     stdin = b"".join(random.choice([hostile.text, hostile.number])(random) + b"\n" for _ in range(4))
     why = bench.run(["exec", "m.dol", "--journal", "m.run", "--no-socket"], folder, "text", stdin, interrupt_after=PATIENCE)

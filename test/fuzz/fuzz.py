@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Has every reader of Dolphin read mutated inputs, and judges what comes out.
+"""Has every reader of Dolphin read mutated inputs, and judges the output.
 
 fuzz.py DOLPHIN [--seconds S | --inputs N] [--seed N] [--only READER] [--first N] [--limit S] [--keep DIR]
 
@@ -44,7 +44,7 @@ def arguments():
 
 
 def attempt(options, bench, scratch, name, index):
-    """What is wrong with how the reader `name` reads its input `index`; or None. Inputs with a fault are kept."""
+    """The fault with which the reader `name` reads its input `index`; or None. Inputs with a fault are kept."""
     folder = scratch / f"{name}-{options.seed}-{index}"
     folder.mkdir()
     try:

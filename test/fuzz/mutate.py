@@ -22,7 +22,7 @@ WORD = re.compile(rb"[A-Za-z_]\w*|'[^'\n]*'|\"[^\"\n]*\"")
 
 
 def piece(random, text, longest=200):
-    """Where a part of `text` begins and ends."""
+    """The beginning and the end of a part of `text`."""
     begin = random.randrange(len(text) + 1)
     return begin, min(len(text), begin + random.randrange(longest))
 

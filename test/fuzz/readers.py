@@ -1,5 +1,5 @@
-"""What Dolphin reads, and how each of it is read. Each reader is a function of a `Bench`, a random number generator and
-an empty folder: it writes a mutated input there, has it read, and returns what is wrong with what came out, or None."""
+"""The readers of Dolphin. Each reader is a function of a `Bench`, a random number generator and
+an empty folder: it writes a mutated input there, has it read, and returns the fault of the output, or None."""
 
 import functools
 import json
@@ -108,7 +108,7 @@ class Bench:
         return [(begin, {"request": "step", "configuration": initial["configuration"]})] if initial else []
 
     def run(self, arguments, folder, form="text", stdin=b"", interrupt_after=None):
-        """What is wrong with how `dolphin` reads it; the command is kept in the folder for who repeats it by hand."""
+        """The fault with which `dolphin` reads it, or None; the folder keeps the command, to be repeated by hand."""
         (folder / "command").write_bytes(os.fsencode(" ".join(["dolphin", *arguments]) + "\n"))
         if stdin:
             (folder / "stdin").write_bytes(stdin)

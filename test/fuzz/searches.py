@@ -1,4 +1,4 @@
-"""Readers of what other programs compute with: state graphs, states of `dolphin successors`, traces of the explorer,
+"""Readers of the inputs of other programs: state graphs, states of `dolphin successors`, traces of the explorer,
 conformance cases, the state of a simulated fleet, formulas and values on the command line, stored missions."""
 
 import functools
@@ -50,7 +50,7 @@ FLEET_STATE = b"""{"began":1795765853.5}
 
 
 def printed(bench, program, fleet, arguments):
-    """What `dolphin` prints, or writes to a file `out`, of a program and its fleet; None if it fails."""
+    """The output of `dolphin`, or the file `out` that it writes, about a program and its fleet; None if it fails."""
     with tempfile.TemporaryDirectory(dir=bench.folder) as folder:
         folder = pathlib.Path(folder)
         write(folder, m_dol=program, m_fleet=fleet)
@@ -115,7 +115,7 @@ def graphs(bench, random, folder):
 
 
 class Answers(client.Successors):
-    """The answers of a filter that has ended, read from what it wrote."""
+    """The answers of a filter that has ended, read from its output."""
 
     def __init__(self, data):
         self.data, self.told, self.path, self.shown = io.BytesIO(data), set(), "m.dol", "m.dol"
@@ -148,7 +148,7 @@ def columns(states):
 
 
 def bad_answers(data, asked):
-    """What is wrong with the answers to batches, each (its states' columns, partitions, targets); they may be fewer."""
+    """The fault of the answers to batches, each (its states' columns, partitions, targets), or None; they may be fewer."""
     answers = Answers(data)
     try:
         json.loads(answers.greeting)

@@ -127,7 +127,7 @@ FORMS = {"text": bad_text, "json": bad_json, "lines": bad_lines, "xml": bad_xml,
 
 
 def bad_output(name, form, data):
-    """What is wrong with the bytes `data` of a stream or file `name`, which has the form `form`; or None."""
+    """The fault of the bytes `data` of a stream or file `name`, which has the form `form`; or None."""
     if form == "bytes":
         return None
     try:

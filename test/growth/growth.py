@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """growth.py DOLPHIN: the work of a command, counted in words that it allocates, grows with a mission and not faster.
 
-Counts do not depend on the machine nor on its load. What is linear allocates four times as much for four times the
-size, and what is quadratic up to sixteen times. `bench/run` has the times of the same missions."""
+Counts do not depend on the machine nor on its load. A linear part allocates four times as much for four times the
+size, a quadratic one up to sixteen times. `bench/run` has the times of the same missions."""
 
 import os
 import re

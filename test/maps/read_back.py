@@ -1,4 +1,4 @@
-"""What `dolphin trace export` and `dolphin plan export` write, as GDAL's ogr2ogr reads it: the same features and the
+"""The output of `dolphin trace export` and `dolphin plan export`, as GDAL's ogr2ogr reads it: the same features and the
 same positions in each format."""
 
 import csv
@@ -81,7 +81,7 @@ def check_same(found):
 run = folder / "survey.run"
 dolphin("exec", here / "survey.dol", "--journal", run)
 
-# A run: each sample of the table is on the track of its vehicle, and with it what the vehicle ran then.
+# A run: each sample of the table is on the track of its vehicle, and with it the plan that the vehicle ran then.
 found, rows, files = all_formats("run", "trace", "export", run)
 tracks, starts = check_same(found)
 assert set(tracks) == {"a", VEHICLE}, tracks.keys()
@@ -98,7 +98,7 @@ assert task["ending"] == "done" and task["vehicle"] == "a" and task["from"][:11]
 options = ["-oo", "X_POSSIBLE_NAMES=longitude", "-oo", "Y_POSSIBLE_NAMES=latitude"]
 assert len(read(files["csv"], *options)) == len(rows)
 
-# Plans: what the program describes; of the other one it has no way.
+# Plans: the described one; the other one has no way.
 found, rows, files = all_formats("plan", "plan", "export", here / "survey.dol")
 ways, stops = check_same(found)
 assert list(ways) == [PLAN], ways.keys()
@@ -109,7 +109,7 @@ told = dolphin("plan", here / "survey.dol", "--to", "gpx")
 assert told[0] == files["gpx"].read_text(), "plan --to is plan export"
 assert "left out, since only vehicles know their way: by, name" in told[1], told[1]
 
-# What cannot be written.
+# Exports that are refused.
 for arguments, words in [
     (("trace", "export", run), "give --to FORMAT or -o FILE; the formats are csv, geojson, kml, gpx, mcap"),
     (("trace", "export", run, "-o", folder / "run.txt"), "has no extension of a known format, csv, geojson, kml, gpx, mcap"),

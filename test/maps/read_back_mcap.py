@@ -1,4 +1,4 @@
-"""What `dolphin trace export` and `dolphin plan export` write as MCAP, as Foxglove's own library reads it: the same
+"""The output of `dolphin trace export` and `dolphin plan export` in MCAP, as Foxglove's own library reads it: the same
 positions as in the table, and all that happened in order. Checksums are compared."""
 
 import csv
@@ -86,7 +86,7 @@ for vehicle in ("a", VEHICLE):
         assert abs(fix["altitude"] - float(row["height"])) < 2e-3 and fix["frame_id"] == vehicle
         assert abs(state["battery"] - float(row["battery"])) < 2e-6 and state["task"] == row["task"]
 
-# What happened, in order.
+# The events, in order.
 log = [(entry["name"], entry["message"]) for _, _, entry in found["/log"]]
 assert [schema for _, schema, _ in found["/log"]] == ["foxglove.Log"] * len(log)
 assert log.index(("a", "is picked")) < log.index(("a", "starts " + PLAN)) < log.index(("a", "ends " + PLAN)), log

@@ -42,7 +42,7 @@ def ogr(source, target, *options):
 
 
 def shown(path):
-    """What a program finds: names, with sizes of areas in square metres, or positions. No warnings."""
+    """The result of a program: names, with sizes of areas in square metres, or positions. No warnings."""
     program = folder / "p.dol"
     program.write_text(
         f"m = map '{path.name}'\n"

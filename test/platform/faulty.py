@@ -70,7 +70,7 @@ def on_order(order):
 
 
 def on_report(report):
-    """What becomes of a report: the lines in its place."""
+    """The lines in place of a report."""
     global sights
     kind, request = report["kind"], report.get("request")
     if kind in ("done", "failed", "stopped"):

@@ -1,10 +1,13 @@
 """Each door of Dolphin with hostile texts and numbers at the places where texts and numbers stand: the input is
 valid otherwise, so that it reaches outputs. Each reader is as those of readers.py."""
 
+import contextlib
 import json
 import os
+import re
 import socket
 import sqlite3
+import subprocess
 import time
 import zipfile
 
@@ -395,10 +398,36 @@ def door_mission(bench, random, folder):
 
 def door_answers(bench, random, folder):
     """Lines typed by a person."""
-    write(folder, m_dol=b"x = ask 'what?'\ny = confirm('sure?')\nn = ask 'n', 0\npost k: [x, y, n]\nmessage \"${x} ${n}\"\n")
+    write(folder, m_dol=b"x = ask 'what?'\ny = confirm('sure?')\nn = ask 'n'\npost k: [x, y, n]\nmessage \"${x} ${n}\"\n")
     stdin = b"".join(random.choice([hostile.text, hostile.number])(random) + b"\n" for _ in range(4))
     why = bench.run(["exec", "m.dol", "--journal", "m.run", "--no-socket"], folder, "text", stdin, interrupt_after=PATIENCE)
     return why or journal_read(bench, random, folder, "m.dol")
+
+
+# Sequences that our own screens send to a terminal: colours, the cursor up, the rest of a line or of the screen cleared.
+OWN = re.compile(r"\x1b\[(?:[0-9;]*m|\d+A|[JK]|\?7[lh]|\?25[lh])|\r")
+
+
+def door_terminal(bench, random, folder):
+    """A run on a terminal, with its live screen."""
+    write(folder, m_dol=hostile.in_program(random, PROGRAM), m_fleet=hostile.in_program(random, FLEET))
+    (folder / "command").write_text("dolphin exec m.dol --no-socket, on a terminal\n")
+    ours, theirs = os.openpty()
+    process = subprocess.Popen([bench.dolphin, "exec", "m.dol", "--no-socket"], cwd=folder, stdin=subprocess.DEVNULL,
+                               stdout=theirs, stderr=theirs, env={**os.environ, "TERM": "xterm"})
+    os.close(theirs)
+    shown, until = b"", time.monotonic() + 3 * bench.seconds
+    with contextlib.suppress(OSError):  # the end of a terminal
+        while time.monotonic() < until and (data := os.read(ours, 65536)):
+            shown += data
+    os.close(ours)
+    process.kill()
+    process.wait()
+    (folder / "terminal").write_bytes(shown)
+    if time.monotonic() >= until:
+        return "does not end"
+    others = OWN.sub("", shown.decode(errors="surrogateescape"))
+    return bad_output("terminal", "text", others.encode(errors="surrogateescape"))
 
 
 READERS = {name: reader for name, reader in globals().items() if name.startswith("door_")}

@@ -34,10 +34,18 @@ REPORTS = b"""{"kind": "hello", "protocol": 1, "name": "fuzz", "version": "0.1",
 {"kind": "gone", "vehicle": "r1"}
 {"kind": "error", "why": "no such port"}
 """
-SUPPLIED = b"s = getSupplier()\nmessage s.first()\nmessage s.second(1, 'a')\nexecute s.third()\n"
-REPLIES = b"""{"id": 1, "value": {"latitude": 41.18, "longitude": -8.7}}
-{"id": 2, "value": [1, 1.5, "text", {"a": {"vehicles": ["lauv-1"]}}]}
-{"id": 3, "value": {"task": "survey"}}
+SUPPLIED = b"""s = getSupplier()
+message s.first()
+message s.second(1, 'a')
+pick { count 1 }
+execute s.third()
+message s.fourth()
+"""
+REPLIES = b"""{"id": 1, "value": {"object": "queue"}}
+{"id": 2, "value": {"latitude": 41.18, "longitude": -8.7}}
+{"id": 3, "value": [1, 1.5, "text", {"a": {"vehicles": ["lauv-1"]}}]}
+{"id": 4, "value": {"task": "survey"}}
+{"id": 5, "error": "the queue is closed"}
 """
 KML = b"""<?xml version="1.0" encoding="UTF-8"?><kml xmlns="http://www.opengis.net/kml/2.2"><Document>
 <Placemark><name>pier</name><Point><coordinates>-8.7,41.18,3</coordinates></Point></Placemark>

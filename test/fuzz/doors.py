@@ -404,7 +404,7 @@ def door_answers(bench, random, folder):
     return why or journal_read(bench, random, folder, "m.dol")
 
 
-# Sequences that our own screens send to a terminal: colours, the cursor up, the rest of a line or of the screen cleared.
+# Sequences that our own screens send to a terminal: colours, the cursor up, the rest of a line or of the screen gone.
 OWN = re.compile(r"\x1b\[(?:[0-9;]*m|\d+A|[JK]|\?7[lh]|\?25[lh])|\r")
 
 

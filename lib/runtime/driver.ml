@@ -47,9 +47,9 @@ let most_without_pause = 100
    and on the tasks that one vehicle begins at one instant. *)
 let most_rounds = 10_000
 
-(* Limit on visible transitions at one instant of virtual time, of any kind: loops of the script have no rounds that
-   could be counted. Missions of thousands of vehicles take some 100,000 at one instant. Where time passes by
-   itself, timers of many vehicles may well follow each other without a wait. *)
+(* Limit on visible transitions at one instant, of any kind: loops of the script have no rounds that could be counted.
+   Missions of thousands of vehicles take some 100,000 at one instant. Where time passes by itself, an instant lasts
+   until an event that was waited for: so the number does not depend on how fast the machine is. *)
 let most_steps = 1_000_000
 
 (* Where time passes by itself, a round takes some even if it does not wait: a vehicle that refuses a plan does, and so
@@ -110,25 +110,31 @@ module Make (P : Platform.S) = struct
     mutable counted_since : float * float;  (* a time of the run, and the same by the machine's clock *)
     starts : (Core.vehicle, int) Hashtbl.t;  (* of tasks, in the same way *)
     mutable restless : Core.site option;  (* the place of the task that one vehicle began too often *)
-    mutable steps : int;  (* visible transitions at this instant of virtual time *)
-    mutable stepped : float;  (* the instant *)
+    mutable steps : int;  (* visible transitions at this instant *)
+    mutable stepped : float;  (* the instant, in virtual time *)
+    immediate : (Residual.timer, unit) Hashtbl.t;  (* timers of no length, and questions answered as they were put *)
+    mutable at_once : bool;  (* whether [reply] was there as it was asked for *)
   }
 
   let is_resolved promise = match Lwt.state promise with Lwt.Sleep -> false | Return _ | Fail _ -> true
 
   (* {1 Effects} *)
 
+  let await_reply s promise =
+    s.at_once <- is_resolved promise;
+    s.reply <- Some promise
+
   let ask s prompt =
     let answer = function
       | Ok text -> Event (Answer.event s.program text)
       | Error why -> Event (Ok (Nobody_answers why))
     in
-    s.reply <- Some (s.console.ask prompt >|= answer)
+    await_reply s (s.console.ask prompt >|= answer)
 
   let call_host s subject member arguments =
     let site = Configuration.site s.configuration in
     let reply = function Ok x -> Event (Ok (Replied x)) | Error why -> Event (Ok (Host_failed why)) in
-    s.reply <- Some (s.call ~site ~subject ~member ~arguments >|= reply)
+    await_reply s (s.call ~site ~subject ~member ~arguments >|= reply)
 
   (* {2 Questions of tasks} *)
 
@@ -143,7 +149,12 @@ module Make (P : Platform.S) = struct
 
   (* When the program has nothing else to do. *)
   let show_question s =
-    Task_questions.show s.questions ~ask:(fun question prompt -> s.console.ask prompt >|= replied s question)
+    let ask question prompt =
+      let promise = s.console.ask prompt >|= replied s question in
+      if is_resolved promise then Hashtbl.replace s.immediate question ();
+      promise
+    in
+    Task_questions.show s.questions ~ask
 
   let tell_inputs s = Inputs.ask s.inputs (List.map snd (Task_questions.standing s.questions))
 
@@ -166,16 +177,23 @@ module Make (P : Platform.S) = struct
     let still (told, _ as both) = if Overtaken.unless overtaken told then Some both else None in
     s.upcoming <- Option.bind s.upcoming still
 
+  let set_timer s timer seconds =
+    if seconds <= 0. then Hashtbl.replace s.immediate timer () else Hashtbl.remove s.immediate timer;
+    P.set_timer s.platform timer seconds
+
   let carry_out s : Effect.t -> unit = function
     | Start (v, p) -> P.start s.platform v p
     | Stop v -> drop s (Overtaken.by_stop v); P.stop s.platform v
-    | Set_timer (timer, seconds) -> P.set_timer s.platform timer seconds
-    | Cancel_timer timer -> drop s (Overtaken.by_cancel timer); P.cancel_timer s.platform timer
+    | Set_timer (timer, seconds) -> set_timer s timer seconds
+    | Cancel_timer timer ->
+      Hashtbl.remove s.immediate timer;
+      drop s (Overtaken.by_cancel timer);
+      P.cancel_timer s.platform timer
     | Put_question (question, prompt) -> put_question s question prompt
     | Withdraw_question question -> withdraw_question s question
     | Look_for pick ->
       let seconds = Option.value pick.timeout ~default:(P.announce_period s.platform) in
-      P.set_timer s.platform Residual.script_timer seconds
+      set_timer s Residual.script_timer seconds
     | Bind vs -> P.bind s.platform vs
     | Release vs -> P.release s.platform vs
     | Set_connection_timeout (vs, seconds) -> P.set_connection_timeout s.platform vs seconds
@@ -212,14 +230,21 @@ module Make (P : Platform.S) = struct
     s.reply <- None;
     Option.iter Lwt.cancel reply
 
+  (* Whether the event came without a wait, where time passes by itself. *)
+  let is_immediate s : Transition.event -> bool = function
+    | Timer_expired timer | Confirmed (timer, _) -> Hashtbl.mem s.immediate timer
+    | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ -> s.at_once
+    | Recruited _ -> true
+    | Vehicle_done _ | Vehicle_failed _ | Input _ | Interruption -> false
+
   (* Ends of tasks and of timers that come at the same instant do not let a round wait; nor do answers without a
      person to take time for them. *)
   let lets_wait ~time s : Transition.event option -> bool = function
     | None | Some (Recruited _) -> false
     | Some (Input _ | Interruption) -> true
     | Some (Vehicle_done _ | Vehicle_failed _ | Timer_expired _) -> P.virtual_time && time > s.round_began
-    | Some (Confirmed _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _) ->
-      (not P.virtual_time) || time > s.round_began
+    | Some (Confirmed _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ as event) ->
+      if P.virtual_time then time > s.round_began else not (is_immediate s event)
 
   let forget_rounds s =
     s.counted_since <- (time_of s, Clock.system.elapsed ());
@@ -250,8 +275,13 @@ module Make (P : Platform.S) = struct
     if begins || start <> None then s.round_began <- time
 
   let count_steps s ~time ~cause (t : Transition.t) =
-    let is_from_outside = match cause with Some (Transition.Input _ | Interruption) -> true | Some _ | None -> false in
-    if is_from_outside || time > s.stepped then s.steps <- 0;
+    let waited =
+      match cause with
+      | Some (Transition.Input _ | Interruption) -> true
+      | Some event when not P.virtual_time -> not (is_immediate s event)
+      | Some _ | None -> P.virtual_time && time > s.stepped
+    in
+    if waited then s.steps <- 0;
     s.stepped <- time;
     match t.label with Silent -> () | _ -> s.steps <- s.steps + 1
 
@@ -261,12 +291,15 @@ module Make (P : Platform.S) = struct
     if is_news then s.alarms <- 0;
     let time = time_of s in
     count_rounds s ~time ~cause t;
-    if P.virtual_time then count_steps s ~time ~cause t;
+    count_steps s ~time ~cause t;
     Log.transition ~time ~cause t;
     s.observer.transition ~time ~cause t;
     s.configuration <- t.next;
     (match t.label with Interrupt -> withdraw s | _ -> ());
-    (match cause with Some (Confirmed (question, _)) -> withdraw_question s question | Some _ | None -> ());
+    (match cause with
+     | Some (Confirmed (question, _)) -> Hashtbl.remove s.immediate question; withdraw_question s question
+     | Some (Timer_expired timer) -> Hashtbl.remove s.immediate timer
+     | Some _ | None -> ());
     carry_out_all s t.effects
 
   let see s state =
@@ -569,7 +602,8 @@ module Make (P : Platform.S) = struct
         telemetry = Off; upcoming = None; reply = None; questions = Task_questions.create (); posted = None;
         input_before = false; unknown = []; since_pause = 0; rounds = 0;
         round_began = beginning.time; counted_since = (beginning.time, Clock.system.elapsed ());
-        starts = Hashtbl.create 16; restless = None; steps = 0; stepped = beginning.time }
+        starts = Hashtbl.create 16; restless = None; steps = 0; stepped = beginning.time;
+        immediate = Hashtbl.create 16; at_once = false }
     in
     let whole () =
       switch_telemetry s ~sensitive:false;

@@ -163,6 +163,25 @@ So it is in paced time.
   $ tail -n 1 log | sed 's/^ *[0-9:]* *//'
   program     is stuck
 
+  $ for p in picks calls idle; do dolphin exec -q --sim=$p.fleet --speed 7 $p.dol > log 2> error; echo $?; sed -n '1s/, and.*//p' error; done
+  1
+  picks.dol:1:20: error: the program is stuck in rounds that begin here: they follow each other
+  1
+  calls.dol:2:12: error: the program is stuck in rounds that begin here: they follow each other
+  1
+  idle.dol:1:9: error: the program is stuck in rounds that begin here: they follow each other
+
+A wait begins the count again:
+
+  $ cat > waits.dol << 'END'
+  > n = 0
+  > while (n < 40) { for (i in 1..1000) { post k: i; consume(k: i) }; n = n + 1; execute idle(1) }
+  > message n
+  > END
+  $ dolphin exec --sim=idle.fleet --speed 20 waits.dol | tail -n 2 | cut -c 10-
+  program     says: 40
+  program     ends
+
 Rounds in which something happens are not counted: these are 20,000.
 
   $ cat > many.dol << 'END'

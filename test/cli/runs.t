@@ -57,3 +57,15 @@ Its journal has one place.
   $ dolphin exec mission.dol --keep --journal mission.run
   dolphin: --keep excludes --journal, --resume and --follow
   [2]
+
+Runs that begin in one second have names of their own: eight times six at once are all kept, and all are whole.
+
+  $ export XDG_STATE_HOME=$PWD/crowded
+  $ for round in 1 2 3 4 5 6 7 8; do
+  >   for i in 1 2 3 4 5 6; do dolphin exec mission.dol --keep > /dev/null 2>> errors || echo failed & done
+  >   wait
+  > done
+  $ cat errors
+  $ ls crowded/dolphin/runs | sort -u | wc -l
+  48
+  $ for run in crowded/dolphin/runs/*; do dolphin trace check mission.dol $run > /dev/null || echo $run; done

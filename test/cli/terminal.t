@@ -99,6 +99,35 @@ Ctrl-Z and what follows it do no harm: the board goes, and comes back.
   2 vehicles
   completed after
 
+Between Ctrl-Z and `bg` the program makes no step, and nothing is written. In the background the board is off, and the
+run comes to its end.
+
+  $ cat > background.py <<'EOF'
+  > import os, pty
+  > script = """dolphin exec mission.dol --speed 10 --journal stop.run; cp stop.run then.run; sleep 2
+  > cmp stop.run then.run && echo no step mean'while'; bg; wait"""
+  > pid, terminal = pty.fork()
+  > if pid == 0:
+  >     os.environ["TERM"] = "xterm"
+  >     os.execvp("bash", ["bash", "-mc", script])
+  > def until(what):
+  >     text = b""
+  >     while what not in text: text += os.read(terminal, 65536)
+  >     print(what.decode())
+  >     return text[text.index(what):]
+  > until(b"2 vehicles")
+  > os.write(terminal, b"\x1a")
+  > after = until(b"no step meanwhile") + until(b"completed after")
+  > print("a board" if b"2 vehicles" in after else "no board")
+  > EOF
+  $ timeout 120 python3 background.py
+  2 vehicles
+  no step meanwhile
+  completed after
+  no board
+  $ dolphin trace check mission.dol stop.run | head -n 1
+  stop.run: a run, of 8 transitions in 1:00; completed
+
 Elsewhere there is no trace of it.
 
   $ dolphin exec mission.dol | grep -c "$(printf '\033')"

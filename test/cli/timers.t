@@ -82,3 +82,29 @@ Questions, and vehicles that are recruited.
   $ rows asks.dol --ltl 'G !start(p)'
   asks.dol:2 answer(yes)
   asks.dol:3 recruit(noptilus-1)
+
+A task that ends exactly when its time is up is a tie: the timer wins in a simulated run, and explore and time show both
+outcomes. A millisecond less is none.
+
+  $ cat > tie.dol <<'END'
+  > v = pick { id 'a' }
+  > execute watch (task('p') within 1.min) >> action { message 'in time' } onError { message 'too late' }
+  > END
+  $ tie() { printf "vehicle 'a', { type 'UUV' }\nplan 'p', { duration $1 }\n" > tie.fleet; }
+  $ tie 60.seconds
+  $ dolphin exec tie.dol 2> /dev/null | grep -o 'says: .*'
+  says: too late
+  $ for text in 'in time' 'too late'; do dolphin explore tie.dol --ltl "G !message(\"$text\")" | grep -o '^formula.*: [hv][a-z]*'; done
+  formula G !message("in time"): violated
+  formula G !message("too late"): violated
+  $ dolphin time tie.dol | grep -e '^completed' -e within: -e '^p '
+  completed: 1:00 at the earliest, 1:00 at the latest
+  tie.dol:2:15: within: missed, at 1:00
+  p     a        0:00    1:00  1:00     tie.dol:2
+  $ tie 59.999.seconds
+  $ dolphin exec tie.dol 2> /dev/null | grep -o 'says: .*'
+  says: in time
+  $ dolphin time tie.dol | grep -e '^completed' -e within: -e '^p '
+  completed: 0:59.999 at the earliest, 0:59.999 at the latest
+  tie.dol:2:15: within: kept
+  p     a        0:00    0:59.999  tie.dol:2

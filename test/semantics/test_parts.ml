@@ -113,6 +113,44 @@ let every_constructor () =
   let missing = List.filter (fun name -> not (Hashtbl.mem seen name)) all in
   Alcotest.(check (list string)) "constructors that no walk met" [] missing
 
+(* {1 Limits}
+
+   No vehicle is bound, so a task that is walked fails for another reason. *)
+
+let idle = Core.Idle { seconds = 1.; site = Fault.unknown_site }
+let plan = Core.Platform { name = "p"; plan = None; task_site = Fault.unknown_site }
+
+(* A task of [n] parts, an odd number. Equal parts of it are one value. *)
+let of_parts n =
+  let known = Hashtbl.create 64 in
+  let rec make n =
+    match Hashtbl.find_opt known n with
+    | Some t -> t
+    | None ->
+      let first = (n - 1) / 4 * 2 + 1 in
+      let t = if n = 1 then idle else Core.Sequence (make first, make (n - 1 - first)) in
+      Hashtbl.add known n t;
+      t
+  in
+  make n
+
+let rec nested depth t = if depth = 0 then t else nested (depth - 1) (Core.Sequence (t, idle))
+
+let is_refused t =
+  match Allocation.allocate World.empty [] { tasks = []; numbers = Seq.empty } t with
+  | Ok (Error fault) ->
+    String.equal fault.message "the task has more than 1000000 parts, or is nested more than 10000 deep"
+  | Ok (Ok _) | Error _ -> Alcotest.fail "the plan has a vehicle"
+
+let limits () =
+  let check expected name t = Alcotest.(check bool) name expected (is_refused t) in
+  check false "999,999 parts" (Sequence (plan, of_parts 999_997));
+  check true "1,000,001 parts" (Sequence (plan, of_parts 999_999));
+  check false "10,000 deep" (nested 10_000 plan);
+  check true "10,001 deep" (nested 10_001 plan)
+
 let () =
+  let quick name test = Alcotest.test_case name `Quick test in
   Alcotest.run "parts"
-    [ ("views", [ along_walks; Alcotest.test_case "every constructor was met" `Quick every_constructor ]) ]
+    [ ("views", [ along_walks; quick "every constructor was met" every_constructor ]);
+      ("limits", [ quick "tasks that are too large are refused" limits ]) ]

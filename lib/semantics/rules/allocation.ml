@@ -235,10 +235,11 @@ let deepest = 10_000
 
 (* A loop that doubles a task makes one that no memory could hold: such tasks, and too deep ones, are not walked. *)
 let is_too_large t =
+  (* [count] parts before those in the list, each with its depth. *)
   let rec from count = function
     | [] -> false
     | (depth, t) :: rest ->
-      if count > most_parts || depth > deepest then true
+      if count >= most_parts || depth > deepest then true
       else
         let down ts = from (count + 1) (List.rev_append (List.rev_map (fun t -> (depth + 1, t)) ts) rest) in
         down (Task.parts t)

@@ -45,8 +45,9 @@ def main():
                 ("an input, by pairs of N", ratio_of_inputs(1_000, 400), 2),
                 ("a picture, by its bars", ratio(sizes.picture, 2_000), MOST),
                 ("areas beside a plan, by their corners", ratio(sizes.areas, 6_000), MOST),
-                # Those of the process that collects the runs: they vary by a third with what it finds at each look.
-                ("simulated runs, by their number", ratio(sizes.runs, 8_000), MOST)]:
+                # Those of the process that collects the runs: they vary with the number of its looks, so its limit
+                # is wider, and still below the ratio of quadratic work.
+                ("simulated runs, by their number", ratio(sizes.runs, 8_000), 10)]:
             is_right = 0 < found <= most
             failures += not is_right
             print(f"{'ok' if is_right else 'FAILED'}: {what}: {found:.1f} times the words, at most {most}")

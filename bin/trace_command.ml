@@ -160,9 +160,8 @@ let draw path layers drawing =
   Report.result
     (let* layers = Dolphin_results.Results.map Layer_file.read layers in
      let* () = Journal_file.iter (Summary.add summary) path in
-     match Drawing.write (Drawing.over layers drawing) (Summary.finish summary) with
-     | Ok () -> Ok Exit_status.Done
-     | Error e -> Report.tell e; Ok Exit_status.Bad_input)
+     let* () = Drawing.write (Drawing.over layers drawing) (Summary.finish summary) in
+     Ok Exit_status.Done)
 
 let draw_command =
   let drawing =

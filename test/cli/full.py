@@ -4,6 +4,7 @@ other file is blamed or left in part. Programs are drawn."""
 import glob
 import os
 import random
+import resource
 import subprocess
 import sys
 
@@ -40,6 +41,40 @@ def files(program):
     ]
 
 
+def limited(program):
+    """Files that are longer than a process may write: OUT is the file."""
+    run = "full.run"
+    return [
+        ["lts", program, "-o", "OUT"], ["trace", "draw", run, "-o", "OUT.svg"],
+        ["trace", "draw", run, "-o", "OUT.html"], ["time", program, "--draw", "OUT.svg"],
+        ["explore", program, "--junit", "OUT"], ["explore", program, "--sarif", "OUT"],
+        ["trace", "export", run, "--to", "csv", "-o", "OUT"],
+        ["trace", "export", run, "--to", "gpx", "-o", "OUT"], ["trace", "export", run, "--to", "kml", "-o", "OUT"],
+        ["trace", "export", run, "--to", "geojson", "-o", "OUT"], ["trace", "export", run, "--to", "mcap", "-o", "OUT"],
+    ]
+
+
+def too_long(arguments):
+    """A file that cannot be written whole is as it was before, or is not there."""
+    name = next(argument for argument in arguments if argument.startswith("OUT"))
+    for old in (None, "as it was"):
+        if old:
+            with open(name, "w") as file:
+                file.write(old)
+        run = subprocess.run(
+            ["dolphin", *arguments], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+            text=True, timeout=60, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))
+        )
+        complain(arguments, run, name)
+        found = None
+        if os.path.exists(name):
+            with open(name) as file:
+                found = file.read()
+            os.remove(name)
+        if found != old:
+            print(f"dolphin {' '.join(arguments)}: the file has {found!r}")
+
+
 def complain(arguments, run, wanted):
     errors = run.stderr.strip()
     if run.returncode != 3 or wanted not in errors or "full.run:" in errors:
@@ -60,6 +95,8 @@ def check(program):
         complain(arguments, dolphin(arguments, "/dev/full"), OUTPUT)
     for arguments in files(program):
         complain(arguments, dolphin(arguments, "/dev/null"), "/dev/full")
+    for arguments in limited(program):
+        too_long(arguments)
     left = set(os.listdir(".")) - before
     if left:
         print(f"{program}: left behind: {sorted(left)}")

@@ -81,6 +81,10 @@ let between low high json =
   let* x = number json in
   if x >= low && x <= high then Ok x else Error (Printf.sprintf "%g, not from %g to %g" x low high)
 
+let from_zero json =
+  let* x = number json in
+  if x >= 0. then Ok x else Error (Printf.sprintf "%g, not a number from 0" x)
+
 let to_position found =
   let* latitude = get number "latitude" found in
   let* longitude = get number "longitude" found in
@@ -97,16 +101,16 @@ let to_state found =
   let* payload = get (list text) "payload" found in
   let* position = to_position found in
   let* battery = get (nullable (between 0. 1.)) "battery" found in
-  let some_number json = Result.map Option.some (number json) in
+  let rate json = Result.map Option.some (from_zero json) in
   let metres json = Result.map Option.some (between (-1e6) 1e6 json) in
   let* depth = optional metres ~default:None "depth" found in
   let* altitude = optional metres ~default:None "altitude" found in
   let* connected = get truth "connected" found in
-  let* speed = optional (nullable number) ~default:None "speed" found in
+  let* speed = optional (nullable from_zero) ~default:None "speed" found in
   let* readings = optional to_readings ~default:[] "readings" found in
   let* unready = optional (fun json -> Result.map Option.some (text json)) ~default:None "unready" found in
-  let* cruise = optional some_number ~default:None "cruise" found in
-  let* drain = optional some_number ~default:None "drain" found in
+  let* cruise = optional rate ~default:None "cruise" found in
+  let* drain = optional rate ~default:None "drain" found in
   Ok { World.id; kind; payload; position; depth; altitude; battery; speed; readings; connected; unready; cruise; drain }
 
 let to_place json =

@@ -24,6 +24,10 @@ What no vehicle can have shown is not the line of a run, nor is what JSON does n
   dolphin: changed.run:3: "battery" is 7, not from 0 to 1
   $ check 's/"height":0,/"height":1e308,/' | head -n 1
   dolphin: changed.run:3: "height" is 1e+308, not from -20000 to 1e+06
+  $ for name in speed cruise drain; do check '3s/"'$name'":[0-9.]*/"'$name'":-5/' | head -n 1; done
+  dolphin: changed.run:3: "speed" is -5, not a number from 0
+  dolphin: changed.run:3: "cruise" is -5, not a number from 0
+  dolphin: changed.run:3: "drain" is -5, not a number from 0
   $ check 's/"time":0,/"time":1e999,/' | head -n 1
   dolphin: changed.run:2: this is not JSON: a number in it is not finite, or too large
   $ sed 's/"type":"UUV"/"type":"UU\xff"/' pick.run > changed.run; dolphin trace check pick.dol changed.run

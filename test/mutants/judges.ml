@@ -2,8 +2,9 @@ type t = { folder : string; weight : int; tests : string list }
 
 let rules =
   [ "semantics/test_rules"; "semantics/test_language"; "explore/test_verdicts"; "runtime/test_runtime";
-    "reduction/test_traps"; "conformance/test_cases"; "semantics/test_parts"; "prelude/test_prelude";
-    "semantics/test_branches"; "reduction/test_recruits"; "semantics/test_invariants"; "semantics/test_laws" ]
+    "time/test_missions"; "reduction/test_traps"; "conformance/test_cases"; "conformance/test_oracle";
+    "semantics/test_parts"; "prelude/test_prelude"; "semantics/test_branches"; "reduction/test_recruits";
+    "semantics/test_invariants"; "semantics/test_laws" ]
 
 let language =
   [ "semantics/test_language"; "semantics/test_rules"; "semantics/test_vector"; "tuple_space/test_tuple_space";

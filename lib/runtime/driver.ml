@@ -230,12 +230,12 @@ module Make (P : Platform.S) = struct
     s.reply <- None;
     Option.iter Lwt.cancel reply
 
-  (* Whether the event came without a wait, where time passes by itself. *)
+  (* Whether the event came without a wait, where time passes by itself: no vehicle or person has a part in it. *)
   let is_immediate s : Transition.event -> bool = function
     | Timer_expired timer | Confirmed (timer, _) -> Hashtbl.mem s.immediate timer
     | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ -> s.at_once
     | Recruited _ -> true
-    | Vehicle_done _ | Vehicle_failed _ | Input _ | Interruption -> false
+    | _ -> false
 
   (* Ends of tasks and of timers that come at the same instant do not let a round wait; nor do answers without a
      person to take time for them. *)

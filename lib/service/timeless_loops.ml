@@ -194,7 +194,7 @@ let function_bodies ast =
 let rec values names acc (s : statement) =
   match s.it with
   | Assign { target = { it = Variable x; _ }; value; operator = None } | Define ({ it = x; _ }, Some value)
-    when List.mem x names -> (x, value) :: acc
+    when Assigned.Names.mem x names -> (x, value) :: acc
   | Function { body; _ } | Block body | While (_, body) | For (_, _, body) -> List.fold_left (values names) acc body
   | If (_, yes, no) -> List.fold_left (values names) acc (yes @ no)
   | _ -> acc
@@ -205,7 +205,7 @@ let deepest = 5
 let with_names known ast =
   let variables = List.fold_left (values (Assigned.once (fun _ -> true) ast)) [] ast in
   let assigned = Assigned.names ast in
-  let functions = List.filter (fun (f, _) -> not (List.mem f assigned)) (function_bodies ast) in
+  let functions = List.filter (fun (f, _) -> not (Assigned.Names.mem f assigned)) (function_bodies ast) in
   let learn known =
     let name (x, e) = Option.map (fun t -> (x, t)) (task known e) in
     { known with names = List.filter_map name (functions @ variables) }

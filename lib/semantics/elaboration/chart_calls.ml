@@ -13,7 +13,7 @@ let file (e : Ast.expression) =
 let defines_function (ast : Ast.program) =
   List.exists (fun (s : Ast.statement) -> match s.it with Function { name; _ } -> name.it = word | _ -> false) ast
 
-let is_own ast = defines_function ast || List.mem word (Assigned.names ast)
+let is_own ast = defines_function ast || Assigned.Names.mem word (Assigned.names ast)
 
 let paths ast =
   if is_own ast then []
@@ -31,7 +31,7 @@ let assigned ast =
     let of_statement (s : Ast.statement) =
       match s.it with
       | Assign { target = { it = Variable x; _ }; value; _ } | Define ({ it = x; _ }, Some value) ->
-        if List.mem x once then Option.map (fun (path, _) -> (x, path)) (file value) else None
+        if Assigned.Names.mem x once then Option.map (fun (path, _) -> (x, path)) (file value) else None
       | _ -> None
     in
     List.filter_map of_statement ast

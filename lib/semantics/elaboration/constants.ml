@@ -25,7 +25,7 @@ let computes constants locals (e : Ast.expression) =
   let is_own name = String_set.mem name constants.own in
   match e.it with
   | Variable name ->
-    if String_map.mem name constants.known || List.mem name locals || not (is_own name) then None
+    if String_map.mem name constants.known || String_set.mem name locals || not (is_own name) then None
     else Some (Printf.sprintf "the value of '%s' is not known before the program runs" name)
   | Call { callee = { it = Variable name; _ }; _ } ->
     if (not (is_own name)) && (List.mem name computing_calls || is_setting name || Builtins.is_geometry name) then None
@@ -128,7 +128,7 @@ let function_names (ast : Ast.program) =
   List.filter_map (fun (s : Ast.statement) -> match s.it with Function { name; _ } -> Some name.it | _ -> None) ast
 
 let of_program ~chart ~place ast =
-  let once = String_set.of_list (Assigned.once (fun _ -> true) ast) in
+  let once = Assigned.once (fun _ -> true) ast in
   let add constants (s : Ast.statement) =
     match s.it with
     | Parameter { name = { it = name; _ }; value = e; _ }
@@ -140,5 +140,5 @@ let of_program ~chart ~place ast =
         | Error _ -> constants)
     | _ -> constants
   in
-  let own = String_set.of_list (Assigned.names ast @ function_names ast) in
+  let own = String_set.union (Assigned.names ast) (String_set.of_list (function_names ast)) in
   List.fold_left add { known = String_map.empty; own; chart; place; charted = Chart_calls.assigned ast } ast

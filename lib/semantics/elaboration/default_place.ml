@@ -31,7 +31,8 @@ let read constants at (arguments : Ast.argument list) =
   | Ok place -> Ok place
   | Error fault -> error at "%s" fault.message ~hint:"as in locate 41.1852, -8.7048 or locate Location.APDL"
 
-let is_own (ast : Ast.program) = List.mem word (Assigned.names ast) || List.mem word (Constants.function_names ast)
+let is_own (ast : Ast.program) =
+  Assigned.Names.mem word (Assigned.names ast) || List.mem word (Constants.function_names ast)
 
 let of_program constants ast =
   match List.filter_map declaration ast with
@@ -114,7 +115,7 @@ let of_fault (d : Diagnostic.t) =
 let missing constants ast =
   let add found (e : Ast.expression) = match e.it with Builder (Imc_plan, body) -> (e, body) :: found | _ -> found in
   let plans = List.rev (List.fold_left (Fold.statement add) [] ast) in
-  let own = Assigned.names ast @ Constants.function_names ast in
+  let own = Assigned.Names.elements (Assigned.names ast) @ Constants.function_names ast in
   let decides name = name = word || name = "move" || Plan_builder.is_maneuver name in
   let is_own = List.exists decides own in
   let of_plan (e, body) =

@@ -101,7 +101,7 @@ let program (ast : Dolphin_syntax.Ast.program) =
   let calls_host has (e : expression) = has || match e.it with Variable "getSupplier" -> true | _ -> false in
   let p =
     {
-      is_own = (fun x -> List.mem x own);
+      is_own = (fun x -> Assigned.Names.mem x own);
       has_host = List.fold_left (Fold.statement calls_host) false ast;
     }
   in

@@ -128,9 +128,8 @@ let without_unused_prelude (ast : Ast.program) =
 
 (* Variables that are assigned once, to a value of a kind that is known. *)
 let kinds_of_variables ast =
-  let of_kind kind =
-    List.map (fun name -> (name, kind)) (Assigned.once (fun e -> Checks.kind_of e = kind) ast) in
-  List.concat_map of_kind [ Builtins.Task; Number; String; Vehicles; Position ]
+  let of_kind kind = (kind, Assigned.once (fun e -> Checks.kind_of e = kind) ast) in
+  List.map of_kind [ Builtins.Task; Number; String; Vehicles; Position ]
 
 let no_chart _ = Error "no file can be read here"
 

@@ -31,4 +31,4 @@ let at_expression named acc (e : expression) =
 
 let program ast =
   let names = Assigned.once (is_endless (fun _ -> false)) ast in
-  List.fold_left (Fold.statement (at_expression (fun x -> List.mem x names))) [] ast
+  List.fold_left (Fold.statement (at_expression (fun x -> Assigned.Names.mem x names))) [] ast

@@ -109,7 +109,8 @@ let read constants at (arguments : Ast.argument list) =
 
 (* {1 Programs} *)
 
-let is_own (ast : Ast.program) = List.mem word (Assigned.names ast) || List.mem word (Constants.function_names ast)
+let is_own (ast : Ast.program) =
+  Assigned.Names.mem word (Assigned.names ast) || List.mem word (Constants.function_names ast)
 
 let declaration (s : Ast.statement) =
   match s.it with

@@ -126,10 +126,10 @@ let at_expression counts singles acc (e : expression) =
 
 let program ast =
   let is_pick (e : expression) = match e.it with Builder (Pick, body) -> picked body <> None | _ -> false in
-  match Assigned.once is_pick ast with
-  | [] -> []
-  | once ->
-    let counts = List.filter (fun (v, _) -> List.mem v once) (List.fold_left assigned_picks [] ast) in
+  let once = Assigned.once is_pick ast in
+  if Assigned.Names.is_empty once then []
+  else
+    let counts = List.filter (fun (v, _) -> Assigned.Names.mem v once) (List.fold_left assigned_picks [] ast) in
     let singles = List.filter_map (fun (v, n) -> if n = 1 then Some v else None) counts in
     let functions = Constants.function_names ast in
     let look acc e = look_at_one counts functions (at_expression counts singles acc e) e in

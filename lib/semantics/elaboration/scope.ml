@@ -9,11 +9,11 @@ type global = { index : int; mutable assigned : bool; mutable uses : Location.t 
 type call = { caller : string option; in_task : string option; callee : string; at : Location.t }
 
 type program = {
-  variables : string list;
+  variables : Assigned.Names.t;
   parameters : string list;
-  given : string list option;  (* the variables that get a first value; [None]: not known *)
-  suppliers : string list;
-  kinds : (string * Builtins.kind) list;
+  given : Assigned.Names.t option;  (* the variables that get a first value; [None]: not known *)
+  suppliers : Assigned.Names.t;
+  kinds : (Builtins.kind * Assigned.Names.t) list;
   chart : string -> (Chart.t, string) result;
   charted : (string, string * Chart.t) Hashtbl.t;  (* variables that are a chart, with its file *)
   functions : (string, Core.lambda) Hashtbl.t;
@@ -54,8 +54,8 @@ let assigned_global program name =
 
 let no_chart _ = Error "no file can be read here"
 
-let create ?(first_site = 0) ?(variables = []) ?(parameters = []) ?given ?(suppliers = []) ?(kinds = [])
-    ?(chart = no_chart) ~functions ~globals () =
+let create ?(first_site = 0) ?(variables = Assigned.Names.empty) ?(parameters = []) ?given
+    ?(suppliers = Assigned.Names.empty) ?(kinds = []) ?(chart = no_chart) ~functions ~globals () =
   let program =
     {
       variables;
@@ -109,7 +109,7 @@ let add_function program name lambda = Hashtbl.replace program.functions name la
 let find_function program name = Hashtbl.find_opt program.functions name
 
 let is_assigned program name =
-  List.mem name program.variables
+  Assigned.Names.mem name program.variables
   || match Hashtbl.find_opt program.table name with Some global -> global.assigned | None -> false
 
 let used_global program name at =
@@ -151,14 +151,16 @@ let note_rounds program = program.goes_round <- true
 let note_sensor program = program.reads_sensors <- true
 let note_now program = program.reads_now <- true
 let note_running program = program.asks_running <- true
-let has_first_value program name = match program.given with Some names -> List.mem name names | None -> true
-let has_like program name = Diagnostic.suggest name program.variables <> None
+let has_first_value program name = match program.given with Some names -> Assigned.Names.mem name names | None -> true
+let has_like program name = Diagnostic.suggest name (Assigned.Names.elements program.variables) <> None
 let is_parameter program name = List.mem name program.parameters
 let chart program path = program.chart path
 let note_chart program name path chart = Hashtbl.replace program.charted name (path, chart)
 let find_chart program name = Hashtbl.find_opt program.charted name
-let kind_of_variable program name = Option.value (List.assoc_opt name program.kinds) ~default:Builtins.Any
-let is_supplier program name = List.mem name program.suppliers
+let kind_of_variable program name =
+  let is_of (_, names) = Assigned.Names.mem name names in
+  Option.fold (List.find_opt is_of program.kinds) ~none:Builtins.Any ~some:fst
+let is_supplier program name = Assigned.Names.mem name program.suppliers
 let recruits program = program.recruits
 let goes_round program = program.goes_round
 let reads_sensors program = program.reads_sensors

@@ -11,11 +11,11 @@ type program
 
 val create :
   ?first_site:Core.site ->
-  ?variables:string list ->
+  ?variables:Assigned.Names.t ->
   ?parameters:string list ->
-  ?given:string list ->
-  ?suppliers:string list ->
-  ?kinds:(string * Builtins.kind) list ->
+  ?given:Assigned.Names.t ->
+  ?suppliers:Assigned.Names.t ->
+  ?kinds:(Builtins.kind * Assigned.Names.t) list ->
   ?chart:(string -> (Chart.t, string) result) ->
   functions:(string * Core.lambda) list ->
   globals:string list ->
@@ -24,8 +24,8 @@ val create :
 (** [functions] and [globals] exist already, as for an answer to [ask]; sites are numbered from [first_site] on, by
     default from 0. [variables] are names that the text gives a value to somewhere; [parameters], the program's
     parameters; [given], those that get a first value, by default all; [suppliers], the names of variables that surely
-    are the supplier; [kinds], the kinds of variables that have one; [chart path] is the [map] of a file, by default
-    that it cannot be read. *)
+    are the supplier; [kinds], the variables of each kind, as far as they have one; [chart path] is the [map] of a
+    file, by default that it cannot be read. *)
 
 val site : program -> Location.t -> Core.site
 (** A new site there. *)

@@ -108,3 +108,5 @@ outcomes. A millisecond less is none.
   completed: 0:59.999 at the earliest, 0:59.999 at the latest
   tie.dol:2:15: within: kept
   p     a        0:00    0:59.999  tie.dol:2
+
+  $ check-journals

@@ -98,7 +98,7 @@ let refining =
 let timed_module count =
   Printf.sprintf
     {|---- MODULE %s ----
-EXTENDS Clocked
+EXTENDS Timed
 FamilyInit == which \in 1 .. %d /\ TimedInit
 PrintDates == DatesOf(which)
 ====

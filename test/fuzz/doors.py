@@ -5,7 +5,6 @@ import contextlib
 import json
 import os
 import re
-import socket
 import sqlite3
 import subprocess
 import time
@@ -15,8 +14,8 @@ import consoles
 import hostile
 import searches
 from readers import (ADAPTED, GPX, INPUTS, INPUTS_FLEET, KML, NMAP, PATIENCE, REPLIES, REPORTS, REQUESTS, SUPPLIED,
-                     frame, write)
-from verdict import Running, bad_output, judge
+                     asked_on_socket, frame, write)
+from verdict import bad_output
 
 PROGRAM = b"""input 'go', 'key'
 note = ask 'how far?'
@@ -226,29 +225,7 @@ def door_step(bench, random, folder):
 
 def door_socket(bench, random, folder):
     requests = b"".join(hostile.in_json(random, REQUESTS) for _ in range(2))
-    write(folder, m_dol=INPUTS, m_fleet=INPUTS_FLEET, requests=requests)
-    command = ["exec", "m.dol", "--speed", "1", "--journal", "m.run"]
-    (folder / "command").write_text(" ".join(["dolphin", *command, "< requests on its socket"]) + "\n")
-    running = Running([bench.dolphin, *command], folder, bench.seconds)
-    replies = b""
-    until = time.monotonic() + bench.seconds
-    while not (folder / "m.run.sock").exists() and running.process.poll() is None and time.monotonic() < until:
-        time.sleep(0.01)
-    try:
-        with socket.socket(socket.AF_UNIX) as client:
-            client.settimeout(1)
-            client.connect(str(folder / "m.run.sock"))
-            client.sendall(requests)
-            client.shutdown(socket.SHUT_WR)
-            while data := client.recv(65536):
-                replies += data
-    except OSError:
-        pass  # the run ended, or goes on with nothing to write
-    ended = running.end(interrupt_after=0.1)
-    write(folder, replies=replies, stdout=ended.out, stderr=ended.err)
-    whole = replies[:replies.rfind(b"\n") + 1]
-    return (judge(ended, "text") or bad_output("replies", "lines", whole) or
-            journal_read(bench, random, folder, "m.dol"))
+    return asked_on_socket(bench, folder, requests) or journal_read(bench, random, folder, "m.dol")
 
 
 def door_console(bench, random, folder):

@@ -221,8 +221,9 @@ def steps(bench, random, folder):
     return bench.run(["step"], folder, "lines", b"\n".join(lines) + b"\n")
 
 
-def sockets(bench, random, folder):
-    requests = mutate.json_text(random, REQUESTS, [REQUESTS])
+def asked_on_socket(bench, folder, requests):
+    """Runs a program in `folder`, with the journal `m.run`, and sends `requests` to its socket; the fault of the replies
+    and of the output of the run, or None."""
     write(folder, m_dol=INPUTS, m_fleet=INPUTS_FLEET, requests=requests)
     command = ["exec", "m.dol", "--speed", "1", "--journal", "m.run"]
     (folder / "command").write_text(" ".join(["dolphin", *command, "< requests on its socket"]) + "\n")
@@ -244,7 +245,11 @@ def sockets(bench, random, folder):
     ended = running.end(interrupt_after=0.1)
     write(folder, replies=replies, stdout=ended.out, stderr=ended.err)
     whole = replies[:replies.rfind(b"\n") + 1]
-    return (judge(ended, "text") or bad_output("replies", "lines", whole) or
+    return judge(ended, "text") or bad_output("replies", "lines", whole)
+
+
+def sockets(bench, random, folder):
+    return (asked_on_socket(bench, folder, mutate.json_text(random, REQUESTS, [REQUESTS])) or
             bad_output("journal", "lines", (folder / "m.run").read_bytes()))
 
 

@@ -2,7 +2,7 @@ open Cmdliner
 open Dolphin_app
 module Safe_print = Dolphin_display.Safe_print
 
-let verdict path found = Safe_print.pp "%s: %s@." path (Report.counts found)
+let verdict path found = Safe_print.format "%s: %s@." path (Report.counts found)
 
 (* Reports the faults of the file [path], if it can be read at all. *)
 let checked path = function

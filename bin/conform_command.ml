@@ -6,7 +6,7 @@ module Safe_print = Dolphin_display.Safe_print
 (* {1 The report} *)
 
 (* Cases, and what an implementation replies, may have anything in their texts. *)
-let print format = Safe_print.f format
+let print format = Safe_print.printf format
 
 let report verbose ({ case; verdict; passed } : Corpus.judged) =
   let kinds = List.sort_uniq compare (List.map (fun (f : Judge.failure) -> f.kind) verdict.failures) in
@@ -24,10 +24,10 @@ let report verbose ({ case; verdict; passed } : Corpus.judged) =
 let report_matrix wanted matrix =
   if not wanted then true
   else begin
-    Safe_print.pp "%a@." Matrix.pp matrix;
+    Safe_print.format "%a@." Matrix.pp matrix;
     match Matrix.untaken matrix with
     | [] -> true
-    | rules -> Safe_print.pp "no case is about %s@." (String.concat ", " rules); false
+    | rules -> Safe_print.format "no case is about %s@." (String.concat ", " rules); false
   end
 
 let judge_with ask ~named ~with_matrix ~verbose cases : (Exit_status.t, Error.t) result =
@@ -39,7 +39,7 @@ let judge_with ask ~named ~with_matrix ~verbose cases : (Exit_status.t, Error.t)
     let judged, matrix = Corpus.judge ask (report verbose) cases in
     let complete = report_matrix with_matrix matrix in
     let passed, failed = List.partition (fun (j : Corpus.judged) -> j.passed) judged in
-    Safe_print.f "%d passed, %d failed\n" (List.length passed) (List.length failed);
+    Safe_print.printf "%d passed, %d failed\n" (List.length passed) (List.length failed);
     Ok (if failed = [] && complete then Done else Violated)
 
 let run paths command timeout with_matrix verbose =

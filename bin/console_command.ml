@@ -31,10 +31,10 @@ let serve settings ~port ~browser =
   in
   let root = Folder.root settings.folder in
   let tell (role, link) =
-    if role = "" then Safe_print.f "The console of %s is at %s\n" root link
+    if role = "" then Safe_print.printf "The console of %s is at %s\n" root link
     else
       let whom = if String.contains role ' ' then role else "whoever " ^ role in
-      Safe_print.f "The console of %s, for %s: %s\n" root whom link
+      Safe_print.printf "The console of %s, for %s: %s\n" root whom link
   in
   (* Before the address is printed: a reader of it may interrupt at once. *)
   let interruption = Interruption.make () in

@@ -4,11 +4,11 @@ module Safe_print = Dolphin_display.Safe_print
 
 let tell ({ subject; found; advice; _ } : Doctor.finding) =
   let mark = if advice = None then "ok" else "--" in
-  Safe_print.f "%s  %-14s%s\n" mark subject found;
-  Option.iter (Safe_print.f "    %-14s%s\n" "") advice
+  Safe_print.printf "%s  %-14s%s\n" mark subject found;
+  Option.iter (Safe_print.printf "    %-14s%s\n" "") advice
 
 let run () =
-  Safe_print.f "dolphin %s, built with OCaml %s, on %s (%d bits)\n" Version.number Sys.ocaml_version Sys.os_type
+  Safe_print.printf "dolphin %s, built with OCaml %s, on %s (%d bits)\n" Version.number Sys.ocaml_version Sys.os_type
     Sys.word_size;
   let findings = Doctor.examine ~page:(Dolphin_console.Page.folder ()) in
   List.iter tell findings;

@@ -11,7 +11,7 @@ let format_input check =
   let* source = Text_file.read_input () in
   let* text = Source_file.formatted ~file:standard_input source in
   if not check then print_string text
-  else if text <> source then Safe_print.f "%s\n" standard_input;
+  else if text <> source then Safe_print.printf "%s\n" standard_input;
   Ok (text = source)
 
 let format_file check path =

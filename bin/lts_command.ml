@@ -18,7 +18,7 @@ let compare_graphs left right =
   match Compare.strong (Graph.without_doubles left) (Graph.without_doubles right) with
   | Ok () -> Safe_print.line "strongly bisimilar"; Exit_status.Done
   | Error difference ->
-    Safe_print.pp "not bisimilar@.%a@." Compare.pp_difference difference;
+    Safe_print.format "not bisimilar@.%a@." Compare.pp_difference difference;
     Exit_status.Violated
 
 (* Writing and comparing are ended by Ctrl-C at once. *)

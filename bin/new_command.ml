@@ -3,7 +3,7 @@ open Dolphin_app
 module Safe_print = Dolphin_display.Safe_print
 
 let tell folder =
-  Safe_print.f
+  Safe_print.printf
     "%s is a mission to start from; see its README.md. Try there:\n\
     \  dolphin exec mission.dol      runs it on the simulated fleet\n\
     \  dolphin explore mission.dol   checks every possible run\n"

@@ -9,11 +9,11 @@ let tell (v : Kit.verdict) =
   (match v.wrong with
    | None ->
      let remark = Option.fold v.remark ~none:"" ~some:(fun text -> " (" ^ text ^ ")") in
-     Safe_print.f "ok    %-16s %s%s\n" v.name v.what remark
+     Safe_print.printf "ok    %-16s %s%s\n" v.name v.what remark
    | Some why ->
-     Safe_print.f "FAIL  %-16s %s\n" v.name v.what;
-     Safe_print.f "      %s\n" why;
-     List.iter (fun line -> Safe_print.f "      | %s\n" line) v.transcript);
+     Safe_print.printf "FAIL  %-16s %s\n" v.name v.what;
+     Safe_print.printf "      %s\n" why;
+     List.iter (fun line -> Safe_print.printf "      | %s\n" line) v.transcript);
   flush stdout
 
 let known only =
@@ -26,7 +26,7 @@ let known only =
 
 let conclude command junit verdicts =
   let failed = List.filter (fun (v : Kit.verdict) -> v.wrong <> None) verdicts in
-  Safe_print.f "%d of %d situations passed\n%!" (List.length verdicts - List.length failed) (List.length verdicts);
+  Safe_print.printf "%d of %d situations passed\n%!" (List.length verdicts - List.length failed) (List.length verdicts);
   let* () = Option.fold junit ~none:(Ok ()) ~some:(fun path ->
       Text_file.write path (fun channel -> output_string channel (Kit.to_junit ~command verdicts))) in
   Ok (if failed = [] then Exit_status.Done else Failed)

@@ -18,7 +18,7 @@ let post connection words =
 let status connection =
   let* json = trouble (Run_socket.ask connection [ ("request", `String "status") ]) in
   let open Yojson.Safe.Util in
-  Safe_print.f "%s, at %s\n" (to_string (member "program" json))
+  Safe_print.printf "%s, at %s\n" (to_string (member "program" json))
     (Dolphin_trace.Phrase.time (to_number (member "time" json)));
   let questions = match member "questions" json with `List found -> found | _ -> [] in
   (match to_list (member "inputs" json), questions with

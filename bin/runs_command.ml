@@ -33,7 +33,7 @@ let show transitions name =
   Report.result
     (Result.map
        (fun path ->
-          Safe_print.pp "%s@.@." path;
+          Safe_print.format "%s@.@." path;
           Trace_command.show transitions path)
        (Run_folder.find name))
 

@@ -6,7 +6,7 @@ module Server = Dolphin_sim_process.Server
 module Scenario = Dolphin_scenario.Scenario
 
 let tell_vehicle ({ name; kind; id; port } : Network.vehicle) =
-  Safe_print.pp "%s (%s): IMC system 0x%04X, UDP port %d@." name kind id port
+  Safe_print.format "%s (%s): IMC system 0x%04X, UDP port %d@." name kind id port
 
 let serve (settings : Scenario.t -> Network.settings) ~log lasts (fleet : Fleet_file.t) =
   let interruption = Interruption.make () in

@@ -55,7 +55,7 @@ let check program_path set path fleet most timed tolerance =
      in
      Option.iter (tell_change program_path p) header;
      let* status = status path verdict in
-     Safe_print.pp "@[<v 2>%s: %a@]@." path Verdict.pp verdict;
+     Safe_print.format "@[<v 2>%s: %a@]@." path Verdict.pp verdict;
      times status)
 
 let check_exits =

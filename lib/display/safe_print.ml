@@ -6,5 +6,5 @@ let print text =
   print_string (Phrase.harmless text);
   flush stdout
 
-let f format = Printf.ksprintf print format
-let pp format = Format.kasprintf print format
+let printf format = Printf.ksprintf print format
+let format format = Format.kasprintf print format

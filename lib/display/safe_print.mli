@@ -4,8 +4,8 @@
 val line : string -> unit
 (** [line text] prints [text] and the end of a line, and flushes. *)
 
-val f : ('a, unit, string, unit) format4 -> 'a
-(** [f format] prints as [Printf.printf], and flushes. *)
+val printf : ('a, unit, string, unit) format4 -> 'a
+(** [printf format] prints as [Printf.printf], and flushes. *)
 
-val pp : ('a, Format.formatter, unit, unit) format4 -> 'a
-(** [pp format] prints as [Format.printf], and flushes. Boxes end where the text ends. *)
+val format : ('a, Format.formatter, unit, unit) format4 -> 'a
+(** [format format] prints as [Format.printf], and flushes. Boxes end where the text ends. *)

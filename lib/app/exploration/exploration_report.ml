@@ -13,7 +13,7 @@ let print_verdict program (property, (verdict : Search.verdict), remark) =
   (* The verdict on tasks stands for both, unless vehicles are missing. *)
   | (Holds | Inconclusive _) when property = Property.Vehicles -> ()
   | Holds | Violated _ | By_design _ | Unreached _ | Inconclusive _ ->
-    Safe_print.pp "%s%a@." (if remark then "note: " else "") (Search.pp_verdict program) (property, verdict)
+    Safe_print.format "%s%a@." (if remark then "note: " else "") (Search.pp_verdict program) (property, verdict)
 
 let print_counts (o : Search.outcome) =
   let reduced =
@@ -24,23 +24,23 @@ let print_counts (o : Search.outcome) =
   let for_formulas = if o.formula_states = 0 then "" else Printf.sprintf "; %d states for formulas" o.formula_states in
   let for_pairs =
     if o.beside_states = 0 then "" else Printf.sprintf "; %d states for plans side by side" o.beside_states in
-  Safe_print.f "%d states, %d transitions, depth %d, %.2f s, %d MiB%s%s%s\n" o.states o.transitions o.depth o.seconds
-    (mebibytes o.bytes) reduced for_formulas for_pairs
+  Safe_print.printf "%d states, %d transitions, depth %d, %.2f s, %d MiB%s%s%s\n" o.states o.transitions o.depth
+    o.seconds (mebibytes o.bytes) reduced for_formulas for_pairs
 
 let percent share = Printf.sprintf "%.3g%%" (100. *. share)
 
 let print_sample (s : Dolphin_checker.Sample.summary) ~seen =
   let walks = if s.walks = 1 then "walk" else "walks" in
-  Safe_print.f "%d random %s (--seed %d): %d visits to %d states\n" s.walks walks s.seed s.steps s.visited;
+  Safe_print.printf "%d random %s (--seed %d): %d visits to %d states\n" s.walks walks s.seed s.steps s.visited;
   if s.visited < seen then
-    Safe_print.f "estimated: the next visit is to a new state with a chance of %s; about %.0f states or more\n"
+    Safe_print.printf "estimated: the next visit is to a new state with a chance of %s; about %.0f states or more\n"
       (percent s.unvisited) s.states
 
 let print_bitstate (s : Dolphin_checker.Bitstate.summary) =
-  Safe_print.f "bitstate: %d hashes a state in %d bytes, %s of the bits are set\n" Dolphin_checker.Bitstate.hashes
+  Safe_print.printf "bitstate: %d hashes a state in %d bytes, %s of the bits are set\n" Dolphin_checker.Bitstate.hashes
     s.bytes (percent s.filled);
   let omitted = Printf.sprintf (if s.omitted >= 10. then "%.0f" else "%.2g") s.omitted in
-  Safe_print.f "expected: %s states left out of those it came to; any at all with a chance of %s\n" omitted
+  Safe_print.printf "expected: %s states left out of those it came to; any at all with a chance of %s\n" omitted
     (percent s.omission)
 
 (* The call for which the fleet has no reply, if the run ends with one. *)
@@ -60,14 +60,15 @@ let print_run program property (run : Search.run) =
   Run_columns.print ?decided:run.decided program ~steps:run.steps ~cycle:run.cycle;
   if property = Property.No_deadlock then Run_columns.print_waiting program run.steps;
   let tell call =
-    Safe_print.pp "the fleet lacks an entry: reply %a, and the supplier's possible replies@." Value.pp (String call) in
+    Safe_print.format "the fleet lacks an entry: reply %a, and the supplier's possible replies@." Value.pp
+      (String call) in
   Option.iter tell (unanswered run)
 
 let print_unreached (program : Core.program) property pieces =
-  Safe_print.pp "@.%s: no run reaches@." (Property.name property);
+  Safe_print.format "@.%s: no run reaches@." (Property.name property);
   List.iter
     (fun (piece : Dolphin_explore.Coverage.piece) ->
-       Safe_print.pp "  %a: %s@." Dolphin_syntax.Location.pp program.locations.(piece.site) piece.what)
+       Safe_print.format "  %a: %s@." Dolphin_syntax.Location.pp program.locations.(piece.site) piece.what)
     pieces
 
 let print_violation (program : Program_file.t) (property, (verdict : Search.verdict), remark) =
@@ -84,7 +85,7 @@ let print_violations ~strict program o = List.iter (print_violation program) (wi
 
 let print ?from ~strict (program : Program_file.t) (o : Search.outcome) =
   let verdicts = with_remarks ~strict o in
-  Option.iter (Safe_print.pp "%a@." Present.pp) from;
+  Option.iter (Safe_print.format "%a@." Present.pp) from;
   List.iter (print_verdict program.program) verdicts;
   print_counts o;
   Option.iter (print_sample ~seen:o.states) o.sample;

@@ -38,7 +38,7 @@ let follow (program : Program_file.t) (fleet : Fleet_file.t) ~drawing path witne
     ignore (print_log 1 Log.start taken);
     Error (Error.Bad_input (Printf.sprintf "%s: %s does not fit, at step %d: %s" path program.path number why))
   | Ok (steps, cycle) ->
-    if witness.property <> "" then Safe_print.f "breaks: %s\n" (Dolphin_trace.Phrase.one_line witness.property);
+    if witness.property <> "" then Safe_print.printf "breaks: %s\n" (Dolphin_trace.Phrase.one_line witness.property);
     let number, log = print_log 1 Log.start steps in
     let ending =
       if cycle = [] then ending steps

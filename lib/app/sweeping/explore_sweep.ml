@@ -21,7 +21,7 @@ let cells ~strict ({ found; verdict; _ } : Search.outcome Sweep.row) =
   [ string_of_int found.states; words ]
 
 let print_run ~strict s (row : Search.outcome Sweep.row) =
-  Safe_print.f "\n%s:" (Sweep.name s row);
+  Safe_print.printf "\n%s:" (Sweep.name s row);
   Exploration_report.print_violations ~strict row.program row.found
 
 let print ~strict s rows =

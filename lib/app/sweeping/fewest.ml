@@ -117,20 +117,20 @@ let print ?deadline program (fleet : Fleet_file.t) (found, looked_at) =
     say "fewest: %d of %d vehicles: %s" (List.length vehicles) all (names vehicles);
     tell_unsure unsure;
     List.iter (fun (v, trouble) -> say "without %s: %s" v (told trouble)) without;
-    Safe_print.f "%s looked at\n" fleets;
+    Safe_print.printf "%s looked at\n" fleets;
     let first = List.find_opt (fun (_, trouble) -> not (is_open trouble)) without in
-    Option.iter (fun (v, trouble) -> Safe_print.f "\nwithout %s:" v; print_run ?deadline program trouble) first;
-    Safe_print.f "\nwith %s:" (names vehicles);
+    Option.iter (fun (v, trouble) -> Safe_print.printf "\nwithout %s:" v; print_run ?deadline program trouble) first;
+    Safe_print.printf "\nwith %s:" (names vehicles);
     Time_report.print_run ?deadline program outcome
   | None_does { all = trouble; unsure } ->
     let is_sure = verdict found = Violated in
-    Safe_print.f "no fleet of these %d vehicles %s\n" all (if is_sure then "will do" else "is known to do");
+    Safe_print.printf "no fleet of these %d vehicles %s\n" all (if is_sure then "will do" else "is known to do");
     tell_unsure unsure;
     say "with all of them: %s" (told trouble);
     say "%s looked at" fleets;
     print_run ?deadline program trouble
   | Interrupted n ->
-    Safe_print.f "interrupted: of fewer than %s none is known to do; %s looked at\n"
+    Safe_print.printf "interrupted: of fewer than %s none is known to do; %s looked at\n"
       (Dolphin_trace.Phrase.count n "vehicle") fleets
 
 let to_json ?deadline program (found, looked_at) : Yojson.Safe.t =

@@ -78,8 +78,8 @@ let print s ~heads cells rows =
   List.iter Safe_print.line (Text_table.lines ?columns (s.parameter :: heads) (List.map line rows));
   if List.length rows < List.length s.values then Safe_print.line "interrupted: the other values were not asked for";
   match fewest rows with
-  | Some { row; is_least = true; _ } -> Safe_print.f "fewest: %s\n" (name s row)
-  | Some { row; is_least = false; _ } -> Safe_print.f "fewest: %s, or one that is inconclusive\n" (name s row)
+  | Some { row; is_least = true; _ } -> Safe_print.printf "fewest: %s\n" (name s row)
+  | Some { row; is_least = false; _ } -> Safe_print.printf "fewest: %s, or one that is inconclusive\n" (name s row)
   | None when verdict rows = Violated -> Safe_print.line "fewest: none of them"
   | None -> Safe_print.line "fewest: none of which it is known"
 

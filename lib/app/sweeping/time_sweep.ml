@@ -29,7 +29,7 @@ let cells ?deadline ({ found = o; _ } : Timed_analysis.outcome Sweep.row) =
 
 let print_run ?deadline s ({ program; found; verdict; _ } as row : Timed_analysis.outcome Sweep.row) =
   if verdict <> Inconclusive then begin
-    Safe_print.f "\n%s:" (Sweep.name s row);
+    Safe_print.printf "\n%s:" (Sweep.name s row);
     match Timed_analysis.shortfall ?deadline found, found.failing with
     | Some Fails, Some run -> Time_report.print_failing program run
     | _, _ -> Time_report.print_run ?deadline program found

@@ -150,7 +150,7 @@ let breaks ?deadline = function
 
 let print_run ?deadline p (o : Timed_analysis.outcome) =
   let print (why, (run : Timed_analysis.run)) =
-    Safe_print.f "\n%s:\n" (what ?deadline why);
+    Safe_print.printf "\n%s:\n" (what ?deadline why);
     print_columns p run;
     match why with
     | Endless `Stuck -> Run_columns.print_waiting p run.steps
@@ -173,7 +173,8 @@ let print_failing p run =
 
 let print_deadline ?deadline (o : Timed_analysis.outcome) =
   let say n =
-    Safe_print.f "deadline %s: %s\n" (time n) (Dolphin_checker.Verdict.name (Timed_analysis.in_time ~deadline:n o)) in
+    let verdict = Timed_analysis.in_time ~deadline:n o in
+    Safe_print.printf "deadline %s: %s\n" (time n) (Dolphin_checker.Verdict.name verdict) in
   Option.iter say deadline
 
 let print_within p (o : Timed_analysis.outcome) (site, missed) =
@@ -228,7 +229,7 @@ let print_slacks (s : Timed_analysis.slacks) =
   Option.iter print s.cut_short
 
 let print ?from ?deadline ?slacks p (o : Timed_analysis.outcome) =
-  Option.iter (Safe_print.pp "%a@." Present.pp) from;
+  Option.iter (Safe_print.format "%a@." Present.pp) from;
   (match o.stopped with
    | Some bound -> say "inconclusive: %s; times are of the runs until then" (bound_text bound)
    | None -> ());
@@ -241,7 +242,7 @@ let print ?from ?deadline ?slacks p (o : Timed_analysis.outcome) =
   print_tasks ?slacks p o;
   Option.iter print_slacks slacks;
   print_batteries o;
-  Safe_print.f "%d states, depth %d, %.2f s, %d MiB\n" o.states o.depth o.seconds (o.bytes / 1024 / 1024);
+  Safe_print.printf "%d states, depth %d, %.2f s, %d MiB\n" o.states o.depth o.seconds (o.bytes / 1024 / 1024);
   Option.iter (fun (a : Timed_analysis.apart) -> Beside_report.print p a.pairs) o.apart;
   print_run ?deadline p o
 

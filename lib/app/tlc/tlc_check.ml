@@ -44,8 +44,8 @@ let shows name options program world ((c, e) : Dolphin_explore.Labelled.state) (
 
 let print_states (c : Outcome.counter_example) =
   let print i (step : Outcome.step) =
-    Safe_print.f "%4d  %s\n" (i + 1) (Option.value step.action ~default:"?");
-    List.iter (fun line -> Safe_print.f "      %s\n" line) (String.split_on_char '\n' step.state)
+    Safe_print.printf "%4d  %s\n" (i + 1) (Option.value step.action ~default:"?");
+    List.iter (fun line -> Safe_print.printf "      %s\n" line) (String.split_on_char '\n' step.state)
   in
   List.iteri print c.steps
 
@@ -56,7 +56,7 @@ let print_last_step (c : Outcome.counter_example) =
      --run alone.";
   let label (step : Outcome.step) = Option.bind (Event.variable "label" step.state) Quoted.unescape in
   match List.rev_map label c.steps with
-  | Some label :: _ -> Safe_print.f "last step: %s\n" label
+  | Some label :: _ -> Safe_print.printf "last step: %s\n" label
   | None :: _ | [] -> ()
 
 let print_counter_example options (program : Program_file.t) world (c : Outcome.counter_example) =
@@ -64,17 +64,17 @@ let print_counter_example options (program : Program_file.t) world (c : Outcome.
   let question =
     match List.assoc_opt name properties with Some p -> Property.question p | None -> "it does not hold"
   in
-  Safe_print.pp "@.%s: a run in which %s@." (phrase name) question;
+  Safe_print.format "@.%s: a run in which %s@." (phrase name) question;
   let broken = shows name options program.program world in
   match Recovered.run options program.program world ~broken c with
   | exception Environment.Unclear fault ->
-    Safe_print.pp "Of this run the explorer cannot list what may happen: %s. The states of TLC:@." fault.message;
+    Safe_print.format "Of this run the explorer cannot list what may happen: %s. The states of TLC:@." fault.message;
     print_states c
   | Ok { steps; cycle } ->
     Run_columns.print program ~steps ~cycle;
     if name = "NoDeadlock" then Run_columns.print_waiting program steps
   | Error trouble ->
-    Safe_print.pp "The explorer does not have this run: %a. --compare shows the difference. The states of TLC:@."
+    Safe_print.format "The explorer does not have this run: %a. --compare shows the difference. The states of TLC:@."
       Recovered.pp_trouble
       trouble;
     print_states c
@@ -102,19 +102,19 @@ let print_verdicts names (program : Program_file.t) (o : Outcome.t) =
   in
   let print name =
     match broken, o.verdict with
-    | Some (broken, how), _ when broken = name -> Safe_print.f "%s: violated %s\n" (phrase name) how
+    | Some (broken, how), _ when broken = name -> Safe_print.printf "%s: violated %s\n" (phrase name) how
     | _, _ when not (List.mem_assoc name properties) -> ()
-    | None, Holds -> Safe_print.f "%s: %s\n" (phrase name) (holds name)
-    | Some _, _ when all_states -> Safe_print.f "%s: %s\n" (phrase name) (holds name)
-    | Some _, _ -> Safe_print.f "%s: not decided: TLC stops at a violation\n" (phrase name)
-    | None, _ -> Safe_print.f "%s: not decided\n" (phrase name)
+    | None, Holds -> Safe_print.printf "%s: %s\n" (phrase name) (holds name)
+    | Some _, _ when all_states -> Safe_print.printf "%s: %s\n" (phrase name) (holds name)
+    | Some _, _ -> Safe_print.printf "%s: not decided: TLC stops at a violation\n" (phrase name)
+    | None, _ -> Safe_print.printf "%s: not decided\n" (phrase name)
   in
   List.iter print names
 
 let print_counts (o : Outcome.t) =
   let depth = match o.depth with Some d -> Printf.sprintf ", depth %d" d | None -> "" in
   let left = if o.queue > 0 then Printf.sprintf ", %d not looked at" o.queue else "" in
-  Safe_print.f "%d distinct states, %d generated%s%s\n" o.distinct o.generated left depth
+  Safe_print.printf "%d distinct states, %d generated%s%s\n" o.distinct o.generated left depth
 
 let print names options program world (o : Outcome.t) =
   Option.iter Safe_print.line o.version;

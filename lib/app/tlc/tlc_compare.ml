@@ -36,11 +36,11 @@ let graph_of_tlc installation ~directory =
 let judge space theirs : Exploration.verdict =
   match Compare.isomorphic (Explored.graph space) theirs with
   | Ok () ->
-    Safe_print.f "isomorphic, with equal labels and derivations, and equal A, B and N: %d states, %d transitions\n"
+    Safe_print.printf "isomorphic, with equal labels and derivations, and equal A, B and N: %d states, %d transitions\n"
       (Array.length space.states) (Reference.transitions space);
     Holds
   | Error difference ->
-    Safe_print.pp
+    Safe_print.format
       "not isomorphic. Left is the explorer's graph, right TLC's; the observable part of a state counts as a \
        transition that stays there, in parentheses.@.%a@."
       Isomorphism.pp_difference difference;
@@ -52,7 +52,7 @@ let judge space theirs : Exploration.verdict =
 let print_coverage used =
   let print rule =
     let name = Dolphin_semantics.Rule.name rule in
-    if used name > 0 then Safe_print.f "%-16s %d\n" name (used name)
+    if used name > 0 then Safe_print.printf "%-16s %d\n" name (used name)
   in
   List.iter print Dolphin_semantics.Rule.all
 

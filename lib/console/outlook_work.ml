@@ -30,16 +30,12 @@ let over from program fleet =
   Time_analysis.run ~from ~interrupted:never ~progress:unseen settings program fleet
 
 let violations from faults program fleet =
-  let settings =
-    { Exploration.answers = []; faults; reduction = All; compress = false; spill = None; walks = None; bitstate = None;
-      workers = 1; max_states = None; max_depth = None; max_memory = Some most_memory; timeout = Some seconds;
-      invariants = []; formulas = []; fairness = Weak }
+  let settings = { Exploration.plain with faults; max_memory = Some most_memory; timeout = Some seconds } in
+  let counts (property, (verdict : Search.verdict)) =
+    match verdict with
+    | Violated _ | Unreached _ -> not (Exploration.is_remark property)
+    | Holds | By_design _ | Inconclusive _ -> false
   in
-  let is_violated = function
-    | _, (Search.Violated _ | Unreached _) -> true
-    | _, (Holds | By_design _ | Inconclusive _) -> false
-  in
-  let counts (property, verdict) = is_violated (property, verdict) && not (Exploration.is_remark property) in
   let of_outcome (o : Search.outcome) = (List.map fst (List.filter counts o.verdicts), o.stopped = None) in
   Result.map of_outcome (Exploration.explore ~from ~interrupted:never ~progress:unseen settings program fleet)
 
@@ -80,10 +76,10 @@ let compute (_ : Workspace.t) found =
     if hash program = of_run then Ok ()
     else refuse 409 "changed" "the program has changed since the run began"
   in
-  let* all = Result.map_error (refusal 500 "trouble") (Faults.of_string "all") in
   let over = over from program fleet in
+  (* Twice: the search with faults may be cut short before it comes to a violation without any. *)
   let* violated, whole = of_error (violations from Faults.none program fleet) in
-  let* with_faults, whole_with_faults = of_error (violations from all program fleet) in
+  let* with_faults, whole_with_faults = of_error (violations from Faults.all program fleet) in
   let by_faults = List.filter (fun p -> not (List.mem p violated)) with_faults in
   let names found = Field.texts (List.map Property.name found) in
   Ok

@@ -4,6 +4,7 @@ type t = { fail : limit; loss : limit; join : limit; interrupt : bool }
 
 let is_possible = function Never | At_most 0 -> false | At_most _ | Any_number -> true
 let none = { fail = Never; loss = Never; join = Never; interrupt = false }
+let all = { fail = Any_number; loss = Any_number; join = Any_number; interrupt = false }
 let names = [ "fail"; "loss"; "join"; "all"; "interrupt" ]
 
 (* To interrupt is a person's decision and no fault: it is not among [all]. *)

@@ -20,6 +20,9 @@ type t = {
 val none : t
 (** No faults but those of the scenario. *)
 
+val all : t
+(** ["all"]: any number of failures, losses, and vehicles that are late or missing. *)
+
 val of_string : string -> (t, string) result
 (** [of_string text] is the faults that [text] spells: ["fail"], ["fail=1,loss=2"], ["all,interrupt"]; or the error
     in it. *)

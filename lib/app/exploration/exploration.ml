@@ -21,6 +21,11 @@ type settings = {
   fairness : Search.fairness;
 }
 
+let plain =
+  { answers = []; faults = Dolphin_environment.Faults.none; reduction = All; compress = false; spill = None;
+    walks = None; bitstate = None; workers = 1; max_states = None; max_depth = None; max_memory = None; timeout = None;
+    invariants = []; formulas = []; fairness = Weak }
+
 let ( let* ) = Result.bind
 
 (* {1 Exploring} *)

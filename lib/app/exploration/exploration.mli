@@ -22,6 +22,10 @@ type settings = {
   fairness : Dolphin_explore.Search.fairness;
 }
 
+val plain : settings
+(** The standard properties, with the answers and faults of the fleet alone, every reduction, in one process, without
+    bounds but that on memory. *)
+
 val invariants :
   Dolphin_semantics.Core.program -> string list -> (Dolphin_explore.Condition.t list, Error.t) result
 (** [invariants program texts] is the conditions that [texts] spell, or the first that is wrong: {!Error.Bad_input}. *)

@@ -26,9 +26,9 @@ type t =
 (* {1 One fleet} *)
 
 let exploration (s : Time_analysis.settings) : Exploration.settings =
-  { answers = s.answers; faults = s.faults; reduction = All; compress = false; spill = None; walks = None;
-    bitstate = None; workers = 1; max_states = s.max_states; max_depth = s.max_depth; max_memory = s.max_memory;
-    timeout = s.timeout; invariants = []; formulas = []; fairness = Weak }
+  { Exploration.plain with
+    answers = s.answers; faults = s.faults; max_states = s.max_states; max_depth = s.max_depth;
+    max_memory = s.max_memory; timeout = s.timeout }
 
 let part (fleet : Fleet_file.t) vehicles =
   let is_part (v : Scenario.vehicle) = List.mem v.id vehicles in

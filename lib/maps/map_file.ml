@@ -203,7 +203,7 @@ let read = read_by of_drawn
 
 (* {1 As it is drawn} *)
 
-type outline =
+type outline = Outline.t =
   | Spot of Position.t
   | Way of Position.t list
   | Rings of Position.t list list

@@ -35,7 +35,7 @@ val read : path:string -> string -> (t, string) result
     fault and its place, in one sentence. *)
 
 (** The contents of a map as drawn; whether they make areas is not checked. *)
-type outline =
+type outline = Outline.t =
   | Spot of Position.t
   | Way of Position.t list
   | Rings of Position.t list list  (** rims and holes: a place is inside if it is within an odd number of them *)

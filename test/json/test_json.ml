@@ -57,7 +57,7 @@ let is_json text = is_utf8 (bytes text) && Result.is_ok (Host_value.parse text)
 let graph label =
   let b = Dolphin_lts.Graph.Builder.create () in
   Dolphin_lts.Graph.Builder.add b 0 label 1;
-  Dolphin_lts.Json.to_string (Dolphin_lts.Graph.Builder.finish ~initial:0 ~states:2 ~text:(fun _ -> label) b)
+  Dolphin_lts_json.Graph_json.to_string (Dolphin_lts.Graph.Builder.finish ~initial:0 ~states:2 ~text:(fun _ -> label) b)
 
 let report text x =
   let open Dolphin_platform_protocol.Report in

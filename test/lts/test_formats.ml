@@ -1,6 +1,7 @@
 (* The formats: exact texts, round trips, and errors with their places. *)
 
 open Dolphin_lts
+module Json = Dolphin_lts_json.Graph_json
 open Generate
 
 let graph = Alcotest.testable Graph.pp Graph.equal

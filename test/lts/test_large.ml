@@ -2,6 +2,7 @@
    are printed: [dune exec test/lts/test_large.exe -- -v]. *)
 
 open Dolphin_lts
+module Json = Dolphin_lts_json.Graph_json
 
 let million = 1_000_000
 

@@ -45,6 +45,7 @@ let all =
     row "lib/trace" 2
       [ "trace/test_pictures"; "trace/test_mutants"; "trace/test_journals"; "trace/test_resume"; "trace/test_partial" ];
     row "lib/ltl" 1 [ "ltl/test_ltl"; "explore/test_temporal" ];
+    row "lib/lts_json" 1 [ "lts/test_formats"; "lts/test_large" ];
     row "lib/lts" 1 [ "lts/test_formats"; "lts/test_lts"; "lts/test_large" ];
     row "lib/geo" 2
       [ "geo/test_geo"; "geo/test_polyline"; "geo/test_search_pattern"; "geo/test_fence"; "geo/test_parts";

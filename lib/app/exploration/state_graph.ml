@@ -1,5 +1,6 @@
 open Dolphin_semantics
 open Dolphin_lts
+module Graph_json = Dolphin_lts_json.Graph_json
 module Reference = Dolphin_explore.Reference
 module Transition_system = Dolphin_explore.Transition_system
 module Limits = Dolphin_checker.Limits
@@ -53,7 +54,7 @@ let of_text path read pp_error =
 let load w ~interrupted ~progress path =
   match Filename.extension path with
   | ".aut" -> of_text path Aldebaran.of_string Aldebaran.pp_error
-  | ".json" -> of_text path Json.of_string Json.pp_error
+  | ".json" -> of_text path Graph_json.of_string Graph_json.pp_error
   | _ -> of_program w ~interrupted ~progress path
 
 type format = Aut | Dot | Json
@@ -63,4 +64,4 @@ let write format channel graph =
   match format with
   | Aut -> Aldebaran.write sink graph
   | Dot -> Graphviz.write sink graph
-  | Json -> Json.write sink graph
+  | Json -> Graph_json.write sink graph

@@ -20,7 +20,7 @@ val load :
     [docs/semantics.md]. The error is {!Error.Inconclusive} if a bound is met. [interrupted] and [progress] are as in
     {!Dolphin_checker.Limits}. *)
 
-(** Aldebaran's, Graphviz's, and {!Dolphin_lts.Json}. *)
+(** Aldebaran's, Graphviz's, and {!Dolphin_lts_json.Graph_json}. *)
 type format = Aut | Dot | Json
 
 val write : format -> out_channel -> Dolphin_lts.Graph.t -> unit

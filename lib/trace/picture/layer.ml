@@ -1,9 +1,8 @@
 open Dolphin_geo
-module Map_file = Dolphin_maps.Map_file
 
-type t = { name : string; outlines : (string * Map_file.outline) list }
+type t = { name : string; outlines : (string * Outline.t) list }
 
-let rims : Map_file.outline -> Position.t list list = function
+let rims : Outline.t -> Position.t list list = function
   | Spot p -> [ [ p ] ]
   | Way ps -> [ ps ]
   | Rings rings -> rings
@@ -47,7 +46,7 @@ let draw ~project ~thin ~left ~right ~top ~bottom i layer =
     let point (x, y) = Svg.number x ^ "," ^ Svg.number y in
     "M" ^ String.concat " L" (List.map point (thin (points ps))) ^ if closed then " Z" else ""
   in
-  let shape (name, (outline : Map_file.outline)) =
+  let shape (name, (outline : Outline.t)) =
     let tip = if name = "" then layer.name else name in
     let path ~name ~closed rims = [ Svg.path ~name ~tip (String.concat " " (List.map (commands ~closed) rims)) ] in
     let rims = rims outline in

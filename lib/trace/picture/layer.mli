@@ -4,7 +4,7 @@ open Dolphin_geo
 
 type t = {
   name : string;  (** as legends have it *)
-  outlines : (string * Dolphin_maps.Map_file.outline) list;  (** each with its name, perhaps [""] *)
+  outlines : (string * Outline.t) list;  (** each with its name, perhaps [""] *)
 }
 
 val places : t -> Position.t list list

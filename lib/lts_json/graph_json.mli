@@ -11,6 +11,8 @@
     A transition is [[source, label, target]]; states and labels are numbered from 0. ["texts"] describes each state
     and may be absent. Members that are not listed here are ignored, so that later versions can add some. *)
 
+open Dolphin_lts
+
 val write : (string -> unit) -> Graph.t -> unit
 (** [write out g] calls [out] with the parts of the text, in order; a transition takes a line. *)
 

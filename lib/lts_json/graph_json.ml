@@ -1,3 +1,5 @@
+open Dolphin_lts
+
 let string text = Dolphin_json_text.Canonical.to_string (`String text)
 
 (* [separated out write n] is [write 0], ... [write (n - 1)], with commas between. *)

@@ -141,7 +141,8 @@ let agrees_in open_ (ast, seed, (_, environment)) =
   let program = Posts.declared environment (Generate.compile ast) in
   let world = if open_ && program.reads_sensors then Generate.open_world else Generate.world in
   let durations = durations seed in
-  (* As in the worlds of fleets: [connected(v)] is open, since changes of links that no [pick] depends on are left out. *)
+  (* As in the worlds of fleets: [connected(v)] is open, since changes of links that no [pick] depends on are left
+     out. *)
   let opened world (v, _) = World.open_sensor Connected v [ Boolean true; Boolean false ] world in
   let world = List.fold_left opened world (Links.changes durations.links) in
   is_found { environment; program; world; durations; dates = Dated_code.named program }

@@ -14,6 +14,7 @@ type t = {
   keep : time:float -> Core.vehicle -> Yojson.Safe.t -> unit;
   vehicles : (Core.vehicle, vehicle) Hashtbl.t;
   bound : (Core.vehicle, unit) Hashtbl.t;
+  mutable turn : int;  (* the part whose event is read first, if several have one *)
 }
 
 let name = "several"
@@ -31,7 +32,7 @@ let make ~note ~keep ~owners parts =
     Option.iter (fun owner -> Hashtbl.replace vehicles v { owner; offers = []; told = false }) (index_of parts name)
   in
   List.iter add owners;
-  { parts; note; keep; vehicles; bound = Hashtbl.create 16 }
+  { parts; note; keep; vehicles; bound = Hashtbl.create 16; turn = 0 }
 
 (* {1 All of them} *)
 
@@ -155,13 +156,16 @@ let upcoming s i =
     one.upcoming <- Some promise;
     promise
 
+(* The parts take turns: one that always has an event does not keep the ends of the others' tasks away. *)
 let rec next s =
-  let promises = List.init (Array.length s.parts) (fun i -> (i, upcoming s i)) in
+  let n = Array.length s.parts in
+  let promises = List.map (fun i -> (i, upcoming s i)) (List.init n (fun i -> (s.turn + i) mod n)) in
   let is_there (_, promise) = Lwt.state promise <> Lwt.Sleep in
   match List.find_opt is_there promises with
   | None -> Lwt.choose (List.map (fun (_, promise) -> Lwt.protected promise) promises) >>= fun _ -> next s
   | Some (i, promise) -> (
       s.parts.(i).upcoming <- None;
+      s.turn <- (i + 1) mod n;
       promise >>= fun e -> match event s i e with Some e -> Lwt.return e | None -> next s)
 
 (* {1 Resumption} *)

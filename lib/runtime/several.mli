@@ -1,7 +1,8 @@
 (** Several platforms of real time as one: each vehicle is commanded by the platform that offers it.
 
     The first platform keeps the time and the timers. A vehicle that two platforms offer at once belongs to the one
-    that offered it first; it is not ready as long as that is so, and people get a message. *)
+    that offered it first; it is not ready as long as that is so, and people get a message. Platforms that have events
+    at the same time take turns. *)
 
 open Dolphin_semantics
 

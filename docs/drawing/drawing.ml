@@ -1,67 +1,8 @@
-type sexp = Atom of string | List of sexp list
-
-(* Atoms are words, in quotes or not; a comment is from a semicolon to the end of the line. *)
-let parse text =
-  let length = String.length text in
-  let rec until stop i = if i < length && not (stop text.[i]) then until stop (i + 1) else i in
-  let is_delimiter c = String.contains " \t\n()\";" c in
-  let rec items parsed i =
-    if i >= length then (List.rev parsed, i)
-    else
-      match text.[i] with
-      | ')' -> (List.rev parsed, i + 1)
-      | '(' ->
-        let inner, i = items [] (i + 1) in
-        items (List inner :: parsed) i
-      | ' ' | '\t' | '\n' -> items parsed (i + 1)
-      | ';' -> items parsed (until (Char.equal '\n') i)
-      | '"' ->
-        let rec quote i = if text.[i] = '\\' then quote (i + 2) else if text.[i] = '"' then i else quote (i + 1) in
-        let stop = quote (i + 1) in
-        items (Atom (String.sub text (i + 1) (stop - i - 1)) :: parsed) (stop + 1)
-      | _ ->
-        let stop = until is_delimiter i in
-        items (Atom (String.sub text i (stop - i)) :: parsed) stop
-  in
-  fst (items [] 0)
-
-type component = { name : string; public : string; folder : string; uses : string list }
-
-let field name fields =
-  let is_it = function List (Atom a :: values) when a = name -> Some values | List _ | Atom _ -> None in
-  Option.value (List.find_map is_it fields) ~default:[]
-
-let atoms = List.filter_map (function Atom a -> Some a | List _ -> None)
-
-(* Libraries are used by either of their names. *)
-let component folder = function
-  | List (Atom ("library" | "executable") :: fields) -> (
-      match (field "name" fields, field "public_name" fields) with
-      | [ Atom name ], [ Atom public ] -> Some { name; public; folder; uses = atoms (field "libraries" fields) }
-      | _ -> None)
-  | List _ | Atom _ -> None
-
-let read path =
-  let channel = open_in_bin path in
-  Fun.protect
-    ~finally:(fun () -> close_in channel)
-    (fun () -> really_input_string channel (in_channel_length channel))
-
-(* Folders with a dot in front are dune's own, and change while it builds. *)
-let rec components ~shown folder =
-  let entries = Array.to_list (Sys.readdir folder) in
-  let inside entry =
-    let path = Filename.concat folder entry and shown = shown ^ "/" ^ entry in
-    if entry.[0] <> '.' && Sys.is_directory path then components ~shown path else []
-  in
-  let here = if List.mem "dune" entries then parse (read (Filename.concat folder "dune")) else [] in
-  List.filter_map (component shown) here @ List.concat_map inside (List.sort String.compare entries)
+open Dune_files
 
 (* {1 The graph} *)
 
-let uses all c =
-  let named x = List.find_opt (fun d -> d.name = x || d.public = x) all in
-  List.filter_map named c.uses
+let uses all c = List.filter_map (named all) c.uses
 
 let rec reaches all target c = List.exists (fun d -> d.name = target.name || reaches all target d) (uses all c)
 
@@ -78,25 +19,21 @@ let label c =
   | Some i -> String.sub c.public (i + 1) (String.length c.public - i - 1)
   | None -> c.public
 
+(* Packages in the order of their highest library. *)
 let draw all =
   let by_height c d = compare (- height all c, c.name) (- height all d, d.name) in
   let sorted = List.sort by_height all in
-  let node c = Printf.sprintf "  %s[%s]\n" c.name (label c) in
+  let add packages c = if List.mem c.package packages then packages else c.package :: packages in
+  let packages = List.rev (List.fold_left add [] sorted) in
+  let node c = Printf.sprintf "    %s[%s]\n" c.name (label c) in
+  let frame package =
+    let inside = List.filter (fun c -> c.package = package) sorted in
+    Printf.sprintf "  subgraph package-%s [%s]\n%s  end\n" package package (String.concat "" (List.map node inside))
+  in
   let edges c = List.map (fun d -> Printf.sprintf "  %s --> %s\n" c.name d.name) (List.sort by_height (arrows all c)) in
-  String.concat "" (("```mermaid\ngraph TD\n" :: List.map node sorted) @ List.concat_map edges sorted @ [ "```\n" ])
+  String.concat "" (("```mermaid\ngraph TD\n" :: List.map frame packages) @ List.concat_map edges sorted @ [ "```\n" ])
 
 (* {1 The page} *)
-
-let find text part =
-  let n = String.length part in
-  let rec go i =
-    if i + n > String.length text then failwith ("the page lacks: " ^ part)
-    else if String.sub text i n = part then i
-    else go (i + 1)
-  in
-  go 0
-
-let has text part = match find text part with _ -> true | exception Failure _ -> false
 
 (* Text between backquotes that begins with a folder is a path. *)
 let wrong_paths folders page =

@@ -1,0 +1,63 @@
+(* Each package of dune-project depends on the packages whose libraries its own use, and on no others, and the page of
+   the interfaces names each library. The arguments are dune-project, the page, and the folders of the libraries. *)
+
+open Dune_files
+
+(* Those that come with the compiler. *)
+let of_compiler = [ "unix"; "str"; "bigarray"; "threads" ]
+
+(* The package of a library in opam's repository. All that we use begin with the package's name. *)
+let opam_package all library =
+  match named all library with
+  | Some c -> Some c.package
+  | None ->
+    let root = List.hd (String.split_on_char '.' library) in
+    if List.mem root of_compiler then None else Some root
+
+(* The grammar needs a generator, besides a library. *)
+let generators folder =
+  let is_menhir = function List (Atom "menhir" :: _) -> true | List _ | Atom _ -> false in
+  if List.exists is_menhir (parse (read (Filename.concat folder "dune"))) then [ "menhir" ] else []
+
+let needed all ~root package =
+  let of_component c =
+    List.filter_map (opam_package all) c.uses @ generators (Filename.concat root c.folder)
+  in
+  let inside = List.filter (fun c -> c.package = package) all in
+  List.sort_uniq String.compare (List.filter (fun p -> p <> package) (List.concat_map of_component inside))
+
+(* Those that only tests need are not of interest, nor is the compiler. *)
+let declared fields =
+  let name = function
+    | Atom a | List [ Atom a ] -> Some a
+    | List [ Atom a; List [ Atom _; Atom _ ] ] -> Some a
+    | List _ -> None
+  in
+  List.sort_uniq String.compare
+    (List.filter (fun p -> p <> "ocaml") (List.filter_map name (field "depends" fields)))
+
+(* The links to libraries that the page lacks. The command has no interface. *)
+let unnamed page all =
+  let link c = Printf.sprintf "{{:../%s/%s/index.html}" c.package (String.capitalize_ascii c.name) in
+  let libraries = List.filter (fun c -> c.public <> c.package) all in
+  List.filter (fun link -> not (has page link)) (List.map link libraries)
+
+let () =
+  match Array.to_list Sys.argv with
+  | _ :: project :: page :: (folder :: _ as folders) ->
+    let all = List.concat_map (fun folder -> components ~shown:(Filename.basename folder) folder) folders in
+    let packages = List.filter_map (function List (Atom "package" :: p) -> Some p | _ -> None) (parse (read project)) in
+    let is_wrong fields =
+      let package = String.concat "" (atoms (field "name" fields)) in
+      let needed = needed all ~root:(Filename.dirname folder) package and declared = declared fields in
+      let without xs = List.filter (fun p -> not (List.mem p xs)) in
+      let missing = without declared needed and idle = without needed declared in
+      List.iter (Printf.printf "dune-project: %s uses %s, and does not depend on it\n" package) missing;
+      List.iter (Printf.printf "dune-project: %s depends on %s, and does not use it\n" package) idle;
+      missing <> [] || idle <> []
+    in
+    if List.length packages < 2 then failwith "no packages are found in dune-project";
+    let wrong = List.filter is_wrong packages and unnamed = unnamed (read page) all in
+    List.iter (Printf.printf "%s does not name %s\n" page) unnamed;
+    if wrong <> [] || unnamed <> [] then exit 1
+  | _ -> failwith "usage: packages.exe DUNE-PROJECT PAGE FOLDER ..."

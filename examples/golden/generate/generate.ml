@@ -18,6 +18,7 @@ let rule ~has_supplier name =
 
 (rule
  (alias runtest)
+ (package dolphin)
  (action
   (progn
    (diff %s.log %s.output)
@@ -25,6 +26,7 @@ let rule ~has_supplier name =
 
 (rule
  (alias runtest)
+ (package dolphin)
  (action
   (system
    "verdict=$(%%{exe:../../bin/dolphin.exe} trace check %%{dep:../%s.dol} %%{dep:%s.run}) ||

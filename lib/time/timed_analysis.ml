@@ -328,14 +328,17 @@ let dates_after ms o =
 
 type start = { state : Clocked.state; date : int }
 
-(* A run that never ends, or fails, is shown without faults where there is such a run. *)
+(* A run that never ends, or fails, is shown without faults where there is such a run. Its links are those of the runs
+   with faults: else it may be none of them. *)
 let plainly search (options : Clocked.options) found =
   let { Dolphin_environment.Faults.fail; loss; join; interrupt } = options.environment.faults in
   let has_faults = List.exists Dolphin_environment.Faults.is_possible [ fail; loss; join ] in
   if not (has_faults && (found.endless <> None || found.failing <> None)) then found
   else
     let faults = { Dolphin_environment.Faults.none with interrupt } in
-    let plain = search { options with environment = { options.environment with faults } } in
+    let links = Durations.links_with options.environment.faults options.durations in
+    let durations = { options.durations with links } in
+    let plain = search { options with environment = { options.environment with faults }; durations } in
     let either first second = if first <> None then first else second in
     { found with
       endless = either plain.endless found.endless; failing = either plain.failing found.failing;

@@ -487,6 +487,11 @@ let test_one_loss () =
     "va = pick { id 'a' }\nvb = pick { id 'b' }\nvc = pick { id 'c' }\n\
      execute (watch task('p')[vb] onError { ignore() }) | { task('p') } | task('p')[va] | task('q')[vc]\n"
 
+(* If vehicles may be late, links are not silent when the fleet has them silent: not in a run without faults either. *)
+let test_links_without_faults () =
+  compare_one "with all of it, once" 512_799
+    "va = pick { count _ }\nexecute waitFor { running(va) } then condition { true }\n"
+
 (* The search comes to both states of the rounds before it goes from one to the other. *)
 let test_round_in_no_time () =
   compare_one "as planned" 396227
@@ -570,6 +575,7 @@ let () =
                               (test_linked_batteries ~at_first:20 ~charge:40 ~programs:(programs / 2));
                             Alcotest.test_case "batteries that the program sees" `Quick test_looks ]);
       ("programs", [ Alcotest.test_case "one loss" `Quick test_one_loss;
+                     Alcotest.test_case "links without faults" `Quick test_links_without_faults;
                      Alcotest.test_case "a look at once" `Quick test_look_at_once;
                      Alcotest.test_case "a round in no time" `Quick test_round_in_no_time;
                      Alcotest.test_case "dates that code names" `Quick test_named;

@@ -98,19 +98,18 @@ let check_states = Alcotest.(check (list (list int)))
    then thinks. So the
    states are the words of 0, 1, 2 around a table in which 0 follows each 2, and all of them are reached. *)
 
-let philosophers n =
-  let successors table =
-    let at i = List.nth table (i mod n) in
-    let becomes i x = List.mapi (fun j y -> if j = i then x else y) table in
-    let steps i =
-      match at i with
-      | 0 -> if at (i + n - 1) = 2 then [] else [ becomes i 1 ]
-      | 1 -> if at (i + 1) = 0 then [ becomes i 2 ] else []
-      | _ -> [ becomes i 0 ]
-    in
-    List.concat_map steps (List.init n Fun.id)
+let dine n table =
+  let at i = List.nth table (i mod n) in
+  let becomes i x = List.mapi (fun j y -> if j = i then x else y) table in
+  let steps i =
+    match at i with
+    | 0 -> if at (i + n - 1) = 2 then [] else [ becomes i 1 ]
+    | 1 -> if at (i + 1) = 0 then [ becomes i 2 ] else []
+    | _ -> [ becomes i 0 ]
   in
-  Vectors.make (List.init n (fun _ -> 0)) successors
+  List.concat_map steps (List.init n Fun.id)
+
+let philosophers n = Vectors.make (List.init n (fun _ -> 0)) (dine n)
 
 (* The trace of the power of the matrix of allowed neighbours. *)
 let tables n =
@@ -139,6 +138,58 @@ let test_philosophers ?compress ?spill ?workers ?limits n () =
     check_int "each takes one fork" (n + 1) (List.length path);
     check_states "nobody has two" [ List.init n (fun _ -> 1) ] (numbers search [ List.nth path n ])
   | Holds | Inconclusive _ -> Alcotest.fail "no deadlock was found"
+
+(* {1 States that are values} *)
+
+module Six = struct
+  type state = int list
+  type property = All_have_one
+
+  let equal = List.equal Int.equal
+  let hash = Hashtbl.hash
+  let initial = List.init 6 (fun _ -> 0)
+  let successors = dine 6
+  let is_end _ = false
+  let broken s = if List.for_all (Int.equal 1) s then Some All_have_one else None
+  let letter = List.hd
+end
+
+module Six_system = Value_system.Make (Six)
+module Six_search = Breadth_first.Make (Six_system)
+
+let values ?workers ?monitor () =
+  let search = Six_search.create ?workers ~fork_from:0 ?monitor Limits.none (Six_system.create ()) in
+  Six_search.run search;
+  search
+
+let test_values ?workers () =
+  let search = values ?workers () in
+  check_int "states" (tables 6) (Six_search.count search);
+  let state i = Six_system.state (Six_search.system search) (Six_search.load search i) in
+  let known = ref [] in
+  Six_search.iter search (fun i -> known := state i :: !known);
+  check_int "each once" (tables 6) (List.length (List.sort_uniq compare !known));
+  let shown = function
+    | Breadth_first.Violated run ->
+      let states = List.map state run in
+      Alcotest.(check (list int)) "from the initial one" Six.initial (List.hd states);
+      check_states "to where all have one" [ List.init 6 (fun _ -> 1) ] [ List.nth states 6 ];
+      check_int "as short as any" 7 (List.length states)
+    | Holds | Inconclusive _ -> Alcotest.fail "no deadlock was found"
+  in
+  shown (Six_search.no_deadlock search);
+  shown (Six_search.never search All_have_one)
+
+(* The first one eats only with a fork before. *)
+let test_values_formula () =
+  let holds letter name = letter = if name = "one" then 1 else 2 in
+  let verdict text =
+    let negation = Formula.Not (Result.get_ok (Formula.of_string text)) in
+    let search = values ~monitor:(Monitor.create ~holds (Automaton.of_formula negation)) () in
+    Six_search.formula search
+  in
+  Alcotest.(check bool) "one first" true (verdict "!two W one" = Holds);
+  Alcotest.(check bool) "two in the end" false (verdict "F two" = Holds)
 
 (* {1 A counter}
 
@@ -537,6 +588,9 @@ let () =
           case "eight, on disk" (test_philosophers ~spill:folder ~limits:on_disk 8);
           case "eight, by two" (test_philosophers ~workers:2 8);
           case "eight, by three" (test_philosophers ~workers:3 8) ] );
+      ( "states that are values",
+        [ case "six" (test_values ?workers:None); case "six, by two" (test_values ~workers:2);
+          case "formulas" test_values_formula ] );
       ( "several processes",
         [ case "two" test_workers; case "the cycle of the counter" (fun () -> test_cycle ~workers:2 ~outgrown:false ());
           case "the same, after outgrowing" (fun () -> test_cycle ~workers:3 ~outgrown:true ());

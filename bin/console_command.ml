@@ -2,6 +2,7 @@ open Cmdliner
 open Dolphin_app
 open Lwt.Infix
 module Safe_print = Dolphin_display.Safe_print
+module Access = Dolphin_console.Access
 module Certificate = Dolphin_console.Certificate
 module Console = Dolphin_console.Console
 module Folder = Dolphin_console.Folder
@@ -70,7 +71,20 @@ type listening = {
   certificate : (string * string) option;  (** and its key, in files *)
   no_tls : bool;
   operators : string option;  (** a file *)
+  proxy_header : string option;
 }
+
+(* Any client could write the header that a proxy writes: only this machine may connect. *)
+let check_proxy { listen; operators; proxy_header; _ } =
+  match proxy_header, operators, listen with
+  | None, _, _ -> Ok ()
+  | Some _, None, _ ->
+    Error (Error.Bad_input "--proxy-user-header goes with --operators: their names are in the header")
+  | Some _, Some _, Some address when not (Access.is_loopback address) ->
+    Error
+      (Error.Bad_input
+         "--proxy-user-header goes with 127.0.0.1 or ::1 alone: elsewhere every client could send that header")
+  | Some _, Some _, _ -> Ok ()
 
 type asked = {
   folder : string;
@@ -85,7 +99,7 @@ type asked = {
 }
 
 let run () { folder; sim; fleet; run; definition; tiles; listening; port; browser } =
-  let { listen; certificate = files; no_tls; operators } = listening in
+  let { listen; certificate = files; no_tls; operators; proxy_header } = listening in
   let fleet = match fleet, sim with Some _, _ -> fleet | None, sim -> sim in
   Report.result
     (let* folder = trouble (Folder.make folder) in
@@ -97,16 +111,18 @@ let run () { folder; sim; fleet; run; definition; tiles; listening; port; browse
            (Error.Bad_input "vehicles of a network (--imc, --platform) are not simulated: --sim does not go with them")
        else check_fleet fleet
      in
+     let* () = check_proxy listening in
      let* certificate = certificate_of listen files no_tls in
      let* operators =
        match listen, operators with
-       | None, Some _ -> Error (Error.Bad_input "--operators goes with --listen: on 127.0.0.1 every client steers")
+       | None, Some _ when proxy_header = None ->
+         Error (Error.Bad_input "--operators goes with --listen: on 127.0.0.1 every client steers")
        | _, Some path -> Operators.load path
        | _, None -> Ok (Operators.anonymous ())
      in
      let settings =
        { Console.folder; run; fleet; dolphin = Sys.executable_name; page = Page.load (Page.folder ()); tiles; listen;
-         certificate; operators; version = Version.number; workers = Dolphin_console.Worker_pool.limits }
+         certificate; operators; proxy_header; version = Version.number; workers = Dolphin_console.Worker_pool.limits }
      in
      serve settings ~port ~browser)
 
@@ -165,16 +181,31 @@ let no_tls =
 
 let operators =
   let doc =
-    "With $(b,--listen): print a link for each operator of $(docv), which has lines of a name, a role ($(b,watch), \
-     $(b,answer), $(b,steer)) and perhaps a token of at least 16 characters that stays the same. Only its owner may be \
-     able to read it. Names are shown with the helm, and with actions of clients that do not have it."
+    "With $(b,--listen) or $(b,--proxy-user-header): print a link for each operator of $(docv), which has lines of a \
+     name, a role ($(b,watch), $(b,answer), $(b,steer), $(b,admin)), perhaps with duties ($(b,answer,pilot)), and \
+     perhaps a token of at least 16 characters that stays the same. Only its owner may be able to read it. The log and \
+     the journal have the names with what operators do."
   in
   Arg.(value & opt (some file) None & info [ "operators" ] ~docv:"FILE" ~doc)
 
+let proxy_header =
+  let doc =
+    "Take the name of an operator of $(b,--operators) from the header $(docv) of each request, such as \
+     $(b,X-Forwarded-User), instead of a token. A reverse proxy on this machine sets it, and has to remove that of its \
+     clients. Only on 127.0.0.1 or ::1."
+  in
+  let parse text = Result.map_error (fun why -> `Msg why) (Dolphin_console.Access.check_proxy_header text) in
+  let name = Arg.conv ~docv:"HEADER" (parse, Format.pp_print_string) in
+  Arg.(value & opt (some name) None & info [ "proxy-user-header" ] ~docv:"HEADER" ~doc)
+
 let listening =
   let open Options.Syntax in
-  let+ listen = listen and+ certificate = certificate and+ no_tls = no_tls and+ operators = operators in
-  { listen; certificate; no_tls; operators }
+  let+ listen = listen
+  and+ certificate = certificate
+  and+ no_tls = no_tls
+  and+ operators = operators
+  and+ proxy_header = proxy_header in
+  { listen; certificate; no_tls; operators; proxy_header }
 
 let no_browser =
   let doc = "Open no browser." in

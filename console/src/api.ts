@@ -2,8 +2,10 @@
 
 export type Json = any;
 
-export interface Question { number: number; prompt: string; kind: "value" | "truth"; at: string | null; refused: string | null }
-export interface OpenQuestion { prompt: string; of: "task" | "script"; at: string | null; until: number | null }
+export interface Question { number: number; prompt: string; kind: "value" | "truth"; at: string | null; refused: string | null; to: string | null }
+export interface OpenQuestion { prompt: string; of: "task" | "script"; at: string | null; until: number | null; to: string | null }
+// The operator of a page, if operators have names.
+export interface Operator { name: string | null; admin: boolean; duties: string[] }
 export interface Diagnostic {
   from: number; to: number; line: number; column: number; severity: "error" | "warning";
   message: string; code: string; hint?: string; file?: string;
@@ -80,7 +82,7 @@ export interface Listener {
   places(p: { time: number; places: Place[] }): void;
   way(w: { time: number; way: Way }): void;
   clock(time: number): void;
-  role(role: "steers" | "answers" | "watches", me: string): void;
+  role(role: "steers" | "answers" | "watches", me: string, operator: Operator | null): void;
   beat(): void;  // something came
   link(up: boolean, why?: string): void;
 }
@@ -95,7 +97,7 @@ export function listen(l: Listener) {
   on("journal", (line) => l.journal(line));
   on("log", (line) => l.log(line));
   on("waiting", (w) => l.waiting(w));
-  on("role", (r) => l.role(r.role, r.client));
+  on("role", (r) => l.role(r.role, r.client, r.operator ?? null));
   on("places", (p) => l.places(p));
   on("way", (w) => l.way(w));
   on("clock", (c) => l.clock(c.time));

@@ -1,6 +1,6 @@
 // The page: it shows the messages of the server and sends a person's commands.
 
-import { type Diagnostic, type Json, type LogLine, type OpenQuestion, type Status, Refusal, ask, get, listen, post, replay } from "./api";
+import { type Diagnostic, type Json, type LogLine, type OpenQuestion, type Operator, type Status, Refusal, ask, get, listen, post, replay } from "./api";
 import { choose } from "./choice";
 import { HelmView } from "./helm";
 import { Stop } from "./stop";
@@ -15,6 +15,7 @@ import { outlook } from "./outlook";
 import { type Picked, happenings, timeline } from "./timeline";
 import { Plans } from "./plans";
 import { Alarms } from "./alarms";
+import { Operators, isAsked, mayAnswer } from "./operators";
 import { Dialog } from "./question";
 import { mark as markTitle, setTitle } from "./title";
 import { Verdicts } from "./verdicts";
@@ -35,6 +36,7 @@ let linked = false;
 let watches = false;  // this page's link commands nothing
 let answers = false;  // but it answers questions and posts inputs
 let me = "";  // the name that others know this page by
+let operator: Operator | null = null;
 
 const map = new ChartMap($("map"), (id) => { $<HTMLSelectElement>("about").value = id; renderLog(true); });
 const table = new VehicleTable($("vehicles"), (id) => map.focus(id));
@@ -66,6 +68,7 @@ const verdicts = new Verdicts({ show: showFound, goTo, cancel: (subject) => atte
 const plans = new Plans((sketch) => map.sketch(sketch));
 const stop = new Stop(tell);
 const helm = new HelmView(attempt, tell);
+const operators = new Operators(attempt);
 const alarms = new Alarms((id) => { map.focus(id); $<HTMLSelectElement>("about").value = id; renderLog(true); });
 
 // {1 The program}
@@ -424,7 +427,7 @@ let nowKey = "";
 function renderNow() {
   const run = status?.run, going = !past && run !== null && run !== undefined && run.state !== "over";
   const key = JSON.stringify([shown.waiting, shown.tuples, [...shown.allocation], [...shown.bound], run?.inputs, going, run?.question?.number, run?.questions,
-    run?.outcome?.text, parameters, suggested, past !== null, shown.ending, run?.id]);
+    run?.outcome?.text, parameters, suggested, past !== null, shown.ending, run?.id, operator]);
   if (key === nowKey) return;
   nowKey = key;
   const parts: Node[] = [];
@@ -460,7 +463,7 @@ function openQuestion(q: OpenQuestion) {
   const left = h("small", { class: "left" });
   if (q.until !== null) left.dataset.until = String(q.until);
   return h("p", { class: "outcome asks" }, h("button", { class: "link", click: () => goTo(q.at ?? undefined, shownProgram()) }, q.prompt), left,
-    ...(q.of === "task" ? [give("Yes", true), give("No", false)] : [h("button", { class: "main", click: () => dialog.open() }, "Answer")]));
+    ...(!mayAnswer(operator, q.to) ? [h("small", {}, ` for ${q.to}`)] : q.of === "task" ? [give("Yes", true), give("No", false)] : [h("button", { class: "main", click: () => dialog.open() }, "Answer")]));
 }
 
 // The time that is left passes although nothing happens.
@@ -602,9 +605,10 @@ listen({
     linked = true;
     layers.tiles(s.tiles);
     renderHead();
-    if (!watches || answers) dialog.show(s.run?.id ?? "", s.run?.question ?? null);
-    const open = s.run?.questions ?? [];
-    markTitle("question", open.length > 1 ? `● ${open.length} questions` : s.run?.question ? "● " + s.run.question.prompt : "");
+    const asked = s.run?.question ?? null;
+    if (!watches || answers) dialog.show(s.run?.id ?? "", asked && mayAnswer(operator, asked.to) ? asked : null, asked !== null && isAsked(operator, asked.to));
+    const open = (s.run?.questions ?? []).filter((q) => isAsked(operator, q.to));
+    markTitle("question", open.length > 1 ? `● ${open.length} questions` : open.length ? "● " + open[0].prompt : "");
     renderNow();
     verdicts.status(s);
     for (const subject of over) attempt(async () => verdicts.result(subject, await get(subject)))();
@@ -628,7 +632,9 @@ listen({
   places({ places }) { live.add({ kind: "places", places }); if (!past) changed(); },
   way({ way }) { live.add({ kind: "way", way }); if (!past) changed(); },
   clock(time) { live.time = Math.max(live.time, time); if (!past) changed(); },
-  role(is, name) {
+  role(is, name, as_) {
+    operator = as_;
+    operators.show(as_);
     watches = is !== "steers";
     answers = is === "answers";
     me = name;

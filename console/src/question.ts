@@ -18,12 +18,12 @@ export class Dialog {
     this.el.addEventListener("keydown", (e) => { if (e.key === "Escape") this.el.close(); });
   }
 
-  // The question there is now, of this run.
-  show(run: string, q: Question | null) {
+  // The question there is now, of this run. One for another operator does not open by itself.
+  show(run: string, q: Question | null, isAsked: boolean) {
     this.question = q;
     const key = q ? `${run}/${q.number}` : "";
     if (!q) this.el.close();
-    else if (key !== this.key) this.open();
+    else if (key !== this.key) { if (isAsked) this.open(); else this.el.close(); }
     this.key = key;
   }
 

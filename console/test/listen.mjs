@@ -3,7 +3,7 @@ import { spawn } from "node:child_process";
 import { chmodSync, existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
-export default async function listen({ dolphin, home, folder, environment, browser, test, same, complaints }) {
+export default async function listen({ pictures, dolphin, home, folder, environment, browser, test, same, complaints }) {
   const server = spawn(dolphin, ["console", folder, "--port", "0", "--listen", "127.0.0.1", "--no-browser"],
     { env: environment, stdio: ["ignore", "pipe", "inherit"] });
   let said = "";
@@ -85,6 +85,49 @@ export default async function listen({ dolphin, home, folder, environment, brows
     await ana.waitForSelector("#log pre >> text=/rui \\(answer\\) answers .*: 2/");
     await ana.click("#stop");
     await rui.waitForSelector(".outcome.interrupted");
+    manned.kill("SIGINT");
+    await new Promise((done) => manned.on("exit", done));
+  });
+
+  await test("a question for the pilot opens on the pilot's page alone; an admin shuts an operator out", async () => {
+    const crew = join(home, "bridge");
+    writeFileSync(crew, "ana steer\nrui answer,pilot\nleo answer\nzoe admin\n", { mode: 0o600 });
+    writeFileSync(join(folder, "dive.dol"), "input 'over'\nx = confirm 'pilot: May it dive?'\nmessage \"dives: $x\"\nexecute condition { poll over: true }\n");
+    const manned = spawn(dolphin, ["console", folder, "--port", "0", "--listen", "127.0.0.1", "--operators", crew, "--no-browser"],
+      { env: environment, stdio: ["ignore", "pipe", "inherit"] });
+    let printed = "";
+    for await (const text of manned.stdout) { printed += text; if (/zoe, who administers: (\S+)/.test(printed)) break; }
+    const link = (name) => new RegExp(name + ", who \\w+: (\\S+)").exec(printed)[1];
+    const crewPages = {};
+    for (const name of ["ana", "rui", "leo", "zoe"]) crewPages[name] = await open("bridge " + name, link(name));
+    const { ana, rui, leo, zoe } = crewPages;
+    await ana.waitForSelector("#program option >> nth=1", { state: "attached" });
+    await ana.selectOption("#program", "dive.dol");
+    await ana.waitForSelector(".cm-line >> text=May it dive");
+    await ana.click("#run");
+    await rui.waitForSelector("dialog#question[open] >> text=pilot: May it dive?");
+    for (const page of [ana, leo]) {
+      await page.waitForSelector("#now .asks >> text=for pilot");
+      same(await page.locator("dialog#question[open]").count(), 0, "a dialog");
+      same(await page.locator("#now .asks .main").count(), 0, "a button");
+      same((await page.title()).includes("May it dive"), false, "the title");
+    }
+    await zoe.waitForSelector("#now .asks .main >> text=Answer");
+    same(await zoe.locator("dialog#question[open]").count(), 0, "a dialog of the admin");
+    await rui.click("#choices >> text=Yes");
+    await ana.waitForSelector("#log pre >> text=dives: true");
+    same(await ana.locator("#operators-open").isVisible(), false, "operators, for who steers");
+    await zoe.click("#operators-open");
+    await zoe.waitForSelector("#operators tr:has-text('rui') >> text=pilot");
+    if (pictures) await zoe.screenshot({ path: join(pictures, "operators.png") });
+    await zoe.click("[aria-label='Shut out leo']");
+    await zoe.click("#choice button >> text=Shut out");
+    await zoe.waitForSelector("#operators tr:has-text('leo')", { state: "detached" });
+    await leo.waitForSelector("#link >> text=no server");
+    await ana.waitForSelector("#log pre >> text=zoe (admin) shuts out leo");
+    await zoe.click("#operators >> text=Close");
+    await zoe.click("#stop");
+    await ana.waitForSelector(".outcome.interrupted");
     manned.kill("SIGINT");
     await new Promise((done) => manned.on("exit", done));
   });

@@ -1,7 +1,7 @@
 module Request = Dolphin_http.Request
 
 type role = Operators.role = Watches | Answers | Steers
-type t = { port : int; tls : bool; operators : Operators.operator list }
+type t = { port : int; tls : bool; operators : Operators.operator list; proxy_header : string option }
 
 (* {1 Tokens} *)
 
@@ -48,9 +48,13 @@ let is_host a text =
   let name, port = split_port a (String.lowercase_ascii text) in
   let loopback = List.mem name [ "127.0.0.1"; "localhost"; "[::1]" ] in
   let named () = is_address name || name = String.lowercase_ascii (Unix.gethostname ()) in
-  port = Some a.port && (loopback || (has_tokens a && named ()))
+  (* Behind a proxy the name is the proxy's. *)
+  a.proxy_header <> None || (port = Some a.port && (loopback || (has_tokens a && named ())))
 
-let is_origin a ~host text = String.lowercase_ascii text = scheme a ^ "://" ^ String.lowercase_ascii host
+(* A proxy has TLS of its own. *)
+let is_origin a ~host text =
+  let schemes = if a.proxy_header = None then [ scheme a ] else [ "http"; "https" ] in
+  List.mem (String.lowercase_ascii text) (List.map (fun s -> s ^ "://" ^ String.lowercase_ascii host) schemes)
 
 (* Two headers of one name are ambiguous. *)
 let header (r : Request.t) name =
@@ -89,24 +93,33 @@ let told a r =
   | `None, `One text -> List.assoc_opt (cookie a.port) (cookies text)
   | (`None | `Many), _ -> None
 
+let sender a r =
+  match a.proxy_header with
+  | None -> Option.bind (told a r) (operator_of a)
+  | Some name -> (
+      match header r name with
+      | `One user -> List.find_opt (fun (o : Operators.operator) -> o.name = Some user) a.operators
+      | `None | `Many -> None)
+
 let role a (r : Request.t) =
   if not (has_tokens a) then Ok Steers
   else if not (is_api r) then Ok Watches
   else
-    Option.to_result ~none:(401, "this console is opened by the link that it printed when it began")
-      (Option.bind (told a r) (role_of a))
+    let none =
+      if a.proxy_header = None then "this console is opened by the link that it printed when it began"
+      else "the proxy does not name an operator of this console"
+    in
+    Option.to_result ~none:(401, none) (Option.map (fun (o : Operators.operator) -> o.role) (sender a r))
 
 let check a r = Result.bind (meant a r) (fun () -> role a r)
 
-let operator a r =
-  let found = Option.bind (told a r) (operator_of a) in
-  Option.bind found (fun (o : Operators.operator) -> o.name)
+let operator a r = Option.bind (sender a r) (fun (o : Operators.operator) -> o.name)
 
 let rank a (r : Request.t) : Dolphin_http.Server.rank =
   let shown () =
     match told a r, Request.parameter r "token", r.path with
-    | None, Some text, [] -> role_of a text
-    | found, _, _ -> Option.bind found (role_of a)
+    | None, Some text, [] when a.proxy_header = None -> role_of a text
+    | _, _, _ -> Option.map (fun (o : Operators.operator) -> o.role) (sender a r)
   in
   match meant a r with
   | Error _ -> Unknown
@@ -116,11 +129,26 @@ let rank a (r : Request.t) : Dolphin_http.Server.rank =
 
 let enter a (r : Request.t) =
   match r.path, Request.parameter r "token" with
-  | [], Some text when role_of a text <> None ->
+  | [], Some text when a.proxy_header = None && role_of a text <> None ->
     let secure = if a.tls then "; Secure" else "" in
     Some [ ("Location", "/");
            ("Set-Cookie", Printf.sprintf "%s=%s; Path=/; HttpOnly; SameSite=Strict%s" (cookie a.port) text secure) ]
   | _, _ -> None
+
+let without a name =
+  { a with operators = List.filter (fun (o : Operators.operator) -> o.name <> Some name) a.operators }
+
+let check_proxy_header text =
+  let name = String.lowercase_ascii text in
+  let is_good c = match c with 'a' .. 'z' | '0' .. '9' | '-' -> true | _ -> false in
+  let n = String.length name in
+  if n > 2 && n <= 64 && String.sub name 0 2 = "x-" && String.for_all is_good name && name <> "x-dolphin-client" then
+    Ok name
+  else Error (Printf.sprintf "'%s' is not a header such as X-Forwarded-User" (String.escaped text))
+
+let is_loopback address =
+  let text = Unix.string_of_inet_addr address in
+  text = "::1" || (String.length text > 4 && String.sub text 0 4 = "127." && not (String.contains text ':'))
 
 (* {1 Replies} *)
 

@@ -8,6 +8,7 @@ type t = {
   port : int;
   tls : bool;  (** its addresses begin with [https] *)
   operators : Operators.operator list;  (** none on the loopback address: every client there steers *)
+  proxy_header : string option;  (** in small letters: a proxy on this machine names the operator by it *)
 }
 
 val scheme : t -> string
@@ -18,10 +19,11 @@ val check : t -> Dolphin_http.Request.t -> (role, int * string) result
     not meant for this console or come from the page of another: a [Host] that is not its own (names that were bound to
     the loopback address lead here otherwise), a foreign [Origin], and changes that are not sent as JSON, which no page
     can send elsewhere unasked. Where there are tokens, requests of the interface need one, as a [Bearer] or in the
-    cookie that {!enter} sets. *)
+    cookie that {!enter} sets. With a [proxy_header], a request has the name of an operator there instead, once, and
+    its [Host] is the proxy's. *)
 
 val operator : t -> Dolphin_http.Request.t -> string option
-(** [operator a r] is the name of the operator whose token [r] has, if there is one. *)
+(** [operator a r] is the name of the operator who sent [r], by the token or by the proxy, if there is one. *)
 
 val rank : t -> Dolphin_http.Request.t -> Dolphin_http.Server.rank
 (** [rank a r] is [Trusted] for a request of a client that may steer or answer, [Guest] for one that may watch,
@@ -30,6 +32,15 @@ val rank : t -> Dolphin_http.Request.t -> Dolphin_http.Server.rank
 val enter : t -> Dolphin_http.Request.t -> (string * string) list option
 (** [enter a r] is the headers of the reply to [r] if it is of a link with a token, [/?token=...]: a cookie that scripts
     cannot read, and where the page is. *)
+
+val without : t -> string -> t
+(** [without a name] is [a] without the operator [name]. *)
+
+val check_proxy_header : string -> (string, string) result
+(** [check_proxy_header text] is [text] in small letters if it is the name of a header for operators: [X-...]. *)
+
+val is_loopback : Unix.inet_addr -> bool
+(** Whether only this machine can connect to the address: [127.0.0.0/8] and [::1]. *)
 
 val check_tiles : string -> (string, string) result
 (** [check_tiles url] is [url] if it is an address of tiles of a map: [https://tile.example/{z}/{x}/{y}.png]. *)

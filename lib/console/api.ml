@@ -45,6 +45,24 @@ let helm h client found =
   let helm = Session.helm h in
   Ok (`Assoc [ ("holder", of_option (fun c -> `String c) (Helm.holder helm)); ("asking", texts (Helm.asking helm)) ])
 
+(* {1 Operators} *)
+
+let administers h client =
+  if Session.is_admin h client then Ok () else refuse 403 "not-admin" "this needs the role admin"
+
+let operators h role r =
+  let listed =
+    let* client = client h role r in
+    Result.map (fun () -> json (Session.operators h)) (administers h client)
+  in
+  Lwt.return listed
+
+let shut_out h client found =
+  let* () = administers h client in
+  let* name = get Field.text "shut_out" found in
+  let* () = Result.map_error (refusal 404 "not-found") (Session.shut_out h client name) in
+  Ok (Session.operators h)
+
 (* {1 Routes} *)
 
 type route =
@@ -61,10 +79,15 @@ let most_watchers = 60
 let most_steerers = 40
 let most_of_one = 6
 
-let role_event (role : Access.role) client =
-  let name = Operators.role_name role in
-  let data = Dolphin_json.Canonical.to_string (`Assoc [ ("role", `String name); ("client", `String client) ]) in
-  Printf.sprintf "event: role\ndata: %s\n\n" data
+let role_event h (role : Access.role) client =
+  let of_operator (o : Operators.operator) : Yojson.Safe.t =
+    `Assoc [ ("name", of_option (fun name -> `String name) o.name); ("admin", `Bool o.admin);
+             ("duties", texts o.duties) ]
+  in
+  let operator = of_option of_operator (Session.record_of h client) in
+  let json = `Assoc [ ("role", `String (Operators.role_name role)); ("client", `String client);
+                      ("operator", operator) ] in
+  Printf.sprintf "event: role\ndata: %s\n\n" (Canonical.to_string json)
 
 let events h (role : Access.role) r =
   let* client = client h role r in
@@ -73,7 +96,7 @@ let events h (role : Access.role) r =
   else if Session.streams_of h client >= most_of_one then refuse 503 "too-many" "this client looks on often enough"
   else
     let last = match Request.header r "last-event-id" with Some id -> Some id | None -> Request.parameter r "last" in
-    let follow write = write (role_event role client) >>= fun () -> Session.follow h role ~client ~last write in
+    let follow write = write (role_event h role client) >>= fun () -> Session.follow h role ~client ~last write in
     Ok (Response.stream ~kind:"text/event-stream" follow)
 
 (* {1 Work in other processes} *)
@@ -147,7 +170,8 @@ let table =
     (("POST", "run/answer"), Answer (fun h client found -> Lwt.return (Run_commands.answer h client found)));
     (("POST", "run/post"), Answer Run_commands.post);
     (("POST", "run/resume"), Later Run_commands.resume);
-    (("GET", "runs"), Beside "runs"); (("GET", "replay"), Told replay); (("POST", "helm"), Steer helm) ]
+    (("GET", "runs"), Beside "runs"); (("GET", "replay"), Told replay); (("POST", "helm"), Steer helm);
+    (("GET", "operators"), Told operators); (("POST", "operators"), Steer shut_out) ]
   @ of_subject "exploration" Exploration @ of_subject "timing" Timing @ of_subject "graph" Graph
 
 let routes = List.map (fun ((verb, path), _) -> (verb, "/api/" ^ path)) table
@@ -172,7 +196,7 @@ let command h r =
   let* client = helmsman h r in
   Ok (client, found)
 
-(* Without the helm. *)
+(* Without the helm, also a client that steers, if the question is for its operator. *)
 let answering h role r =
   let* found = command_body r in
   Result.map (fun client -> (client, found)) (client h role r)
@@ -185,7 +209,11 @@ let perform h (role : Access.role) (r : Request.t) route =
   | Beside task, _ -> (
       match client h role r with Ok client -> beside h role ~client task r | Error r -> refused r)
   | Answer f, (Steers | Answers) -> (
-      match if role = Steers then command h r else answering h role r with
+      let without_helm = answering h role r in
+      let is_free =
+        role = Answers || Result.fold without_helm ~error:(fun _ -> false)
+          ~ok:(fun (client, found) -> Run_commands.is_addressed h client found) in
+      match if is_free then without_helm else command h r with
       | Error r -> refused r
       | Ok (client, found) -> f h client found >|= of_result)
   | (Save _ | Command _ | Later _ | Steer _ | Answer _), Watches -> refused watcher

@@ -11,6 +11,7 @@ type settings = Session.settings = {
   listen : Unix.inet_addr option;
   certificate : Certificate.t option;
   operators : Operators.operator list;
+  proxy_header : string option;
   version : string;
   workers : Worker_pool.limits;
 }
@@ -44,11 +45,13 @@ let links c =
     Option.fold settings.certificate ~none:plain ~some:(fun c -> Certificate.with_fingerprint c plain)
   in
   let of_operator (o : Operators.operator) =
-    let role = Operators.role_name o.role in
+    let role = if o.admin then "administers" else Operators.role_name o.role in
     let whom = Option.fold o.name ~none:role ~some:(fun name -> Printf.sprintf "%s, who %s" name role) in
     (whom, link ("?token=" ^ o.token))
   in
-  match access.operators with [] -> [ ("", link "") ] | operators -> List.map of_operator operators
+  match access.operators with
+  | operators when operators <> [] && access.proxy_header = None -> List.map of_operator operators
+  | _ -> [ ("", link "") ]
 
 let busy c = Session.busy c.hall
 

@@ -14,7 +14,8 @@ type settings = {
   tiles : string option;  (** where the map has tiles from, {!Access.check_tiles}; [None]: it has none *)
   listen : Unix.inet_addr option;  (** the address that is served, with tokens; [None]: 127.0.0.1, without *)
   certificate : Certificate.t option;  (** connections are encrypted *)
-  operators : Operators.operator list;  (** who may use it if it listens for other machines *)
+  operators : Operators.operator list;  (** who may use it if it listens for other machines or a proxy *)
+  proxy_header : string option;  (** {!Access.check_proxy_header}: a proxy on this machine names the operators *)
   version : string;  (** of Dolphin *)
   workers : Worker_pool.limits;  (** of the processes that compute for requests *)
 }
@@ -31,7 +32,8 @@ val name : Unix.inet_addr option -> string
 (** [name listen] is the host name or address in the links of a console that listens there. *)
 
 val links : t -> (string * string) list
-(** Where pages find it: the address; or one for each operator, with ["steers"], ["watches"], or ["ana, who steers"]. *)
+(** Where pages find it: the address; or, without a proxy, one for each operator, with ["steers"], ["watches"], or
+    ["ana, who steers"]. *)
 
 val busy : t -> bool
 (** Whether a run goes on. *)

@@ -148,6 +148,11 @@ let person r : Questions.person =
          r.refused <- Some why;
          remark r ("cannot take this answer: " ^ why)) }
 
+let prompt_of r number =
+  match r.question with Some q when q.number = number -> Some q.prompt | Some _ | None -> None
+
+let open_prompts r = r.view.questions ()
+
 let answer ?by r number text =
   match r.question with
   | Some q when q.number = number ->
@@ -290,12 +295,13 @@ let of_outcome r outcome : Yojson.Safe.t =
   in
   `Assoc [ ("how", `String how); ("text", `String text); ("diagnostics", trouble) ]
 
-let to_json r : Yojson.Safe.t =
+let to_json ~addressee r : Yojson.Safe.t =
+  let to_ prompt = ("to", Field.of_option (fun name -> `String name) (addressee prompt)) in
   let question q : Yojson.Safe.t =
     `Assoc [ ("number", `Int q.number); ("prompt", `String q.prompt);
              ("kind", `String (if q.place.is_confirm then "truth" else "value"));
              ("at", Field.of_option (fun at -> `String at) q.place.at);
-             ("refused", Field.of_option (fun why -> `String why) q.refused) ]
+             ("refused", Field.of_option (fun why -> `String why) q.refused); to_ q.prompt ]
   in
   let until timers =
     let times = List.filter_map (Hashtbl.find_opt r.expiries) timers in
@@ -304,7 +310,7 @@ let to_json r : Yojson.Safe.t =
   let open_question ((q : Dolphin_display.Open_question.t), at) : Yojson.Safe.t =
     `Assoc [ ("prompt", `String q.prompt); ("of", `String (if q.is_of_task then "task" else "script"));
              ("at", Field.of_option (fun at -> `String at) at);
-             ("until", Field.of_option Canonical.number (until q.timers)) ]
+             ("until", Field.of_option Canonical.number (until q.timers)); to_ q.prompt ]
   in
   let state, outcome =
     match r.state with

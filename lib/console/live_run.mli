@@ -72,5 +72,12 @@ val post : ?by:operator -> t -> (string * Dolphin_semantics.Core.value) list -> 
 (** [post r pairs] posts them, one after the other. It resolves when the run has taken them, and the journal has them:
     to the time then. *)
 
-val to_json : t -> Yojson.Safe.t
-(** The state of the run beside its journal: progress, question, inputs. *)
+val prompt_of : t -> int -> string option
+(** [prompt_of r n] is the prompt of the open question with the number [n]. *)
+
+val open_prompts : t -> string list
+(** The prompts of the questions of tasks, which {!post} answers. *)
+
+val to_json : addressee:(string -> string option) -> t -> Yojson.Safe.t
+(** [to_json ~addressee r] is the state of [r] beside its journal: progress, question, inputs. [addressee prompt] is the
+    operators for whom a question is; [None]: for all. *)

@@ -1,5 +1,5 @@
 type role = Watches | Answers | Steers
-type operator = { name : string option; role : role; token : string }
+type operator = { name : string option; role : role; admin : bool; duties : string list; token : string }
 
 let ( let* ) = Result.bind
 
@@ -8,10 +8,27 @@ let secret () =
   Digest.to_hex (Fun.protect ~finally:(fun () -> close_in channel) (fun () -> really_input_string channel 16))
 
 let anonymous () =
-  [ { name = None; role = Steers; token = secret () }; { name = None; role = Watches; token = secret () } ]
+  let make role = { name = None; role; admin = false; duties = []; token = secret () } in
+  [ make Steers; make Watches ]
 
-let role_word = function Watches -> "watch" | Answers -> "answer" | Steers -> "steer"
+let role_word o =
+  if o.admin then "admin" else match o.role with Watches -> "watch" | Answers -> "answer" | Steers -> "steer"
+
 let role_name = function Watches -> "watches" | Answers -> "answers" | Steers -> "steers"
+
+(* {1 Questions for some of them} *)
+
+let is_called name o = o.name = Some name || List.mem name o.duties
+
+let addressee operators prompt =
+  let named i =
+    let name = String.trim (String.sub prompt 0 i) in
+    if List.exists (is_called name) operators then Some name else None
+  in
+  Option.bind (String.index_opt prompt ':') named
+
+let may_answer operators o prompt =
+  o.admin || Option.fold (addressee operators prompt) ~none:true ~some:(fun name -> is_called name o)
 
 (* {1 The file} *)
 
@@ -20,10 +37,24 @@ let is_name text = text <> "" && String.length text <= 32 && String.for_all is_p
 let is_token text = String.length text >= 16 && String.length text <= 128 && String.for_all is_plain text
 
 let role = function
-  | "watch" -> Ok Watches
-  | "answer" -> Ok Answers
-  | "steer" -> Ok Steers
-  | other -> Error (Printf.sprintf "'%s' is not a role: watch, answer or steer" (String.escaped other))
+  | "watch" -> Ok (Watches, false)
+  | "answer" -> Ok (Answers, false)
+  | "steer" -> Ok (Steers, false)
+  | "admin" -> Ok (Steers, true)
+  | other -> Error (Printf.sprintf "'%s' is not a role: watch, answer, steer or admin" (String.escaped other))
+
+let name_rule = "1 to 32 letters, digits, dashes and underscores"
+
+(* [answer,pilot]: the role, and names by which questions reach the operator. *)
+let role_and_duties text =
+  match String.split_on_char ',' text with
+  | [] -> Error "a role is missing"
+  | as_ :: duties ->
+    let* role, admin = role as_ in
+    match List.find_opt (fun duty -> not (is_name duty)) duties with
+    | Some duty -> Error (Printf.sprintf "'%s' is not a duty: %s" (String.escaped duty) name_rule)
+    | None when role = Watches && duties <> [] -> Error "an operator who watches answers no questions: no duties"
+    | None -> Ok (role, admin, duties)
 
 let words line =
   let text = match String.index_opt line '#' with Some i -> String.sub line 0 i | None -> line in
@@ -32,11 +63,11 @@ let words line =
 
 let operator line =
   let make name as_ token =
-    let* role = role as_ in
+    let* role, admin, duties = role_and_duties as_ in
     if not (is_name name) then
-      Error (Printf.sprintf "'%s' is not a name: 1 to 32 letters, digits, dashes and underscores" (String.escaped name))
+      Error (Printf.sprintf "'%s' is not a name: %s" (String.escaped name) name_rule)
     else if not (is_token token) then Error "a token has 16 to 128 letters, digits, dashes and underscores"
-    else Ok (Some { name = Some name; role; token })
+    else Ok (Some { name = Some name; role; admin; duties; token })
   in
   match words line with
   | [] -> Ok None

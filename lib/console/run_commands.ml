@@ -135,10 +135,30 @@ let stop h client found =
   without_helm h run client "stops it";
   Ok (`Assoc [])
 
+let not_yours h prompt =
+  let whom = Option.value (Session.addressee h prompt) ~default:"another operator" in
+  refusal 403 "addressed" ("this question is for " ^ whom)
+
+(* The questions that a request would answer. *)
+let prompts run found =
+  match List.assoc_opt "question" found, List.assoc_opt "key" found with
+  | Some (`Int number), _ -> Option.to_list (Live_run.prompt_of run number)
+  | _, Some (`String key) -> List.filter (( = ) key) (Live_run.open_prompts run)
+  | _, _ -> []
+
+let is_addressed h client found =
+  match Session.run h with
+  | None -> false
+  | Some run ->
+    let is_for_client prompt = Session.addressee h prompt <> None && Session.may_answer h client prompt in
+    List.exists is_for_client (prompts run found)
+
 let answer h client found =
   let* run = going_on h in
   let* number = get whole "question" found in
   let* text = get Field.text "text" found in
+  let not_allowed prompt = if Session.may_answer h client prompt then None else Some (not_yours h prompt) in
+  let* () = Option.fold (Option.bind (Live_run.prompt_of run number) not_allowed) ~none:(Ok ()) ~some:Result.error in
   let answered = Live_run.answer ?by:(Session.operator h client) run number text in
   let* () = Result.map_error (refusal 409 "answered") answered in
   without_helm h run client "answers";
@@ -155,9 +175,15 @@ let pairs found =
     let* value = needed (Host_value.data_of_json value) in
     Ok [ (key, value) ]
 
+let is_for_another h client run (key, _) =
+  List.mem key (Live_run.open_prompts run) && not (Session.may_answer h client key)
+
 let post h client found =
   match Result.bind (going_on h) (fun run -> Result.map (fun pairs -> (run, pairs)) (pairs found)) with
   | Error r -> Lwt.return (Error r)
+  | Ok (run, pairs) when List.exists (is_for_another h client run) pairs ->
+    let prompt, _ = List.find (is_for_another h client run) pairs in
+    Lwt.return (Error (not_yours h prompt))
   | Ok (run, pairs) ->
     Live_run.post ?by:(Session.operator h client) run pairs >|= function
     | Ok time ->

@@ -26,6 +26,10 @@ val enact : Session.t -> Field.members -> (json, refusal) result
 val stop : Session.t -> string -> Field.members -> (json, refusal) result
 (** [stop h client found]: [POST run/stop]. *)
 
+val is_addressed : Session.t -> string -> Field.members -> bool
+(** [is_addressed h client found] is whether the question that a request answers is addressed to the operator of
+    [client], who needs no helm for it then. *)
+
 val answer : Session.t -> string -> Field.members -> (json, refusal) result
 (** [answer h client found]: [POST run/answer]. *)
 

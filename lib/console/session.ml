@@ -12,6 +12,7 @@ type settings = {
   listen : Unix.inet_addr option;
   certificate : Certificate.t option;
   operators : Operators.operator list;
+  proxy_header : string option;
   version : string;
   workers : Worker_pool.limits;
 }
@@ -56,9 +57,10 @@ type t = {
 let make settings =
   let instance =
     Digest.to_hex (Digest.string (Printf.sprintf "%d %f" (Unix.getpid ()) (Unix.gettimeofday ()))) in
-  let operators = if settings.listen = None then [] else settings.operators in
+  let operators = if settings.listen = None && settings.proxy_header = None then [] else settings.operators in
   { settings; instance = String.sub instance 0 8; grown = Lwt_condition.create ();
-    access = { port = 0; tls = settings.certificate <> None; operators }; run = None;
+    access = { port = 0; tls = settings.certificate <> None; operators; proxy_header = settings.proxy_header };
+    run = None;
     outlook = None; run_path = None; pools = pools settings; runs = 0;
     analyses = []; begun = 0; visitors = Visitors.make (); helm = Helm.free; alive = []; watching = [] }
 
@@ -73,11 +75,26 @@ let analysis h subject = Option.map (fun a -> a.analysis) (List.assoc_opt subjec
 let analyses h = List.map (fun (_, a) -> a.analysis) h.analyses
 let helm h = h.helm
 let name h = Visitors.name h.visitors
-let operator h client : Live_run.operator option =
+
+let record_of h client =
   let owner = Visitors.owner client in
-  let is_owner (o : Operators.operator) = o.name = Some owner in
-  let named (o : Operators.operator) : Live_run.operator = { name = owner; role = Operators.role_word o.role } in
-  Option.map named (List.find_opt is_owner h.access.operators)
+  List.find_opt (fun (o : Operators.operator) -> o.name = Some owner) h.access.operators
+
+let operator h client : Live_run.operator option =
+  let named (o : Operators.operator) : Live_run.operator =
+    { name = Visitors.owner client; role = Operators.role_word o } in
+  Option.map named (record_of h client)
+
+let has_names h = List.exists (fun (o : Operators.operator) -> o.name <> None) h.access.operators
+
+(* One who was shut out has no record any more. *)
+let is_known h client = (not (has_names h)) || record_of h client <> None
+let addressee h prompt = Operators.addressee h.access.operators prompt
+
+let may_answer h client prompt =
+  match record_of h client with
+  | Some o -> Operators.may_answer h.access.operators o prompt
+  | None -> addressee h prompt = None
 
 let streams_of h client = List.length (List.filter (fun (other, _) -> other = client) h.watching)
 let watchers h role = List.length (List.filter (fun (_, of_client) -> of_client = role) h.watching)
@@ -164,7 +181,7 @@ let command h client =
 (* {1 The status} *)
 
 let of_run h run : Yojson.Safe.t =
-  match Live_run.to_json run with
+  match Live_run.to_json ~addressee:(addressee h) run with
   | `Assoc members ->
     `Assoc
       (members
@@ -193,6 +210,36 @@ let status h : Yojson.Safe.t =
            ("asking", Field.texts (Helm.asking h.helm));
            ("taken_from", Field.of_option (fun client -> `String client) (Helm.taken_from h.helm)) ]);
       ("watching", `Int (List.length h.watching)) ]
+
+(* {1 Operators} *)
+
+let operators h : Yojson.Safe.t =
+  let one (o : Operators.operator) : Yojson.Safe.t option =
+    let json name : Yojson.Safe.t =
+      let pages = List.filter (fun (client, _) -> Visitors.owner client = name) h.watching in
+      `Assoc [ ("name", `String name); ("role", `String (Operators.role_word o)); ("duties", Field.texts o.duties);
+               ("pages", `Int (List.length pages)) ]
+    in
+    Option.map json o.name
+  in
+  `Assoc [ ("operators", `List (List.filter_map one h.access.operators)) ]
+
+let is_admin h client = Option.fold (record_of h client) ~none:false ~some:(fun (o : Operators.operator) -> o.admin)
+
+(* At least the admin stays: a console without operators would trust every client. *)
+let shut_out h client name =
+  let is_other (o : Operators.operator) = o.name = Some name && Visitors.owner client <> name in
+  if not (List.exists is_other h.access.operators) then Error "there is no other operator of this name"
+  else begin
+    Option.iter (fun run -> Live_run.acted run (operator h client) (Shut_out name)) h.run;
+    let holder = Helm.holder h.helm in
+    let pages = List.filter (fun (other, _) -> Visitors.owner other = name) h.watching in
+    List.iter (fun (other, _) -> set_helm h (Helm.give_up h.helm other)) pages;
+    Option.iter (fun other -> if Visitors.owner other = name then set_helm h (Helm.give_up h.helm other)) holder;
+    h.access <- Access.without h.access name;
+    changed h;
+    Ok ()
+  end
 
 (* {1 Events} *)
 
@@ -254,7 +301,7 @@ let wait h reader =
   let silence = reader.spoken +. beat -. Unix.gettimeofday () in
   Lwt.pick [ news; Lwt_unix.sleep (Float.max 0. (Float.min beat silence)) ]
 
-let rec tell h reader write =
+let rec tell h ~client reader write =
   let now = Unix.gettimeofday () in
   let text =
     match next h reader with
@@ -262,10 +309,11 @@ let rec tell h reader write =
     | None -> if now >= reader.spoken +. beat then Some (clock h) else None
   in
   match text with
+  | _ when not (is_known h client) -> Lwt.return_unit
   | Some text ->
     reader.spoken <- now;
-    write text >>= fun () -> tell h reader write
-  | None -> wait h reader >>= fun () -> tell h reader write
+    write text >>= fun () -> tell h ~client reader write
+  | None -> wait h reader >>= fun () -> tell h ~client reader write
 
 (* {1 Clients that follow events} *)
 
@@ -293,5 +341,5 @@ let follow h role ~client ~last write =
   let reader = { told = ""; run_id; offset; spoken = 0. } in
   h.watching <- (client, role) :: h.watching;
   changed h;
-  Lwt.finalize (fun () -> write "retry: 1000\n\n" >>= fun () -> tell h reader write)
+  Lwt.finalize (fun () -> write "retry: 1000\n\n" >>= fun () -> tell h ~client reader write)
     (fun () -> leave h client; Lwt.return_unit)

@@ -13,6 +13,7 @@ type settings = {
   listen : Unix.inet_addr option;
   certificate : Certificate.t option;
   operators : Operators.operator list;
+  proxy_header : string option;
   version : string;
   workers : Worker_pool.limits;
 }
@@ -80,6 +81,28 @@ val close : t -> unit
 
 val operator : t -> string -> Live_run.operator option
 (** [operator h client] is the operator whose client has this name, if operators have names. *)
+
+val record_of : t -> string -> Operators.operator option
+(** [record_of h client] is the same with role and duties. *)
+
+val is_known : t -> string -> bool
+(** [is_known h client] is false for clients of an operator who was shut out. *)
+
+val addressee : t -> string -> string option
+(** {!Operators.addressee}, of those of this console. *)
+
+val may_answer : t -> string -> string -> bool
+(** [may_answer h client prompt] is whether the question is for the operator of [client], or for everybody. *)
+
+val is_admin : t -> string -> bool
+(** Whether the client is one of an admin. *)
+
+val operators : t -> Yojson.Safe.t
+(** The operators with names, each with its role, duties, and the number of streams of events. *)
+
+val shut_out : t -> string -> string -> (unit, string) result
+(** [shut_out h client name]: the operator [name] has no access any more, until the console is started again; streams
+    of events end, and the helm goes to the next. The error: [name] is the operator of [client], or unknown. *)
 
 val name : t -> ?operator:string -> Access.role -> string -> string
 (** {!Visitors.name}: clients are known by it here. *)

@@ -9,6 +9,7 @@ type deed =
   | Stop of { all : bool }
   | Take_helm of string option
   | Leave_helm
+  | Shut_out of string
 
 type t = { operator : string; role : string; deed : deed }
 
@@ -22,6 +23,7 @@ let of_deed deed : members =
   | Stop { all } -> did "stop" (if all then [ ("all", `Bool true) ] else [])
   | Take_helm from -> did "take-helm" (Option.fold from ~none:[] ~some:(fun name -> [ ("from", `String name) ]))
   | Leave_helm -> did "leave-helm" []
+  | Shut_out name -> did "shut-out" [ ("name", `String name) ]
 
 let members { operator; role; deed } : members =
   ("operator", `String operator) :: ("role", `String role) :: of_deed deed
@@ -40,6 +42,7 @@ let to_deed found =
     let name json = Result.map Option.some (text json) in
     Result.map (fun from -> Take_helm from) (optional name ~default:None "from" found)
   | "leave-helm" -> Ok Leave_helm
+  | "shut-out" -> Result.map (fun name -> Shut_out name) (get text "name" found)
   | other -> Error (Printf.sprintf "unknown act of an operator: %S" other)
 
 let of_members found =
@@ -57,5 +60,6 @@ let words_of_deed = function
   | Take_helm None -> "has the helm"
   | Take_helm (Some from) -> "has the helm, which was " ^ from ^ "'s"
   | Leave_helm -> "leaves the helm"
+  | Shut_out name -> "shuts out " ^ name
 
 let words { operator; role; deed } = Printf.sprintf "%s (%s) %s" operator role (words_of_deed deed)

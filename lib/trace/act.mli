@@ -9,6 +9,7 @@ type deed =
   | Stop of { all : bool }  (** [all]: the task of [onInterrupt], too *)
   | Take_helm of string option  (** from the operator who had it *)
   | Leave_helm  (** to no other operator *)
+  | Shut_out of string  (** this operator, until the console is started again *)
 
 type t = { operator : string;  (** the name *) role : string; deed : deed }
 

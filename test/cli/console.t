@@ -104,6 +104,15 @@ The port is taken; there is no such folder:
   dolphin: option '--listen': 'here' is not an address such as 192.168.1.5
   $ dolphin console . --tiles https://tile.example/ 2>&1 | head -1
   dolphin: option '--tiles': https://tile.example/ is not an address of tiles,
+  $ echo 'ana steer' > crew && chmod 600 crew
+  $ dolphin console . --proxy-user-header X-User
+  dolphin: --proxy-user-header goes with --operators: their names are in the header
+  [2]
+  $ dolphin console . --proxy-user-header X-User --operators crew --listen 0.0.0.0
+  dolphin: --proxy-user-header goes with 127.0.0.1 or ::1 alone: elsewhere every client could send that header
+  [2]
+  $ dolphin console . --proxy-user-header Host --operators crew 2>&1 | head -1
+  dolphin: option '--proxy-user-header': 'Host' is not a header such as
   $ dolphin console none
   dolphin: none: No such file or directory
   [2]

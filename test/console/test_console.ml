@@ -38,7 +38,7 @@ let in_folder f =
 let settings folder : Console.settings =
   { folder = Result.get_ok (Folder.make folder); run = Dolphin_app.Run.simulated; fleet = None;
     dolphin = Sys.executable_name; page = Page.load None; tiles = None; listen = None; certificate = None;
-    operators = Operators.anonymous (); version = "test";
+    operators = Operators.anonymous (); proxy_header = None; version = "test";
     workers = Worker_pool.limits }
 
 let served settings f () =
@@ -424,15 +424,19 @@ let operators_file () =
     match Operators.read text with
     | Error why -> why
     | Ok found ->
-      let one (o : Operators.operator) = Option.get o.name ^ " " ^ Operators.role_name o.role in
+      let one (o : Operators.operator) =
+        String.concat " " (Option.get o.name :: Operators.role_word o :: o.duties) in
       String.concat ", " (List.map one found)
   in
   let check what expected found = text what expected (read found) in
-  check "two" "ana steers, rui answers" "# the crew\nana steer\n\nrui\tanswer 0123456789abcdef # stays\r\n";
+  check "two" "ana steer, rui answer" "# the crew\nana steer\n\nrui\tanswer 0123456789abcdef # stays\r\n";
   check "none" "there are no operators" "# nobody yet\n";
   check "twice" "the name ana is there twice" "ana steer\nana watch\n";
   check "one token" "two operators have the same token" "a steer 0123456789abcdef\nb watch 0123456789abcdef\n";
-  check "a role" "line 2: 'captain' is not a role: watch, answer or steer" "a steer\nb captain\n";
+  check "a role" "line 2: 'captain' is not a role: watch, answer, steer or admin" "a steer\nb captain\n";
+  check "duties" "ana admin, rui answer pilot medic" "ana admin\nrui answer,pilot,medic\n";
+  check "an empty duty" "line 1: '' is not a duty: 1 to 32 letters, digits, dashes and underscores" "rui answer,\n";
+  check "a duty who watches" "line 1: an operator who watches answers no questions: no duties" "eva watch,pilot\n";
   check "a short token" "line 1: a token has 16 to 128 letters, digits, dashes and underscores" "a steer 0123\n";
   check "a name" "line 1: '<b>' is not a name: 1 to 32 letters, digits, dashes and underscores" "<b> steer\n";
   check "too much" "line 1: a line has a name, a role, and perhaps a token" "a steer 0123456789abcdef more\n";
@@ -499,6 +503,129 @@ let named_operators _ console =
   Client.leave ana >>= fun () -> acts_of_latest_run ~headers:(by "eva") port >|= fun acts ->
   Alcotest.(check (list string)) "the journal has who did it"
     [ "ana (steer) starts the run"; "rui (answer) answers 'How many?': 3"; "rui (answer) posts go:1" ] acts
+
+(* {2 Questions for some of them} *)
+
+let bridge = Result.get_ok (Operators.read "ana steer\nrui answer,pilot\nleo answer\nzoe admin\n")
+
+let by_name name =
+  let operator = List.find (fun (o : Operators.operator) -> o.name = Some name) bridge in
+  [ ("Authorization", "Bearer " ^ operator.token); ("X-Dolphin-Client", name) ]
+
+let addressed () =
+  let to_ prompt = Option.value (Operators.addressee bridge prompt) ~default:"all" in
+  let check prompt expected = text prompt expected (to_ prompt) in
+  check "pilot: May it dive?" "pilot";
+  check "leo : May it?" "leo";
+  check "warning: May it?" "all";
+  check "May it, pilot: now?" "all";
+  check "steer: May it?" "all";
+  check "pilot" "all";
+  let may name prompt =
+    Operators.may_answer bridge (List.find (fun (o : Operators.operator) -> o.name = Some name) bridge) prompt in
+  let answers prompt = List.filter (fun name -> may name prompt) [ "ana"; "rui"; "leo"; "zoe" ] in
+  Alcotest.(check (list string)) "for the pilot" [ "rui"; "zoe" ] (answers "pilot: May it dive?");
+  Alcotest.(check (list string)) "for all" [ "ana"; "rui"; "leo"; "zoe" ] (answers "May it dive?")
+
+(* A question of the script, and then one of a task: the steerer with the helm may answer neither. *)
+let questions_for_some folder console =
+  let port = Console.port console in
+  write (Filename.concat folder "dive.dol")
+    "x = confirm 'pilot: May it dive?'\nexecute confirm('pilot: Up again?') | confirm('All well?')\nmessage 'over'\n";
+  let ask name ?body path = Client.ask ?body ~headers:(by_name name) ~port ("/api/" ^ path) in
+  let to_ m = Yojson.Safe.to_string (member [ "run"; "question"; "to" ] (Yojson.Safe.from_string m.Client.data)) in
+  Client.events ~headers:(by_name "ana") ~port "/api/events?client=ana" >>= fun ana ->
+  ask "ana" ~body:{|{"program": "dive.dol", "speed": 1}|} "run" >>= fun r ->
+  status "started" 200 r.status;
+  Client.until ana question >>= fun seen ->
+  text "for whom" {|"pilot"|} (to_ (List.hd (List.rev seen)));
+  let first = {|{"question": 1, "text": "true"}|} in
+  Lwt_list.iter_s (fun name -> ask name ~body:first "run/answer" >|= refused name (403, "addressed")) [ "ana"; "leo" ]
+  >>= fun () ->
+  ask "rui" ~body:first "run/answer" >>= fun r ->
+  status "the pilot" 200 r.status;
+  let open_ m = member [ "run"; "questions" ] (Yojson.Safe.from_string m.Client.data) in
+  let has_two m = m.Client.event = "status" && match open_ m with `List [ _; _ ] -> true | _ -> false in
+  Client.until ana has_two >>= fun _ ->
+  let second = {|{"key": "pilot: Up again?", "value": true}|} in
+  Lwt_list.iter_s (fun name -> ask name ~body:second "run/post" >|= refused name (403, "addressed")) [ "ana"; "leo" ]
+  >>= fun () ->
+  ask "leo" ~body:{|{"key": "All well?", "value": true}|} "run/post" >>= fun r ->
+  status "for all" 200 r.status;
+  ask "zoe" ~body:second "run/post" >>= fun r ->
+  status "an admin, without the helm" 200 r.status;
+  Client.until ana is_over >>= fun _ ->
+  Client.leave ana >>= fun () -> acts_of_latest_run ~headers:(by_name "ana") port >|= fun acts ->
+  Alcotest.(check (list string)) "who did it"
+    [ "ana (steer) starts the run"; "rui (answer) answers 'pilot: May it dive?': true";
+      "leo (answer) answers 'All well?': yes"; "zoe (admin) answers 'pilot: Up again?': yes" ] acts
+
+let shut_out _ console =
+  let port = Console.port console in
+  let ask name ?body path = Client.ask ?body ~headers:(by_name name) ~port ("/api/" ^ path) in
+  Client.events ~headers:(by_name "ana") ~port "/api/events?client=ana" >>= fun ana ->
+  ask "ana" ~body:{|{"program": "mission.dol", "speed": 10}|} "run" >>= fun r ->
+  status "started" 200 r.status;
+  Client.until ana question >>= fun _ ->
+  let out name = Printf.sprintf {|{"shut_out": "%s"}|} name in
+  ask "ana" ~body:(out "leo") "operators" >>= fun r ->
+  refused "who steers" (403, "not-admin") r;
+  ask "rui" "operators" >>= fun r ->
+  refused "who answers" (403, "not-admin") r;
+  ask "zoe" ~body:(out "zoe") "operators" >>= fun r ->
+  refused "herself" (404, "not-found") r;
+  ask "zoe" ~body:(out "ana") "operators" >>= fun r ->
+  status "by an admin" 200 r.status;
+  Lwt.catch
+    (fun () -> Client.until ana (fun _ -> false) >|= fun _ -> false)
+    (fun _ -> Lwt.return_true)
+  >>= fun ended ->
+  holds "the stream of events ends" true ended;
+  ask "ana" "status" >>= fun r ->
+  refused "no access" (401, "refused") r;
+  ask "zoe" "status" >>= fun r ->
+  text "the helm is free" "null" (Yojson.Safe.to_string (member [ "helm"; "holder" ] (Client.json r)));
+  ask "zoe" ~body:"{}" "run/stop" >>= fun r ->
+  status "the run is stopped by another" 200 r.status;
+  let rec over () =
+    ask "zoe" "status" >>= fun r ->
+    if member [ "run"; "state" ] (Client.json r) = `String "over" then Lwt.return_unit
+    else Lwt_unix.sleep 0.02 >>= over
+  in
+  over () >>= fun () -> acts_of_latest_run ~headers:(by_name "zoe") port >|= fun acts ->
+  holds "the journal has it" true (List.mem "zoe (admin) shuts out ana" acts)
+
+(* {2 A reverse proxy} *)
+
+let behind_a_proxy _ console =
+  let port = Console.port console in
+  let ask ?body headers path = Client.ask ?body ~headers ~port path in
+  let user name = ("X-Forwarded-User", name) in
+  Alcotest.(check (list string)) "one link, without a token" [ "" ] (List.map fst (Console.links console));
+  let token = (List.hd bridge).token in
+  Lwt_list.iter_s
+    (fun (what, headers) -> ask headers "/api/status" >|= refused what (401, "refused"))
+    [ ("without the header", []); ("unknown", [ user "mallory" ]); ("by a token", [ ("Authorization", "Bearer " ^ token) ]);
+      ("twice", [ user "ana"; user "zoe" ]); ("empty", [ user "" ]) ]
+  >>= fun () ->
+  ask [] ("/?token=" ^ token) >>= fun r ->
+  status "a token is no way in" 200 r.status;
+  let host = ("Host", "console.example.org") in
+  ask [ host; user "ana"; ("Origin", "https://console.example.org") ] "/api/status" >>= fun r ->
+  status "by the proxy's name" 200 r.status;
+  ask [ host; user "ana"; ("Origin", "https://evil.example") ] "/api/status" >>= fun r ->
+  refused "a foreign page" (403, "refused") r;
+  ask [ host; user "rui" ] ~body:"{}" "/api/run/stop" >>= fun r ->
+  refused "with the role of the file" (403, "answers") r;
+  ask [ host; user "zoe" ] "/api/operators" >|= fun r -> status "an admin" 200 r.status
+
+let proxy_header () =
+  let check what expected = holds what expected (Result.is_ok (Access.check_proxy_header what)) in
+  List.iter (fun what -> check what true) [ "X-Forwarded-User"; "x-remote-user" ];
+  List.iter (fun what -> check what false) [ ""; "x-"; "Host"; "X-Dolphin-Client"; "X-A b"; "X-A:"; "Authorization" ];
+  let loopback text = Access.is_loopback (Unix.inet_addr_of_string text) in
+  List.iter (fun text -> holds text true (loopback text)) [ "127.0.0.1"; "127.1.2.3"; "::1" ];
+  List.iter (fun text -> holds text false (loopback text)) [ "0.0.0.0"; "::"; "192.168.1.5"; "128.0.0.1"; "fe80::1" ]
 
 let answers_and_posts _ port =
   let command ?(client = "first") path body =
@@ -580,8 +707,9 @@ let open_questions folder port =
   status "it starts" 200 r.status;
   Client.until first (fun m -> has_text "Right?" (listed m)) >>= fun seen ->
   text "three questions"
-    ({|[{"prompt":"Left?","of":"task","at":"1:11","until":3600},{"prompt":"Middle?","of":"task","at":"1:31","until":3600},|}
-     ^ {|{"prompt":"Right?","of":"task","at":"2:6","until":10800}]|})
+    ({|[{"prompt":"Left?","of":"task","at":"1:11","until":3600,"to":null},|}
+     ^ {|{"prompt":"Middle?","of":"task","at":"1:31","until":3600,"to":null},|}
+     ^ {|{"prompt":"Right?","of":"task","at":"2:6","until":10800,"to":null}]|})
     (listed (List.hd (List.rev seen)));
   post {|{"key": "Right?", "value": true}|} >>= fun r ->
   status "any of them is answered" 200 r.status;
@@ -1254,6 +1382,8 @@ let () =
   | [| _; "console-worker"; "--megabytes"; megabytes |] -> Worker.main ~megabytes:(int_of_string megabytes); exit 0
   | _ -> ()
 
+let manned folder = { (settings folder) with listen = Some Unix.inet_addr_loopback; operators = bridge }
+
 let () =
   let slow name f = Alcotest.test_case name `Quick f in
   Alcotest.run "console"
@@ -1274,6 +1404,11 @@ let () =
          slow "named operators"
            (served (fun folder ->
                 { (settings folder) with listen = Some Unix.inet_addr_loopback; operators = crew }) named_operators);
+         slow "questions for some operators" addressed; slow "headers of proxies" proxy_header;
+         slow "questions for the pilot" (served manned questions_for_some); slow "shut out" (served manned shut_out);
+         slow "behind a proxy"
+           (served (fun folder -> { (settings folder) with operators = bridge; proxy_header = Some "x-forwarded-user" })
+              behind_a_proxy);
          slow "streams of one client" (console streams_of_one_client) ]);
       ("workers",
        [ slow "killed" (with_limits Fun.id worker_killed);

@@ -1,0 +1,644 @@
+(** The laws of docs/semantics.md, as strong bisimulations of residuals, for every task and from every shared part. By
+    the theorems of [Congruence] they hold in every context. "Vehicles being given": the residuals have them. *)
+From Coq Require Export Permutation.
+From Dolphin Require Export Congruence.
+Set Implicit Arguments.
+Unset Strict Implicit.
+
+Section Laws.
+  Context {L : Names} {C : Code}.
+
+  (** {1 Code of the laws} *)
+
+  (** A guard that does nothing, and is [b]. *)
+  Definition is_always (b : bool) (g : code) : Prop :=
+    forall K S, exists x, runs g [] K S = Gives x (variables S) (space S) [] /\ truth x = Some b.
+
+  (** Guards without faults and deeds, of which one holds where the other does not. *)
+  Definition opposite (g g' : code) : Prop :=
+    forall K S, exists x x' b, runs g [] K S = Gives x (variables S) (space S) [] /\ truth x = Some b /\
+      runs g' [] K S = Gives x' (variables S) (space S) [] /\ truth x' = Some (negb b).
+
+  (** A handler that does nothing but to give this verdict. *)
+  Definition just (x : verdict) (h : handler) : Prop :=
+    forall m K S, handles_error (handles h) m K S = Rules x (variables S) [] (space S) [].
+
+  Lemma with_code_same S : with_code (variables S) (space S) S = S.
+  Proof. destruct S. reflexivity. Qed.
+
+  Lemma minus_nothing vs : minus vs [] = vs.
+  Proof.
+    unfold minus. induction vs as [|v vs IH]; [reflexivity|]. cbn [List.filter].
+    destruct (mem v []) eqn:M; [apply mem_spec in M; contradiction|]. cbn [negb]. rewrite IH. reflexivity.
+  Qed.
+
+  Lemma after_nothing S : after_handler (variables S) [] (space S) S = S.
+  Proof. unfold after_handler. rewrite with_code_same, minus_nothing. destruct S. reflexivity. Qed.
+
+  (** {1 Contexts} *)
+
+  Definition is_around (f : frame) (vs : list vehicle) (is : list timer) : Prop :=
+    kind f = (0, []) /\ alike (frame_names f) vs /\ alike (frame_numbers f) is.
+
+  Lemma similar_trans K1 K2 K3 : similar K1 K2 -> similar K2 K3 -> similar K1 K3.
+  Proof. intros [] []. split; try congruence. eapply alike_trans; eassumption. Qed.
+
+  Lemma enter_two f1 f2 f3 K vs1 is1 vs2 is2 : is_around f1 vs1 is1 -> is_around f2 vs2 is2 ->
+    is_around f3 (vs1 ++ vs2) (is1 ++ is2) -> similar (enter f1 (enter f2 K)) (enter f3 K).
+  Proof.
+    intros (K1 & N1 & I1) (K2 & N2 & I2) (K3 & N3 & I3).
+    assert (E : forall g : vehicle -> bool,
+      (fun v => (g v || mem v (frame_names f2)) || mem v (frame_names f1)) = (fun v => g v || mem v (frame_names f3))).
+    { intros g. apply functional_extensionality. intros v.
+      rewrite (mem_alike v N1), (mem_alike v N2), (mem_alike v N3). destruct (g v); [reflexivity|]. cbn.
+      destruct (mem v (vs1 ++ vs2)) eqn:M.
+      - apply mem_spec, in_app_iff in M. apply orb_true_iff. rewrite !mem_spec. tauto.
+      - apply mem_false in M. rewrite in_app_iff in M. apply orb_false_iff. rewrite !mem_false. tauto. }
+    split.
+    - reflexivity.
+    - destruct f1, f2, f3; cbn [kind] in *; try discriminate; reflexivity.
+    - destruct f1, f2, f3; cbn [kind] in *; try discriminate; apply E.
+    - apply E.
+    - cbn. intros i. rewrite !in_app_iff, (I1 i), (I2 i), (I3 i), in_app_iff. tauto.
+    - destruct f1, f2, f3; cbn [kind] in *; try discriminate; cbn; rewrite !app_nil_r; reflexivity.
+  Qed.
+
+  Lemma enter_none f K : is_around f [] [] -> similar (enter f K) K.
+  Proof.
+    intros (K1 & N1 & I1).
+    assert (E : forall g : vehicle -> bool, (fun v => g v || mem v (frame_names f)) = g).
+    { intros g. apply functional_extensionality. intros v. rewrite (mem_alike v N1). cbn. apply orb_false_r. }
+    split.
+    - reflexivity.
+    - destruct f; cbn [kind] in *; try discriminate; reflexivity.
+    - destruct f; cbn [kind] in *; try discriminate; apply E.
+    - apply E.
+    - cbn. intros i. rewrite in_app_iff, (I1 i). cbn. tauto.
+    - destruct f; cbn [kind] in *; try discriminate; cbn; apply app_nil_r.
+  Qed.
+
+  (** {1 Frames that do nothing} *)
+
+  Lemma transparent f : simple f = true -> is_around f [] [] ->
+    (forall r, normal r = true -> normal (plug f r) = true) ->
+    (forall r, names (plug f r) = names r /\ numbers (plug f r) = numbers r) ->
+    (forall e K S r t, ~ In t (own e K S (plug f r))) ->
+    (forall K v, exists t, lift f K v = [t] /\ agree (fun a b => a = plug f b) t v) ->
+    forall r, normal r = true -> bisimilar (plug f r) r.
+  Proof.
+    intros Hf Ha Hn Hs Hown Hlift r Hr.
+    apply (@by_relation _ _ (fun a b => normal b = true /\ a = plug f b)); [|auto].
+    clear r Hr. intros a r (Hr & ->).
+    assert (F : face (plug f r) r).
+    { destruct (Hs r) as [N1 N2].
+      split; auto; [rewrite N1; apply alike_refl | destruct f; try discriminate Hf; apply alike_refl | rewrite N2; apply alike_refl]. }
+    split; [exact F | split; intros e K S t Ht].
+    - apply goes_plug in Ht; [|apply simple_not_beside, Hf]. destruct Ht as [Ht | (v & Hv & Ht)].
+      { exfalso. eapply Hown. exact Ht. }
+      destruct (Hlift K v) as (t' & E & Hag). rewrite E in Ht. destruct Ht as [-> | []].
+      assert (Hv' := goes_similar Hv (enter_none K Ha)). exists v. split; [exact Hv'|].
+      assert (Nv := goes_normal Hv' Hr). destruct t as [l S1 o E1], v as [l' S1' o' E1'].
+      destruct Hag as (-> & -> & Ho). split; [reflexivity | split; [reflexivity|]]. destruct o, o'; auto. left. auto.
+    - assert (Hv := goes_similar Ht (similar_sym (enter_none K Ha))).
+      destruct (Hlift K t) as (t' & E & Hag). exists t'.
+      split; [eapply Within; [exact Hv | rewrite E; left; reflexivity]|].
+      assert (Nt := goes_normal Ht Hr). destruct t as [l S1 o E1], t' as [l' S1' o' E1'].
+      destruct Hag as (-> & -> & Ho). split; [reflexivity | split; [reflexivity|]]. destruct o, o'; auto. left. auto.
+  Qed.
+
+  (** [until { false } run t = t] *)
+  Theorem until_false g r : is_always false g -> normal r = true -> bisimilar (Until Completes g r) r.
+  Proof.
+    intros Hg. apply (@transparent (Body_until Completes g)); auto.
+    - repeat split; apply alike_refl.
+    - intros e K S x t. cbn [plug own]. unfold guarded, coded. destruct e; [auto|].
+      destruct (Hg K S) as (y & -> & ->). auto.
+    - intros K [l S1 o E]. destruct o; eexists; (split; [reflexivity | cbn; auto]).
+  Qed.
+
+  (** [assure { true } run t = t] *)
+  Theorem assure_true at_site g r : is_always true g -> normal r = true -> bisimilar (Until (Fails at_site) g r) r.
+  Proof.
+    intros Hg. apply (@transparent (Body_until (Fails at_site) g)); auto.
+    - repeat split; apply alike_refl.
+    - intros e K S x t. cbn [plug own]. unfold guarded, coded. destruct e; [auto|].
+      destruct (Hg K S) as (y & -> & ->). auto.
+    - intros K [l S1 o E]. destruct o; eexists; (split; [reflexivity | cbn; auto]).
+  Qed.
+
+  (** [watch t onError { propagate() } = t] *)
+  Theorem watch_propagate h r :
+    just Propagates h -> solid_handler h = true -> normal r = true -> bisimilar (Watch r h) r.
+  Proof.
+    intros Hh Hs. apply (@transparent (In_watch h)); auto.
+    - repeat split; apply alike_refl.
+    - intros x Hx. cbn [plug normal]. rewrite Hx, Hs. reflexivity.
+    - intros K [l S1 o E]. destruct o; try (eexists; (split; [reflexivity | cbn; auto]); fail).
+      cbn [lift on_err]. unfold on_error. rewrite Hh. eexists. split; [reflexivity|]. cbn. rewrite after_nothing. auto.
+  Qed.
+
+  (** {1 Rounds} *)
+
+  Lemma alike_repeat X (f : residual -> list X) more t :
+    (forall r m g t, alike (f (Repeat r m g t)) (f r ++ f t)) -> alike (f (repeat_ t more None t)) (f t).
+  Proof.
+    intros H. assert (E : alike (f t ++ f t) (f t)) by (intros x; rewrite in_app_iff; tauto).
+    destruct more as [[|n]|]; cbn [repeat_]; [apply alike_refl | |];
+      (eapply alike_trans; [apply H | exact E]).
+  Qed.
+
+  (** [repeat n, t = t >> repeat n - 1, t], and [repeat t = t >> repeat t] *)
+  Theorem repeat_unrolled r more t : some_left more = true -> normal r = true -> normal t = true ->
+    bisimilar (Repeat r more None t) (sequence r (repeat_ t (option_map pred more) None t)).
+  Proof.
+    intros Hm Hr Ht. set (rest := repeat_ t (option_map pred more) None t).
+    assert (Nrest : normal rest = true) by (apply normal_repeat; exact Ht).
+    assert (A1 : alike (names rest) (names t)) by (apply (alike_repeat (f := names)); intros; apply alike_refl).
+    assert (A3 : alike (numbers rest) (numbers t)) by (apply (alike_repeat (f := numbers)); intros; apply alike_refl).
+    apply (@by_relation _ _ (fun a b => exists r, normal r = true /\ a = Repeat r more None t /\ b = sequence r rest));
+      [|exists r; auto].
+    clear r Hr. intros a b (r & Hr & -> & ->).
+    assert (F : face (Repeat r more None t) (sequence r rest)).
+    { split.
+      - eapply alike_trans; [|apply alike_sym, alike_names_sequence].
+        apply alike_app; [apply alike_refl | apply alike_sym, A1].
+      - rewrite run_of_sequence. apply alike_refl.
+      - eapply alike_trans; [|apply alike_sym, alike_numbers_sequence].
+        apply alike_app; [apply alike_refl | apply alike_sym, A3].
+      - cbn [normal]. rewrite Hr, Hm, Ht. reflexivity.
+      - apply normal_sequence; assumption. }
+    assert (Ctx : forall K, similar (enter (Round_of more None t) K) (enter (In_sequence rest) K)).
+    { intros K. apply enter_alike; [reflexivity | apply alike_sym, A1 | apply alike_sym, A3]. }
+    split; [exact F | split; intros e K S u Hu].
+    - change (Repeat r more None t) with (plug (Round_of more None t) r) in Hu.
+      apply goes_plug in Hu; [|reflexivity]. destruct Hu as [[] | (v & Hv & Hu)].
+      assert (Nv := goes_normal Hv Hr). eapply goes_similar in Hv; [|apply Ctx].
+      destruct v as [l S1 [x | | m | x] E]; destruct Hu as [<- | []];
+        (eexists; split; [apply goes_sequence; eexists; split; [exact Hv | left; reflexivity]|]);
+        (split; [reflexivity | split; [reflexivity|]]); auto.
+      + left. exists x. auto.
+      + right. apply bisimilar_refl. exact Nrest.
+    - apply goes_sequence in Hu. destruct Hu as (v & Hv & Hu).
+      assert (Nv := goes_normal Hv Hr).
+      eapply goes_similar in Hv; [|apply similar_sym, Ctx].
+      assert (Step : forall u', In u' (lift (Round_of more None t) K v) -> goes e K S (Repeat r more None t) u').
+      { intros u' Hu'. change (Repeat r more None t) with (plug (Round_of more None t) r). eapply Within; eassumption. }
+      destruct v as [l S1 [x | | m | x] E]; destruct Hu as [<- | []];
+        (eexists; split; [apply Step; left; reflexivity|]);
+        (split; [reflexivity | split; [reflexivity|]]); auto.
+      + left. exists x. auto.
+      + right. apply bisimilar_refl. exact Nrest.
+  Qed.
+
+  (** {1 Cuts} *)
+
+  (** [assure { g } run (t >> t') = (assure { g } run t) >> (assure { g } run t')] *)
+  Theorem assure_sequence at_site g r t : normal r = true -> normal t = true ->
+    bisimilar (Until (Fails at_site) g (sequence r t)) (sequence (Until (Fails at_site) g r) (Until (Fails at_site) g t)).
+  Proof.
+    intros Hr Ht.
+    apply (@by_relation _ _ (fun a b => exists r, normal r = true /\ a = Until (Fails at_site) g (sequence r t) /\
+      b = Sequence (Until (Fails at_site) g r) (Until (Fails at_site) g t))); [|exists r; auto].
+    clear r Hr. intros a b (r & Hr & -> & ->).
+    assert (Ns : normal (sequence r t) = true) by (apply normal_sequence; assumption).
+    assert (F : face (Until (Fails at_site) g (sequence r t)) (Sequence (Until (Fails at_site) g r) (Until (Fails at_site) g t))).
+    { split; [exact (alike_names_sequence r t) | | exact (alike_numbers_sequence r t) | exact Ns |].
+      - change (alike (run_of (sequence r t)) (run_of r)). rewrite run_of_sequence. apply alike_refl.
+      - cbn [normal is_sequence negb andb]. rewrite Hr, Ht. reflexivity. }
+    assert (A0 : forall x, is_around (Body_until (Fails at_site) x) [] []) by (intros x; repeat split; apply alike_refl).
+    assert (A1 : forall x, is_around (In_sequence x) (names x) (numbers x)) by (intros x; repeat split; apply alike_refl).
+    assert (Ctx : forall K, similar (enter (In_sequence t) (enter (Body_until (Fails at_site) g) K))
+                                    (enter (Body_until (Fails at_site) g) (enter (In_sequence (Until (Fails at_site) g t)) K))).
+    { intros K. apply (similar_trans (K2 := enter (In_sequence t) K)).
+      - eapply enter_two; [apply A1 | apply A0 | rewrite !app_nil_r; apply A1].
+      - apply similar_sym. eapply enter_two; [apply A0 | apply (A1 (Until (Fails at_site) g t)) | exact (A1 t)]. }
+    split; [exact F | split; intros e K S u Hu].
+    - change (Until (Fails at_site) g (sequence r t)) with (plug (Body_until (Fails at_site) g) (sequence r t)) in Hu.
+      apply goes_plug in Hu; [|reflexivity]. destruct Hu as [Hu | (w & Hw & Hu)].
+      + assert (Step : forall v u', In v (own e (enter (In_sequence (Until (Fails at_site) g t)) K) S (Until (Fails at_site) g r)) ->
+          In u' (lift (In_sequence (Until (Fails at_site) g t)) K v) -> goes e K S (Sequence (Until (Fails at_site) g r) (Until (Fails at_site) g t)) u').
+        { intros v u' Hv Hu'.
+          change (Sequence (Until (Fails at_site) g r) (Until (Fails at_site) g t)) with (plug (In_sequence (Until (Fails at_site) g t)) (Until (Fails at_site) g r)).
+          eapply Within; [apply Itself; exact Hv | exact Hu']. }
+        cbn [plug own] in Hu, Step. unfold guarded, coded, breaks in Hu, Step. destruct e; [contradiction|].
+        change (runs g [] (enter (In_sequence (Until (Fails at_site) g t)) K) S) with (runs g [] K S) in Step.
+        rewrite run_of_sequence in Hu.
+        destruct (runs g [] K S) as [x s N0 ds | m ds | m ds | m s N0 ds |]; try contradiction;
+          [destruct (truth x) as [[]|] | destruct (is_unknown m) | |]; try contradiction; destruct Hu as [<- | []];
+          (eexists; split; [eapply Step; [left; reflexivity | left; reflexivity]|]); cbn; auto.
+      + apply goes_sequence in Hw. destruct Hw as (v & Hv & Hw). assert (Nv := goes_normal Hv Hr).
+        eapply goes_similar in Hv; [|apply Ctx].
+        assert (Step : forall v1 u', In v1 (lift (Body_until (Fails at_site) g) (enter (In_sequence (Until (Fails at_site) g t)) K) v) ->
+          In u' (lift (In_sequence (Until (Fails at_site) g t)) K v1) -> goes e K S (Sequence (Until (Fails at_site) g r) (Until (Fails at_site) g t)) u').
+        { intros v1 u' Hv1 Hu'.
+          change (Sequence (Until (Fails at_site) g r) (Until (Fails at_site) g t)) with (plug (In_sequence (Until (Fails at_site) g t)) (plug (Body_until (Fails at_site) g) r)).
+          eapply Within; [eapply Within; eassumption | exact Hu']. }
+        destruct v as [l S1 [x | | m | x] E]; destruct Hw as [<- | []]; destruct Hu as [<- | []];
+          (eexists; split; [eapply Step; [left; reflexivity | left; reflexivity]|]); (split; [reflexivity | split; [reflexivity|]]); auto.
+        * left. exists x. auto.
+        * right. apply bisimilar_refl. exact Ht.
+    - change (Sequence (Until (Fails at_site) g r) (Until (Fails at_site) g t)) with (plug (In_sequence (Until (Fails at_site) g t)) (Until (Fails at_site) g r)) in Hu.
+      apply goes_plug in Hu; [|reflexivity]. destruct Hu as [[] | (w & Hw & Hu)].
+      change (Until (Fails at_site) g r) with (plug (Body_until (Fails at_site) g) r) in Hw.
+      apply goes_plug in Hw; [|reflexivity]. destruct Hw as [Hw | (v & Hv & Hw)].
+      + assert (Step : forall u', In u' (own e K S (Until (Fails at_site) g (sequence r t))) -> goes e K S (Until (Fails at_site) g (sequence r t)) u')
+          by (intros; apply Itself; assumption).
+        cbn [plug own] in Hw, Step. unfold guarded, coded, breaks in Hw, Step. destruct e; [contradiction|].
+        change (runs g [] (enter (In_sequence (Until (Fails at_site) g t)) K) S) with (runs g [] K S) in Hw.
+        rewrite run_of_sequence in Step.
+        destruct (runs g [] K S) as [x s N0 ds | m ds | m ds | m s N0 ds |]; try contradiction;
+          [destruct (truth x) as [[]|] | destruct (is_unknown m) | |]; try contradiction; destruct Hw as [<- | []];
+          destruct Hu as [<- | []]; (eexists; split; [apply Step; left; reflexivity|]); cbn; auto.
+      + assert (Nv := goes_normal Hv Hr).
+        eapply goes_similar in Hv; [|apply similar_sym, Ctx].
+        assert (Step : forall v1 u', In v1 (lift (In_sequence t) (enter (Body_until (Fails at_site) g) K) v) ->
+          In u' (lift (Body_until (Fails at_site) g) K v1) -> goes e K S (Until (Fails at_site) g (sequence r t)) u').
+        { intros v1 u' Hv1 Hu'. change (Until (Fails at_site) g (sequence r t)) with (plug (Body_until (Fails at_site) g) (sequence r t)).
+          eapply Within; [apply goes_sequence; eexists; split; [exact Hv | exact Hv1] | exact Hu']. }
+        destruct v as [l S1 [x | | m | x] E]; destruct Hw as [<- | []]; destruct Hu as [<- | []];
+          (eexists; split; [eapply Step; [left; reflexivity | left; reflexivity]|]); (split; [reflexivity | split; [reflexivity|]]); auto.
+        * left. exists x. auto.
+        * right. apply bisimilar_refl. exact Ht.
+  Qed.
+
+  (** Frames that name nothing may change places. *)
+  Lemma enter_swap f1 f2 K is1 is2 : is_around f1 [] is1 -> is_around f2 [] is2 ->
+    similar (enter f1 (enter f2 K)) (enter f2 (enter f1 K)).
+  Proof.
+    intros (K1 & N1 & I1) (K2 & N2 & I2).
+    assert (E : forall g : vehicle -> bool,
+      (fun v => (g v || mem v (frame_names f2)) || mem v (frame_names f1)) =
+      (fun v => (g v || mem v (frame_names f1)) || mem v (frame_names f2))).
+    { intros g. apply functional_extensionality. intros v. rewrite <- !orb_assoc. f_equal. apply orb_comm. }
+    split; [reflexivity | | | | |].
+    - destruct f1, f2; cbn [kind] in *; try discriminate; reflexivity.
+    - destruct f1, f2; cbn [kind] in *; try discriminate; apply E.
+    - apply E.
+    - cbn. intros i. rewrite !in_app_iff. tauto.
+    - destruct f1, f2; cbn [kind] in *; try discriminate; reflexivity.
+  Qed.
+
+  (** A cut that is an error, which the handler ignores, is a cut that is none. *)
+  Lemma ignored_cut f f' h is : just Ignores h -> solid_handler h = true ->
+    simple f = true -> simple f' = true -> is_around f [] is -> is_around f' [] is ->
+    (forall r, normal (plug f r) = normal r /\ normal (plug f' r) = normal r /\
+       names (plug f r) = names r /\ names (plug f' r) = names r /\ run_of (plug f r) = run_of r /\
+       run_of (plug f' r) = run_of r /\ numbers (plug f r) = is ++ numbers r /\ numbers (plug f' r) = is ++ numbers r) ->
+    (forall r, replug f r = plug f r /\ replug f' r = plug f' r) ->
+    (forall K l S1 E, (exists E1, lift f K (By l S1 Ok E) = [By l S1 Ok E1]) /\
+       (exists E1, lift f' K (By l S1 Ok E) = [By l S1 Ok E1]) /\
+       (forall m, exists E1, lift f K (By l S1 (Err m) E) = [By l S1 (Err m) E1])) ->
+    (forall e K S r t, In t (own e K S (plug f r)) -> exists l S1 m E E1, t = By l S1 (Err m) E /\
+       In (By l S1 Ok E1) (own e K S (plug f' (Watch r h)))) ->
+    (forall e K S r t, In t (own e K S (plug f' (Watch r h))) -> exists l S1 m E E1, t = By l S1 Ok E /\
+       In (By l S1 (Err m) E1) (own e K S (plug f r))) ->
+    forall r, normal r = true -> bisimilar (Watch (plug f r) h) (plug f' (Watch r h)).
+  Proof.
+    intros Hh Hs Hf Hf' Ha Ha' Hface Hre Hlift Hown Hown' r Hr.
+    apply (@by_relation _ _ (fun a b => exists r, normal r = true /\ a = Watch (plug f r) h /\ b = plug f' (Watch r h)));
+      [|exists r; auto].
+    clear r Hr. intros a b (r & Hr & -> & ->).
+    destruct (Hface r) as (N1 & _ & N3 & _ & N5 & _ & N7 & _).
+    destruct (Hface (Watch r h)) as (_ & N2 & _ & N4 & _ & N6 & _ & N8).
+    assert (F : face (Watch (plug f r) h) (plug f' (Watch r h))).
+    { split.
+      - cbn [names]. rewrite N3, N4. apply alike_refl.
+      - change (alike (run_of (plug f r)) (run_of (plug f' (Watch r h)))). rewrite N5, N6. apply alike_refl.
+      - cbn [numbers]. rewrite N7, N8. apply alike_refl.
+      - cbn [normal]. rewrite N1, Hr, Hs. reflexivity.
+      - rewrite N2. cbn [normal]. rewrite Hr, Hs. reflexivity. }
+    assert (Hw : forall K l S1 m E, on_error h K l S1 m E = [By l S1 Ok (E ++ [])]).
+    { intros. unfold on_error. rewrite Hh. cbn. rewrite after_nothing. reflexivity. }
+    assert (Aw : is_around (In_watch h) [] []) by (repeat split; apply alike_refl).
+    split; [exact F | split; intros e K S u Hu].
+    - change (Watch (plug f r) h) with (plug (In_watch h) (plug f r)) in Hu.
+      apply goes_plug in Hu; [|reflexivity]. destruct Hu as [[] | (w & Hw1 & Hu)].
+      apply goes_plug in Hw1; [|apply simple_not_beside, Hf]. destruct Hw1 as [Hw1 | (v & Hv & Hw1)].
+      + destruct (Hown _ _ _ _ _ Hw1) as (l & S1 & m & E & E1 & -> & Hin). cbn [lift on_err] in Hu. rewrite Hw in Hu.
+        destruct Hu as [<- | []]. eexists. split; [apply Itself|].
+        * erewrite own_similar; [exact Hin | apply similar_sym, enter_none, Aw].
+        * cbn. auto.
+      + assert (Nv := goes_normal Hv Hr). eapply goes_similar in Hv; [|eapply enter_swap; [exact Ha | exact Aw]].
+        assert (Step : forall v1 u', In v1 (lift (In_watch h) (enter f' K) v) -> In u' (lift f' K v1) ->
+                  goes e K S (plug f' (Watch r h)) u').
+        { intros v1 u' Hv1 Hu'. eapply Within; [|exact Hu']. change (Watch r h) with (plug (In_watch h) r).
+          eapply Within; [eapply goes_similar; [exact Hv|] | exact Hv1]. apply enter_similar, enter_alike.
+          - destruct Ha as [-> _], Ha' as [-> _]. reflexivity.
+          - destruct Ha as (_ & A1 & _), Ha' as (_ & A2 & _). eapply alike_trans; [exact A1 | apply alike_sym, A2].
+          - destruct Ha as (_ & _ & A1), Ha' as (_ & _ & A2). eapply alike_trans; [exact A1 | apply alike_sym, A2]. }
+        destruct v as [l S1 [x | | m | x] E].
+        * destruct Hw1 as [<- | []]. destruct (Hre x) as [R1 _]. rewrite R1 in Hu. destruct Hu as [<- | []].
+          eexists. split; [eapply Step; [left; reflexivity | left; reflexivity]|]. destruct (Hre (Watch x h)) as [_ R2]. cbn [replug].
+          split; [reflexivity | split; [reflexivity|]]. left. exists x. split; [exact Nv | split; [reflexivity | exact R2]].
+        * destruct (Hlift (enter (In_watch h) K) l S1 E) as ((E1 & L1) & _). rewrite L1 in Hw1. destruct Hw1 as [<- | []].
+          destruct Hu as [<- | []]. destruct (Hlift K l S1 E) as (_ & (E2 & L2) & _).
+          eexists. split; [eapply Step; [left; reflexivity | cbn [on_ok]; rewrite L2; left; reflexivity]|]. cbn. auto.
+        * destruct (Hlift (enter (In_watch h) K) l S1 E) as (_ & _ & L1). destruct (L1 m) as (E1 & L1').
+          rewrite L1' in Hw1. destruct Hw1 as [<- | []]. cbn [lift on_err] in Hu. rewrite Hw in Hu.
+          destruct Hu as [<- | []]. destruct (Hlift K l S1 (E ++ [])) as (_ & (E2 & L2) & _).
+          eexists. split; [eapply Step; [cbn [lift on_err]; rewrite Hw; left; reflexivity | rewrite L2; left; reflexivity]|].
+          cbn. auto.
+        * destruct Hw1 as [<- | []]. destruct Hu as [<- | []].
+          eexists. split; [eapply Step; [left; reflexivity | left; reflexivity]|]. cbn. auto.
+    - apply goes_plug in Hu; [|apply simple_not_beside, Hf']. destruct Hu as [Hu | (w & Hw1 & Hu)].
+      + destruct (Hown' _ _ _ _ _ Hu) as (l & S1 & m & E & E1 & -> & Hin).
+        exists (By l S1 Ok (E1 ++ [])). split; [|cbn; auto].
+        change (Watch (plug f r) h) with (plug (In_watch h) (plug f r)).
+        eapply Within; [apply Itself; erewrite own_similar; [exact Hin | apply enter_none, Aw]|].
+        cbn [lift on_err]. rewrite Hw. left. reflexivity.
+      + change (Watch r h) with (plug (In_watch h) r) in Hw1. apply goes_plug in Hw1; [|reflexivity].
+        destruct Hw1 as [[] | (v & Hv & Hw1)].
+        assert (Nv := goes_normal Hv Hr).
+        assert (Hv2 : goes e (enter f (enter (In_watch h) K)) S r v).
+        { eapply goes_similar; [exact Hv|]. apply (similar_trans (K2 := enter (In_watch h) (enter f K))).
+          - apply enter_similar, enter_alike.
+            + destruct Ha as [-> _], Ha' as [-> _]. reflexivity.
+            + destruct Ha as (_ & A1 & _), Ha' as (_ & A2 & _). eapply alike_trans; [exact A2 | apply alike_sym, A1].
+            + destruct Ha as (_ & _ & A1), Ha' as (_ & _ & A2). eapply alike_trans; [exact A2 | apply alike_sym, A1].
+          - eapply enter_swap; [exact Aw | exact Ha]. }
+        assert (Step : forall v1 u', In v1 (lift f (enter (In_watch h) K) v) -> In u' (lift (In_watch h) K v1) ->
+                  goes e K S (Watch (plug f r) h) u').
+        { intros v1 u' Hv1 Hu'. change (Watch (plug f r) h) with (plug (In_watch h) (plug f r)).
+          eapply Within; [eapply Within; [exact Hv2 | exact Hv1] | exact Hu']. }
+        destruct v as [l S1 [x | | m | x] E].
+        * destruct Hw1 as [<- | []]. destruct (Hre (Watch x h)) as [_ R2]. cbn [lift] in Hu. cbn [replug plug] in Hu.
+          rewrite R2 in Hu. destruct Hu as [<- | []]. destruct (Hre x) as [R1 _].
+          eexists. split; [eapply Step; [left; reflexivity | left; reflexivity]|].
+          split; [reflexivity | split; [reflexivity|]]. left. exists x.
+          split; [exact Nv | split; [cbn [replug plug]; rewrite R1; reflexivity | reflexivity]].
+        * destruct Hw1 as [<- | []]. cbn [on_ok] in Hu. destruct (Hlift K l S1 E) as (_ & (E2 & L2) & _).
+          rewrite L2 in Hu. destruct Hu as [<- | []].
+          destruct (Hlift (enter (In_watch h) K) l S1 E) as ((E1 & L1) & _).
+          eexists. split; [eapply Step; [rewrite L1; left; reflexivity | left; reflexivity]|]. cbn. auto.
+        * cbn [lift on_err] in Hw1. rewrite Hw in Hw1. destruct Hw1 as [<- | []].
+          destruct (Hlift K l S1 (E ++ [])) as (_ & (E2 & L2) & _). rewrite L2 in Hu. destruct Hu as [<- | []].
+          destruct (Hlift (enter (In_watch h) K) l S1 E) as (_ & _ & L1). destruct (L1 m) as (E1 & L1').
+          eexists. split; [eapply Step; [rewrite L1'; left; reflexivity | cbn [lift on_err]; rewrite Hw; left; reflexivity]|].
+          cbn. auto.
+        * destruct Hw1 as [<- | []]. destruct Hu as [<- | []].
+          eexists. split; [eapply Step; [left; reflexivity | left; reflexivity]|]. cbn. auto.
+  Qed.
+
+  (** [watch (assure { g } run t) onError { ignore() } = until { !g } run watch t onError { ignore() }] *)
+  Theorem watch_assure at_site g g' h r : opposite g g' -> just Ignores h -> solid_handler h = true -> normal r = true ->
+    bisimilar (Watch (Until (Fails at_site) g r) h) (Until Completes g' (Watch r h)).
+  Proof.
+    intros Hg Hh Hs. apply (@ignored_cut (Body_until (Fails at_site) g) (Body_until Completes g') h []);
+      auto; try (repeat split; apply alike_refl); try (intros; repeat split; reflexivity).
+    - intros K l S1 E. split; [eexists; reflexivity | split; [eexists; reflexivity | intros m; eexists; reflexivity]].
+    - intros e K S x t. cbn [plug own]. unfold guarded, coded. destruct e; [intros []|].
+      destruct (Hg K S) as (y & y' & b & -> & -> & -> & ->). destruct b; [intros []|]. intros [<- | []].
+      rewrite with_code_same. do 5 eexists. split; [reflexivity | left; reflexivity].
+    - intros e K S x t. cbn [plug own]. unfold guarded, coded. destruct e; [intros []|].
+      destruct (Hg K S) as (y & y' & b & -> & -> & -> & ->). destruct b; [intros []|]. intros [<- | []].
+      rewrite with_code_same. do 5 eexists. split; [reflexivity | left; reflexivity].
+  Qed.
+
+  (** [watch (t within n) onError { ignore() } = during n run watch t onError { ignore() }] *)
+  Theorem watch_within at_site i n h r : just Ignores h -> solid_handler h = true -> normal r = true ->
+    bisimilar (Watch (During (Fails at_site) i n r) h) (During Completes i n (Watch r h)).
+  Proof.
+    intros Hh Hs. apply (@ignored_cut (Body_during (Fails at_site) i n) (Body_during Completes i n) h [i]);
+      auto; try (repeat split; apply alike_refl); try (intros; repeat split; reflexivity).
+    - intros K l S1 E. split; [eexists; reflexivity | split; [eexists; reflexivity | intros m; eexists; reflexivity]].
+    - intros e K S x t. cbn [plug own]. destruct e as [[]|]; try (intros []; fail).
+      destruct (timer_eq i0 i); [|intros []]. intros [<- | []]. do 5 eexists. split; [reflexivity | left; reflexivity].
+    - intros e K S x t. cbn [plug own]. destruct e as [[]|]; try (intros []; fail).
+      destruct (timer_eq i0 i); [|intros []]. intros [<- | []]. do 5 eexists. split; [reflexivity | left; reflexivity].
+  Qed.
+
+  (** {1 Side by side, and branches} *)
+
+  Lemma alike_permuted X Y (f : X -> list Y) xs ys : Permutation xs ys -> alike (flat_map f xs) (flat_map f ys).
+  Proof. intros H y. split; apply Permutation_in; [|symmetry]; apply Permutation_flat_map; assumption. Qed.
+
+  Lemma forallb_permuted X (f : X -> bool) xs ys : Permutation xs ys -> forallb f xs = forallb f ys.
+  Proof. induction 1; cbn; try congruence. destruct (f x), (f y); reflexivity. Qed.
+
+  Lemma permuted_split X (b : list X) r a ys : Permutation (b ++ r :: a) ys ->
+    exists b' a', ys = b' ++ r :: a' /\ Permutation (b ++ a) (b' ++ a').
+  Proof.
+    intros H. assert (Hin : In r ys) by (eapply Permutation_in; [exact H | apply in_elt]).
+    apply in_split in Hin. destruct Hin as (b' & a' & ->). exists b', a'. split; [reflexivity|].
+    eapply Permutation_app_inv. exact H.
+  Qed.
+
+  (** [t | t' = t' | t], and so for any order of any number of them. *)
+  Theorem parallel_permuted rs rs' : Permutation rs rs' -> normal (Parallel rs) = true ->
+    bisimilar (Parallel rs) (Parallel rs').
+  Proof.
+    intros H Hn.
+    apply (@by_symmetric_relation _ _ (fun a b => normal a = true /\ exists rs rs', Permutation rs rs' /\
+      a = Parallel rs /\ b = Parallel rs')); [| |split; [exact Hn | exists rs, rs'; auto]].
+    - intros a b (Na & xs & ys & Hp & -> & ->). split.
+      + cbn [normal] in *. rewrite <- (Permutation_length Hp), <- (forallb_permuted _ Hp). exact Na.
+      + exists ys, xs. split; [symmetry; exact Hp | auto].
+    - clear. intros a b (Na & xs & ys & Hp & -> & ->).
+      assert (Nb : normal (Parallel ys) = true).
+      { cbn [normal] in *. rewrite <- (Permutation_length Hp), <- (forallb_permuted _ Hp). exact Na. }
+      split.
+      { split; auto; [apply (alike_permuted names Hp) | | apply (alike_permuted numbers Hp)].
+        rewrite !through_run_of. apply alike_permuted. exact Hp. }
+      intros e K S u Hu. assert (Nu := goes_normal Hu Na).
+      apply goes_parts in Hu. destruct Hu as [[] | (f & r & v & Hin & Hv & Hu)].
+      apply in_parts in Hin. destruct f; try discriminate Hin. injection Hin as ->.
+      destruct (permuted_split Hp) as (b' & a' & -> & Hp').
+      rewrite lift_beside in Hu. destruct Hu as [<- | []].
+      assert (G : goes e K S (Parallel (b' ++ r :: a')) (surround b' a' v)).
+      { change (Parallel (b' ++ r :: a')) with (plug (Beside b' a') r).
+        eapply Within; [|rewrite lift_beside; left; reflexivity].
+        eapply goes_similar; [exact Hv|]. apply enter_alike; [reflexivity | |]; apply alike_permuted; exact Hp'. }
+      exists (surround b' a' v). split; [exact G|]. assert (Nu' := goes_normal G Nb).
+      destruct v as [l S1 [x | | m | x] E]; cbn [surround next_normal] in *.
+      + split; [reflexivity | split; [reflexivity|]]. left. split; [exact Nu|].
+        exists (before ++ flat x ++ after), (b' ++ flat x ++ a'). split; [|auto].
+        rewrite (Permutation_app_swap_app before (flat x) after), (Permutation_app_swap_app b' (flat x) a').
+        apply Permutation_app_head. exact Hp'.
+      + split; [reflexivity | split; [reflexivity|]].
+        assert (Hb : branches_of (before ++ after) = true).
+        { cbn [normal] in Na. rewrite andb_true_iff in Na. destruct Na as [Na1 Na2]. apply Nat.leb_le in Na1.
+          apply (split_branches Na2 Na1). }
+        assert (Hl := Permutation_length Hp').
+        destruct (before ++ after) as [|y [|y' rest]] eqn:E1.
+        * apply Permutation_nil in Hp'. rewrite Hp'. right. apply bisimilar_refl. rewrite Hp' in Nu'. exact Nu'.
+        * apply Permutation_length_1_inv in Hp'. rewrite Hp'. right. apply bisimilar_refl. exact Nu.
+        * assert (Hb' : branches_of (b' ++ a') = true).
+          { unfold branches_of. rewrite <- (forallb_permuted _ Hp'). exact Hb. }
+          assert (L1 : 2 <= length (y :: y' :: rest)) by (cbn; lia).
+          assert (L2 : 2 <= length (b' ++ a')) by (rewrite <- Hl; exact L1).
+          rewrite (parallel_branches Hb L1) in *. rewrite (parallel_branches Hb' L2) in *.
+          left. split; [exact Nu|]. exists (y :: y' :: rest), (b' ++ a'). auto.
+      + split; [reflexivity | split; [|reflexivity]]. apply without_alike, alike_permuted. exact Hp'.
+      + cbn. auto.
+  Qed.
+
+  Lemma parallel_two a b : normal a = true -> normal b = true -> parallel [a; b] = Parallel (flat a ++ flat b).
+  Proof.
+    intros Ha Hb. destruct (normal_flat a Ha) as [_ A2], (normal_flat b Hb) as [_ B2].
+    unfold parallel. cbn [flat_map]. rewrite app_nil_r.
+    destruct (flat a) as [|x xs]; [congruence|]. destruct (flat b) as [|y ys]; [congruence|]. destruct xs; reflexivity.
+  Qed.
+
+  Corollary parallel_comm a b : normal a = true -> normal b = true -> bisimilar (parallel [a; b]) (parallel [b; a]).
+  Proof.
+    intros Ha Hb. assert (Hn : normal (parallel [a; b]) = true).
+    { apply normal_parallel; [discriminate|]. cbn. rewrite Ha, Hb. reflexivity. }
+    rewrite !parallel_two in * by assumption. apply parallel_permuted; [apply Permutation_app_comm | exact Hn].
+  Qed.
+
+  Theorem parallel_assoc a b c : normal a = true -> normal b = true -> normal c = true ->
+    parallel [parallel [a; b]; c] = parallel [a; parallel [b; c]].
+  Proof.
+    intros Ha Hb Hc.
+    assert (N : forall x y, normal x = true -> normal y = true -> normal (parallel [x; y]) = true).
+    { intros x y Hx Hy. apply normal_parallel; [discriminate|]. cbn. rewrite Hx, Hy. reflexivity. }
+    rewrite (parallel_two (N a b Ha Hb) Hc), (parallel_two Ha (N b c Hb Hc)), (parallel_two Ha Hb), (parallel_two Hb Hc).
+    cbn [flat]. rewrite app_assoc. reflexivity.
+  Qed.
+
+  (** Branches of [oneOf] and [allOf] commute. *)
+  Theorem branches_permuted bs bs' : Permutation bs bs' ->
+    (normal (One_of bs) = true -> bisimilar (One_of bs) (One_of bs')) /\
+    (normal (All_of bs) = true -> bisimilar (All_of bs) (All_of bs')) /\
+    (forall r, normal (Branch r bs) = true -> bisimilar (Branch r bs) (Branch r bs')).
+  Proof.
+    set (Q := fun a b => normal a = true /\ exists bs bs', Permutation bs bs' /\
+      ((a = One_of bs /\ b = One_of bs') \/ (a = All_of bs /\ b = All_of bs') \/
+       exists r, a = Branch r bs /\ b = Branch r bs')).
+    assert (N : forall a b, Q a b -> normal b = true).
+    { intros a b (Na & xs & ys & Hp & [(-> & ->) | [(-> & ->) | (r & -> & ->)]]); cbn [normal] in *;
+        rewrite <- (Permutation_length Hp), <- (forallb_permuted _ Hp); exact Na. }
+    assert (G : forall a b, Q a b -> bisimilar a b).
+    { apply by_symmetric_relation.
+      - intros a b Hab. split; [eapply N; exact Hab|]. destruct Hab as (Na & xs & ys & Hp & H).
+        exists ys, xs. split; [symmetry; exact Hp|].
+        destruct H as [(-> & ->) | [(-> & ->) | (r & -> & ->)]]; eauto.
+      - intros a b Hab. assert (Nb := N a b Hab). destruct Hab as (Na & xs & ys & Hp & H).
+        assert (A1 := alike_permuted (fun b => names (snd b)) Hp). assert (A3 := alike_permuted (fun b => numbers (snd b)) Hp).
+        split.
+        { destruct H as [(-> & ->) | [(-> & ->) | (r & -> & ->)]]; split; try assumption; try apply alike_refl;
+            (apply alike_app; [apply alike_refl | assumption]). }
+        assert (Choosing : forall e K S (surrounds : list branch -> residual -> residual) t,
+          (forall y b a b' a', Permutation (b ++ a) (b' ++ a') -> forall x, xs = b ++ (y, x) :: a ->
+             forall ds, up Q (surrounds (b ++ a) (given ds x)) (surrounds (b' ++ a') (given ds x))) ->
+          In t (each (choose e K S surrounds) [] xs) ->
+          exists t', In t' (each (choose e K S surrounds) [] ys) /\ agree (up Q) t t').
+        { intros e K S surrounds t Hs Ht. apply in_each in Ht. destruct Ht as (b0 & y & a0 & -> & Ht). cbn [app] in Ht.
+          destruct (permuted_split Hp) as (b' & a' & -> & Hp'). destruct y as [g x].
+          destruct (@choose_agree _ _ (up Q) e K S surrounds surrounds b0 (g, x) a0 b' (g, x) a' t) as (t' & Ht' & Hag).
+          - reflexivity.
+          - intros ds. eapply Hs; [exact Hp' | reflexivity].
+          - exact Ht.
+          - exists t'. split; [|exact Hag]. apply in_each. exists b', (g, x), a'. auto. }
+        assert (Parts : forall b y a, xs = b ++ y :: a -> forallb (fun b => normal (snd b)) xs = true ->
+                  normal (snd y) = true /\ forallb (fun b => normal (snd b)) (b ++ a) = true).
+        { intros b0 y a0 -> Hx. rewrite forallb_app in *. cbn [forallb] in Hx. rewrite !andb_true_iff in *. tauto. }
+        assert (All : forallb (fun b => normal (snd b)) xs = true).
+        { destruct H as [(-> & _) | [(-> & _) | (r & -> & _)]]; cbn [normal] in Na; rewrite !andb_true_iff in Na; tauto. }
+        intros e K S u Hu. assert (Nu := goes_normal Hu Na).
+        destruct H as [(-> & ->) | [(-> & ->) | (r & -> & ->)]].
+        + apply goes_parts in Hu. destruct Hu as [Hu | (f & r1 & v & [] & _)]. cbn [own] in Hu.
+          destruct (Choosing e K S (fun _ r => r) u) as (t' & Ht' & Hag); [| exact Hu |].
+          * intros y b0 a0 b' a' Hp' x E ds. apply up_refl, normal_given. apply (Parts _ _ _ E All).
+          * exists t'. split; [apply Itself; exact Ht' | exact Hag].
+        + apply goes_parts in Hu. destruct Hu as [Hu | (f & r1 & v & [] & _)]. cbn [own] in Hu.
+          destruct (Choosing e K S (fun others r => branch_of r others) u) as (t' & Ht' & Hag); [| exact Hu |].
+          * intros y b0 a0 b' a' Hp' x E ds. destruct (Parts _ _ _ E All) as [Nx No]. cbn [snd] in Nx.
+            assert (Ng := normal_given ds x Nx). unfold branch_of.
+            destruct (b0 ++ a0) as [|z rest] eqn:E0.
+            -- apply Permutation_nil in Hp'. rewrite Hp'. apply up_refl. exact Ng.
+            -- destruct (b' ++ a') as [|z' rest'] eqn:E1.
+               { symmetry in Hp'. apply Permutation_nil in Hp'. discriminate. }
+               left. split.
+               { cbn [normal length Nat.leb]. rewrite Ng. exact No. }
+               exists (z :: rest), (z' :: rest'). split; [exact Hp'|]. right. right. exists (given ds x). auto.
+          * exists t'. split; [apply Itself; exact Ht' | exact Hag].
+        + change (Branch r xs) with (plug (Branch_of xs) r) in Hu.
+          apply goes_plug in Hu; [|reflexivity]. destruct Hu as [[] | (v & Hv & Hu)].
+          assert (Step : forall u', In u' (lift (Branch_of ys) K v) -> goes e K S (Branch r ys) u').
+          { intros u' Hu'. change (Branch r ys) with (plug (Branch_of ys) r).
+            eapply Within; [eapply goes_similar; [exact Hv|] | exact Hu'].
+            apply enter_alike; [reflexivity | exact A1 | exact A3]. }
+          destruct v as [l S1 [x | | m | x] E]; destruct Hu as [<- | []]; (eexists; split; [apply Step; left; reflexivity|]);
+            (split; [reflexivity | split; [reflexivity|]]); auto.
+          * left. split; [exact Nu|]. exists xs, ys. split; [exact Hp|]. right. right. exists x. auto.
+          * assert (Hl := Permutation_length Hp). cbn [next_normal on_ok] in Nu. unfold all_of in *.
+            destruct xs as [|z [|z' rest]].
+            -- apply Permutation_nil in Hp. rewrite Hp. apply up_refl. exact Nu.
+            -- apply Permutation_length_1_inv in Hp. rewrite Hp. apply up_refl. exact Nu.
+            -- destruct ys as [|y [|y' rest']]; try discriminate Hl. left. split; [exact Nu|].
+               exists (z :: z' :: rest), (y :: y' :: rest'). auto. }
+    split; [|split].
+    - intros Hn. apply G. split; [exact Hn|]. exists bs, bs'. auto.
+    - intros Hn. apply G. split; [exact Hn|]. exists bs, bs'. auto.
+    - intros r Hn. apply G. split; [exact Hn|]. exists bs, bs'. split; [exact H|]. right. right. exists r. auto.
+  Qed.
+
+  (** [(oneOf { when { g } then t ... }) >> t' = oneOf { when { g } then t >> t' ... }] *)
+  Theorem choice_sequence bs t :
+    normal (One_of bs) = true -> normal t = true -> forallb (fun b => plain (snd b)) bs = true ->
+    bisimilar (sequence (One_of bs) t) (One_of (map (fun b => (fst b, sequence (snd b) t)) bs)).
+  Proof.
+    intros Hn Ht Hp. set (ext := fun b : branch => (fst b, sequence (snd b) t)).
+    apply (@by_relation _ _ (fun a b => a = Sequence (One_of bs) t /\ b = One_of (map ext bs))); [|auto].
+    intros a b (-> & ->). cbn [normal] in Hn. rewrite andb_true_iff in Hn. destruct Hn as [Hl Hb].
+    assert (Hb' : forall y, In y bs -> normal (sequence (snd y) t) = true).
+    { intros y Hy. apply normal_sequence; [|exact Ht]. rewrite forallb_forall in Hb. auto. }
+    assert (Names : forall X (f : residual -> list X), (forall a b, alike (f (sequence a b)) (f a ++ f b)) ->
+              alike (flat_map (fun b => f (snd b)) bs ++ f t) (flat_map (fun b => f (snd b)) (map ext bs))).
+    { intros X f Hf x. rewrite in_app_iff, !in_flat_map. split.
+      - intros [(y & Hy & Hx) | Hx].
+        + exists (ext y). split; [apply in_map; exact Hy|]. apply Hf, in_app_iff. auto.
+        + destruct bs as [|y ys]; [discriminate|]. exists (ext y). split; [left; reflexivity|]. apply Hf, in_app_iff. auto.
+      - intros (y & Hy & Hx). apply in_map_iff in Hy. destruct Hy as (z & <- & Hz). cbn [ext snd] in Hx.
+        apply Hf, in_app_iff in Hx. destruct Hx as [Hx | Hx]; eauto. }
+    assert (F : face (Sequence (One_of bs) t) (One_of (map ext bs))).
+    { split.
+      - apply (Names _ names alike_names_sequence).
+      - apply alike_refl.
+      - apply (Names _ numbers alike_numbers_sequence).
+      - cbn [normal is_sequence negb andb]. rewrite !andb_true_iff. auto.
+      - cbn [normal]. apply andb_true_iff. split; [rewrite map_length; exact Hl|]. apply forallb_forall. intros y Hy.
+        apply in_map_iff in Hy. destruct Hy as (z & <- & Hz). apply Hb'. exact Hz. }
+    assert (Plain : forall y ds, In y bs -> given ds (snd y) = snd y).
+    { intros y ds Hy. apply given_plain. rewrite forallb_forall in Hp. auto. }
+    assert (Plain' : forall y ds, In y bs -> given ds (sequence (snd y) t) = sequence (snd y) t).
+    { intros y ds Hy. destruct (snd y); reflexivity. }
+    split; [exact F | split; intros e K S u Hu].
+    - change (Sequence (One_of bs) t) with (plug (In_sequence t) (One_of bs)) in Hu.
+      apply goes_plug in Hu; [|reflexivity]. destruct Hu as [[] | (v & Hv & Hu)].
+      apply goes_parts in Hv. destruct Hv as [Hv | (f & r1 & w & [] & _)]. cbn [own] in Hv.
+      apply in_each in Hv. destruct Hv as (b0 & y & a0 & -> & Hv). cbn [app] in Hv.
+      assert (Hy : In y (b0 ++ y :: a0)) by apply in_elt.
+      assert (Step : forall u', In u' (choose e K S (fun _ r => r) (map ext b0) (ext y) (map ext a0)) ->
+                goes e K S (One_of (map ext (b0 ++ y :: a0))) u').
+      { intros u' Hu'. apply Itself. cbn [own]. apply in_each. exists (map ext b0), (ext y), (map ext a0).
+        rewrite map_app. auto. }
+      unfold choose, guarded, coded, breaks in Hv, Step. destruct e; [contradiction|].
+      change (runs (fst y) [] (enter (In_sequence t) K) S) with (runs (fst y) [] K S) in Hv. cbn [ext fst snd] in Step.
+      destruct (runs (fst y) [] K S) as [x s N0 ds | m ds | m ds | m s N0 ds |]; try contradiction;
+        [destruct (truth x) as [[]|] | destruct (is_unknown m) | |]; try contradiction; destruct Hv as [<- | []];
+        destruct Hu as [<- | []]; (eexists; split; [apply Step; left; reflexivity|]); try (cbn; auto; fail).
+      split; [reflexivity | split; [reflexivity|]].
+      change (up (fun a b => a = Sequence (One_of (b0 ++ y :: a0)) t /\ b = One_of (map ext (b0 ++ y :: a0)))
+                (sequence (given ds (snd y)) t) (given ds (sequence (snd y) t))).
+      rewrite (Plain y ds Hy), (Plain' y ds Hy). apply up_refl, Hb', Hy.
+    - apply goes_parts in Hu. destruct Hu as [Hu | (f & r1 & w & [] & _)]. cbn [own] in Hu.
+      apply in_each in Hu. destruct Hu as (b0 & y0 & a0 & E & Hu). cbn [app] in Hu.
+      apply map_eq_app in E. destruct E as (b1 & rest & -> & <- & E).
+      destruct rest as [|y a1]; [discriminate|]. injection E as <- <-.
+      assert (Hy : In y (b1 ++ y :: a1)) by apply in_elt.
+      assert (Step : forall v u', In v (choose e K S (fun _ r => r) b1 y a1) -> In u' (lift (In_sequence t) K v) ->
+                goes e K S (Sequence (One_of (b1 ++ y :: a1)) t) u').
+      { intros v u' Hv Hu'. change (Sequence (One_of (b1 ++ y :: a1)) t) with (plug (In_sequence t) (One_of (b1 ++ y :: a1))).
+        eapply Within; [|exact Hu']. apply Itself. cbn [own]. apply in_each. exists b1, y, a1. auto. }
+      unfold choose, guarded, coded, breaks in Hu, Step. destruct e; [contradiction|]. cbn [ext fst snd] in Hu.
+      destruct (runs (fst y) [] K S) as [x s N0 ds | m ds | m ds | m s N0 ds |]; try contradiction;
+        [destruct (truth x) as [[]|] | destruct (is_unknown m) | |]; try contradiction; destruct Hu as [<- | []];
+        (eexists; split; [eapply Step; [left; reflexivity | left; reflexivity]|]); try (cbn; auto; fail).
+      split; [reflexivity | split; [reflexivity|]].
+      change (up (fun b a => a = Sequence (One_of (b1 ++ y :: a1)) t /\ b = One_of (map ext (b1 ++ y :: a1)))
+                (given ds (sequence (snd y) t)) (sequence (given ds (snd y)) t)).
+      rewrite (Plain y ds Hy), (Plain' y ds Hy). apply up_refl, Hb', Hy.
+  Qed.
+End Laws.

@@ -18,12 +18,17 @@ Section Script.
   Definition still (S : shared) (vs : list vehicle) : list vehicle :=
     List.filter (fun v => match allocation S v with Some _ => true | None => false end) vs.
 
-  (** What the end of [r] asks for, after the effects [E] of the step that comes to it: what still waits is cancelled,
-      what still runs is stopped, B and whom [r] has recruited are released. *)
-  Definition stops (r : residual) (E : list effect) (S : shared) : list effect :=
-    map ceases (List.filter (fun w => negb (timer_mem (fst w) (ceased E))) (waits r)) ++ map Stop (still S (run_of r)).
-  Definition end_of (r : residual) (E : list effect) (S : shared) (e : ending) : list effect :=
-    E ++ stops r E S ++ release (bound S ++ minus (recruits r) (left_alone E)) ++ [End_ e].
+  (** The timers that an event ends, and the questions. *)
+  Definition spent_numbers (x : option event) : list timer :=
+    match x with Some (Expired i) | Some (Answered i _) | Some (Nobody_answers i _) => [i] | _ => [] end.
+
+  (** What the end of [r] asks for, after the effects [E] of the step that comes to it, on the event [x]: the waits that
+      remain are cancelled, the plans that remain are stopped, B and the recruited vehicles are released. *)
+  Definition stops (x : option event) (r : residual) (E : list effect) (S : shared) : list effect :=
+    map ceases (List.filter (fun w => negb (timer_mem (fst w) (spent_numbers x ++ ceased E))) (waits r))
+    ++ map Stop (still S (run_of r)).
+  Definition end_of (x : option event) (r : residual) (E : list effect) (S : shared) (e : ending) : list effect :=
+    E ++ stops x r E S ++ release (bound S ++ minus (recruits r) (left_alone E)) ++ [End_ e].
 
   (** An error has cut off all that ran. *)
   Definition end_by_error (r : residual) (E : list effect) (S : shared) (e : ending) : list effect :=
@@ -205,16 +210,16 @@ Section Script.
   (* By HALT, ASSERT-ERR or WATCH-HALT of a task. *)
   | ENDS_all : forall e M S r l S' x E,
       step e (alone w) S r l S' (Ends x) E ->
-      cstep w e (executes M r S) l (ended S' x) (end_of r E S' x)
+      cstep w e (executes M r S) l (ended S' x) (end_of e r E S' x)
   | INTERRUPT : forall k S,
       (forall e, k <> End e) -> home k S = None ->
       cstep w (Some Interruption) {| control_of := k; shared_of := S |} LInterrupt (ended S Interrupted)
-        (end_of (residual_of k) (script_waits k) S Interrupted)
+        (end_of None (residual_of k) (script_waits k) S Interrupted)
   | ON_INTERRUPT : forall k S M,
       (forall e, k <> End e) -> home k S = Some M ->
       cstep w (Some Interruption) {| control_of := k; shared_of := S |} LInterrupt
         (script_at M (with_bound (bound S ++ recruited_by k) (with_allocation nothing S)))
-        (script_waits k ++ stops (residual_of k) [] S).
+        (script_waits k ++ stops None (residual_of k) [] S).
 
   (** {1 The function} *)
 
@@ -254,12 +259,12 @@ Section Script.
         end
     end.
 
-  Definition conclude (M : machine) (r : residual) (t : transition) : ctransition :=
+  Definition conclude (x : option event) (M : machine) (r : residual) (t : transition) : ctransition :=
     match t with
     | By l S' (Next r') E => To l (executes M r' S') E
     | By l S' Ok E => To l (script_at (give null M) S') E
     | By l S' (Err m) E => To l (ended S' (Failed m)) (end_by_error r E S' (Failed m))
-    | By l S' (Ends x) E => To l (ended S' x) (end_of r E S' x)
+    | By l S' (Ends e) E => To l (ended S' e) (end_of x r E S' e)
     end.
 
   Definition timed_out (w : world) (M : machine) (q : pick) (S : shared) : list ctransition :=
@@ -282,19 +287,19 @@ Section Script.
         match home k S with
         | Some M =>
             [To LInterrupt (script_at M (with_bound (bound S ++ recruited_by k) (with_allocation nothing S)))
-               (script_waits k ++ stops (residual_of k) [] S)]
-        | None => [To LInterrupt (ended S Interrupted) (end_of (residual_of k) (script_waits k) S Interrupted)]
+               (script_waits k ++ stops None (residual_of k) [] S)]
+        | None => [To LInterrupt (ended S Interrupted) (end_of None (residual_of k) (script_waits k) S Interrupted)]
         end
     | Exec M r, Some (Input key x) =>
         (if declares key then
            [To (LInput key x)
               {| control_of := Exec M r; shared_of := with_space (post [(key, x)] (space S)) S |} []] else [])
-        ++ map (conclude M r) (steps e r (alone w) S)
+        ++ map (conclude e M r) (steps e r (alone w) S)
     | k, Some (Input key x) =>
         if declares key then
           [To (LInput key x) {| control_of := k; shared_of := with_space (post [(key, x)] (space S)) S |} []]
         else []
-    | Exec M r, e => map (conclude M r) (steps e r (alone w) S)
+    | Exec M r, e => map (conclude e M r) (steps e r (alone w) S)
     | Script M, None => script_steps w M S
     | Wait M (For_pick q), None =>
         match count q with
@@ -335,7 +340,7 @@ Section Script.
   Lemma csteps_sound w e c l c' E : In (To l c' E) (csteps w e c) -> cstep w e c l c' E.
   Proof.
     intros H.
-    assert (Task : forall M r S, c = executes M r S -> In (To l c' E) (map (conclude M r) (steps e r (alone w) S)) ->
+    assert (Task : forall M r S, c = executes M r S -> In (To l c' E) (map (conclude e M r) (steps e r (alone w) S)) ->
                    cstep w e c l c' E).
     { intros M r S -> Hin. apply in_map_iff in Hin. destruct Hin as ([l0 S' o E0] & Ht & Hin).
       apply function_is_relation in Hin. destruct o; injection Ht as <- <- <-.
@@ -397,9 +402,9 @@ Section Script.
         * assert (H' : In (To l c' E) match home (Wait M q) S with
             | Some M0 => [To LInterrupt
                 (script_at M0 (with_bound (bound S ++ recruited_by (Wait M q)) (with_allocation nothing S)))
-                (script_waits (Wait M q) ++ stops (residual_of (Wait M q)) [] S)]
+                (script_waits (Wait M q) ++ stops None (residual_of (Wait M q)) [] S)]
             | None => [To LInterrupt (ended S Interrupted)
-                (end_of (residual_of (Wait M q)) (script_waits (Wait M q)) S Interrupted)] end)
+                (end_of None (residual_of (Wait M q)) (script_waits (Wait M q)) S Interrupted)] end)
             by (destruct q; exact H).
           clear H. destruct (home (Wait M q) S) eqn:Hh; destruct H' as [H | []]; injection H as <- <- <-.
           -- apply ON_INTERRUPT; [apart | exact Hh].
@@ -420,10 +425,10 @@ Section Script.
   Lemma csteps_complete w e c l c' E : cstep w e c l c' E -> In (To l c' E) (csteps w e c).
   Proof.
     assert (Task : forall e M r S l S' o E, step e (alone w) S r l S' o E ->
-      In (conclude M r (By l S' o E)) (csteps w e (executes M r S))).
+      In (conclude e M r (By l S' o E)) (csteps w e (executes M r S))).
     { intros e0 M r S l0 S' o E0 Hs.
       assert (Hg := step_goes _ _ _ _ _ _ _ _ Hs). apply function_is_relation in Hs.
-      assert (Hin : In (conclude M r (By l0 S' o E0)) (map (conclude M r) (steps e0 r (alone w) S)))
+      assert (Hin : In (conclude e0 M r (By l0 S' o E0)) (map (conclude e0 M r) (steps e0 r (alone w) S)))
         by (apply in_map; exact Hs).
       unfold csteps. cbn [executes control_of shared_of].
       destruct e0 as [e0|]; [|exact Hin].

@@ -17,7 +17,7 @@ let measure (type p) (module P : Platform.S with type t = p) (p : p) v =
     if i = rounds then Lwt.return_unit
     else begin
       let began = Clock.system.elapsed () in
-      P.start p v { name = "instant"; plan = None; task_site = 0 };
+      P.start p ~number:0 v { name = "instant"; plan = None; task_site = 0 };
       let is_end = function
         | Platform.Task_done _ -> true
         | Task_failed (_, why) -> failwith why

@@ -5,6 +5,8 @@ module Control_state = Message.Plan_control_state
 
 type order = Attempt.order = { plan : string; specification : Message.t Message.Plan_specification.t option }
 
+type doubt = Never_sent | Lost_note | Lost_note_of_repetition
+
 type input =
   | Start of order
   | Stop
@@ -15,7 +17,7 @@ type input =
   | Abort of string
   | Stopped_by of string
   | Lost of string
-  | Adopt of { order : order; stopped : bool; notes : Durable_note.t list }
+  | Adopt of { order : order; stopped : bool; notes : Durable_note.t list; doubt : doubt }
   | Leaves of float
   | Tick
 
@@ -350,20 +352,43 @@ let unnoted plan =
      run's"
     plan
 
-(* No request is on record. The plan that runs may be this one all the same, if the end of the journal is lost. *)
-let adopt_unasked ~now ~clock (order : order) x =
-  match x.latest with
-  | Some r when r.state.state = Executing && Plan_report.names order.plan r ->
-    let attempt = Attempt.make ~now ~clock ~request:x.next_request ~before:x.latest order in
-    let x = { x with next_request = (x.next_request + 1) land 0xFFFF } in
-    let x, outputs = begin_stop ~now ~clock ~took_effect:true attempt x in
-    (x, Failed (unnoted order.plan) :: outputs)
-  | Some _ | None -> begin_attempt ~now ~clock order x
+let unnoted_end plan =
+  Printf.sprintf
+    "the last plan of the vehicle has the name %s, and the journal has no request for it: it is not known whether it \
+     has run for this run"
+    plan
 
-let adopt ~now ~clock (order : order) ~stopped notes x =
+(* The stop of a plan without a request on record. *)
+let stop_unasked ~now ~clock ~took_effect (order : order) x =
+  let attempt = Attempt.make ~now ~clock ~request:x.next_request ~before:x.latest order in
+  begin_stop ~now ~clock ~took_effect attempt { x with next_request = (x.next_request + 1) land 0xFFFF }
+
+(* No request is on record. The vehicle's plan may be this one all the same, if the end of the journal is lost. *)
+let adopt_unasked ~now ~clock (order : order) doubt x =
+  let fail_and_stop ~took_effect =
+    let x, outputs = stop_unasked ~now ~clock ~took_effect order x in
+    (x, Failed (unnoted order.plan) :: outputs)
+  in
+  match x.phase, x.latest with
+  | Stopping _, _ -> start ~now ~clock order x
+  | (Idle | Starting _ | Running _ | Ending _), Some r when Plan_report.names order.plan r -> (
+      match r.state.state, doubt with
+      | Executing, _ -> fail_and_stop ~took_effect:true
+      | Blocked, Lost_note when not (rests ~since:neg_infinity x) -> fail_and_stop ~took_effect:true
+      | (Ready | Blocked | Initializing | Other _), Lost_note -> (x, [ Failed (unnoted_end order.plan) ])
+      | (Ready | Blocked | Initializing | Other _), (Never_sent | Lost_note_of_repetition) ->
+        begin_attempt ~now ~clock order x)
+  | (Idle | Starting _ | Running _ | Ending _), Some { state = { state = Initializing; _ }; _ }
+    when doubt <> Never_sent ->
+    fail_and_stop ~took_effect:false
+  | (Idle | Starting _ | Running _ | Ending _), (Some _ | None) -> begin_attempt ~now ~clock order x
+
+let adopt ~now ~clock (order : order) ~stopped ~doubt notes x =
   let is_at_work (r : Plan_report.t) = Plan_report.is_busy r && Plan_report.names order.plan r in
   match Durable_note.knowledge ~plan:order.plan notes, x.latest with
-  | None, _ -> if stopped then (x, []) else adopt_unasked ~now ~clock order x
+  | None, Some r when stopped && doubt <> Never_sent && is_at_work r ->
+    stop_unasked ~now ~clock ~took_effect:true order x
+  | None, _ -> if stopped then (x, []) else adopt_unasked ~now ~clock order doubt x
   | Some { over = true; _ }, _ when stopped -> (x, [])
   | Some k, Some r when stopped ->
     let attempt = Attempt.adopted ~now ~clock order k in
@@ -428,7 +453,7 @@ let handle ~now ~clock input x =
   | Abort by -> ({ x with intervention = Some ("aborted by " ^ by) }, [])
   | Stopped_by by -> (stopped_by by x, [])
   | Lost why -> lost ~now ~clock why x
-  | Adopt { order; stopped; notes } -> adopt ~now ~clock order ~stopped notes x
+  | Adopt { order; stopped; notes; doubt } -> adopt ~now ~clock order ~stopped ~doubt notes x
   | Leaves at -> (leaves ~at ~clock x, [])
   | Tick -> tick ~now ~clock x
 

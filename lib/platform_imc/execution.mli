@@ -55,6 +55,13 @@ type order = Attempt.order = {
   specification : Message.t Message.Plan_specification.t option;  (** [None]: the vehicle knows the plan by name *)
 }
 
+(** The meaning of an order without a note: whether a console before this one may have sent it. *)
+type doubt =
+  | Never_sent  (** It was certainly not sent. *)
+  | Lost_note  (** It may have been: the end of the journal may be lost. *)
+  | Lost_note_of_repetition
+  (** As [Lost_note]; but the vehicle ran a plan of that name for the run before, which its report may be about. *)
+
 (** Times [sent] are by the vehicle's clock as {!Vehicle_clock.observe} returns them. Only messages of this vehicle, and
     only replies to this console, are given. *)
 type input =
@@ -67,9 +74,10 @@ type input =
   | Abort of string  (** The console of this name ordered the vehicle to abort. *)
   | Stopped_by of string  (** The console of this name ordered the vehicle to stop its plan. *)
   | Lost of string  (** The link is given up; why. *)
-  | Adopt of { order : order; stopped : bool; notes : Durable_note.t list  (** latest first *) }
+  | Adopt of { order : order; stopped : bool; notes : Durable_note.t list; doubt : doubt  (** latest first *) }
   (** A console before this one was ordered to start [order], and if [stopped] to stop it again, and then died;
-      [notes] is its notes since then. To be given to an execution that has nothing to do, once there is a {!report}. *)
+      [notes] is its notes since then; if there are none, [doubt] counts. To be given to an execution that
+      has nothing to do, once there is a {!report}. *)
   | Leaves of float
   (** The last request to start leaves at that time, and not at once; [infinity]: not known yet. *)
   | Tick  (** Time has passed. *)

@@ -2,8 +2,9 @@ open Dolphin_semantics
 open Dolphin_runtime
 module Names = Map.Make (String)
 
-(* The order to a vehicle, and the notes on it; no notes, if it was not sent yet. *)
-type request = { order : Execution.order; notes : Durable_note.t list }
+(* The order to a vehicle, and the notes on it; no notes, if it was not sent yet. A console before this one may have
+   sent a [doubtful] order all the same: the end of its journal may be lost. *)
+type request = { order : Execution.order; notes : Durable_note.t list; doubt : Execution.doubt }
 
 (* The action for a vehicle when it is heard of. *)
 type intent =
@@ -24,16 +25,17 @@ let order_of (task : Core.platform_task) : (Execution.order, string) result =
   | Some (Maneuvers plan) -> Ok { plan = task.name; specification = Some (Plan_message.of_plan plan) }
   | Some (Mission _) -> Error "IMC vehicles take no missions of items: describe the plan by imcPlan { ... }"
 
-(* An order that is known to be over, or was never sent, need not be halted. *)
+(* An order that is known to be over, or was certainly never sent, need not be halted. *)
 let halt v request x =
-  match Durable_note.knowledge ~plan:request.order.plan request.notes with
-  | None | Some { over = true; _ } -> Names.add v Nothing x
-  | Some _ -> Names.add v (Halt request) x
+  match Durable_note.knowledge ~plan:request.order.plan request.notes, request.doubt with
+  | None, Never_sent | Some { over = true; _ }, _ -> Names.add v Nothing x
+  | None, (Lost_note | Lost_note_of_repetition) | Some _, _ -> Names.add v (Halt request) x
 
 (* As after an order to stop. *)
 let linger x (v, (plan, request)) =
   let order = { Execution.plan; specification = None } in
-  let request = { order; notes = [ Taken { request }; Asked { plan; request; before = None } ] } in
+  let notes : Durable_note.t list = [ Taken { request }; Asked { plan; request; before = None } ] in
+  let request = { order; notes; doubt = Never_sent } in
   let is_over (r : request) =
     match Durable_note.knowledge ~plan:r.order.plan r.notes with None -> true | Some k -> k.over in
   match Names.find_opt v x with
@@ -46,7 +48,9 @@ let resume ~deadline ~lingering (outstanding : History.outstanding) =
   (* An impossible order was never sent. *)
   let request (c : History.commanded) =
     match order_of c.task with
-    | Ok order -> Some { order; notes = List.filter_map Durable_note.of_json c.notes }
+    | Ok order ->
+      let doubt : Execution.doubt = if c.is_again then Lost_note_of_repetition else Lost_note in
+      Some { order; notes = List.filter_map Durable_note.of_json c.notes; doubt }
     | Error _ -> None
   in
   (* The end of the request before may have been noted during this one. *)
@@ -72,7 +76,7 @@ let start ~deadline v order x =
     | Some (Halt request) -> Some request
     | Some (Run { request; before; _ }) -> if request.notes = [] then before else Some request
   in
-  Names.add v (Run { request = { order; notes = [] }; before; deadline }) x
+  Names.add v (Run { request = { order; notes = []; doubt = Never_sent }; before; deadline }) x
 
 let stop v x =
   match Names.find_opt v x with
@@ -83,13 +87,13 @@ let stop v x =
 let stop_all x = Names.fold (fun v _ x -> stop v x) x x
 
 let heard v x =
-  let adopt ~stopped { order; notes } = Execution.Adopt { order; stopped; notes } in
+  let adopt ~stopped { order; notes; doubt } = Execution.Adopt { order; stopped; notes; doubt } in
   let inputs : Execution.input list =
     match Names.find_opt v x with
     | None | Some Nothing -> []
     | Some (Halt request) -> [ adopt ~stopped:true request ]
-    | Some (Run { request = { order; notes = [] }; before = Some before; _ }) ->
-      [ adopt ~stopped:true before; Start order ]
+    | Some (Run { request = { notes = []; _ } as request; before = Some before; _ }) ->
+      [ adopt ~stopped:true before; adopt ~stopped:false request ]
     | Some (Run { request; _ }) -> [ adopt ~stopped:false request ]
   in
   (inputs, Names.remove v x)

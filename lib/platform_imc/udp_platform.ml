@@ -296,7 +296,7 @@ let cancel_timer p timer =
 
 let bind p vehicles = command p (Station.bind ~now:(now p) vehicles)
 let release p vehicles = command p (Station.release ~now:(now p) vehicles)
-let start p vehicle task = command p (Station.start ~now:(now p) vehicle task)
+let start p ~number:_ vehicle task = command p (Station.start ~now:(now p) vehicle task)
 let stop p vehicle = command p (Station.stop ~now:(now p) vehicle)
 let set_connection_timeout p vehicles seconds = quietly p (Station.set_connection_timeout vehicles seconds)
 let telemetry p how = quietly p (Station.telemetry ~now:(now p) (how <> Platform.Off))

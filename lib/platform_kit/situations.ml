@@ -30,8 +30,8 @@ let foreign : Yojson.Safe.t =
 let start_order ?(timeout = 60.) request vehicle plan : Order.t = Start { request; vehicle; plan; timeout }
 let stop_order request vehicle : Order.t = Stop { request; vehicle }
 
-let resume_order ?(notes = []) request vehicle plan : Order.t =
-  Resume { request; vehicle; plan = by_name plan; timeout = 60.; notes }
+let resume_order ?(notes = []) ?doubt request vehicle plan : Order.t =
+  Resume { request; vehicle; plan = by_name plan; timeout = 60.; notes; doubt }
 
 (* The notes of the adapter of [t] on a request, latest first. *)
 let notes_of t r =
@@ -377,6 +377,13 @@ let killed_after_its_end plans ~started command =
   | (Done | Unknown _) as said -> Lwt.return_some (Printf.sprintf "it reports '%s'" (of_word said))
   | other -> wrong "a plan that was done before the adapter died is '%s' after it" (of_word other)
 
+(* An absent request is ordered with the same name. *)
+let is_ordered_after_all t plans v r =
+  Talk.send t (start_order r v (by_name plans.short));
+  end_of t plans r >>= function
+  | Done -> Lwt.return_unit
+  | other -> wrong "an absent request was ordered, and is '%s'" (of_word other)
+
 let never_ordered plans ~started command =
   again plans ~started command >>= fun (t, v) ->
   let r = request () in
@@ -385,9 +392,33 @@ let never_ordered plans ~started command =
   | (Absent | Unknown _) as said ->
     rest 0.5 >>= fun () ->
     (match List.filter (( <> ) said) (words t r) with
-     | [] -> Lwt.return_some (Printf.sprintf "it reports '%s'" (of_word said))
+     | [] ->
+       (if said = Absent then is_ordered_after_all t plans v r else Lwt.return_unit) >>= fun () ->
+       Lwt.return_some (Printf.sprintf "it reports '%s'" (of_word said))
      | other :: _ -> wrong "a request that was never ordered is '%s', and then '%s'" (of_word said) (of_word other))
   | other -> wrong "a request that was never ordered is '%s'" (of_word other)
+
+(* The journal has lost its end, and with it the notes on a request that was ordered. *)
+let lost_notes plans ~started command =
+  with_vehicle plans ~started command >>= fun (t, v) ->
+  let plans = { plans with vehicle = Some v } in
+  runs_to_its_end t plans v plans.short >>= fun over ->
+  Talk.kill t >>= fun () ->
+  let ask r plan =
+    again plans ~started command >>= fun (t, _) ->
+    Talk.send t (resume_order ~doubt:Order.Lost_order r v plan);
+    word t plans r >>= function
+    | Absent -> wrong "plan %s ran, the journal has lost the notes on it, and it is 'absent'" plan
+    | said when Report.is_end said -> Lwt.return (t, said)
+    | said -> stopped t plans v r >>= fun _ -> Lwt.return (t, said)
+  in
+  ask over plans.short >>= fun (t, after) ->
+  let r = request () in
+  Talk.send t (start_order r v (by_name plans.long));
+  taken t plans r >>= fun () ->
+  Talk.kill t >>= fun () ->
+  ask r plans.long >>= fun (_, during) ->
+  Lwt.return_some (Printf.sprintf "it reports '%s' and '%s'" (of_word after) (of_word during))
 
 let console_dies plans ~started command =
   let die t =
@@ -441,5 +472,6 @@ let all =
     situation "killed-after-end" "after its death does not rerun an ended plan" killed_after_its_end;
     situation "resume-twice" "answers a second 'resume' as the first" resume_twice;
     situation "never-ordered" "does not claim a request that was never ordered" never_ordered;
+    situation "lost-notes" "does not rerun a plan on which the journal has lost its notes" lost_notes;
     situation "console-dies" "lets vehicles fly on when its input ends, and ends" console_dies;
     situation "close" "stops all vehicles, reports 'quiet', and ends" close ]

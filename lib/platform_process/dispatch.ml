@@ -5,8 +5,18 @@ module Order = Dolphin_platform_protocol.Order
 module Names = Map.Make (String)
 module Name_set = Set.Make (String)
 
+(* A task that waits for the end of the request before it, since [asked]. [is_doubtful]: a console before this one may
+   have ordered it, though the journal has no note of that. *)
+type next = {
+  task : Core.platform_task;
+  request : string;
+  asked : float;
+  is_doubtful : bool;
+  doubt : Order.doubt option;
+}
+
 (* The outstanding orders of one vehicle: a request without an end, and a task that waits for that end. *)
-type slot = { errand : Order_state.t; next : (Core.platform_task * float) option }
+type slot = { errand : Order_state.t; next : next option }
 
 type seen = {
   sighting : Sighting.t;
@@ -35,8 +45,7 @@ type ping = { next : float; id : int; unanswered : int }
 
 type t = {
   platform : string;
-  prefix : string;
-  numbered : int;
+  identity : number:int -> Core.vehicle -> Core.platform_task -> string;
   adapter : Report.greeting option;  (* of the one that is there *)
   seen : seen Names.t;
   slots : slot Names.t;
@@ -59,8 +68,8 @@ let no_ping = { next = infinity; id = 0; unanswered = 0 }
 let refusal_interval = 1.
 let no_refusal = { informed = neg_infinity; waits = None }
 
-let create ~platform ~prefix =
-  { platform; prefix; numbered = 0; adapter = None; seen = Names.empty; slots = Names.empty; given_up = [];
+let create ~platform ~identity =
+  { platform; identity; adapter = None; seen = Names.empty; slots = Names.empty; given_up = [];
     bound = Name_set.empty; timeout = 60.; timeouts = Names.empty; telemetry = false; timers = Timers.none;
     ping = no_ping; refusal = no_refusal; news = []; ready = []; outputs = [] }
 
@@ -146,38 +155,56 @@ let start_order v (e : Order_state.t) d =
   Order.Start { request = e.request; vehicle = v; plan = e.body; timeout = timeout_of v d }
 
 let resume_order v (e : Order_state.t) d =
-  Order.Resume { request = e.request; vehicle = v; plan = e.body; timeout = timeout_of v d; notes = e.notes }
+  Order.Resume { request = e.request; vehicle = v; plan = e.body; timeout = timeout_of v d; notes = e.notes;
+                 doubt = e.doubt }
 
 let put v slot d = { d with slots = Names.add v slot d.slots }
 let with_errand v errand (slot : slot) d = put v { slot with errand } d
 
 let order_start ~now v (slot : slot) d =
-  let errand = { slot.errand with stage = Ordered; is_resumed = false; asked = now } in
+  let errand = { slot.errand with stage = Ordered; is_resumed = false; is_on_disk = true; doubt = None; asked = now } in
   send (start_order v errand d) (with_errand v errand slot d)
 
 let order_stop ~now v (slot : slot) d =
   let errand = { slot.errand with wanted = false; stop_sent = Some now } in
   send (Stop { request = errand.request; vehicle = v }) (with_errand v errand slot d)
 
-let begin_errand ~now v task d =
-  let request = Printf.sprintf "%s-%d" d.prefix (d.numbered + 1) in
-  let errand = Order_state.make ~now ~request task in
-  let note = Request_note.to_json ~platform:d.platform (Asked { request; plan = errand.plan }) in
-  { d with numbered = d.numbered + 1 }
-  |> put v { errand; next = None }
-  |> output (Keep_before (v, note, request))
+let asked (e : Order_state.t) = Request_note.Asked { request = e.request; plan = e.plan }
+
+(* The order leaves once the note on it is on the disk. *)
+let write_ahead v (slot : slot) d =
+  let e = { slot.errand with stage = Unwritten; is_resumed = false } in
+  let note = Request_note.to_json ~platform:d.platform (asked e) in
+  output (Keep_before (v, note, e.request)) (with_errand v e slot d)
+
+let begin_errand ~now v ~request task d =
+  write_ahead v { errand = Order_state.make ~now ~request task; next = None } d
+
+(* The journal has no note of the order: it may be lost, with the end of the journal. So the adapter is asked, which
+   orders nothing. *)
+let ask_first ~now v ~request ?doubt (task : Core.platform_task) d =
+  let errand =
+    Order_state.outstanding ~is_on_disk:false ?doubt ~now ~request ~plan:task.name ~body:(Plan_body.to_json task)
+      ~wanted:true ~notes:[] ()
+  in
+  let errand = { errand with is_resumed = true } in
+  put v { errand; next = None } d |> keep v (asked errand) |> send (resume_order v errand d)
 
 (* The vehicle has none of our requests any more; the task waiting for that begins. *)
 let free ~now v (slot : slot) d =
   let d = { d with slots = Names.remove v d.slots } in
-  match slot.next with None -> d | Some (task, _) -> begin_errand ~now v task d
+  match slot.next with
+  | None -> d
+  | Some { task; request; is_doubtful = true; doubt; asked = _ } -> ask_first ~now v ~request ?doubt task d
+  | Some { task; request; is_doubtful = false; doubt = _; asked = _ } -> begin_errand ~now v ~request task d
 
 let durable ~now request d =
   let is_it _ slot = slot.errand.Order_state.request = request && slot.errand.stage = Unwritten in
   let d =
     match Names.choose_opt (Names.filter is_it d.slots) with
     | None -> d
-    | Some (v, slot) when d.adapter = None -> with_errand v { slot.errand with stage = Unsent } slot d
+    | Some (v, slot) when d.adapter = None ->
+      with_errand v { slot.errand with stage = Unsent; is_on_disk = true } slot d
     | Some (v, slot) -> order_start ~now v slot d
   in
   finish d
@@ -193,7 +220,7 @@ let end_errand ~now v (slot : slot) word d =
     | Done -> over (Task_done v)
     | Failed why -> over (Task_failed (v, why))
     | Stopped -> over (Task_failed (v, "the vehicle was stopped, and not by the program"))
-    | Absent when e.is_resumed -> order_start ~now v slot d
+    | Absent when e.is_resumed -> if e.is_on_disk then order_start ~now v slot d else write_ahead v slot d
     | Absent -> over (Task_failed (v, "the order to start did not reach the vehicle"))
     | Taken | Progress _ | Unknown _ -> d
 
@@ -327,7 +354,7 @@ let due_of v (slot : slot) d =
   let link, lost = link v d in
   let of_next =
     match slot.next, link with
-    | Some (_, asked), None -> Float.max lost asked +. timeout_of v d
+    | Some { asked; _ }, None -> Float.max lost asked +. timeout_of v d
     | Some _, Some _ | None, _ -> infinity
   in
   let of_errand = Order_state.due ~link ~lost ~timeout:(timeout_of v d) ~patience:(patience d) slot.errand in
@@ -381,12 +408,14 @@ let tick ~now d =
 
 (* {1 Commands} *)
 
-let start ~now v task d =
+let start ~now ~number v task d =
+  let request = d.identity ~number v task in
+  let next = Some { task; request; asked = now; is_doubtful = false; doubt = None } in
   finish
     (match Names.find_opt v d.slots with
-     | None -> begin_errand ~now v task d
-     | Some slot when not slot.errand.wanted -> put v { slot with next = Some (task, now) } d
-     | Some slot -> order_stop ~now v { slot with next = Some (task, now) } d)
+     | None -> begin_errand ~now v ~request task d
+     | Some slot when not slot.errand.wanted -> put v { slot with next } d
+     | Some slot -> order_stop ~now v { slot with next } d)
 
 let stop_one ~now v d =
   let d = without (is_end_of v) d in
@@ -429,11 +458,15 @@ let cancel_timer timer d =
 
 (* {1 Resumption} *)
 
-(* The question to the vehicle: the request before was to be stopped, and this one was to start. *)
+(* The question to the vehicle: the request before was to be stopped, and this one was to start. A start without a note
+   may have been ordered all the same: the end of the journal may be lost. Its request has the same identity again. *)
 let resume_task ~now d (v, (c : History.commanded)) =
+  (* If the vehicle has run a plan of that name for the run before, its state shows nothing about this one. *)
+  let doubt lost = if c.is_again then None else Some lost in
   let outstanding ~wanted (c : History.commanded) notes =
     let to_errand (request, notes) =
-      Order_state.outstanding ~now ~request ~plan:c.task.name ~body:(Plan_body.to_json c.task) ~wanted ~notes
+      let doubt = if notes = [] then doubt Order.Lost_notes else None in
+      Order_state.outstanding ?doubt ~now ~request ~plan:c.task.name ~body:(Plan_body.to_json c.task) ~wanted ~notes ()
     in
     Option.map to_errand (Request_note.latest ~platform:d.platform notes)
   in
@@ -444,13 +477,15 @@ let resume_task ~now d (v, (c : History.commanded)) =
   | None -> (
       let before (b : History.commanded) =
         outstanding ~wanted:false b (List.filter is_over c.notes @ b.notes) in
+      let request = d.identity ~number:c.number v c.task and doubt = doubt Order.Lost_order in
       match Option.bind c.before before with
-      | Some errand -> put v { errand; next = Some (c.task, now) } d
-      | None -> begin_errand ~now v c.task d)
+      | Some errand ->
+        put v { errand; next = Some { task = c.task; request; asked = now; is_doubtful = true; doubt } } d
+      | None -> ask_first ~now v ~request ?doubt c.task d)
 
 let resume_unsettled ~now d (v, request, body) =
   let plan = match body with `Assoc (("name", `String name) :: _) -> name | _ -> "?" in
-  let errand = Order_state.outstanding ~now ~request ~plan ~body ~wanted:false ~notes:[] in
+  let errand = Order_state.outstanding ~now ~request ~plan ~body ~wanted:false ~notes:[] () in
   match Names.find_opt v d.slots with
   | None -> put v { errand; next = None } d
   | Some slot when slot.errand.request = request -> d

@@ -9,9 +9,11 @@ module Order := Dolphin_platform_protocol.Order
 
 type t
 
-val create : platform:string -> prefix:string -> t
-(** No vehicle is known, and no adapter runs. [platform] is its name in journals; requests are numbered behind
-    [prefix]. *)
+val create :
+  platform:string -> identity:(number:int -> Core.vehicle -> Core.platform_task -> string) -> t
+(** No vehicle is known, and no adapter runs. [platform] is its name in journals. [identity ~number v task] is
+    the request that starts [task] on [v], by the START of this number in the run: the same in each console of the
+    run, and never that of another start. *)
 
 val resume : now:float -> announce_period:float -> History.t -> t -> t
 (** [resume ~now ~announce_period history d] is [d], as {!create} made it, taking over at [now] from a console that
@@ -60,7 +62,7 @@ val due : t -> float
 
 (** {1:commands Commands} See {!Dolphin_runtime.Platform.S}. *)
 
-val start : now:float -> Core.vehicle -> Core.platform_task -> t -> t * output list
+val start : now:float -> number:int -> Core.vehicle -> Core.platform_task -> t -> t * output list
 (** As {!Dolphin_runtime.Platform.S.start}. *)
 
 val stop : now:float -> Core.vehicle -> t -> t * output list

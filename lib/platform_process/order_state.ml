@@ -10,6 +10,8 @@ type t = {
   stage : stage;
   wanted : bool;
   is_resumed : bool;
+  is_on_disk : bool;
+  doubt : Order.doubt option;
   begun : float;
   asked : float;
   stop_sent : float option;
@@ -20,11 +22,12 @@ type t = {
 
 let make ~now ~request (task : Core.platform_task) =
   { request; plan = task.name; body = Plan_body.to_json task; stage = Unwritten; wanted = true; is_resumed = false;
-    begun = now; asked = now; stop_sent = None; notes = []; share = None; remaining = None }
+    is_on_disk = false; doubt = None; begun = now; asked = now; stop_sent = None; notes = []; share = None;
+    remaining = None }
 
-let outstanding ~now ~request ~plan ~body ~wanted ~notes =
-  { request; plan; body; stage = Ordered; wanted; is_resumed = false; begun = now; asked = now; stop_sent = None; notes;
-    share = None; remaining = None }
+let outstanding ?(is_on_disk = true) ?doubt ~now ~request ~plan ~body ~wanted ~notes () =
+  { request; plan; body; stage = Ordered; wanted; is_resumed = false; is_on_disk; doubt; begun = now; asked = now;
+    stop_sent = None; notes; share = None; remaining = None }
 
 let is_sent e = match e.stage with Unwritten | Unsent -> false | Ordered | Taken -> true
 let stop_patience = 60.

@@ -12,6 +12,7 @@ type options = {
   command : string;
   purpose : Order.purpose;
   program : string option;
+  run : string;
   dolphin : string;
   taken : string list;
   close_patience : float;
@@ -22,8 +23,8 @@ type options = {
 }
 
 let default ~command =
-  { command; purpose = Run; program = None; dolphin = ""; taken = []; close_patience = 5.; note = (fun _ _ -> ());
-    keep = (fun ~time:_ _ _ -> ()); sync = None; clock = Clock.system }
+  { command; purpose = Run; program = None; run = ""; dolphin = ""; taken = []; close_patience = 5.;
+    note = (fun _ _ -> ()); keep = (fun ~time:_ _ _ -> ()); sync = None; clock = Clock.system }
 
 type t = {
   options : options;
@@ -185,14 +186,16 @@ let rec free_name taken name n =
   let candidate = if n = 1 then name else Printf.sprintf "%s-%d" name n in
   if List.mem candidate taken then free_name taken name (n + 1) else candidate
 
-(* Unlike that of any other console. *)
-let prefix () =
-  let random = Random.State.make_self_init () in
-  String.init 8 (fun _ -> "abcdefghijkmnpqrstuvwxyz23456789".[Random.State.int random 32])
+(* A run without an identity, as journals of earlier versions have it, gets one unlike that of any other console. *)
+let run_of options =
+  if options.run <> "" then options.run
+  else
+    let random = Random.State.make_self_init () in
+    String.init 8 (fun _ -> "abcdefghijkmnpqrstuvwxyz23456789".[Random.State.int random 32])
 
 let make options ~time ~resume adapter (greeting : Report.greeting) =
   let platform = free_name options.taken greeting.name 1 in
-  let dispatch = Dispatch.create ~platform ~prefix:(prefix ()) in
+  let dispatch = Dispatch.create ~platform ~identity:(Request_identity.make ~run:(run_of options)) in
   let dispatch = resume ~announce_period:greeting.announce ~platform dispatch in
   let p =
     { options; platform; greeting; now = Clock.stopwatch ~at:time options.clock; dispatch; adapter = Some adapter;
@@ -222,7 +225,7 @@ let set_timer p timer seconds = quietly p (Dispatch.set_timer ~now:(now p) timer
 let cancel_timer p timer = quietly p (Dispatch.cancel_timer timer)
 let bind p vehicles = command p (Dispatch.bind vehicles)
 let release p vehicles = command p (Dispatch.release vehicles)
-let start p vehicle task = command p (Dispatch.start ~now:(now p) vehicle task)
+let start p ~number vehicle task = command p (Dispatch.start ~now:(now p) ~number vehicle task)
 let stop p vehicle = command p (Dispatch.stop ~now:(now p) vehicle)
 let set_connection_timeout p vehicles seconds = command p (Dispatch.set_connection_timeout vehicles seconds)
 let telemetry p how = command p (Dispatch.telemetry (how <> Platform.Off))

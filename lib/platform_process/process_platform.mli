@@ -11,6 +11,7 @@ type options = {
   command : string;  (** for [/bin/sh] *)
   purpose : Order.purpose;
   program : string option;  (** the name of its file *)
+  run : string;  (** the identity of the run, or [""]: requests are named by it ({!Dispatch.create}) *)
   dolphin : string;  (** our version, for the adapter's logs *)
   taken : string list;  (** names that other platforms of the run have *)
   close_patience : float;  (** the seconds that [close] waits for stops to be confirmed *)

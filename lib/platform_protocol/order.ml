@@ -4,6 +4,8 @@ open Field
 
 type purpose = Run | Look | Check
 
+type doubt = Lost_order | Lost_notes
+
 type t =
   | Hello of { version : int; dolphin : string; purpose : purpose; program : string option; resumes : bool }
   | Telemetry of bool
@@ -19,6 +21,7 @@ type t =
       plan : Yojson.Safe.t;
       timeout : float;
       notes : Yojson.Safe.t list;
+      doubt : doubt option;
     }
   | Check of { id : int; vehicle : Core.vehicle option; plan : Yojson.Safe.t }
   | Kept of int
@@ -27,6 +30,9 @@ type t =
 
 let purposes = [ ("run", Run); ("look", Look); ("check", (Check : purpose)) ]
 let name_of_purpose purpose = fst (List.find (fun (_, other) -> other = purpose) purposes)
+
+let doubts = [ ("order", Lost_order); ("notes", Lost_notes) ]
+let name_of_doubt doubt = fst (List.find (fun (_, other) -> other = doubt) doubts)
 
 (* {1 Writing} *)
 
@@ -53,8 +59,9 @@ let to_json = function
   | Ping id -> Line.make "ping" [ ("id", `Int id) ]
   | Start { request; vehicle; plan; timeout } -> Line.make "start" (task request vehicle plan timeout)
   | Stop { request; vehicle } -> Line.make "stop" [ ("request", text request); ("vehicle", text vehicle) ]
-  | Resume { request; vehicle; plan; timeout; notes } ->
-    Line.make "resume" (task request vehicle plan timeout @ [ ("notes", `List notes) ])
+  | Resume { request; vehicle; plan; timeout; notes; doubt } ->
+    let doubt = Option.map name_of_doubt doubt in
+    Line.make "resume" (task request vehicle plan timeout @ [ ("notes", `List notes) ] @ optional_text "doubt" doubt)
   | Check { id; vehicle; plan } ->
     Line.make "check" ([ ("id", `Int id); ("plan", plan) ] @ optional_text "vehicle" vehicle)
   | Kept id -> Line.make "kept" [ ("id", `Int id) ]
@@ -120,7 +127,10 @@ let kinds =
       fun m ->
         let* request, vehicle, plan, timeout = start m in
         let* notes = optional (list any) ~default:[] "notes" m in
-        Ok (Resume { request; vehicle; plan; timeout; notes }) );
+        let* doubt = absent_text "doubt" m in
+        (* Doubts of later versions are unknown. *)
+        let doubt = Option.bind doubt (fun name -> List.assoc_opt name doubts) in
+        Ok (Resume { request; vehicle; plan; timeout; notes; doubt }) );
     ("check", check);
     ("kept", fun m -> let* id = get Line.count "id" m in Ok (Kept id));
     ("refused", fun m -> let* why = get Field.text "why" m in Ok (Refused why));

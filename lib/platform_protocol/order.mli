@@ -5,6 +5,9 @@ open Dolphin_semantics
 (** The purpose for which Dolphin starts an adapter: to run a program, to look at vehicles, to check plans. *)
 type purpose = Run | Look | Check
 
+(** What the journal may have lost of a request, with its end: the order itself, or the notes of the adapter on it. *)
+type doubt = Lost_order | Lost_notes
+
 type t =
   | Hello of { version : int; dolphin : string; purpose : purpose; program : string option; resumes : bool }
   | Telemetry of bool
@@ -20,6 +23,7 @@ type t =
       plan : Yojson.Safe.t;
       timeout : float;
       notes : Yojson.Safe.t list;  (** latest first *)
+      doubt : doubt option;  (** what the journal may have lost *)
     }
   | Check of { id : int; vehicle : Core.vehicle option; plan : Yojson.Safe.t }
   | Kept of int

@@ -102,7 +102,7 @@ let moment ~announce_period s { History.time; what } =
   | Saw state -> Ok (see time state s)
   | Noted _ -> Ok s
   | Happened event -> Result.map (fun s -> { s with f = Fleet.advance s.f time }) (happen time event s)
-  | Asked effects ->
+  | Asked { effects; number = _ } ->
     let s = pass time s in
     Ok (List.fold_left (command ~announce_period) { s with f = Fleet.advance s.f time } effects)
 

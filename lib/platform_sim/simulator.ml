@@ -73,7 +73,7 @@ module Make (Time : Time) = struct
 
   let bind p vehicles = command p (Fleet.bind vehicles)
   let release p vehicles = command p (Fleet.release vehicles)
-  let start p vehicle task = command p (Fleet.start vehicle task)
+  let start p ~number:_ vehicle task = command p (Fleet.start vehicle task)
 
   let stop p vehicle =
     undo p (Overtaken.by_stop vehicle);

@@ -86,7 +86,7 @@
 
       let () =
         Simulator.Virtual.bind fleet [ "noptilus-1" ];
-        Simulator.Virtual.start fleet "noptilus-1" survey;
+        Simulator.Virtual.start fleet ~number:0 "noptilus-1" survey;
         assert (Lwt_main.run (ended ()) = "noptilus-1");
         assert (Simulator.Virtual.now fleet >= 60.)
     ]} *)

@@ -34,11 +34,13 @@ type beginning = {
   world : World.t;
   news : World.vehicle_state list;
   pending : Transition.event option;
+  transitions : int;
   time : float;
 }
 
 let afresh program order =
-  { configuration = Configuration.initial program; world = World.nobody order; news = []; pending = None; time = 0. }
+  { configuration = Configuration.initial program; world = World.nobody order; news = []; pending = None;
+    transitions = 0; time = 0. }
 
 (* The number of transitions and events that may pass before others get their turn. *)
 let most_without_pause = 100
@@ -91,6 +93,7 @@ module Make (P : Platform.S) = struct
     inputs : Inputs.t;
     mutable interruptions : news Lwt.t list;  (* those to come, the next one first *)
     mutable configuration : Configuration.t;
+    mutable taken : int;  (* transitions of the run *)
     mutable world : World.t;
     dates : Dated_code.t;
     mutable moment : float;  (* the time of the world, if the program reads it *)
@@ -181,8 +184,8 @@ module Make (P : Platform.S) = struct
     if seconds <= 0. then Hashtbl.replace s.immediate timer () else Hashtbl.remove s.immediate timer;
     P.set_timer s.platform timer seconds
 
-  let carry_out s : Effect.t -> unit = function
-    | Start (v, p) -> P.start s.platform v p
+  let carry_out s ~number : Effect.t -> unit = function
+    | Start (v, p) -> P.start s.platform ~number v p
     | Stop v -> drop s (Overtaken.by_stop v); P.stop s.platform v
     | Set_timer (timer, seconds) -> set_timer s timer seconds
     | Cancel_timer timer ->
@@ -203,9 +206,9 @@ module Make (P : Platform.S) = struct
     | End _ -> ()
 
   (* One effect that cannot be carried out does not keep the others, a vehicle's stop perhaps, from being so. *)
-  let carry_out_all s effects =
+  let carry_out_all s ~number effects =
     let attempt failure one =
-      match carry_out s one with
+      match carry_out s ~number one with
       | () -> failure
       | exception error -> if failure = None then Some (error, Printexc.get_raw_backtrace ()) else failure
     in
@@ -295,12 +298,14 @@ module Make (P : Platform.S) = struct
     Log.transition ~time ~cause t;
     s.observer.transition ~time ~cause t;
     s.configuration <- t.next;
+    let number = s.taken in
+    s.taken <- number + 1;
     (match t.label with Interrupt -> withdraw s | _ -> ());
     (match cause with
      | Some (Confirmed (question, _)) -> Hashtbl.remove s.immediate question; withdraw_question s question
      | Some (Timer_expired timer) -> Hashtbl.remove s.immediate timer
      | Some _ | None -> ());
-    carry_out_all s t.effects
+    carry_out_all s ~number t.effects
 
   let see s state =
     s.since_pause <- s.since_pause + 1;
@@ -584,7 +589,7 @@ module Make (P : Platform.S) = struct
     let attempt f = try f () with _ -> () in
     let rec stop c =
       match Transition.accept s.program s.world c Interruption with
-      | Ok t -> attempt (fun () -> carry_out_all s t.effects); stop t.next
+      | Ok t -> attempt (fun () -> carry_out_all s ~number:s.taken t.effects); stop t.next
       | Error (Not_awaited | Bad_answer _) -> ()
     in
     attempt (fun () -> stop s.configuration);
@@ -597,6 +602,7 @@ module Make (P : Platform.S) = struct
       { platform; program; console; call; observer; always_telemetry; inputs; breakable;
         interruptions = List.map interruption interruptions;
         configuration = beginning.configuration;
+        taken = beginning.transitions;
         world = beginning.world;
         dates = Dated_code.of_program program; moment = beginning.time; alarm = None; alarms = 0;
         telemetry = Off; upcoming = None; reply = None; questions = Task_questions.create (); posted = None;

@@ -58,6 +58,7 @@ type beginning = {
   world : World.t;
   news : World.vehicle_state list;  (** of vehicles, since *)
   pending : Transition.event option;  (** that happened, and was not dealt with *)
+  transitions : int;  (** before the next one *)
   time : float;  (** of the latest line of its journal *)
 }
 

@@ -10,6 +10,7 @@ module Make (P : Platform.S) = struct
     observer : Observer.t;
     mutable configuration : Configuration.t;
     mutable world : World.t;
+    mutable taken : int;  (* transitions *)
     mutable upcoming : Platform.event Lwt.t option;  (* the platform's next event, if it was asked for *)
     mutable held : Platform.event list;  (* reported, and not their turn yet *)
   }
@@ -18,8 +19,8 @@ module Make (P : Platform.S) = struct
     s.held <- List.filter (fun told -> not (overtaken told)) s.held;
     s.upcoming <- Overtaken.left overtaken s.upcoming
 
-  let carry_out s : Effect.t -> unit = function
-    | Start (v, p) -> drop s (Overtaken.by_stop v); P.start s.platform v p
+  let carry_out s ~number : Effect.t -> unit = function
+    | Start (v, p) -> drop s (Overtaken.by_stop v); P.start s.platform ~number v p
     | Stop v -> drop s (Overtaken.by_stop v); P.stop s.platform v
     | Set_timer (timer, seconds) -> P.set_timer s.platform timer seconds
     | Cancel_timer timer -> drop s (Overtaken.by_cancel timer); P.cancel_timer s.platform timer
@@ -34,7 +35,9 @@ module Make (P : Platform.S) = struct
   let take s { cause; transition } =
     s.observer.transition ~time:(P.now s.platform) ~cause transition;
     s.configuration <- transition.next;
-    List.iter (carry_out s) transition.effects
+    let number = s.taken in
+    s.taken <- number + 1;
+    List.iter (carry_out s ~number) transition.effects
 
   let see s state =
     s.world <- World.add state s.world;
@@ -116,7 +119,7 @@ module Make (P : Platform.S) = struct
   let run platform ~observer ~interruption program steps =
     let s =
       { platform; program; observer; configuration = Configuration.initial program; world = World.nobody P.order;
-        upcoming = None; held = [] }
+        taken = 0; upcoming = None; held = [] }
     in
     let close () = Option.iter Lwt.cancel s.upcoming; P.close platform in
     Lwt.finalize

@@ -100,13 +100,16 @@ let ask_all r effects =
   let r, kept = List.fold_left add (r, []) effects in
   (r, List.rev kept)
 
+(* The stops of the guard are of no transition; only starts need the number of theirs. *)
+let of_no_start = 0
+
 let entry r (e : History.entry) =
   let keep r what = { r with entries = { e with what } :: r.entries } in
   match e.what with
   | Saw state -> keep { r with g = see state r.g } e.what
-  | Asked effects ->
+  | Asked { number; effects } ->
     let r, effects = ask_all r effects in
-    keep r (Asked effects)
+    keep r (Asked { number; effects })
   | Happened (Vehicle_failed (v, _)) when List.mem_assoc v r.refused ->
     { r with refused = List.remove_assoc v r.refused }
   | Happened (Vehicle_failed (v, _)) when List.mem_assoc v r.stopped ->
@@ -115,7 +118,7 @@ let entry r (e : History.entry) =
     let all = breaking v r.g in
     let g = List.fold_left (fun g (w, _) -> over w g) r.g all in
     keep { r with g; stopped = List.remove_assoc v all @ r.stopped }
-      (Asked (List.map (fun (w, _) : Effect.t -> Stop w) all))
+      (Asked { number = of_no_start; effects = List.map (fun (w, _) : Effect.t -> Stop w) all })
   | Happened (Vehicle_failed (v, _) | Vehicle_done v) -> keep { r with g = over v r.g } e.what
   | Noted _
   | Happened

@@ -30,9 +30,9 @@ module Make (P : Platform.S) = struct
     p.failures <- p.failures @ [ Platform.Task_failed (v, why) ];
     wake p
 
-  let start p v task =
+  let start p ~number v task =
     match Fence_guard.start v task p.guard with
-    | Ok guard -> p.guard <- guard; P.start p.platform v task
+    | Ok guard -> p.guard <- guard; P.start p.platform ~number v task
     | Error why -> fail p (v, why)
 
   (* Reports that were not read yet and that a command has overtaken are dropped. *)

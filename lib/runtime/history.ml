@@ -4,7 +4,7 @@ type what =
   | Saw of World.vehicle_state
   | Noted of Core.vehicle * Yojson.Safe.t
   | Happened of Transition.event
-  | Asked of Effect.t list
+  | Asked of { number : int; effects : Effect.t list }
 
 type entry = { time : float; what : what }
 type t = entry list
@@ -30,12 +30,14 @@ let part ~vehicles ~timers history =
         (Confirmed _ | Recruited _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Input _
         | Interruption) ->
       Some e
-    | Asked effects -> Some { e with what = Asked (List.filter_map effect_of effects) }
+    | Asked { number; effects } -> Some { e with what = Asked { number; effects = List.filter_map effect_of effects } }
   in
   List.filter_map entry history
 
 type commanded = {
   task : Core.platform_task;
+  number : int;
+  is_again : bool;
   is_stopped : bool;
   notes : Yojson.Safe.t list;
   before : commanded option;
@@ -61,10 +63,11 @@ let set_timer time timer seconds s =
   let others = List.remove_assoc timer s.timers in
   { s with timers = (if seconds = infinity then others else (timer, time +. Float.max 0. seconds) :: others) }
 
-let ask ~announce_period time s : Effect.t -> outstanding = function
+let ask ~announce_period ~number ~is_again time s : Effect.t -> outstanding = function
   | Start (v, task) ->
     let before = Option.map (fun c -> { c with before = None }) (List.assoc_opt v s.tasks) in
-    { s with tasks = put v { task; is_stopped = false; notes = []; before } s.tasks }
+    let is_again = is_again v task in
+    { s with tasks = put v { task; number; is_again; is_stopped = false; notes = []; before } s.tasks }
   | Stop v -> with_task v (fun c -> { c with is_stopped = true }) s
   | Set_timer (timer, seconds) -> set_timer time timer seconds s
   | Look_for { timeout; _ } ->
@@ -78,6 +81,12 @@ let ask ~announce_period time s : Effect.t -> outstanding = function
   | Put_question _ | Withdraw_question _ | Say _ | Ask _ | Call_host _ | End _ -> s
 
 let outstanding ~announce_period history =
+  let begun = Hashtbl.create 16 in
+  let is_again v (task : Core.platform_task) =
+    let was = Hashtbl.mem begun (v, task.name) in
+    Hashtbl.replace begun (v, task.name) ();
+    was
+  in
   let add s { time; what } =
     match what with
     | Saw _ -> s
@@ -88,7 +97,7 @@ let outstanding ~announce_period history =
         (Confirmed _ | Recruited _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _ | Input _
         | Interruption) ->
       s
-    | Asked effects -> List.fold_left (ask ~announce_period time) s effects
+    | Asked { number; effects } -> List.fold_left (ask ~announce_period ~number ~is_again time) s effects
   in
   List.fold_left add nothing history
 
@@ -100,7 +109,7 @@ let answers history =
   in
   let add (latest, standing, found) { what; time = _ } =
     match what with
-    | Asked effects ->
+    | Asked { effects; number = _ } ->
       let latest, standing = List.fold_left put (latest, standing) effects in
       (latest, standing, found)
     | Happened (Answered { text; _ }) ->
@@ -122,7 +131,7 @@ let replies history =
   let reply x = function (call, _) :: found -> (call, Some x) :: found | [] -> [] in
   let add found { what; time = _ } =
     match what with
-    | Asked effects -> List.fold_left call found effects
+    | Asked { effects; number = _ } -> List.fold_left call found effects
     | Happened (Replied x) -> reply (Ok x) found
     | Happened (Host_failed why) -> reply (Error why) found
     | Saw _ | Noted _ | Happened _ -> found

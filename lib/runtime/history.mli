@@ -7,7 +7,7 @@ type what =
   | Saw of World.vehicle_state  (** The journal's line about the vehicle. *)
   | Noted of Core.vehicle * Yojson.Safe.t  (** The platform kept this note. *)
   | Happened of Transition.event
-  | Asked of Effect.t list  (** of one transition *)
+  | Asked of { number : int; effects : Effect.t list }  (** of the transition of this number *)
 
 type entry = { time : float; what : what }
 (** [time] is the platform's, in seconds. *)
@@ -24,6 +24,8 @@ val part : vehicles:(Core.vehicle -> bool) -> timers:bool -> t -> t
 (** A task that a vehicle was ordered to run, and that is not known to be over. *)
 type commanded = {
   task : Core.platform_task;
+  number : int;  (** of the transition that commanded it, as {!Platform.S.start} got it *)
+  is_again : bool;  (** The vehicle was commanded a plan of this name earlier in the run. *)
   is_stopped : bool;  (** It was ordered to stop it again. *)
   notes : Yojson.Safe.t list;  (** of the platform, since the task was to start; latest first *)
   before : commanded option;

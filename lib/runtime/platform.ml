@@ -57,9 +57,10 @@ module type S = sig
 
   val release : t -> Core.vehicle list -> unit
 
-  val start : t -> Core.vehicle -> Core.platform_task -> unit
-  (** [start p v task] makes [v] run [task], once it has confirmed a stop under way. [Task_done v] or
-      [Task_failed (v, why)] follows, unless {!stop} comes first. *)
+  val start : t -> number:int -> Core.vehicle -> Core.platform_task -> unit
+  (** [start p ~number v task] makes [v] run [task], once it has confirmed a stop under way. [Task_done v] or
+      [Task_failed (v, why)] follows, unless {!stop} comes first. [number] is that of the START among the transitions of
+      the run, from 0: with the run's identity it identifies this start, also for a console that resumes the run. *)
 
   val stop : t -> Core.vehicle -> unit
   (** [stop p v] stops what [v] runs for the program. No event about that task follows: {!next} gives none, and a

@@ -35,9 +35,9 @@ let remember (entry : Entry.t) replay history =
   | Vehicle { state; _ } -> add (Saw state)
   | Note { vehicle; note; _ } -> add (Noted (vehicle, note))
   | Event _ -> Option.fold (Replay.event replay) ~none:history ~some:(fun event -> add (Happened event))
-  | Transition _ -> (
+  | Transition { index; _ } -> (
       match Replay.latest replay with
-      | Some (_, t) when t.effects <> [] -> add (Asked t.effects)
+      | Some (_, t) when t.effects <> [] -> add (Asked { number = index; effects = t.effects })
       | Some _ | None -> history)
 
 (* An event is reported with its transition: a run does not go on with an event alone. *)

@@ -92,8 +92,8 @@ let release s vehicles =
   each_with_own s vehicles (fun own ->
       { each = (fun (type p) (module P : Platform.S with type t = p) p -> P.release p own) })
 
-let start s v task =
-  at s (owner s v) { each = (fun (type p) (module P : Platform.S with type t = p) p -> P.start p v task) }
+let start s ~number v task =
+  at s (owner s v) { each = (fun (type p) (module P : Platform.S with type t = p) p -> P.start p ~number v task) }
 
 let stop s v =
   drop s (Overtaken.by_stop v);

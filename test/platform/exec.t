@@ -1,7 +1,7 @@
 What the page says about lines is what the schemas say.
 
   $ PYTHONPATH=../conformance python3 lines_of_page.py ../../docs/platform.md ../../conformance/schema
-  33 fit
+  34 fit
 
 A program on the simulated fleet behind the protocol. Times are left out of the log.
 

@@ -62,6 +62,9 @@ def on_order(order):
         if FAULT == "forgetful":
             tell(kind="absent", request=request)
             return True
+        if FAULT == "trusts notes" and not order["notes"]:
+            tell(kind="absent", request=request)
+            return True
         if FAULT == "wavering" and request in resumed:
             tell(kind="unknown", request=request, why="it depends")
             return True

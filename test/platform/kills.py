@@ -1,11 +1,12 @@
 """Kills the console, or the adapter, of a mission at many points, and looks whether anything is doubled or lost.
 
-Usage: kills.py console|adapter POINTS
+Usage: kills.py console|adapter|journal POINTS
 
 The mission runs on a simulated fleet that outlives its adapter. It is killed once its journal has n lines, for POINTS
 values of n, and a little later. After that a console resumes the run (or the adapter is started again), and
 - the mission completes, and its journal is one of a run of the program,
 - by the fleet's own file each plan was started once.
+With "journal" the console is killed, and the journal loses its end: the last note or two on requests.
 On failure the journal and the fleet's file of that point are kept, and named."""
 import glob
 import json
@@ -46,6 +47,20 @@ def wait_for(condition, process, seconds=60):
             return True
         time.sleep(0.002)
     return False
+
+
+def lose(path, count):
+    """The last `count` notes on orders are lost, with the lines after them: as far as those are no transitions."""
+    with open(path, encoding="utf-8") as file:
+        kept = [line for line in file if line.endswith("\n")]
+    for n in range(len(kept) - 1, 0, -1):
+        line = json.loads(kept[n])
+        if count == 0 or line["kind"] not in ("platform", "vehicle"):
+            break
+        if "asked" in line.get("note", {}):
+            kept, count = kept[:n], count - 1
+    with open(path, "w", encoding="utf-8") as file:
+        file.writelines(kept)
 
 
 class Mission:
@@ -102,7 +117,7 @@ def trial(folder, n, delay):
     if not wait_for(lambda: lines(mission.journal) >= n, console):
         return mission.verdict(console.wait(timeout=60))
     time.sleep(delay)
-    if WHO == "console":
+    if WHO in ("console", "journal"):
         console.kill()
         console.wait()
         if mission.is_over():
@@ -111,6 +126,8 @@ def trial(folder, n, delay):
             if not is_open(mission.state):
                 break
             time.sleep(0.05)
+        if WHO == "journal":
+            lose(mission.journal, 1 + n % 2)
         console = mission.console("--resume", "mission.run")
     elif os.path.exists(mission.pid):
         mission.kill_adapter()

@@ -25,16 +25,17 @@ The simulated fleet passes the kit, with a hundred vehicles.
   ok    killed-after-end after its death does not rerun an ended plan (it reports 'done')
   ok    resume-twice     answers a second 'resume' as the first
   ok    never-ordered    does not claim a request that was never ordered (it reports 'absent')
+  ok    lost-notes       does not rerun a plan on which the journal has lost its notes (it reports 'done' and 'taken')
   ok    console-dies     lets vehicles fly on when its input ends, and ends (it reports 'taken')
   ok    close            stops all vehicles, reports 'quiet', and ends
-  21 of 21 situations passed
+  22 of 22 situations passed
   $ grep -c '<testcase' kit.xml
-  21
+  22
 
 So does the example, whose vehicle has no memory.
 
   $ dolphin platform check ../../examples/adapter.py --patience 10 | tail -1
-  21 of 21 situations passed
+  22 of 22 situations passed
 
 Each situation finds an adapter out that is wrong there.
 
@@ -127,6 +128,10 @@ Each situation finds an adapter out that is wrong there.
   boaster: status 1
     never-ordered    does not claim a request that was never ordered
         a request that was never ordered is 'done'
+  $ find_out lost-notes 'trusts notes'
+  trusts notes: status 1
+    lost-notes       does not rerun a plan on which the journal has lost its notes
+        plan short ran, the journal has lost the notes on it, and it is 'absent'
   $ find_out console-dies lingers
   lingers: status 1
     console-dies     lets vehicles fly on when its input ends, and ends

@@ -10,7 +10,7 @@ let says state ?(outcome = State.Last_outcome.None) plan_id =
 let ready = says Ready and executing = says Executing
 
 (* A vehicle that says [first] and later [rest], half a second apart, to a console that has nothing yet but notes. *)
-let outputs ?(stopped = false) notes first rest =
+let outputs ?(stopped = false) ?(doubt = Execution.Never_sent) notes first rest =
   let time = ref 0. and clock = ref Vehicle_clock.unknown in
   let x = ref (Execution.create ~request:500 ()) in
   let input i =
@@ -25,7 +25,7 @@ let outputs ?(stopped = false) notes first rest =
     input (Execution.State { sent; state })
   in
   let heard = hear first in
-  let adopted = input (Adopt { order; stopped; notes = List.rev notes }) in
+  let adopted = input (Adopt { order; stopped; notes = List.rev notes; doubt }) in
   let later = List.concat_map hear rest in
   time := !time +. 5.;
   heard @ adopted @ later @ input Tick
@@ -43,9 +43,9 @@ let show : Execution.output -> string = function
   | Failed why -> "failed: " ^ why
   | Remark text -> "note: " ^ text
 
-let case name ?stopped notes first rest expected =
+let case name ?stopped ?doubt notes first rest expected =
   Alcotest.test_case name `Quick (fun () ->
-      let found = List.map show (outputs ?stopped notes first rest) in
+      let found = List.map show (outputs ?stopped ?doubt notes first rest) in
       Alcotest.(check (list string)) name expected found)
 
 let asked ?before () : Durable_note.t = Asked { plan = "p"; request = 7; before }
@@ -62,6 +62,10 @@ let unnoted =
   "failed: the vehicle runs a plan p already, and the journal has no request for it: it is not known whether that is \
    this run's"
 
+let unnoted_end =
+  "failed: the last plan of the vehicle has the name p, and the journal has no request for it: it is not known whether \
+   it has run for this run"
+
 (* The states of a vehicle with which nothing happens. *)
 let still state = [ state; state; state; state ]
 
@@ -71,6 +75,22 @@ let cases =
       [ "keep asked p"; "keep may run p"; unnoted; "stop p"; "keep over" ];
     case "never asked for, and the vehicle runs another's plan" [] (executing "r") [] [ "keep asked p"; "start p" ];
     case "never asked for, and not wanted any more" ~stopped:true [] (ready "q") [] [];
+    case "no note of it, and it has run" ~doubt:Lost_note [] (ready ~outcome:Success "p") [] [ unnoted_end ];
+    case "no note of it, and it has run without success" ~doubt:Lost_note [] (ready ~outcome:Failure "p") []
+      [ unnoted_end ];
+    case "no note of it, and it has run before, too" ~doubt:Lost_note_of_repetition [] (ready ~outcome:Success "p") []
+      [ "keep asked p"; "start p" ];
+    case "no note of it, and it runs again" ~doubt:Lost_note_of_repetition [] (executing "p")
+      [ executing "p"; ready ~outcome:Failure "p" ]
+      [ "keep asked p"; "keep may run p"; unnoted; "stop p"; "keep over" ];
+    case "no note of it, and another plan has run" ~doubt:Lost_note [] (ready ~outcome:Success "q") []
+      [ "keep asked p"; "start p" ];
+    case "no note of it, and something is being started" ~doubt:Lost_note [] (says Initializing "q")
+      [ executing "p"; ready ~outcome:Failure "p" ]
+      [ "keep asked p"; "keep may run p"; unnoted; "stop p"; "keep over" ];
+    case "no note of it, not wanted any more, and it runs" ~doubt:Lost_note ~stopped:true [] (executing "p")
+      [ executing "p"; ready ~outcome:Failure "p" ]
+      [ "keep asked p"; "stop p"; "keep over" ];
     case "it runs" [ asked ~before:another (); taken; runs ] (executing "p") (still (executing "p")) [ "keep runs" ];
     case "it runs, which nobody had seen" [ asked ~before:another () ] (executing "p") [] [ "keep runs" ];
     case "it ends later" [ asked ~before:another (); taken; runs ] (executing "p")

@@ -201,7 +201,7 @@ let print_absence a =
 
 let outstanding : History.outstanding =
   { bound = [ "lauv-1" ];
-    tasks = [ ("lauv-1", { task; is_stopped = false; notes = []; before = None }) ];
+    tasks = [ ("lauv-1", { task; number = 0; is_again = false; is_stopped = false; notes = []; before = None }) ];
     timers = []; timeout = None; timeouts = [] }
 
 (* The other console begins to want the vehicle, at its time. *)

@@ -81,7 +81,8 @@ let task : Dolphin_semantics.Core.platform_task = { name = "p"; plan = None; tas
 (* What the journal of the killed console says. *)
 let outstanding w : History.outstanding =
   let notes = List.map (fun (_, note) -> Durable_note.to_json note) w.notes in
-  let commanded : History.commanded = { task; is_stopped = false; notes; before = None } in
+  let commanded : History.commanded =
+    { task; number = 0; is_again = false; is_stopped = false; notes; before = None } in
   { bound = []; tasks = (if w.failed then [] else [ (name, commanded) ]); timers = []; timeout = None; timeouts = [] }
 
 (* The plan is lost at 3 s, and its maneuver goes on for [lasts]; the console is killed at [killed], and another one

@@ -5,7 +5,12 @@ module D = Dispatch
 
 (* {1 A dispatch, its time and its output} *)
 
-type world = { mutable d : D.t; mutable now : float; mutable out : D.output list (* latest first *) }
+type world = {
+  mutable d : D.t;
+  mutable now : float;
+  mutable out : D.output list;  (* latest first *)
+  mutable started : int;
+}
 
 let take_outputs w =
   let out = List.rev w.out in
@@ -31,7 +36,8 @@ let greeting = { Report.version = 1; name = "x"; adapter = None; plans = [ "name
 let born w = step w (fun ~now d -> D.born ~now greeting d)
 let died w = step w (fun ~now d -> D.died ~now d)
 let start w v name =
-  step w (fun ~now d -> D.start ~now v { name; plan = None; task_site = 0 } d)
+  w.started <- w.started + 1;
+  step w (fun ~now d -> D.start ~now ~number:w.started v { name; plan = None; task_site = 0 } d)
 let stop w v = step w (fun ~now d -> D.stop ~now v d)
 
 (* Time passes, and whatever is due happens when it is; pings are answered. *)
@@ -54,8 +60,11 @@ let sight ?(link = true) ?unready v =
     { (Report.nothing v) with
       kind = Some "UUV"; place = Some (41., -8.); link = Some link; unready = Some unready }
 
+(* Requests are numbered behind [prefix]. *)
+let empty prefix = D.create ~platform:"x" ~identity:(fun ~number _ _ -> Printf.sprintf "%s-%d" prefix number)
+
 let fresh () =
-  let w = { d = D.create ~platform:"x" ~prefix:"r"; now = 0.; out = [] } in
+  let w = { d = empty "r"; now = 0.; out = []; started = 0 } in
   born w;
   report w (sight "v");
   ignore (take_outputs w);
@@ -68,8 +77,10 @@ let shown = function
         let name = match plan with `Assoc (("name", `String name) :: _) -> name | _ -> "?" in
         Some (Printf.sprintf "start %s %s %s" request vehicle name)
       | Stop { request; vehicle } -> Some (Printf.sprintf "stop %s %s" request vehicle)
-      | Resume { request; vehicle; notes; _ } ->
-        Some (Printf.sprintf "resume %s %s %s" request vehicle (Yojson.Safe.to_string (`List notes)))
+      | Resume { request; vehicle; notes; doubt; _ } ->
+        let doubt =
+          match doubt with None -> "" | Some Lost_order -> ", and its order?" | Some Lost_notes -> ", and its notes?" in
+        Some (Printf.sprintf "resume %s %s %s%s" request vehicle (Yojson.Safe.to_string (`List notes)) doubt)
       | Kept id -> Some (Printf.sprintf "kept %d" id)
       | Refused why -> Some ("refused: " ^ why)
       | Hello _ | Telemetry _ | Hold _ | Release _ | Timeout _ | Ping _ | Check _ | Close -> None)
@@ -226,7 +237,7 @@ let not_yet_durable () =
   let w = fresh () in
   ignore (events w);
   (* Without the disk's word nothing is ordered, and a stop needs no order either. *)
-  let d, _ = D.start ~now:0. "v" { name = "p"; plan = None; task_site = 0 } w.d in
+  let d, _ = D.start ~now:0. ~number:1 "v" { name = "p"; plan = None; task_site = 0 } w.d in
   w.d <- d;
   stop w "v";
   let d, out = D.durable ~now:0. "r-1" w.d in
@@ -363,7 +374,7 @@ let silent_adapter () =
   check_out w "three pings without a word" [ "give up: it has sent nothing for 15 seconds" ]
 
 let strangers () =
-  let w = { d = D.create ~platform:"x" ~prefix:"r"; now = 0.; out = [] } in
+  let w = { d = empty "r"; now = 0.; out = []; started = 0 } in
   born w;
   report w (Vehicle { (Report.nothing "v") with link = Some true });
   report w (Request ("nobody's", Done));
@@ -383,39 +394,102 @@ let task name : Dolphin_semantics.Core.platform_task = { name; plan = None; task
 let entry what : History.entry = { time = 1.; what }
 
 let resumed history =
-  let d = D.resume ~now:100. ~announce_period:1. (List.map entry history) (D.create ~platform:"x" ~prefix:"s") in
-  let w = { d; now = 100.; out = [] } in
+  let d = D.resume ~now:100. ~announce_period:1. (List.map entry history) (empty "s") in
+  let w = { d; now = 100.; out = []; started = 10 } in
   born w;
   w
 
+let effects number effects : History.what = Asked { number; effects }
+let started number name = effects number [ Start ("v", task name) ]
+let start_p = started 1 "p"
+let stop_v = effects 2 [ Stop "v" ]
+let noted json : History.what = Noted ("v", json)
+
 let resume_cases () =
-  let start : History.what = Asked [ Start ("v", task "p") ] and stop : History.what = Asked [ Stop "v" ] in
-  let noted json : History.what = Noted ("v", json) in
   let check what history expected =
     let w = resumed history in
     step w (fun ~now d -> D.tick ~now d);
     (* The data of a new request is durable at once. *)
     check_out w what expected
   in
-  check "asked: what became of it?" [ start; noted (asked "p" "r-1") ] [ "resume r-1 v []" ];
-  check "asked and stopped" [ start; noted (asked "p" "r-1"); stop ] [ "resume r-1 v []"; "stop r-1 v" ];
-  check "stopped, and that was confirmed" [ start; noted (asked "p" "r-1"); stop; noted (note "over" "r-1") ] [];
-  check "ended" [ start; noted (asked "p" "r-1"); Happened (Vehicle_done "v") ] [];
-  check "never asked: asked now" [ start ] [ "start s-1 v p" ];
-  check "never asked, and not wanted" [ start; stop ] [];
+  check "asked: what became of it?" [ start_p; noted (asked "p" "r-1") ] [ "resume r-1 v [], and its notes?" ];
+  check "asked and stopped" [ start_p; noted (asked "p" "r-1"); stop_v ] [ "resume r-1 v [], and its notes?"; "stop r-1 v" ];
+  check "stopped, and that was confirmed" [ start_p; noted (asked "p" "r-1"); stop_v; noted (note "over" "r-1") ] [];
+  check "ended" [ start_p; noted (asked "p" "r-1"); Happened (Vehicle_done "v") ] [];
+  check "no note of it: the adapter is asked" [ start_p ] [ "resume s-1 v [], and its order?" ];
+  check "never asked, and not wanted" [ start_p; stop_v ] [];
   check "the stop of the one before is not confirmed"
-    [ start; noted (asked "p" "r-1"); stop; Asked [ Start ("v", task "q") ] ]
-    [ "resume r-1 v []"; "stop r-1 v" ];
+    [ start_p; noted (asked "p" "r-1"); stop_v; started 3 "q" ]
+    [ "resume r-1 v [], and its notes?"; "stop r-1 v" ];
   check "it is confirmed"
-    [ start; noted (asked "p" "r-1"); stop; Asked [ Start ("v", task "q") ]; noted (note "over" "r-1") ]
-    [ "start s-1 v q" ];
+    [ start_p; noted (asked "p" "r-1"); stop_v; started 3 "q"; noted (note "over" "r-1") ]
+    [ "resume s-3 v [], and its order?" ];
+  check "no note of a plan that ran before"
+    [ start_p; noted (asked "p" "r-1"); Happened (Vehicle_done "v"); started 3 "p" ]
+    [ "resume s-3 v []" ];
+  check "no notes on a plan that ran before"
+    [ start_p; noted (asked "p" "r-1"); Happened (Vehicle_done "v"); started 3 "p"; noted (asked "p" "r-3") ]
+    [ "resume r-3 v []" ];
   check "a task that failed, and may still run"
-    [ start; noted (asked "p" "r-1");
+    [ start_p; noted (asked "p" "r-1");
       noted
         (`Assoc
            [ ("platform", `String "x"); ("unsettled", `String "r-1"); ("plan", `Assoc [ ("name", `String "p") ]) ]);
       Happened (Vehicle_failed ("v", "silence")) ]
     [ "resume r-1 v []"; "stop r-1 v" ]
+
+(* A start without a note in the journal, whose end may be lost: only the adapter knows of it. *)
+let unnoted_cases () =
+  let asks_about history =
+    let w = resumed history in
+    report w (sight "v");
+    check_out w "it is asked about" [ "resume s-1 v [], and its order?" ];
+    ignore (events w);
+    w
+  in
+  let say w word = report w (Request ("s-1", word)) in
+  let w = asks_about [ start_p ] in
+  say w Absent;
+  check_out w "never started: it is ordered" [ "start s-1 v p" ];
+  say w Taken;
+  say w Done;
+  check_events w "and ends" [ "v done" ];
+  let w = asks_about [ start_p ] in
+  say w Taken;
+  say w Done;
+  check_out w "it runs: nothing is ordered" [];
+  check_events w "it ends" [ "v done" ];
+  let w = asks_about [ start_p ] in
+  say w (Unknown "who knows");
+  check_out w "uncertain: it is stopped" [ "stop s-1 v" ];
+  check_events w "and has failed" [ "v failed: who knows" ];
+  let w = asks_about [ start_p ] in
+  stop w "v";
+  check_out w "not wanted any more: it is stopped" [ "stop s-1 v" ];
+  let w = asks_about [ start_p ] in
+  died w;
+  ignore (take_outputs w);
+  born w;
+  check_out w "the adapter dies: its successor is asked" [ "resume s-1 v [], and its order?" ];
+  let w = resumed [ started 7 "o"; noted (asked "o" "r-7"); stop_v; start_p ] in
+  report w (sight "v");
+  check_out w "the one before is to be stopped first" [ "resume r-7 v [], and its notes?"; "stop r-7 v" ];
+  report w (Request ("r-7", Stopped));
+  check_out w "then it is asked about" [ "resume s-1 v [], and its order?" ];
+  say w Absent;
+  check_out w "and ordered" [ "start s-1 v p" ]
+
+(* The order waits for the disk. *)
+let unnoted_and_durable () =
+  let w = resumed [ start_p ] in
+  ignore (take_outputs w);
+  let d, outputs = D.report ~now:w.now (Request ("s-1", Absent)) w.d in
+  let is_start = function D.Send (Start _) -> true | _ -> false in
+  Alcotest.(check bool) "no start before its note" false (List.exists is_start outputs);
+  let waits = List.exists (function D.Keep_before (_, _, "s-1") -> true | _ -> false) outputs in
+  Alcotest.(check bool) "it is kept first" true waits;
+  let _, outputs = D.durable ~now:w.now "s-1" d in
+  Alcotest.(check bool) "then it starts" true (List.exists is_start outputs)
 
 (* {2 At random} *)
 
@@ -494,5 +568,7 @@ let () =
         [ case "the adapter dies, and is asked" death; case "what never reached it is ordered again" death_and_absent;
           case "it is dead for long" death_for_long; case "a start meanwhile" start_while_dead;
           case "it is silent" silent_adapter ] );
-      ("resumption", [ case "what the journal says" resume_cases ]);
+      ( "resumption",
+        [ case "what the journal says" resume_cases; case "a start without a note" unnoted_cases;
+          case "a start without a note waits for the disk" unnoted_and_durable ] );
       ("random", [ random ]) ]

@@ -17,7 +17,7 @@ let whole_task () =
   let p = Virtual.create ~seed:1 (scenario pair) in
   let next () = Virtual.next p in
   check "announced" [ "a seen"; "b seen" ] (Lwt_main.run (take next 2));
-  Virtual.start p "a" (task "p");
+  Virtual.start p ~number:0 "a" (task "p");
   Virtual.set_timer p 0 60.;
   Alcotest.(check (option string)) "running" (Some "p") (Virtual.running p "a");
   check "to the end" [ "timer 0"; "a seen"; "a done" ] (Lwt_main.run (take next 3));
@@ -50,11 +50,11 @@ let load () =
        | Vehicle v when not (Hashtbl.mem left v.id) ->
          Hashtbl.replace left v.id tasks;
          Virtual.bind p [ v.id ];
-         Virtual.start p v.id (task "survey")
+         Virtual.start p ~number:0 v.id (task "survey")
        | Task_done id ->
          let n = Hashtbl.find left id - 1 in
          Hashtbl.replace left id n;
-         if n > 0 then Virtual.start p id (task "survey")
+         if n > 0 then Virtual.start p ~number:0 id (task "survey")
        | Vehicle _ | Task_failed _ | Timer _ | Input _ | Quiet -> ());
       go (events + 1)
   in

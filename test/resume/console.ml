@@ -105,6 +105,7 @@ let go_on ~port ~journal fd death =
     let news = List.map (fun s -> { s with World.connected = false }) (World.vehicles world) in
     drive its_recorder platform
       (Some { configuration = Replay.configuration past.replay; world; news; pending = past.pending;
+              transitions = Replay.transitions past.replay;
               time = Replay.time past.replay })
 
 (* The library's debug log of datagrams, vehicles and timers. *)

@@ -5,11 +5,17 @@ let all lines =
   let deaths i = [ Console.Before i; Within i; After i ] in
   let points = List.concat_map deaths (List.init lines Fun.id) in
   let of_point k (death : Console.death) : Trial.t list =
-    let first : Trial.t = { death; again = Never; pause = (if k mod 2 = 0 then soon else late) } in
-    let second : Trial.t = { death; again = After (lines / 2); pause = (if k mod 2 = 0 then late else soon) } in
+    let first : Trial.t = { death; again = Never; pause = (if k mod 2 = 0 then soon else late); lost = 0 } in
+    let second = { first with again = After (lines / 2); pause = (if k mod 2 = 0 then late else soon) } in
     if k mod 3 = 1 then [ first ] else [ first; second ]
   in
   List.concat (List.mapi of_point points)
+
+(* The journal has lost its end: after each line, so that each request is hit. *)
+let all_losing lines =
+  let trial i : Trial.t =
+    { death = After i; again = Never; pause = (if i mod 2 = 0 then soon else late); lost = 1 + (i mod 3 / 2) } in
+  List.init lines trial
 
 (* If there are fewer, they are repeated. *)
 let sample n trials =
@@ -47,10 +53,10 @@ let burden n f =
   let burners = List.init n (fun _ -> Processes.fork ~patience:0 burn) in
   Fun.protect ~finally:(fun () -> List.iter Processes.stop burners) f
 
-let run ?(load = 0) how_many =
+let run ?(load = 0) ?(is_losing = false) how_many =
   let ports = Test_support.Ports.lease () in
   let lines = Trial.lines ~ports in
-  let trials = all lines in
+  let trials = if is_losing then all_losing lines else all lines in
   let trials = match how_many with Some n -> sample n trials | None -> trials in
   let began = Unix.gettimeofday () in
   let failed = burden load (fun () -> run_all ~ports trials) in

@@ -4,6 +4,7 @@ type t = {
   death : Console.death;
   again : Console.death;  (** of the next console *)
   pause : float;  (** before it, s *)
+  lost : int;  (** The latest notes of requests that the journal loses when a console dies. *)
 }
 
 val pp : Format.formatter -> t -> unit

@@ -77,7 +77,7 @@ struct
   let bind m vs = note m "bind %s" (String.concat " " vs)
   let release m vs = note m "release %s" (String.concat " " vs)
 
-  let start m v (task : Core.platform_task) =
+  let start m ~number:_ v (task : Core.platform_task) =
     if m.fails_on_start then failwith "no link";
     note m "start %s %s" v task.name;
     let later seconds event = Hashtbl.replace m.tasks v (schedule m seconds event) in

@@ -46,10 +46,10 @@ let refuses () =
   let p = fenced within mock in
   let event = Platform_of_mock.next p in
   Alcotest.(check bool) "nothing yet" true (Lwt.state event = Sleep);
-  Platform_of_mock.start p "v1" (go_to 150.);
+  Platform_of_mock.start p ~number:0 "v1" (go_to 150.);
   let event = Lwt_main.run (Lwt_unix.with_timeout deadline (fun () -> event)) in
   Alcotest.(check string) "whoever waits is told" "failed v1 not started" (told event);
-  Platform_of_mock.start p "v1" (go_to 50.);
+  Platform_of_mock.start p ~number:0 "v1" (go_to 50.);
   asks mock [ "0 telemetry true"; "0 start v1 go" ]
 
 let plan_of kind metres : Core.platform_task =
@@ -63,16 +63,16 @@ let looks_at_all () =
   let loiter radius = plan_of (Loiter { duration = 60.; radius; direction = Clockwise }) 50. in
   let mock = goes_on [ at 0. "v1" (-90.); at 1. "v2" 90. ] in
   let p = fenced (Fences.make [ fence (Inside (circle 100.)) ]) mock in
-  Platform_of_mock.start p "v1" (loiter 60.);
+  Platform_of_mock.start p ~number:0 "v1" (loiter 60.);
   tells p [ "failed v1 not started"; "saw v1"; "saw v2" ];
-  Platform_of_mock.start p "v1" (loiter 40.);
+  Platform_of_mock.start p ~number:0 "v1" (loiter 40.);
   asks mock [ "0 telemetry true"; "1 start v1 go" ];
   let mock = goes_on [ at 0. "v1" (-90.); at 1. "v2" 90. ] in
   let p = fenced (Fences.make [ fence (Outside (circle 30.)) ]) mock in
   tells p [ "saw v1"; "saw v2" ];
-  Platform_of_mock.start p "v1" (go_to 60.);
+  Platform_of_mock.start p ~number:0 "v1" (go_to 60.);
   tells p [ "failed v1 not started" ];
-  Platform_of_mock.start p "v2" (go_to 60.);
+  Platform_of_mock.start p ~number:0 "v2" (go_to 60.);
   asks mock [ "0 telemetry true"; "1 start v2 go" ]
 
 (* A receiver that waits for the platform's events has them, though something was refused meanwhile. *)
@@ -80,8 +80,8 @@ let loses_nothing () =
   let mock = Mock.make [] in
   let p = fenced within mock in
   let event = Platform_of_mock.next p in
-  Platform_of_mock.start p "v1" (go_to 150.);
-  Platform_of_mock.start p "v2" (go_to 50.);
+  Platform_of_mock.start p ~number:0 "v1" (go_to 150.);
+  Platform_of_mock.start p ~number:0 "v2" (go_to 50.);
   Alcotest.(check string) "first" "failed v1 not started"
     (told (Lwt_main.run (Lwt_unix.with_timeout deadline (fun () -> event))));
   tells p [ "done v2" ]
@@ -89,9 +89,9 @@ let loses_nothing () =
 let is_overtaken () =
   let mock = Mock.make [] in
   let p = fenced within mock in
-  Platform_of_mock.start p "v1" (go_to 150.);
+  Platform_of_mock.start p ~number:0 "v1" (go_to 150.);
   Platform_of_mock.stop p "v1";
-  Platform_of_mock.start p "v1" (go_to 50.);
+  Platform_of_mock.start p ~number:0 "v1" (go_to 50.);
   tells p [ "done v1" ];
   asks mock [ "0 telemetry true"; "0 start v1 go" ]
 
@@ -99,7 +99,7 @@ let stops () =
   let mock = goes_on [ at 0. "v1" 0.; at 1. "v1" 99.; at 2. "v1" 101.; at 3. "v1" 200. ] in
   let p = fenced within mock in
   tells p [ "saw v1" ];
-  Platform_of_mock.start p "v1" by_name;
+  Platform_of_mock.start p ~number:0 "v1" by_name;
   tells p [ "saw v1"; "saw v1"; "failed v1 stopped"; "saw v1" ];
   asks mock [ "0 telemetry true"; "0 start v1 named"; "2 stop v1" ]
 
@@ -107,7 +107,7 @@ let ignores_who_rests () =
   let mock = Mock.make ~fate:(fun _ _ -> Succeeds 1.) [ at 0. "v1" 0.; at 5. "v1" 200. ] in
   let p = fenced within mock in
   tells p [ "saw v1" ];
-  Platform_of_mock.start p "v1" by_name;
+  Platform_of_mock.start p ~number:0 "v1" by_name;
   tells p [ "done v1"; "saw v1" ];
   asks mock [ "0 telemetry true"; "0 start v1 named" ]
 
@@ -116,19 +116,19 @@ let lets_come_back () =
     goes_on [ at 0. "v1" 150.; at 1. "v1" 155.; at 2. "v1" 50.; at 3. "v1" 105.; at 4. "v2" 150.; at 5. "v2" 161. ] in
   let p = fenced within mock in
   tells p [ "saw v1" ];
-  Platform_of_mock.start p "v1" (go_to 0.);
+  Platform_of_mock.start p ~number:0 "v1" (go_to 0.);
   tells p [ "saw v1"; "saw v1"; "saw v1"; "failed v1 stopped"; "saw v2" ];
-  Platform_of_mock.start p "v2" by_name;
+  Platform_of_mock.start p ~number:0 "v2" by_name;
   tells p [ "saw v2"; "failed v2 stopped" ]
 
 let keeps_apart () =
   let mock = goes_on [ at 0. "v1" 0.; at 1. "v2" 300.; at 2. "v3" 5.; at 3. "v2" 19.; at 4. "v1" 1. ] in
   let p = fenced apart mock in
   tells p [ "saw v1"; "saw v2"; "saw v3" ];
-  Platform_of_mock.start p "v1" (go_to 10.);
-  Platform_of_mock.start p "v2" (go_to 25.);
+  Platform_of_mock.start p ~number:0 "v1" (go_to 10.);
+  Platform_of_mock.start p ~number:0 "v2" (go_to 25.);
   tells p [ "failed v2 not started" ];
-  Platform_of_mock.start p "v2" (go_to 40.);
+  Platform_of_mock.start p ~number:0 "v2" (go_to 40.);
   tells p [ "saw v2"; "failed v1 stopped"; "failed v2 stopped"; "saw v1" ];
   asks mock [ "0 telemetry true"; "2 start v1 go"; "2 start v2 go"; "3 stop v1"; "3 stop v2" ]
 
@@ -144,9 +144,9 @@ let keeps_to_limits () =
         seen 4. "v2" ~altitude:99. 400.; seen 5. "v2" ~altitude:101. 30.; seen 6. "v3" (-90.); seen 7. "v3" 100.;
         seen 8. "v3" 101. ] in
   let p = fenced limits mock in
-  Platform_of_mock.start p "v1" by_name;
-  Platform_of_mock.start p "v2" by_name;
-  Platform_of_mock.start p "v3" by_name;
+  Platform_of_mock.start p ~number:0 "v1" by_name;
+  Platform_of_mock.start p ~number:0 "v2" by_name;
+  Platform_of_mock.start p ~number:0 "v3" by_name;
   tells p
     [ "saw v1"; "saw v1"; "saw v1"; "failed v1 stopped"; "saw v2"; "saw v2"; "saw v2"; "failed v2 stopped"; "saw v3";
       "saw v3"; "saw v3"; "failed v3 stopped" ]
@@ -160,9 +160,9 @@ let lets_come_up () =
   in
   let p = fenced limits mock in
   tells p [ "saw v1" ];
-  Platform_of_mock.start p "v1" by_name;
+  Platform_of_mock.start p ~number:0 "v1" by_name;
   tells p [ "saw v1"; "saw v1"; "saw v1"; "failed v1 stopped"; "saw v2" ];
-  Platform_of_mock.start p "v2" by_name;
+  Platform_of_mock.start p ~number:0 "v2" by_name;
   tells p [ "saw v2"; "failed v2 stopped" ]
 
 (* Of several least distances the greatest holds. *)

@@ -4,7 +4,7 @@ open Dolphin_runtime
 let case name test = Alcotest.test_case name `Quick test
 let task name : Core.platform_task = { name; plan = None; task_site = 0 }
 let at time what : History.entry = { time; what }
-let asked time effects = at time (Asked effects)
+let asked time effects = at time (Asked { number = int_of_float time; effects })
 let note text : Yojson.Safe.t = `String text
 
 let look_for timeout : Effect.t =
@@ -29,6 +29,7 @@ let vehicles_and_tasks () =
   Alcotest.(check (list (pair string string))) "under way" [ ("a", "p") ] (names s.tasks);
   let a = List.assoc "a" s.tasks in
   Alcotest.(check bool) "told to stop" true a.is_stopped;
+  Alcotest.(check int) "by the transition of this number" 1 a.number;
   Alcotest.(check (list string)) "notes, latest first" [ "second"; "first" ]
     (List.map Yojson.Safe.Util.to_string a.notes)
 

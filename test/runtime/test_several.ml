@@ -56,7 +56,7 @@ let commands () =
   let b = both [ seen "a" ] [ seen "b"; seen "c" ] in
   ignore (events b 3);
   Several.bind b.several [ "a"; "b"; "c" ];
-  Several.start b.several "b" (task "p");
+  Several.start b.several ~number:0 "b" (task "p");
   Several.set_connection_timeout b.several None 5.;
   Several.set_connection_timeout b.several (Some [ "a"; "c" ]) 7.;
   Several.stop b.several "b";
@@ -100,13 +100,13 @@ let owners_change () =
   let gone = seen ~connected:false "a" in
   let free = both [ seen "a"; gone ] [ seen "a" ] in
   ignore (events free 3);
-  Several.start free.several "a" (task "p");
+  Several.start free.several ~number:0 "a" (task "p");
   check_log "of one that is free, by another one that offers it" [ "0 start a p" ] free.second;
   let held = both [ seen "a"; gone ] [ seen "a" ] in
   ignore (events held 1);
   Several.bind held.several [ "a" ];
   ignore (events held 2);
-  Several.start held.several "a" (task "p");
+  Several.start held.several ~number:0 "a" (task "p");
   check_log "not of one that the program holds" [ "0 bind a"; "0 start a p" ] held.first;
   check_log "not of one that the program holds" [] held.second
 

@@ -107,7 +107,7 @@ let resume r text =
         Recorder.write recorder ~time (fun ~time -> Resumed { time; program; at = started });
         let beginning : Driver.beginning =
           { configuration = Replay.configuration past.replay; world = Replay.world past.replay; news;
-            pending = past.pending; time }
+            pending = past.pending; transitions = Replay.transitions past.replay; time }
         in
         drive r recorder platform ~beginning ~fenced ~answered:(History.answers past.history) r.host;
         Ok (Buffer.contents journal))

@@ -79,7 +79,7 @@ let adapter_estimates adapter () =
 let open_adapter s ~history ~taken command =
   let options =
     { (Process_platform.default ~command) with
-      program = Some s.program; taken; note = s.note; keep = s.keep; sync = s.sync }
+      program = Some s.program; run = s.run; taken; note = s.note; keep = s.keep; sync = s.sync }
   in
   let opened =
     match s.past with

@@ -248,6 +248,7 @@ let beginning resumed news : Driver.beginning option =
     { configuration = Replay.configuration replay; world = Replay.world replay; news;
       (* That a program is stuck is found out again; a request to end is made again. *)
       pending = (match past.pending with Some Interruption -> None | pending -> pending);
+      transitions = Replay.transitions replay;
       time = Replay.time replay }
   in
   Option.map of_past resumed

@@ -18,6 +18,7 @@ class Boarding:
         self._silences = 0
         self._upload_at = None  # when the next upload begins
         self.stage, self.since, self.result = None, 0.0, None
+        self.same_commands = False  # whether the mission on board has the commands of ours
 
     def upload(self, now):
         v = self._vehicle
@@ -77,6 +78,8 @@ class Boarding:
         return self._verify(now)
 
     def _downloaded(self, now):
+        kept = self._transfer.items
+        self.same_commands = kept is not None and [i.command for i in kept] == [i.command for i in self._items]
         why = self._transfer.refused or self._difference(self._transfer.items)
         if why is None:
             self.result = "aboard"

@@ -43,11 +43,12 @@ class Execution(Preparation):
         self._stage_at = self._asked_at = self._begun = now
         return self._try(now)
 
-    def resume(self, now, unrecognised=None):
+    def resume(self, now, unrecognised=None, doubt=None):
         """Finds out what became of a mission that an adapter before this one has begun, or was about to begin.
-        `unrecognised`: the reason why that mission is unknown."""
+        `unrecognised`: the reason why that mission is unknown. `doubt`: it has no note, which may be lost."""
         self._stage_at = self._asked_at = self._begun = now
         self._resumes, self._mode_asked, self._unrecognised = True, True, unrecognised
+        self._doubt = doubt
         return self._try(now)
 
     def watch(self, now):

@@ -9,7 +9,7 @@ from .wire import mavlink
 
 class ExecutionState:
     """`events` are the reports to make, oldest first: ("taken",), ("progress", share), ("done",), ("failed", why),
-    ("stopped",), ("unknown", why), ("note", note). After an end, `is_over`."""
+    ("stopped",), ("absent",), ("unknown", why), ("note", note). After an end, `is_over`."""
 
     def __init__(self, vehicle, round_trip, mission, timeout, on_stop="hold"):
         self.vehicle, self.mission, self.timeout = vehicle, mission, timeout
@@ -29,7 +29,7 @@ class ExecutionState:
         self._known, self._asked_for = set(), set()  # the modes that it may be in; those that we asked for
         self._disarmed = None  # since it is disarmed
         self._armed_by_us, self._resumes, self._stopping, self._unknown = False, False, False, False
-        self._unrecognised = None
+        self._unrecognised, self._doubt = None, None
 
     @property
     def _has_restarted(self):

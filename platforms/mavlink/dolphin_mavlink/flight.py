@@ -26,11 +26,14 @@ class Flight(ExecutionState):
             return [self._commands.once(mavlink.MAV_CMD_MISSION_START, 0, 0)]
         return []
 
-    def _resumed(self, now, different):
+    def _resumed(self, now, different, same_commands=False):
         v = self.vehicle
         self._mode_before, self._known = v.mode, {v.mode}
         self._resumes, self._asked_mode = False, None
-        event = resumption.found(v, self._progress, different)
+        if self._doubt is None:
+            event = resumption.found(v, self._progress, different)
+        else:
+            event = resumption.without_note(v, self._doubt, different, same_commands)
         if event == resumption.FLIES:
             self.stage, self._stage_at = "run", now
             if not self._stopping:

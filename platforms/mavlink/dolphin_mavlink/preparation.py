@@ -56,10 +56,10 @@ class Preparation(Flight):
         if result is None:
             self.stage, self._asked_at = self._boarding.stage, max(self._asked_at, self._boarding.since)
             return []
-        self._boarding = None
+        same_commands, self._boarding = self._boarding.same_commands, None
         why = None if result == "aboard" else result
         if self._resumes:
-            return self._resumed(now, why)
+            return self._resumed(now, why, same_commands)
         return self._rewind(now) if why is None else self._fail(why)
 
     def _rewind(self, now):

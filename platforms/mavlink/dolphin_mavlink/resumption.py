@@ -3,6 +3,29 @@
 from .wire import mavlink
 
 FLIES = ("taken",)
+UNNOTED = "has the mission on board that it was to begin, and may have flown it: the journal has no note of it"
+_BEGUN = (mavlink.MISSION_STATE_ACTIVE, mavlink.MISSION_STATE_PAUSED, mavlink.MISSION_STATE_COMPLETE)
+
+
+class Doubt:
+    """A mission without a note: the journal may have lost the note, or with `lost_order` the order, too. The items of a
+    mission that `is_relative` depend on the place where it was made: it is recognised by its commands."""
+
+    def __init__(self, lost_order, is_relative):
+        self.lost_order, self.is_relative = lost_order, is_relative
+
+
+def without_note(vehicle, doubt, different, same_commands):
+    """The event that follows from the state of `vehicle`: unknown, or absent. `different`: why the mission on board is
+    not the one in doubt, if so; `same_commands`: whether it has its commands.
+
+    A vehicle that flies another station's mission does not take the start that follows `absent`."""
+    is_on_board = different is None or (doubt.is_relative and same_commands)
+    flies = vehicle.mode == vehicle.modes.mission and vehicle.armed
+    # The upload, which comes before the note, sets the state back.
+    if is_on_board and (doubt.lost_order or flies or vehicle.mission_state in _BEGUN):
+        return "unknown", UNNOTED
+    return ("absent",)
 
 
 def found(vehicle, progress, different):

@@ -14,7 +14,7 @@ import dataclasses
 import difflib
 import math
 
-from . import plans, version
+from . import geo, plans, resumption, version
 from . import mission as missions
 from .execution import TRANSFER, Execution
 from .sightings import Sightings
@@ -59,6 +59,7 @@ class _Request:
     stops: bool = False  # whether it is to be stopped as soon as the vehicle is heard
     note: int = None
     noted: dict = None  # of an adapter before this one
+    doubt: str = None  # what the journal may have lost: "order" or "notes"
     heard_since: float = None  # since when the vehicle is heard
 
 
@@ -258,8 +259,9 @@ class Station:
             return
         request = self._enter(now, line)
         request.resumes = True
-        if line["notes"]:
-            request.noted = line["notes"][0]
+        request.doubt = line.get("doubt") if not line["notes"] else None
+        if line["notes"] or request.doubt in ("order", "notes"):
+            request.noted = line["notes"][0] if line["notes"] else None
             self._try_to_begin(now, line["request"])
         else:
             # Nothing is sent that begins a mission before its note is kept.
@@ -293,10 +295,18 @@ class Station:
         if why is not None and not request.resumes:
             self._end(now, name, {"kind": "failed", "why": why})
             return
+        if why is not None and request.doubt is not None:
+            # A start is refused for the same reason.
+            self._end(now, name, {"kind": "absent"})
+            return
         # A mission that may have been begun is stopped, even if it cannot be recognised.
         request.execution = self._execution(now, vehicle, missions.UNKNOWN if why else mission, request.timeout)
         execution = request.execution
-        out = execution.resume(now, why) if request.resumes else execution.begin(now)
+        if request.doubt is not None:
+            doubt = resumption.Doubt(request.doubt == "order", self._is_relative(now, request, vehicle))
+            out = execution.resume(now, doubt=doubt)
+        else:
+            out = execution.resume(now, why) if request.resumes else execution.begin(now)
         if request.stops:
             out += execution.stop(now)
         self._do(now, request, out)
@@ -310,6 +320,15 @@ class Station:
         if noted is not None:
             return noted
         return plans.compile_plan(request.plan, self._stored, plans.vehicle(now, request.vehicle, vehicle))
+
+    def _is_relative(self, now, request, vehicle):
+        """Whether the mission depends on the place of the vehicle."""
+        here = plans.vehicle(now, request.vehicle, vehicle)
+        if here.place is None:
+            return False
+        there = dataclasses.replace(here, place=geo.displace(here.place, 1000, 1000))
+        made = [plans.compile_plan(request.plan, self._stored, whom) for whom in (here, there)]
+        return made[0].items != made[1].items
 
     def _execution(self, now, vehicle, mission, timeout):
         vehicle.begins(now)
@@ -375,7 +394,7 @@ class Station:
             self._report({"kind": "note", "request": name, "note": what[0], "id": request.note})
         elif kind == "progress":
             self._report({"kind": "progress", "request": name, "share": round(what[0], 3)})
-        elif kind in ("done", "failed", "stopped"):
+        elif kind in ("done", "failed", "stopped", "absent"):
             self._end(now, name, {"kind": kind, **({"why": what[0]} if what else {})})
         elif kind in ("taken", "unknown"):
             request.last = {"kind": kind, "request": name, **({"why": what[0]} if what else {})}

@@ -87,7 +87,7 @@ class Programs(unittest.TestCase):
     def test_the_kit_of_situations(self):
         """All of them at night; else those that take no time."""
         self.fly("--place=41.184,-8.707", "--armed", "plane")
-        quick = ["completion", "start-twice", "stop", "refusal", "killed", "resume-twice"]
+        quick = ["completion", "start-twice", "stop", "refusal", "killed", "resume-twice", "lost-notes"]
         only = [] if "DOLPHIN_KILLS" in os.environ else [f"--only={name}" for name in quick]
         with tempfile.TemporaryDirectory() as folder:
             for name, seconds in (("short", 0), ("long", 36000)):
@@ -99,7 +99,7 @@ class Programs(unittest.TestCase):
                 env=self.environment, capture_output=True, text=True, timeout=600,
             )
         self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
-        number = len(only) or 21
+        number = len(only) or 22
         self.assertIn(f"{number} of {number} situations passed", run.stdout)
 
     def test_submarines_of_imc_and_a_plane_of_mavlink_in_one_program(self):

@@ -97,6 +97,60 @@ class Killed(Case):
         outcomes = self.killed_adapters(loss=0.2, doubled=0.1, reordered=0.1)
         self.assertGreaterEqual(outcomes["done"], 70, outcomes)
 
+    def test_killed_consoles_whose_journal_loses_its_end(self):
+        """With the note, or with note and order: nothing is begun twice, whatever mission it is."""
+        relative = flight(["takeOff", 20], ["move", 50, 0], ["move", 0, 50], ["loiterTime", 2])
+        landing = flight(["takeOff", 20], ["move", 30, 0], ["returnHomeAndLand"])
+        outcomes = {}
+        for number, moment in enumerate(moments()):
+            for doubt in ("order", "notes"):
+                with self.subTest(moment=moment, doubt=doubt):
+                    plan = (stored(), relative, landing)[number % 3]
+                    vehicle, wires = one(px4=number % 2 == 1, items=way(8), seed=number, delay=0.03)
+                    wires.run(20, lambda: "link" in wires.vehicle_said("mav-1"))
+                    wires.start("r", "mav-1", plan)
+                    wires.run(moment * (3 if plan is landing else 1))
+                    wires.gone = True
+                    wires.run(1)
+                    began = len(vehicle.began)
+                    end = self.resumed_without_notes(wires, plan, doubt)
+                    self.assertIsNotNone(end)
+                    if plan is landing and doubt == "notes" and not vehicle.armed and began:
+                        continue  # the note is lost, and the vehicle, which has landed, shows nothing
+                    self.assertLessEqual(len(vehicle.began), 1)
+                    outcomes[end["kind"]] = outcomes.get(end["kind"], 0) + 1
+        self.assertGreater(outcomes["done"], 10, outcomes)
+        self.assertGreater(outcomes["stopped"], 10, outcomes)
+
+    def resumed_without_notes(self, wires, plan, doubt):
+        """The end of r, which had no end when its console died."""
+        had_end = wires.end_of("r")
+        if had_end is not None:
+            return had_end
+        wires.start_station(resumes=True)
+        wires.order(
+            kind="resume", request="r", vehicle="mav-1", plan=plan, timeout=60, notes=[], doubt=doubt
+        )
+        return Console(wires).follow("r", plan)
+
+    def test_another_mission_is_on_board(self):
+        """No note of the mission, and the vehicle has flown another one: it is started."""
+        for doubt in ("order", "notes"):
+            with self.subTest(doubt=doubt):
+                vehicle, wires = one(items=way(8))
+                wires.start("q", "mav-1", flight(["takeOff", 20], ["move", 30, 0], ["loiterTime", 1]))
+                self.assertTrue(wires.run(60, lambda: wires.end_of("q")))
+                wires.gone = True
+                wires.run(1)
+                end = self.resumed_without_notes(wires, stored(), doubt)
+                self.assertEqual((end["kind"], len(vehicle.began)), ("done", 2))
+
+    def test_a_plan_that_is_refused_has_not_run(self):
+        vehicle, wires = one(items=way(8))
+        wires._options.stored.clear()
+        end = self.resumed_without_notes(wires, stored(), "order")
+        self.assertEqual((end["kind"], vehicle.began), ("failed", []))
+
     def test_killed_links(self):
         """For 8 s, then they are back: the mission is flown once, and done."""
         for number, moment in enumerate(moments()):

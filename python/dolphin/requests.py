@@ -53,9 +53,11 @@ def plan_of(json: Mapping[str, Any], order: Mapping[str, Any]) -> Plan:
     return Plan(
         name=json.get("name") or "", language=json.get("language"), body=json.get("body") or {},
         request=order.get("request") or "", timeout=60.0 if timeout is None else timeout, notes=own,
+        doubt=order.get("doubt"),
     )
 
 
 def was_commanded(order: Mapping[str, Any]) -> bool:
-    """Whether the notes of a `resume` allow that the vehicle was commanded."""
-    return bool(order.get("notes"))
+    """Whether the vehicle may have been commanded before a `resume`: there are notes, or Dolphin's journal may have
+    lost some."""
+    return bool(order.get("notes")) or order.get("doubt") is not None

@@ -41,7 +41,8 @@ class Stopped(VehicleEvent):
 @dataclass
 class Plan:
     """A plan that a vehicle is to run. Without a `language` the vehicle knows it by its `name`; `body` is that of its
-    language (docs/platform.md). `notes` are those of this request before the adapter's death, the latest first."""
+    language (docs/platform.md). `notes` are those of this request before the adapter's death, the latest first; `doubt`
+    is not `None` if Dolphin's journal may have lost the order, or some of them."""
 
     name: str
     language: Optional[str] = None
@@ -49,6 +50,7 @@ class Plan:
     request: str = ""
     timeout: float = 60.0
     notes: List[Mapping[str, Any]] = field(default_factory=list)
+    doubt: Optional[str] = None
     _adapter: Optional["Adapter"] = field(default=None, repr=False, compare=False)
 
     def progress(self, share: Optional[float] = None, remaining: Optional[float] = None) -> None:

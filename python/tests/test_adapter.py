@@ -166,6 +166,17 @@ class Orders(unittest.TestCase):
 
         self.run_script(script)
 
+    def test_a_request_whose_notes_may_be_lost_is_not_absent_before_the_vehicle_is_asked(self):
+        async def script(console):
+            for n, doubt in enumerate(("order", "notes")):
+                console.order("resume", request=f"r{n}", vehicle="v", plan={"name": "p"}, notes=[], doubt=doubt)
+                await self.board.go("resume", dolphin.Unknown("a plan of this name has run"))
+                self.assertEqual(console.words(f"r{n}"), ["unknown"])
+            console.order("resume", request="s", vehicle="v", plan={"name": "p"}, notes=[], doubt=None)
+            await until(lambda: console.words("s") == ["absent"])
+
+        self.run_script(script)
+
     def test_each_outcome_of_resume(self):
         outcomes = [(dolphin.Done(), "done"), (dolphin.Stopped(), "stopped"), (dolphin.Absent(), "absent"),
                     (dolphin.Failed("x"), "failed"), (dolphin.Unknown("x"), "unknown"), (OSError("x"), "unknown")]

@@ -10,8 +10,8 @@ from dolphin import command
 from tests.support import HERE, InFolder
 
 
-DEATHS = ["completion", "stop", "killed", "killed-after-end", "resume-twice", "never-ordered", "console-dies",
-          "close"]
+DEATHS = ["completion", "stop", "killed", "killed-after-end", "lost-notes", "resume-twice", "never-ordered",
+          "console-dies", "close"]
 
 
 class Kit(InFolder):

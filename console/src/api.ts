@@ -26,6 +26,8 @@ export interface Status {
   exploration: Going | null; timing: Going | null; graph: Going | null;
   helm: { holder: string | null; asking: string[]; taken_from: string | null }; watching: number;
 }
+// The vehicles of a network while no run goes on: each as a line of a journal, of the time when it was heard.
+export interface Heard { time: number; vehicles: Json[]; error: string | null }
 export interface LogLine { time: number; severity: string; about: string[]; text: string }
 export interface Waiting { time: number; for: { what: string; at?: string; lacking?: string }[] }
 
@@ -83,6 +85,7 @@ export interface Listener {
   way(w: { time: number; way: Way }): void;
   clock(time: number): void;
   role(role: "steers" | "answers" | "watches", me: string, operator: Operator | null): void;
+  heard(h: Heard): void;
   beat(): void;  // something came
   link(up: boolean, why?: string): void;
 }
@@ -100,6 +103,7 @@ export function listen(l: Listener) {
   on("role", (r) => l.role(r.role, r.client, r.operator ?? null));
   on("places", (p) => l.places(p));
   on("way", (w) => l.way(w));
+  on("heard", (heard) => l.heard(heard));
   on("clock", (c) => l.clock(c.time));
   source.onopen = () => l.link(true);
   source.onerror = () => {

@@ -1,6 +1,6 @@
 // The page: it shows the messages of the server and sends a person's commands.
 
-import { type Diagnostic, type Json, type LogLine, type OpenQuestion, type Operator, type Status, Refusal, ask, get, listen, post, replay } from "./api";
+import { type Diagnostic, type Heard, type Json, type LogLine, type OpenQuestion, type Operator, type Status, Refusal, ask, get, listen, post, replay } from "./api";
 import { choose } from "./choice";
 import { HelmView } from "./helm";
 import { Stop } from "./stop";
@@ -28,6 +28,7 @@ interface Past {
 
 let status: Status | null = null;
 let live = new Run();
+let heard: Heard | null = null;  // of a network, while no run goes on
 let past: Past | null = null;
 let shown = live;
 let hash: string | null = null;
@@ -135,6 +136,7 @@ async function loadWorld() {
       live = shown = new Run();
       map.reset();
       live.fences = world.fences ?? [];
+      showHeard();
       for (const v of simulated ? world.vehicles : []) live.add({ kind: "journal", line: { kind: "vehicle", time: 0, connected: true, ...v } });
     }
   } catch { parameters = []; suggested = {}; map.setPlaces([]); }
@@ -192,7 +194,37 @@ async function saved(what: string): Promise<boolean> {
   return !dirty;
 }
 
-const commandsReal = () => choose(`${program()} commands REAL vehicles: each that its picks choose among those that are heard.`, "Command real vehicles", "Cancel", "danger");
+const percent = (battery: unknown) => (typeof battery === "number" ? `, battery ${Math.round(battery * 100)} %` : "");
+
+const real = h("div");  // the vehicles that are heard, in the question before a run
+
+function renderReal() {
+  const there = (heard?.vehicles ?? []).filter((v) => v.connected);
+  const name = (v: Json) => h("li", {}, h("b", {}, v.vehicle), ` ${v.type}${percent(v.battery)}${v.unready ? ", " + v.unready : ""}`);
+  real.replaceChildren(there.length ? h("ul", { id: "real-vehicles" }, ...there.map(name)) : h("p", { class: "trouble" }, "No vehicle is heard now."),
+    heard?.error ? h("p", { class: "trouble" }, heard.error) : "");
+}
+
+function commandsReal() {
+  renderReal();
+  return choose(h("div", {},
+    h("p", {}, `${program()} commands REAL vehicles: each that its picks choose among those that are heard.`), real),
+    "Command real vehicles", "Cancel", "danger");
+}
+
+// Before a run on a network the page shows the vehicles that are heard.
+const isBefore = () => status?.simulated === false && !goesOn() && live.transitions === 0;
+
+function showHeard() {
+  if (!heard || !isBefore()) return;
+  for (const line of heard.vehicles) {
+    const v = live.vehicles.get(line.vehicle), last = v?.samples[v.samples.length - 1];
+    if (!v || v.connected !== line.connected || !last || last.time < line.time) live.add({ kind: "journal", line: { ...line, kind: "vehicle" } });
+  }
+  live.time = Math.max(live.time, heard.time);
+  live.alarms = [];
+  if (!past) changed();
+}
 
 async function startRun() {
   if (!(await saved("run"))) return;
@@ -632,6 +664,7 @@ listen({
   places({ places }) { live.add({ kind: "places", places }); if (!past) changed(); },
   way({ way }) { live.add({ kind: "way", way }); if (!past) changed(); },
   clock(time) { live.time = Math.max(live.time, time); if (!past) changed(); },
+  heard(h) { heard = h; showHeard(); renderReal(); },
   role(is, name, as_) {
     operator = as_;
     operators.show(as_);
@@ -642,18 +675,18 @@ listen({
     renderHead();
   },
   beat() {
-    heard = Date.now();
+    latest = Date.now();
     helm.alive();
     if (!linked) { linked = true; renderHead(); }
   },
-  link(up, why) { heard = Date.now(); linked = up; if (why) tell(why); renderHead(); },
+  link(up, why) { latest = Date.now(); linked = up; if (why) tell(why); renderHead(); },
 });
 
 // The server sends a beat each second: without it, the page is out of date.
-let heard = Date.now();
+let latest = Date.now();
 const mostSilent = 2500;
 setInterval(() => {
-  if (!linked || Date.now() - heard <= mostSilent) return;
+  if (!linked || Date.now() - latest <= mostSilent) return;
   linked = false;
   renderHead();
 }, 250);

@@ -12,14 +12,16 @@ async function until(process, wanted) {
   throw new Error("it ended, and said only: " + said);
 }
 
-export default async function imc({ home, dolphin, environment, browser, test, same, text, over, complaints }) {
+export default async function imc({ pictures, home, dolphin, environment, browser, test, same, text, over, complaints }) {
   const folder = join(home, "real"), children = [];
   mkdirSync(folder);
   writeFileSync(join(folder, "lost.dol"), `input 'over'
 v = pick { type 'UUV'; timeout 5.min }
 execute until { poll over: true } run (watch task('survey')[v] onError { ignore() }) >> condition { poll never: 1 }
 `);
-  writeFileSync(join(folder, "real.fleet"), "vehicle 'lauv-1', { type 'UUV' }\nplan 'survey', { duration 1.hour }\n");
+  // The console has another fleet file, whose vehicle nobody hears.
+  writeFileSync(join(folder, "lost.fleet"), "vehicle 'paper-1', { type 'UUV' }\nplan 'survey'\n");
+  writeFileSync(join(folder, "real.fleet"), "vehicle 'lauv-1', { type 'UUV'; battery 77.percent }\nplan 'survey', { duration 1.hour }\n");
   const start = (...args) => {
     const child = spawn(dolphin, args, { env: environment, stdio: ["ignore", "pipe", "inherit"] });
     children.push(child);
@@ -40,9 +42,16 @@ execute until { poll over: true } run (watch task('survey')[v] onError { ignore(
     same(await page.locator("#speed").isDisabled(), true, "vehicles of a network have no speed to choose");
     same(await text(page, "#world"), "REAL", "said in the head");
     same((await page.title()).startsWith("REAL"), true, "and in the title");
-    same(await page.locator("#vehicles tbody tr").count(), 0, "vehicles of the fleet file");
+    await page.waitForSelector("#vehicles tbody tr:has-text('lauv-1')");
+    await page.waitForSelector("#map .vehicle .name >> text=lauv-1");
+    same(await page.locator("#vehicles tbody tr").count(), 1, "vehicles of the fleet file");
+    same((await text(page, "#vehicles tbody tr")).includes("77 %"), true, "its battery");
+    if (pictures) await page.screenshot({ path: join(pictures, "heard.png") });
     await page.click("#run");
     await page.waitForSelector("#choice >> text=lost.dol commands REAL vehicles");
+    await page.waitForSelector("#real-vehicles >> text=lauv-1");
+    same((await text(page, "#real-vehicles")).trim(), "lauv-1 UUV, battery 77 %", "its name is in the question");
+    if (pictures) await page.screenshot({ path: join(pictures, "real.png") });
     await page.click("#choice button >> text=Command real vehicles");
     await page.waitForSelector("#log pre >> text=starts survey");
     // Nothing is heard of it.
@@ -63,6 +72,10 @@ execute until { poll over: true } run (watch task('survey')[v] onError { ignore(
     await page.reload();
     await over(page);
     same(await page.locator("#alarms").isVisible(), false, "alarms that were seen");
+    // Vehicles are listened to again, for the next run.
+    await page.click("#run");
+    await page.waitForSelector("#real-vehicles >> text=lauv-1");
+    await page.click("#choice button >> text=Cancel");
     await page.context().close();
   });
 

@@ -63,7 +63,7 @@ let close c =
     | Some _ | None -> Lwt.return_unit
   in
   over >>= fun () ->
-  Session.close c.hall;
+  Session.close c.hall >>= fun () ->
   Server.close c.server
 
 let workers c = Session.worker_pids c.hall

@@ -71,8 +71,9 @@ let start h ~client (r : Request.t) found =
   | Error r -> Lwt.return (Error (of_refusal r))
   | Ok options ->
     let query = if simulated then [] else [ ("network", "true") ] in
-    prepared h Steers ~client "start" ~query r.body >|= fun checked ->
-    Result.bind checked (fun _ -> of_refused (begin_ h ~client found options))
+    prepared h Steers ~client "start" ~query r.body >>= function
+    | Error response -> Lwt.return (Error response)
+    | Ok _ -> Session.listening_left h (fun () -> of_refused (begin_ h ~client found options))
 
 let resume h ~client (r : Request.t) found =
   let go_on kept =
@@ -89,8 +90,9 @@ let resume h ~client (r : Request.t) found =
   match not_busy h with
   | Error r -> Lwt.return (Error (of_refusal r))
   | Ok () ->
-    prepared h Steers ~client "broken-off" r.body >|= fun kept ->
-    Result.bind kept (fun kept -> of_refused (go_on kept))
+    prepared h Steers ~client "broken-off" r.body >>= function
+    | Error response -> Lwt.return (Error response)
+    | Ok kept -> Session.listening_left h (fun () -> of_refused (go_on kept))
 
 (* {1 Counterexamples} *)
 

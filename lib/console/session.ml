@@ -42,6 +42,8 @@ type t = {
   grown : unit Lwt_condition.t;
   mutable access : Access.t;
   mutable run : Live_run.t option;
+  heard : Heard.t option;  (* [None]: vehicles are simulated *)
+  mutable starting : int;  (* requests that are about to begin a run *)
   mutable outlook : Outlook.t option;  (* of the run *)
   mutable run_path : string option;  (* of its program, in the folder *)
   pools : pools;
@@ -58,7 +60,11 @@ let make settings =
   let instance =
     Digest.to_hex (Digest.string (Printf.sprintf "%d %f" (Unix.getpid ()) (Unix.gettimeofday ()))) in
   let operators = if settings.listen = None && settings.proxy_header = None then [] else settings.operators in
-  { settings; instance = String.sub instance 0 8; grown = Lwt_condition.create ();
+  let grown = Lwt_condition.create () in
+  let changed () = Lwt_condition.broadcast grown () in
+  let heard =
+    if Run.is_simulated settings.run then None else Some (Heard.make (Run.choice settings.run) ~changed) in
+  { settings; instance = String.sub instance 0 8; grown; heard; starting = 0;
     access = { port = 0; tls = settings.certificate <> None; operators; proxy_header = settings.proxy_header };
     run = None;
     outlook = None; run_path = None; pools = pools settings; runs = 0;
@@ -99,10 +105,33 @@ let may_answer h client prompt =
 let streams_of h client = List.length (List.filter (fun (other, _) -> other = client) h.watching)
 let watchers h role = List.length (List.filter (fun (_, of_client) -> of_client = role) h.watching)
 
+(* {1 Vehicles that are heard} *)
+
+(* Ports and adapters are those of the run while one goes on. *)
+let listen_if_idle h =
+  if h.starting = 0 && not (busy h) then Option.iter Heard.listen h.heard
+
+let listening_left h begin_ =
+  let leave heard =
+    h.starting <- h.starting + 1;
+    Heard.leave heard
+  in
+  let ended () =
+    if h.heard <> None then h.starting <- h.starting - 1;
+    (match h.run with
+     | Some run when Live_run.goes_on run ->
+       Lwt.async (fun () -> Live_run.finished run >|= fun () -> listen_if_idle h)
+     | Some _ | None -> listen_if_idle h);
+    Lwt.return_unit
+  in
+  Lwt.finalize (fun () -> Option.fold h.heard ~none:Lwt.return_unit ~some:leave >|= begin_) ended
+
 let close h =
   let { steerers; watchers; replays_of_steerers; replays_of_watchers; own } = h.pools in
   List.iter Worker_pool.close [ steerers; watchers; replays_of_steerers; replays_of_watchers; own ];
-  Option.iter Outlook.close h.outlook
+  Option.iter Outlook.close h.outlook;
+  h.starting <- h.starting + 1;
+  Option.fold h.heard ~none:Lwt.return_unit ~some:Heard.leave
 
 let worker_pids h =
   let { steerers; watchers; replays_of_steerers; replays_of_watchers; own } = h.pools in
@@ -258,7 +287,7 @@ let without_time : Yojson.Safe.t -> Yojson.Safe.t =
           members)
   | json -> json
 
-type reader = { mutable told : string; mutable run_id : string; mutable offset : int; mutable spoken : float }
+type reader = { mutable told : string; mutable heard_told : Yojson.Safe.t; mutable run_id : string; mutable offset : int; mutable spoken : float }
 
 let clock h =
   match h.run with
@@ -285,10 +314,20 @@ let next_status h reader =
     Some status
   end
 
+let next_heard h reader =
+  match h.heard with
+  | Some heard when (not (busy h)) && Heard.to_json heard != reader.heard_told ->
+    reader.heard_told <- Heard.to_json heard;
+    Some (event "heard" reader.heard_told)
+  | Some _ | None -> None
+
 (* The next message, if there is one. All messages of a run precede the status in which it is over. *)
 let next h reader =
-  if reader.told = "" then next_status h reader
-  else match next_of_run h reader with Some text -> Some text | None -> next_status h reader
+  let rec first = function
+    | [] -> None
+    | one :: others -> ( match one h reader with Some text -> Some text | None -> first others)
+  in
+  if reader.told = "" then next_status h reader else first [ next_of_run; next_status; next_heard ]
 
 (* Changes within this time, in seconds, are sent together. *)
 let collected = 0.01
@@ -338,7 +377,7 @@ let follow h role ~client ~last write =
       (Live_run.id run, Feed.resumed (Live_run.feed run) last)
     | (Some _ | None), _ -> ("", 0)
   in
-  let reader = { told = ""; run_id; offset; spoken = 0. } in
+  let reader = { told = ""; heard_told = `Null; run_id; offset; spoken = 0. } in
   h.watching <- (client, role) :: h.watching;
   changed h;
   Lwt.finalize (fun () -> write "retry: 1000\n\n" >>= fun () -> tell h ~client reader write)

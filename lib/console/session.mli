@@ -74,8 +74,12 @@ val own_workers : t -> Worker_pool.t
 val worker_pids : t -> int list
 (** The processes of all workers. *)
 
-val close : t -> unit
-(** Ends all workers. *)
+val close : t -> unit Lwt.t
+(** Ends all workers; resolves once no vehicle is listened to. *)
+
+val listening_left : t -> (unit -> 'a) -> 'a Lwt.t
+(** [listening_left h begin_] is [begin_ ()], once the platforms are closed on which vehicles are heard while no run
+    goes on. They are opened again when the run is over that [begin_] has begun. *)
 
 (** {1 The helm} *)
 

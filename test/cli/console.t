@@ -117,6 +117,46 @@ The port is taken; there is no such folder:
   dolphin: none: No such file or directory
   [2]
 
+Vehicles of an adapter are heard before a run; the adapter ends before that of the run begins:
+
+  $ cat > adapter << 'END'
+  > #!/bin/sh
+  > echo begins >> lives
+  > trap 'echo ends >> lives' EXIT
+  > dolphin sim plans.fleet --platform
+  > END
+  $ chmod +x adapter
+  $ echo "v = pick { type 'UUV' }" > picks.dol
+  $ dolphin console . --platform ./adapter --port 0 --no-browser > real & real=$!
+  $ while ! grep -qs "is at" real; do sleep 0.05; done
+  $ python3 - $(sed -n 's/.*:\([0-9]*\)\/$/\1/p' real) << 'END'
+  > import json, sys, urllib.request
+  > base = f"http://127.0.0.1:{sys.argv[1]}/api/"
+  > def ask(path, body=None):
+  >     request = urllib.request.Request(base + path, body and json.dumps(body).encode(), {"Content-Type": "application/json"})
+  >     return urllib.request.urlopen(request, timeout=20)
+  > def heard(events):
+  >     for line, _ in zip(events, range(2000)):
+  >         if line == b"event: heard\n":
+  >             found = json.loads(next(events).split(b":", 1)[1])
+  >             if len(found["vehicles"]) == 2: return sorted(v["vehicle"] for v in found["vehicles"])
+  > events = ask("events")
+  > print("heard:", heard(events))
+  > ask("run", {"program": "picks.dol"})
+  > while json.load(ask("status"))["run"]["state"] != "over": pass
+  > print("heard again:", heard(events))
+  > END
+  heard: ['a', 'b']
+  heard again: ['a', 'b']
+  $ kill -INT $real && wait $real
+  $ cat lives
+  begins
+  ends
+  begins
+  ends
+  begins
+  ends
+
 The server is killed during a run, and the next one resumes it:
 
   $ python3 resume.py start $port

@@ -23,6 +23,9 @@ type settings = {
   recording : Recording.settings;
 }
 
+val choice : settings -> Networks.choice
+(** The platforms that the settings ask for. *)
+
 val is_simulated : settings -> bool
 (** Whether neither [network] nor [adapters] has vehicles. *)
 

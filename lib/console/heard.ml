@@ -61,13 +61,13 @@ let follow h (Several.Part ((module P), p)) =
   in
   go_on ()
 
-let in_words = function Failure why | Dolphin_platform_imc.Udp_platform.Superseded why -> why | e -> Printexc.to_string e
+let in_words = function Failure why -> why | e -> Printexc.to_string e
 
 (* A platform that cannot be opened, or has ended, is opened again after a while. *)
 let rec attend h ~stopped =
   let again () =
-    Lwt.pick [ (Lwt_unix.sleep patience >|= fun () -> true); (Lwt.protected stopped >|= fun () -> false) ] >>= fun goes_on ->
-    if goes_on then attend h ~stopped else Lwt.return_unit
+    Lwt.pick [ Lwt_unix.sleep patience; Lwt.protected stopped ] >>= fun () ->
+    if Lwt.is_sleeping stopped then attend h ~stopped else Lwt.return_unit
   in
   let opened = Lwt.catch (fun () -> Networks.open_ h.choice surroundings)
       (function Lwt.Canceled -> Lwt.fail Lwt.Canceled | e -> Lwt.return (Error (in_words e))) in

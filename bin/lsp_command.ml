@@ -1,5 +1,5 @@
 open Cmdliner
-module Server = Dolphin_lsp.Server
+module Server = Dolphin_lsp.Language_server
 
 (* A header, up to its empty line; its length. [None] at the end of the input. *)
 let rec header length =

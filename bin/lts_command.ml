@@ -9,9 +9,9 @@ let ( let* ) = Result.bind
 
 let write format output graph =
   match output with
-  | None -> State_graph.write format stdout graph; Ok Exit_status.Done
+  | None -> Exported_graph.write format stdout graph; Ok Exit_status.Done
   | Some path ->
-    let* () = Text_file.write path (fun channel -> State_graph.write format channel graph) in
+    let* () = Text_file.write path (fun channel -> Exported_graph.write format channel graph) in
     Ok Exit_status.Done
 
 let compare_graphs left right =
@@ -24,15 +24,15 @@ let compare_graphs left right =
 (* Writing and comparing are ended by Ctrl-C at once. *)
 let load world path =
   let found =
-    Watched.search ~json:false (fun ~interrupted ~progress -> State_graph.load world ~interrupted ~progress path) in
+    Watched.search ~json:false (fun ~interrupted ~progress -> Exported_graph.load world ~interrupted ~progress path) in
   Sys.set_signal Sys.sigint Signal_default;
   found
 
 type asked = {
   path : string;
   other : string option;  (** to compare with *)
-  world : State_graph.world;
-  format : State_graph.format;
+  world : Exported_graph.world;
+  format : Exported_graph.format;
   quotient : equivalence option;
   output : string option;
 }
@@ -60,12 +60,12 @@ let compare_with =
   Arg.(value & opt (some string) None & info [ "compare" ] ~docv:"OTHER" ~doc)
 
 let format =
-  let formats = [ ("aut", State_graph.Aut); ("dot", Dot); ("json", Json) ] in
+  let formats = [ ("aut", Exported_graph.Aut); ("dot", Dot); ("json", Json) ] in
   let doc =
     "The format of the graph: $(b,aut), the Aldebaran format of CADP, mCRL2 and LTSmin; $(b,dot), for Graphviz; or \
      $(b,json)."
   in
-  Arg.(value & opt (enum formats) State_graph.Aut & info [ "format" ] ~docv:"FORMAT" ~doc)
+  Arg.(value & opt (enum formats) Exported_graph.Aut & info [ "format" ] ~docv:"FORMAT" ~doc)
 
 let quotient =
   let doc = "Write the smallest graph that is bisimilar: $(b,strong)." in
@@ -95,7 +95,7 @@ let world =
   and+ max_states = max_states
   and+ max_memory = Explore_command.max_memory
   and+ timeout = Explore_command.timeout in
-  { State_graph.set; fleet; answers; faults; workers; max_states; max_memory; timeout }
+  { Exported_graph.set; fleet; answers; faults; workers; max_states; max_memory; timeout }
 
 let asked =
   let open Options.Syntax in

@@ -2,7 +2,7 @@ open Cmdliner
 open Dolphin_app
 module Safe_print = Dolphin_display.Safe_print
 module Network = Dolphin_sim_imc.Network
-module Server = Dolphin_sim_process.Server
+module Server = Dolphin_sim_process.Fleet_process
 module Scenario = Dolphin_scenario.Scenario
 
 let tell_vehicle ({ name; kind; id; port } : Network.vehicle) =

@@ -108,7 +108,8 @@ let flood =
 let fault name kind default ~docv doc = option ~section:faults_section name kind default ~docv doc
 
 let faults =
-  let make loss duplication reordering delay : Dolphin_sim_imc.Faults.t = { loss; duplication; reordering; delay } in
+  let make loss duplication reordering delay : Dolphin_sim_imc.Link_faults.t =
+    { loss; duplication; reordering; delay } in
   let loss = fault "loss" share 0. ~docv:"SHARE" "Lose this share of the datagrams, from 0 to 1, in both directions." in
   let duplication = fault "duplication" share 0. ~docv:"SHARE" "Deliver this share of the datagrams twice." in
   let reordering =

@@ -5,7 +5,7 @@ let ( let* ) = Result.bind
 
 let load set fleet settings path =
   let* program, fleet = Program_file.load_with_fleet ~set ~fleet path in
-  Successors.create ~version:Version.number settings program fleet
+  Successor_service.create ~version:Version.number settings program fleet
 
 let done_ result = Result.map (fun () -> Exit_status.Done) result
 
@@ -13,7 +13,7 @@ type asked = {
   path : string;
   set : (string * string) list;
   fleet : string option;
-  settings : Successors.settings;
+  settings : Successor_service.settings;
   show_greeting : bool;
   show_run : bool;
 }
@@ -27,9 +27,9 @@ let run { path; set; fleet; settings; show_greeting; show_run } =
      set_binary_mode_out stdout true;
      match show_greeting, show_run with
      | true, true -> Error (Error.Bad_input "--greeting and --run exclude each other: give --greeting or --run")
-     | true, false -> print_endline (Successors.greeting successors); Ok Exit_status.Done
-     | false, true -> done_ (Successors.print_run successors stdin)
-     | false, false -> done_ (Successors.serve successors stdin stdout))
+     | true, false -> print_endline (Successor_service.greeting successors); Ok Exit_status.Done
+     | false, true -> done_ (Successor_service.print_run successors stdin)
+     | false, false -> done_ (Successor_service.serve successors stdin stdout))
 
 let reduction =
   let kinds = [ ("none", Dolphin_explore.Reduction.Whole); ("por", Partial_order) ] in

@@ -25,7 +25,7 @@ let tell_change path (program : Program_file.t) (header : Header.t) =
     Report.complain
       (Printf.sprintf "%s is not the program of this run, or has changed since: places are not compared" path)
 
-let status path : Verdict.t -> (Exit_status.t, Error.t) result = function
+let status path : Journal_verdict.t -> (Exit_status.t, Error.t) result = function
   | Run _ | Prefix _ | Possible _ -> Ok Done
   | No_run _ | Impossible _ -> Ok Failed
   | Unknown _ -> Ok Inconclusive
@@ -50,12 +50,13 @@ let check program_path set path fleet most timed tolerance =
      let* p, header, verdict =
        Journal_file.with_reader path (fun reader ->
            let* p = Program_file.load_recorded ~set ~recorded:(Journal_file.settings_of reader) program_path in
-           let header, verdict = Verdict.check ~world ~most p.program ~hash:(Program_file.header p).hash reader in
+           let hash = (Program_file.header p).hash in
+           let header, verdict = Journal_verdict.check ~world ~most p.program ~hash reader in
            Ok (p, header, verdict))
      in
      Option.iter (tell_change program_path p) header;
      let* status = status path verdict in
-     Safe_print.format "@[<v 2>%s: %a@]@." path Verdict.pp verdict;
+     Safe_print.format "@[<v 2>%s: %a@]@." path Journal_verdict.pp verdict;
      times status)
 
 let check_exits =
@@ -72,7 +73,7 @@ let known =
 
 let most =
   let doc = "For a partial trace: visit at most $(docv) configurations between two lines." in
-  Arg.(value & opt int Verdict.most & info [ "max-states" ] ~docv:"N" ~doc)
+  Arg.(value & opt int Journal_verdict.most & info [ "max-states" ] ~docv:"N" ~doc)
 
 let timed =
   let doc =

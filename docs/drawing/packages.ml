@@ -1,5 +1,6 @@
-(* Each package of dune-project depends on the packages whose libraries its own use, and on no others, and the page of
-   the interfaces names each library. The arguments are dune-project, the page, and the folders of the libraries. *)
+(* Each package of dune-project depends on the packages whose libraries its own use, and on no others; the page of the
+   interfaces names each library; a name of modules in two libraries has a row in docs/rationale.md. The arguments are
+   dune-project, the page, the rationale, and the folders of the libraries. *)
 
 open Dune_files
 
@@ -42,9 +43,47 @@ let unnamed page all =
   let libraries = List.filter (fun c -> c.public <> c.package) all in
   List.filter (fun link -> not (has page link)) (List.map link libraries)
 
+(* {1 Names of modules} *)
+
+let rec modules folder =
+  let inside entry =
+    let path = Filename.concat folder entry in
+    if entry.[0] = '.' then []
+    else if Sys.is_directory path then if Sys.file_exists (Filename.concat path "dune") then [] else modules path
+    else if List.exists (Filename.check_suffix entry) [ ".ml"; ".mll"; ".mly" ] then
+      [ String.capitalize_ascii (Filename.remove_extension entry) ]
+    else []
+  in
+  List.sort_uniq String.compare (List.concat_map inside (Array.to_list (Sys.readdir folder)))
+
+(* The first cells of the table's rows. *)
+let rows_of_shared ~root all =
+  let libraries = List.filter (fun c -> c.public <> c.package) all in
+  let named = List.concat_map (fun c -> List.map (fun m -> (m, c.folder)) (modules (Filename.concat root c.folder))) in
+  let add rows (name, folder) =
+    match rows with
+    | (other, folders) :: rest when other = name -> (name, folder :: folders) :: rest
+    | rows -> (name, [ folder ]) :: rows
+  in
+  let row (name, folders) =
+    Printf.sprintf "| `%s` | %s |" name (String.concat ", " (List.rev_map (Printf.sprintf "`%s`") folders))
+  in
+  let grouped = List.fold_left add [] (List.sort compare (named libraries)) in
+  List.rev_map row (List.filter (fun (_, folders) -> List.length folders > 1) grouped)
+
+let is_prefix part line = String.length line >= String.length part && String.sub line 0 (String.length part) = part
+
+(* Those of the folders that the page lacks, and those of the page that no folders have. *)
+let wrong_rows ~root rationale all =
+  let lines = List.filter (is_prefix "| `") (String.split_on_char '\n' rationale) in
+  let rows = rows_of_shared ~root all in
+  let lacking = List.filter (fun row -> not (List.exists (is_prefix row) lines)) rows in
+  let stale = List.filter (fun line -> not (List.exists (fun row -> is_prefix row line) rows)) lines in
+  List.map (fun row -> "lacks the row " ^ row) lacking @ List.map (fun line -> "has a row of no modules: " ^ line) stale
+
 let () =
   match Array.to_list Sys.argv with
-  | _ :: project :: page :: (folder :: _ as folders) ->
+  | _ :: project :: page :: rationale :: (folder :: _ as folders) ->
     let all = List.concat_map (fun folder -> components ~shown:(Filename.basename folder) folder) folders in
     let packages = List.filter_map (function List (Atom "package" :: p) -> Some p | _ -> None) (parse (read project)) in
     let is_wrong fields =
@@ -59,5 +98,7 @@ let () =
     if List.length packages < 2 then failwith "no packages are found in dune-project";
     let wrong = List.filter is_wrong packages and unnamed = unnamed (read page) all in
     List.iter (Printf.printf "%s does not name %s\n" page) unnamed;
-    if wrong <> [] || unnamed <> [] then exit 1
-  | _ -> failwith "usage: packages.exe DUNE-PROJECT PAGE FOLDER ..."
+    let rows = wrong_rows ~root:(Filename.dirname folder) (read rationale) all in
+    List.iter (Printf.printf "%s %s\n" rationale) rows;
+    if wrong <> [] || unnamed <> [] || rows <> [] then exit 1
+  | _ -> failwith "usage: packages.exe DUNE-PROJECT PAGE RATIONALE FOLDER ..."

@@ -1,4 +1,4 @@
-open Search
+open Partial_assignment
 
 let match_clique search clique weight =
   let count = Array.length clique in

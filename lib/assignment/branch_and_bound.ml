@@ -1,4 +1,4 @@
-open Search
+open Partial_assignment
 
 (* [explore search weights ~bound ~is_enough matched] goes through the allocations that complete [assigned] with at
    most [limit] vehicles, and finds the one of least weight, if it is below [bound]; or any of these, if that
@@ -156,7 +156,7 @@ let smaller_conflict ~restricted ~spent ~budget candidates (part : Part.t) =
       let rest = List.rev_append leaves kept in
       if !spent >= ceiling then List.rev_append leaves (leaf :: kept)
       else
-        let search = Search.make ~spent (Part.make ~restricted candidates (Array.of_list rest)) in
+        let search = Partial_assignment.make ~spent (Part.make ~restricted candidates (Array.of_list rest)) in
         match any_allocation search (Heuristic.sharing_weights search) ~ceiling with
         | Impossible (Some fewer) -> fewer
         | Impossible None -> leave_out kept leaves
@@ -165,7 +165,7 @@ let smaller_conflict ~restricted ~spent ~budget candidates (part : Part.t) =
   leave_out [] (List.rev (Array.to_list part.groups))
 
 let solve ~restricted ~spent ~budget candidates part =
-  let search = Search.make ~spent part in
+  let search = Partial_assignment.make ~spent part in
   let weights = Heuristic.sharing_weights search in
   match any_allocation search weights ~ceiling:max_int with
   | Undecided -> assert false (* without a ceiling *)

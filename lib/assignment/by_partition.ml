@@ -1,4 +1,4 @@
-open Search
+open Partial_assignment
 
 (* All ways to split rows into blocks. *)
 let rec partitions = function

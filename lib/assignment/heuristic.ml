@@ -1,4 +1,4 @@
-open Search
+open Partial_assignment
 
 let sharing_weights search =
   let served column =

@@ -67,7 +67,7 @@ let ended (item : Clocked.item) =
   | Question _ | Recruit _ | Answer | Reply | Posting _ | Links | Silence _ | Course _ | Date _ ->
     invalid_arg "Timed_answers: what has no bounds"
 
-let finding (f : Recorded.finding) : Timed_data.finding =
+let finding (f : Dated_run.finding) : Timed_data.finding =
   { at = f.seen; ended = ended f.pending.item; too = (if f.too_early then "early" else "late") }
 
 let rec in_order before = function [] -> true | (date, _) :: rest -> before <= date && in_order date rest
@@ -76,7 +76,7 @@ let dated ~faults g run =
   let options = options ~faults ~world:Scenario_world.still g in
   let world date = World.at (Exactly (date / 1000)) options.world in
   let take (recorded, found, _) date on (t : Transition.t) =
-    let recorded, more = Recorded.transition recorded ~date ~on t in
+    let recorded, more = Dated_run.transition recorded ~date ~on t in
     (recorded, found @ List.map finding more, t.next)
   in
   let rec by_itself n date ((_, _, c) as at) =
@@ -98,7 +98,7 @@ let dated ~faults g run =
         | Ok t -> by_itself most_steps date (take at date (Some e) t)
         | Error refusal -> refused refusal)
   in
-  let start = (Recorded.start ~tolerance:0 options, [], Configuration.initial g.program) in
+  let start = (Dated_run.start ~tolerance:0 options, [], Configuration.initial g.program) in
   if not (in_order 0 run) then Error "its dates go back"
   else
     Result.bind (by_itself most_steps 0 start) (fun start ->

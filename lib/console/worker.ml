@@ -143,8 +143,8 @@ let first_to_die () =
 
 let main ~megabytes =
   List.iter (fun signal -> Sys.set_signal signal Sys.Signal_ignore) [ Sys.sigint; Sys.sighup; Sys.sigpipe ];
-  Limits.end_with_parent ();
-  Limits.memory megabytes;
+  Process_limits.end_with_parent ();
+  Process_limits.memory megabytes;
   first_to_die ();
   ignore (Unix.nice nice : int);
   set_binary_mode_in stdin true;

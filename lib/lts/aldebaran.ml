@@ -81,12 +81,12 @@ let number ~otherwise text =
   let text = String.trim text in
   let digit value c =
     match c with
-    | '0' .. '9' -> if value > Packed.limit then value else (10 * value) + Char.code c - Char.code '0'
+    | '0' .. '9' -> if value > Int_vector.limit then value else (10 * value) + Char.code c - Char.code '0'
     | _ -> fail otherwise
   in
   if text = "" then fail otherwise;
   let value = Seq.fold_left digit 0 (String.to_seq text) in
-  if value > Packed.limit then fail (Number_too_large text);
+  if value > Int_vector.limit then fail (Number_too_large text);
   value
 
 (* The text in the parentheses that [text] consists of. *)

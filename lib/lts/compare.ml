@@ -1,6 +1,6 @@
 type side = Left | Right
 type traces = Only of side * string list | Same | Not_known
-type difference = { formula : Formula.t; traces : traces }
+type difference = { formula : Modal_formula.t; traces : traces }
 
 let effort = 4_000_000
 
@@ -43,4 +43,4 @@ let pp_traces ppf = function
   | Not_known -> Fmt.string ppf "Whether they have the same traces was not found out within the limit of effort."
 
 let pp_difference ppf { formula; traces } =
-  Fmt.pf ppf "@[<v>Only the left one satisfies %a@,@[%a@]@]" Formula.pp formula pp_traces traces
+  Fmt.pf ppf "@[<v>Only the left one satisfies %a@,@[%a@]@]" Modal_formula.pp formula pp_traces traces

@@ -10,7 +10,7 @@
       let () =
         assert (Compare.strong early early = Ok ());
         match Compare.strong early late with
-        | Error { traces; formula } -> assert (traces = Same && Formula.holds early 0 formula)
+        | Error { traces; formula } -> assert (traces = Same && Modal_formula.holds early 0 formula)
         | Ok () -> assert false
     ]} *)
 
@@ -25,7 +25,7 @@ type traces =
 
 (** The reason why two graphs are not bisimilar. *)
 type difference = {
-  formula : Formula.t;
+  formula : Modal_formula.t;
   (** It holds in the left initial state and not in the right one. No formula that does is less deep; among those, it
       is one with few conjuncts. *)
   traces : traces;

@@ -68,16 +68,16 @@ let formula g r b c =
       (match (best (reasons g r b c), best (reasons g r c b)) with
        | Some (cost, reason), Some (cost', _) when compare_cost cost cost' <= 0 -> can reason keep
        | Some (_, reason), None -> can reason keep
-       | (Some _ | None), Some (_, reason) -> can reason (fun f -> keep (Formula.Not f))
+       | (Some _ | None), Some (_, reason) -> can reason (fun f -> keep (Modal_formula.Not f))
        | None, None -> assert false (* the refinement has parted them *))
   and can { label; next; others } return =
-    conjuncts next others [] (fun fs -> return (Formula.Can (Graph.label g label, fs)))
+    conjuncts next others [] (fun fs -> return (Modal_formula.Can (Graph.label g label, fs)))
   and conjuncts next others found return =
     match others with
     | [] -> return (List.rev found)
     | other :: others when rejected other found -> conjuncts next others found return
     | other :: others -> formula next other (fun f -> conjuncts next others (f :: found) return)
   and rejected other found =
-    List.exists (fun f -> Formula.holds_within ~steps:patience g (Refinement.member r other) f = Some false) found
+    List.exists (fun f -> Modal_formula.holds_within ~steps:patience g (Refinement.member r other) f = Some false) found
   in
   formula b c Fun.id

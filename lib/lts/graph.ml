@@ -1,21 +1,21 @@
 type t = {
   initial : int;
-  rows : Packed.t;  (* the first transition of each state, and the number of transitions *)
-  edge_labels : Packed.t;
-  edge_targets : Packed.t;
+  rows : Int_vector.t;  (* the first transition of each state, and the number of transitions *)
+  edge_labels : Int_vector.t;
+  edge_targets : Int_vector.t;
   names : string array;
   text : (int -> string) option;
 }
 
 let initial g = g.initial
-let states g = Packed.length g.rows - 1
-let transitions g = Packed.length g.edge_labels
+let states g = Int_vector.length g.rows - 1
+let transitions g = Int_vector.length g.edge_labels
 let labels g = Array.length g.names
 let label g l = g.names.(l)
 let text g = g.text
-let first g s = Packed.get g.rows s
-let label_of g e = Packed.get g.edge_labels e
-let target g e = Packed.get g.edge_targets e
+let first g s = Int_vector.get g.rows s
+let label_of g e = Int_vector.get g.edge_labels e
+let target g e = Int_vector.get g.edge_targets e
 let degree g s = first g (s + 1) - first g s
 
 let iter_from g s f =
@@ -41,42 +41,42 @@ let to_list g =
 (* The graph of the transitions [(sources.(i), edge_labels.(i), targets.(i))], in any order: sorted by target, then
    stably by label, then by source, so that doubles are neighbours: one of them is kept, or all. *)
 let assemble ?(doubles = false) ~initial ~states ~names ~text sources edge_labels targets =
-  let count = Packed.length sources in
-  let order = Packed.make count in
+  let count = Int_vector.length sources in
+  let order = Int_vector.make count in
   for i = 0 to count - 1 do
-    Packed.set order i i
+    Int_vector.set order i i
   done;
   let order =
     order
-    |> Packed.order_by (Packed.get targets) ~keys:states
-    |> Packed.order_by (Packed.get edge_labels) ~keys:(Array.length names)
-    |> Packed.order_by (Packed.get sources) ~keys:states
+    |> Int_vector.order_by (Int_vector.get targets) ~keys:states
+    |> Int_vector.order_by (Int_vector.get edge_labels) ~keys:(Array.length names)
+    |> Int_vector.order_by (Int_vector.get sources) ~keys:states
   in
   let same i j =
-    Packed.get sources i = Packed.get sources j
-    && Packed.get edge_labels i = Packed.get edge_labels j
-    && Packed.get targets i = Packed.get targets j
+    Int_vector.get sources i = Int_vector.get sources j
+    && Int_vector.get edge_labels i = Int_vector.get edge_labels j
+    && Int_vector.get targets i = Int_vector.get targets j
   in
-  let doubled k = (not doubles) && k > 0 && same (Packed.get order k) (Packed.get order (k - 1)) in
+  let doubled k = (not doubles) && k > 0 && same (Int_vector.get order k) (Int_vector.get order (k - 1)) in
   let left_out = ref 0 in
   for k = 0 to count - 1 do
     if doubled k then incr left_out
   done;
-  let rows = Packed.make (states + 1) in
-  let sorted_labels = Packed.make (count - !left_out) and sorted_targets = Packed.make (count - !left_out) in
+  let rows = Int_vector.make (states + 1) in
+  let sorted_labels = Int_vector.make (count - !left_out) and sorted_targets = Int_vector.make (count - !left_out) in
   let filled = ref 0 in
   for k = 0 to count - 1 do
     if not (doubled k) then begin
-      let i = Packed.get order k in
-      let row = Packed.get sources i + 1 in
-      Packed.set rows row (Packed.get rows row + 1);
-      Packed.set sorted_labels !filled (Packed.get edge_labels i);
-      Packed.set sorted_targets !filled (Packed.get targets i);
+      let i = Int_vector.get order k in
+      let row = Int_vector.get sources i + 1 in
+      Int_vector.set rows row (Int_vector.get rows row + 1);
+      Int_vector.set sorted_labels !filled (Int_vector.get edge_labels i);
+      Int_vector.set sorted_targets !filled (Int_vector.get targets i);
       incr filled
     end
   done;
   for s = 1 to states do
-    Packed.set rows s (Packed.get rows s + Packed.get rows (s - 1))
+    Int_vector.set rows s (Int_vector.get rows s + Int_vector.get rows (s - 1))
   done;
   { initial; rows; edge_labels = sorted_labels; edge_targets = sorted_targets; names; text }
 
@@ -84,14 +84,14 @@ module Builder = struct
   type t = {
     numbers : (string, int) Hashtbl.t;
     mutable names : string list;  (* the last first *)
-    sources : Packed.Growing.t;
-    edge_labels : Packed.Growing.t;
-    targets : Packed.Growing.t;
+    sources : Int_vector.Growing.t;
+    edge_labels : Int_vector.Growing.t;
+    targets : Int_vector.Growing.t;
     mutable least_states : int;
   }
 
   let create () =
-    let growing = Packed.Growing.create in
+    let growing = Int_vector.Growing.create in
     let numbers = Hashtbl.create 64 in
     { numbers; names = []; sources = growing (); edge_labels = growing (); targets = growing (); least_states = 1 }
 
@@ -105,7 +105,7 @@ module Builder = struct
       l
 
   let check_state s =
-    if s < 0 || s >= Packed.limit then invalid_arg (Printf.sprintf "Graph: there can be no state %d" s)
+    if s < 0 || s >= Int_vector.limit then invalid_arg (Printf.sprintf "Graph: there can be no state %d" s)
 
   let mention b s =
     check_state s;
@@ -115,9 +115,9 @@ module Builder = struct
     mention b s;
     mention b s';
     if l < 0 || l >= Hashtbl.length b.numbers then invalid_arg (Printf.sprintf "Graph: there is no label %d" l);
-    Packed.Growing.add b.sources s;
-    Packed.Growing.add b.edge_labels l;
-    Packed.Growing.add b.targets s'
+    Int_vector.Growing.add b.sources s;
+    Int_vector.Growing.add b.edge_labels l;
+    Int_vector.Growing.add b.targets s'
 
   let add b s text s' = add_numbered b s (label b text) s'
 
@@ -125,7 +125,7 @@ module Builder = struct
     check_state initial;
     let states = max (max states b.least_states) (initial + 1) in
     let names = Array.of_list (List.rev b.names) in
-    let contents = Packed.Growing.contents in
+    let contents = Int_vector.Growing.contents in
     assemble ?doubles ~initial ~states ~names ~text (contents b.sources) (contents b.edge_labels) (contents b.targets)
 end
 
@@ -161,10 +161,10 @@ let union g h =
 
 (* For each transition, its source. *)
 let sources g =
-  let sources = Packed.make (transitions g) in
+  let sources = Int_vector.make (transitions g) in
   for s = 0 to states g - 1 do
     for e = first g s to first g (s + 1) - 1 do
-      Packed.set sources e s
+      Int_vector.set sources e s
     done
   done;
   sources

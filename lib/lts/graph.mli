@@ -32,7 +32,7 @@ module Builder : sig
 
   val add : t -> int -> string -> int -> unit
   (** [add b s text s'] adds the transition from [s] to [s'] with the label [text].
-      @raise Invalid_argument if a state is negative or beyond {!Packed.limit}. *)
+      @raise Invalid_argument if a state is negative or beyond {!Int_vector.limit}. *)
 
   val add_numbered : t -> int -> int -> int -> unit
   (** [add_numbered b s (label b text) s'] is [add b s text s'], faster.

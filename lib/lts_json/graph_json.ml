@@ -49,7 +49,7 @@ exception Problem of error
 let fail error = raise_notrace (Problem error)
 let expected what where = fail (Expected { what; where })
 let quoted name = Printf.sprintf "%S" name
-let natural ~where = function `Int n when n >= 0 && n <= Packed.limit -> n | _ -> expected "a number from 0" where
+let natural ~where = function `Int n when n >= 0 && n <= Int_vector.limit -> n | _ -> expected "a number from 0" where
 let text ~where = function `String text -> text | _ -> expected "a string" where
 let elements ~where = function `List elements -> elements | _ -> expected "a list" where
 let member members name = List.assoc_opt name members

@@ -177,7 +177,7 @@ let vehicle ~sent (state : Message.Vehicle_state.t) n =
 
 let entities (list : Message.Entity_list.t) n =
   match list.op with
-  | Report -> { n with entities = Some (List.map fst (Tuples.of_string list.list)) }
+  | Report -> { n with entities = Some (List.map fst (Tuple_list.of_string list.list)) }
   | Query | Reload | Other _ -> n
 
 let command ~now input n =

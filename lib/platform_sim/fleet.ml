@@ -151,7 +151,7 @@ let begin_task id craft task f =
   let v = Vehicle.scenario craft.body in
   let draw = Draw.share ~seed:f.seed ~vehicle:id ~start:craft.starts in
   let plan = String_map.find_opt task.Core.name f.plans in
-  let execution = Execution.make ~draw plan v (Vehicle.position craft.body ~at:f.now) task in
+  let execution = Simulated_execution.make ~draw plan v (Vehicle.position craft.body ~at:f.now) task in
   let body = Vehicle.set_out craft.body ~at:f.now ~charges:execution.charges execution.track in
   let ends = f.now +. execution.duration and empty = Float.max f.now (Vehicle.empty_from body) in
   let time, outcome = if empty < ends then empty, Error "battery empty" else ends, execution.outcome in

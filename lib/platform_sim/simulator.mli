@@ -68,8 +68,8 @@
     {1:simulation What is simulated}
 
     Vehicles have a position, a battery, and a link that comes and goes by the scenario. How tasks go is
-    {!Execution}'s, how batteries go is {!Vehicle}'s. A seed and a scenario determine everything: the same commands
-    at the same times see the same events. The execution of a task depends on the seed, the vehicle, the task's
+    {!Simulated_execution}'s, how batteries go is {!Vehicle}'s. A seed and a scenario determine everything: the same
+    commands at the same times see the same events. The execution of a task depends on the seed, the vehicle, the task's
     ordinal on that vehicle and the task's entry in the scenario, and on nothing else.
 
     {[

@@ -13,7 +13,7 @@ type t = {
   notes : int;
 }
 
-type trouble = Over of Request.ending | Changed | No_run of Verdict.t
+type trouble = Over of Request.ending | Changed | No_run of Journal_verdict.t
 
 (* The part read so far. *)
 type reading = {
@@ -116,4 +116,4 @@ let pp_trouble ppf = function
     Format.pp_print_string ppf
       "this run was of another program, or the program has changed since; --force-prefix goes on with it if what \
        happened so far is the beginning of a run of this one, too"
-  | No_run verdict -> Verdict.pp ppf verdict
+  | No_run verdict -> Journal_verdict.pp ppf verdict

@@ -20,7 +20,7 @@ type t = {
 type trouble =
   | Over of Request.ending  (** the run ended *)
   | Changed  (** the program is not the one that ran *)
-  | No_run of Verdict.t  (** the journal is not one of a run of the program, or not a journal *)
+  | No_run of Journal_verdict.t  (** the journal is not one of a run of the program, or not a journal *)
 
 val read :
   ?tell:(Entry.t -> Replay.t -> unit) ->

@@ -78,14 +78,14 @@ let nearest x = function
 
 let readings samples v place ~time =
   let reading (quantity, xs) =
-    match Field.value samples quantity place ~time, xs with
+    match Sampled_field.value samples quantity place ~time, xs with
     | Some x, xs -> Some (quantity, nearest x xs)
     | None, first :: _ -> Some (quantity, first)
     | None, [] -> None
   in
   List.sort Stdlib.compare (List.filter_map reading v.shows)
 
-let fields_still_from s = Field.still_from s.samples
+let fields_still_from s = Sampled_field.still_from s.samples
 
 let states s =
   let state (v : vehicle) : World.vehicle_state =

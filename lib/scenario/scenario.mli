@@ -150,7 +150,7 @@ reply 'queue.await', task('survey1'), either(task('survey2'), fails('the queue i
     property, ['queue.await']. REPLY is as in {!Reply.read}.
 
     [field QUANTITY, NUMBER, at(...)], [field QUANTITY, NUMBER, at(...), after TIME]. A sample of a quantity, at a place
-    and from a time on: {!Field.value} is the quantity elsewhere. Stands as often as there are samples.
+    and from a time on: {!Sampled_field.value} is the quantity elsewhere. Stands as often as there are samples.
 
     [fence inside AREA, margin: LENGTH] and its like: as in programs
     ({!Dolphin_semantics.Fence_declarations}), without variables. Every program is kept to it.

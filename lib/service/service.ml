@@ -131,7 +131,7 @@ let after_point source { start; _ } = start > 0 && source.[start - 1] = '.'
 type item_kind = Keyword | Function | Variable | Setting | Member | Constant | Text
 type item = { label : string; kind : item_kind; form : string; text : string }
 
-let kind_of_entry : Reference.kind -> item_kind = function
+let kind_of_entry : Vocabulary.kind -> item_kind = function
   | Word -> Keyword
   | Procedure | Block | Maneuver -> Function
   | Setting -> Setting
@@ -139,7 +139,7 @@ let kind_of_entry : Reference.kind -> item_kind = function
   | Constant -> Constant
   | Fleet_word -> Keyword
 
-let item_of_entry (e : Reference.entry) =
+let item_of_entry (e : Vocabulary.entry) =
   { label = e.name; kind = kind_of_entry e.kind; form = e.form; text = e.text }
 
 let own_item d name =
@@ -179,13 +179,13 @@ let of_prelude d = if List.mem Prelude.name (includes d.source) then Prelude.ent
 let constants_of owner =
   let inside = owner ^ "." in
   let n = String.length inside in
-  let member (e : Reference.entry) =
+  let member (e : Vocabulary.entry) =
     if String.length e.name > n && String.sub e.name 0 n = inside then
       let rest = String.sub e.name n (String.length e.name - n) in
       Some { (item_of_entry e) with label = List.hd (String.split_on_char '.' rest) }
     else None in
   let once items item = if List.exists (fun other -> other.label = item.label) items then items else item :: items in
-  List.rev (List.fold_left once [] (List.filter_map member Reference.constants))
+  List.rev (List.fold_left once [] (List.filter_map member Vocabulary.constants))
 
 let arguments_of_setting vocabulary name =
   let argument x = { label = x; kind = Setting; form = x ^ ": "; text = "An argument of " ^ name ^ "." } in
@@ -195,36 +195,36 @@ let arguments_of_setting vocabulary name =
 
 let entries = List.map item_of_entry
 
-let in_program d (s : Surroundings.t) =
-  let own = List.filter (fun x -> x <> s.prefix) (Surroundings.assigned d.source) in
+let in_program d (s : Cursor_context.t) =
+  let own = List.filter (fun x -> x <> s.prefix) (Cursor_context.assigned d.source) in
   let settings =
     match s.builder, s.call with
     | Some Imc_plan, Some call -> arguments_of_setting Dolphin_semantics.Plan_builder.vocabulary call
     | Some Mission, Some call -> arguments_of_setting Dolphin_semantics.Mission_builder.vocabulary call
-    | Some builder, None -> entries (Reference.settings builder)
+    | Some builder, None -> entries (Vocabulary.settings builder)
     | Some _, Some _ | None, _ -> [] in
   settings @ List.map (own_item d) own @ List.map prelude_item (of_prelude d)
-  @ entries (Reference.procedures @ Reference.blocks @ Reference.words)
+  @ entries (Vocabulary.procedures @ Vocabulary.blocks @ Vocabulary.words)
 
-let in_fleet (s : Surroundings.t) =
+let in_fleet (s : Cursor_context.t) =
   match s.block, s.call with
-  | Some block, None -> entries (Reference.fleet_settings block)
-  | None, None -> entries Reference.fleet_entries
+  | Some block, None -> entries (Vocabulary.fleet_settings block)
+  | None, None -> entries Vocabulary.fleet_entries
   | _, Some _ -> []
 
 let complete d offset =
-  let s = Surroundings.at d.source offset in
+  let s = Cursor_context.at d.source offset in
   let items =
     if s.comment then []
     else if s.text then names_of_fleet d
     else
       match s.owner with
-      | Number -> entries Reference.units
+      | Number -> entries Vocabulary.units
       | Named owner ->
         (match constants_of owner with
-         | [] -> entries Reference.members @ entries Reference.units
+         | [] -> entries Vocabulary.members @ entries Vocabulary.units
          | constants -> constants)
-      | Value -> entries Reference.members
+      | Value -> entries Vocabulary.members
       | Nothing -> if is_fleet d.file then in_fleet s else in_program d s in
   { start = offset - String.length s.prefix; stop = offset }, items
 
@@ -293,15 +293,15 @@ let hover d offset =
     Option.map (fun place -> span, quoted (line_at place.source place.span) "As the fleet has it.")
       (in_fleet_file d text)
   | _, _, Some (span, x) ->
-    let suits (e : Reference.entry) =
+    let suits (e : Vocabulary.entry) =
       match e.kind with
       | Member | Constant -> after_point d.source span
       | Word | Procedure | Block | Setting | Maneuver | Fleet_word -> not (after_point d.source span) in
-    let told_by_language (e : Reference.entry) = quoted e.form e.text in
+    let told_by_language (e : Vocabulary.entry) = quoted e.form e.text in
     let told_by_prelude (e : Prelude.entry) = if e.name = x then Some (quoted e.form e.text) else None in
     let found =
       List.filter_map told_by_prelude (of_prelude d)
-      @ List.map told_by_language (List.filter suits (Reference.find x)) in
+      @ List.map told_by_language (List.filter suits (Vocabulary.find x)) in
     if found = [] then None else Some (span, String.concat "\n\n" found)
   | _, _, None -> None
 
@@ -344,10 +344,10 @@ let definition (d : t) offset =
 (* {1 Calls} *)
 
 let signature (d : t) offset =
-  let s = Surroundings.at d.source offset in
+  let s = Cursor_context.at d.source offset in
   let own x =
     let item form = { label = x; kind = Function; form; text = "A function of this program." } in
-    Option.map item (Surroundings.header d.source x)
+    Option.map item (Cursor_context.header d.source x)
   in
   let of_file x =
     match in_included_file d x with
@@ -358,12 +358,12 @@ let signature (d : t) offset =
   in
   let of_prelude x = Option.map prelude_item (List.find_opt (fun (e : Prelude.entry) -> e.name = x) (of_prelude d)) in
   let of_language x =
-    let is_called (e : Reference.entry) =
+    let is_called (e : Vocabulary.entry) =
       match e.kind with
       | Word | Procedure | Block | Setting | Maneuver | Member | Fleet_word -> true
       | Constant -> String.contains e.form '('
     in
-    Option.map item_of_entry (List.find_opt is_called (Reference.find x))
+    Option.map item_of_entry (List.find_opt is_called (Vocabulary.find x))
   in
   let first found x = match found with Some _ -> found | None -> x () in
   let item x =
@@ -396,7 +396,7 @@ let structure bindings =
 let rename d offset x =
   match Occurrences.at d.bindings offset with
   | None -> Error "no variable or function of the program here"
-  | Some _ when not (Surroundings.is_name x) -> Error (Printf.sprintf "'%s' is not a name" x)
+  | Some _ when not (Cursor_context.is_name x) -> Error (Printf.sprintf "'%s' is not a name" x)
   | Some b ->
     let renamed = read ~file:d.file ?fleet:d.fleet (replaced d.source b.uses x) in
     let errors d = List.filter (fun (f : Diagnostic.t) -> f.severity = Error) (diagnostics d) in

@@ -3,7 +3,7 @@ open Dolphin_plans
 open Dolphin_semantics
 
 type maneuver = { id : string; kind : int; ends : float }
-type t = { execution : Execution.t; maneuvers : maneuver list }
+type t = { execution : Simulated_execution.t; maneuvers : maneuver list }
 
 let task name plan : Core.platform_task =
   { name; plan = Option.map (fun p -> Inline_plan.Maneuvers p) plan; task_site = 0 }
@@ -12,7 +12,7 @@ let task name plan : Core.platform_task =
 let maneuvers ~draw vehicle position (s : Specification.t) =
   let add (position, time, maneuvers) (m : Plan.maneuver) kind =
     let one = task s.plan.name (Some { s.plan with maneuvers = [ m ] }) in
-    let execution = Execution.make ~draw None vehicle position one in
+    let execution = Simulated_execution.make ~draw None vehicle position one in
     let ends = time +. execution.duration in
     Track.position execution.track execution.duration, ends, { id = m.id; kind; ends } :: maneuvers
   in
@@ -21,10 +21,10 @@ let maneuvers ~draw vehicle position (s : Specification.t) =
 
 let make ~draw plan vehicle position ~name (specification : Specification.t option) =
   match specification with
-  | Some s -> { execution = Execution.make ~draw plan vehicle position (task name (Some s.plan));
+  | Some s -> { execution = Simulated_execution.make ~draw plan vehicle position (task name (Some s.plan));
                 maneuvers = maneuvers ~draw vehicle position s }
   | None ->
-    let execution = Execution.make ~draw plan vehicle position (task name None) in
+    let execution = Simulated_execution.make ~draw plan vehicle position (task name None) in
     { execution; maneuvers = [ { id = "1"; kind = Dolphin_imc.Message.Goto.id; ends = execution.duration } ] }
 
 let rec at time = function

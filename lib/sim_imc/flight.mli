@@ -7,7 +7,7 @@ open Dolphin_scenario
 type maneuver = { id : string; kind : int;  (** the number of its message *) ends : float }
 
 type t = {
-  execution : Dolphin_platform_sim.Execution.t;
+  execution : Dolphin_platform_sim.Simulated_execution.t;
   maneuvers : maneuver list;  (** in order; if the execution fails, some are not reached *)
 }
 
@@ -20,8 +20,8 @@ val make :
   Specification.t option ->
   t
 (** [make ~draw plan vehicle position ~name specification] is the flight of plan [name], from [position]. It lasts
-    and ends as in {!Dolphin_platform_sim.Execution.make}. A plan without a specification is one maneuver, ["1"], a
-    Goto. *)
+    and ends as in {!Dolphin_platform_sim.Simulated_execution.make}. A plan without a specification is one
+    maneuver, ["1"], a Goto. *)
 
 val maneuver : t -> float -> maneuver
 (** [maneuver f time] is the maneuver at [time]: the last of those that end at once when they begin. *)

@@ -6,7 +6,7 @@ type settings = {
   scenario : Scenario.t;
   seed : int;
   speed : float;
-  faults : Faults.t;
+  faults : Link_faults.t;
   strict : bool;
   refuses : (string * string) list;
   blocks : (string * (float * float)) list;
@@ -22,7 +22,7 @@ type settings = {
 }
 
 let default scenario =
-  { scenario; seed = 0; speed = 1.; faults = Faults.none; strict = false; refuses = []; blocks = []; stalls = [];
+  { scenario; seed = 0; speed = 1.; faults = Link_faults.none; strict = false; refuses = []; blocks = []; stalls = [];
     vanishes = [];
     announce_period = 10.; contact_period = 5.; first_id = 0x3001; first_port = 6002;
     discovery_ports = 30100, 30104; address = None; flood = 0. }

@@ -10,7 +10,7 @@ type settings = {
   scenario : Scenario.t;
   seed : int;
   speed : float;
-  faults : Faults.t;
+  faults : Link_faults.t;
   strict : bool;
   refuses : (string * string) list;  (** vehicles and why they refuse every START *)
   blocks : (string * (float * float)) list;

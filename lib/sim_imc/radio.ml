@@ -10,7 +10,7 @@ type passage =
   | Inward of { channel : Vehicle_node.channel; host : string; bytes : string }
 
 type t = {
-  faults : Faults.t;
+  faults : Link_faults.t;
   seed : int;
   node : Vehicle_node.t;
   queue : passage Event_queue.t;
@@ -20,7 +20,7 @@ type t = {
 
 type outcome = datagram list * Activity.t list * t
 
-let create ?(faults = Faults.none) ~seed settings =
+let create ?(faults = Link_faults.none) ~seed settings =
   { faults; seed; node = Vehicle_node.create settings; queue = Event_queue.empty; sent = 0; received = 0 }
 
 let node r = r.node
@@ -34,7 +34,7 @@ let schedule ~at passage r delays =
   { r with queue = List.fold_left add r.queue delays }
 
 let transmit ~at r datagram =
-  let delays = Faults.delays ~seed:r.seed ~link:(link r " sends") ~number:r.sent r.faults in
+  let delays = Link_faults.delays ~seed:r.seed ~link:(link r " sends") ~number:r.sent r.faults in
   let r = { r with sent = r.sent + 1 } in
   match delays with [ 0. ] -> [ datagram ], r | delays -> [], schedule ~at (Outward datagram) r delays
 
@@ -88,7 +88,7 @@ let advance ~at r = both (deliver ~at r) (fun r -> after_node ~at r (Vehicle_nod
 
 let receive ~at channel ~host bytes r =
   both (advance ~at r) (fun r ->
-      let delays = Faults.delays ~seed:r.seed ~link:(link r " receives") ~number:r.received r.faults in
+      let delays = Link_faults.delays ~seed:r.seed ~link:(link r " receives") ~number:r.received r.faults in
       let r = { r with received = r.received + 1 } in
       match delays with
       | [ 0. ] -> arrive ~at channel ~host bytes r

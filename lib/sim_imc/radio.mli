@@ -1,12 +1,12 @@
-(** A vehicle behind its link: bytes in, bytes out, through {!Faults} both ways. A pure state machine. *)
+(** A vehicle behind its link: bytes in, bytes out, through {!Link_faults} both ways. A pure state machine. *)
 
 open Dolphin_imc
 
 type t
 
-val create : ?faults:Faults.t -> seed:int -> Vehicle_node.settings -> t
-(** The vehicle's node behind a network with those faults, by default {!Faults.none}; [seed] decides which datagrams
-    they hit. *)
+val create : ?faults:Link_faults.t -> seed:int -> Vehicle_node.settings -> t
+(** The vehicle's node behind a network with those faults, by default {!Link_faults.none}; [seed] decides which
+    datagrams they hit. *)
 
 val node : t -> Vehicle_node.t
 (** The vehicle's node. *)

@@ -44,4 +44,4 @@ let common =
 
 let entities payload =
   let devices = List.mapi (fun i name -> name, 100 + i) payload in
-  Tuples.to_string (List.map (fun (name, number) -> name, string_of_int number) (common @ devices))
+  Tuple_list.to_string (List.map (fun (name, number) -> name, string_of_int number) (common @ devices))

@@ -18,7 +18,7 @@ val command :
     fingerprints, modules unpacked from its archive) go below [directory] too. Java reads files as UTF-8 and prints
     numbers as the English do, whatever the locale, and has room for deep recursion. With [short], false by default,
     Java spends less time on making code fast: for runs of some seconds. With [coverage], false by default, TLC
-    counts what {!Coverage} reads. *)
+    counts what {!Action_counts} reads. *)
 
 val worker : Installation.t -> host:string -> port:int -> string list
 (** [worker i ~host ~port] works for the server there, with a thread for each core. *)

@@ -1,6 +1,6 @@
 type step = { action : string option; state : string }
 type repetition = Once | Stays | Back_to of int
-type counter_example = { violation : Event.violation; steps : step list; repetition : repetition }
+type counter_example = { violation : Tlc_message.violation; steps : step list; repetition : repetition }
 type verdict = Holds | Violated of counter_example | Unfinished | Gave_up of string | Failed of string list
 
 type t = {
@@ -15,7 +15,7 @@ type t = {
 (* Lists have the last first. *)
 type reader = {
   so_far : t;
-  violation : Event.violation option;
+  violation : Tlc_message.violation option;
   states : (int * step) list;
   repetition : repetition;
   assertion : string option;
@@ -42,7 +42,7 @@ let keep line printed =
   let rec first n = function x :: rest when n > 0 -> x :: first (n - 1) rest | _ -> [] in
   line :: first (most_printed - 1) printed
 
-let event r (e : Event.t) =
+let event r (e : Tlc_message.t) =
   let update so_far = { r with so_far } and so_far = r.so_far in
   match e with
   | Version text -> update { so_far with version = Some text }
@@ -79,7 +79,7 @@ let finish r = { r.so_far with verdict = verdict r }
 
 (* Class files give their version of Java by a number that is 44 higher. *)
 let java_too_old lines =
-  let version prefix line = Option.map (fun n -> n - 44) (Event.number_after prefix line) in
+  let version prefix line = Option.map (fun n -> n - 44) (Tlc_message.number_after prefix line) in
   let told line =
     match version "class file version " line, version "class file versions up to " line with
     | Some needed, Some found -> Some (needed, found)

@@ -1,13 +1,13 @@
 (** The complete result of TLC. *)
 
 (** The states of a counter-example after the initial one. *)
-type step = { action : string option; state : string  (** as in {!Event.State} *) }
+type step = { action : string option; state : string  (** as in {!Tlc_message.State} *) }
 
 (** The cycle of a counterexample, if it has one. *)
 type repetition = Once | Stays | Back_to of int  (** that many steps from the start *)
 
-(** {!Event.Unnamed} comes with its last steps only. *)
-type counter_example = { violation : Event.violation; steps : step list; repetition : repetition }
+(** {!Tlc_message.Unnamed} comes with its last steps only. *)
+type counter_example = { violation : Tlc_message.violation; steps : step list; repetition : repetition }
 
 (** TLC's verdict on all that it was asked. *)
 type verdict =
@@ -32,7 +32,7 @@ type reader
 val start : reader
 (** No event was read. *)
 
-val event : reader -> Event.t -> reader
+val event : reader -> Tlc_message.t -> reader
 (** [event r e] is [r] after [e]. *)
 
 val finish : reader -> t

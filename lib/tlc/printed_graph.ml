@@ -1,5 +1,5 @@
 open Dolphin_lts
-module Growing = Packed.Growing
+module Growing = Int_vector.Growing
 
 (* States are numbered in the order in which they are first mentioned, as a state or as the target of a transition.
    Their texts are long, so their digests are kept. *)
@@ -145,8 +145,8 @@ let graphs g =
   let sources = Growing.contents g.sources and targets = Growing.contents g.targets in
   let edge_labels = Growing.contents g.edge_labels in
   let add i =
-    let s = Packed.get sources i and t = Packed.get targets i in
-    let name = names.(Packed.get edge_labels i) in
+    let s = Int_vector.get sources i and t = Int_vector.get targets i in
+    let name = names.(Int_vector.get edge_labels i) in
     match Hashtbl.find_opt g.programs s, Hashtbl.find_opt g.programs t with
     | Some from, Some target when from <> target -> raise_notrace (Problem (Other_program { from; target }))
     | Some program, Some _ -> Graph.Builder.add (Hashtbl.find builders program) places.(s) name places.(t)
@@ -154,7 +154,7 @@ let graphs g =
   in
   let all () =
     if Hashtbl.length g.programs = 0 then raise_notrace (Problem No_states);
-    for i = 0 to Packed.length sources - 1 do
+    for i = 0 to Int_vector.length sources - 1 do
       add i
     done;
     Hashtbl.fold

@@ -14,7 +14,7 @@ let labels (c : Outcome.counter_example) =
   let rec all n = function
     | [] -> Ok []
     | (step : Outcome.step) :: rest -> (
-        match Option.bind (Event.variable "label" step.state) Quoted.unescape with
+        match Option.bind (Tlc_message.variable "label" step.state) Quoted.unescape with
         | None -> Error (No_label n)
         | Some label -> Result.map (fun rest -> label :: rest) (all (n + 1) rest))
   in

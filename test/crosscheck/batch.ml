@@ -9,7 +9,7 @@ type t = {
   results : result list;
   warnings : string list;
   used : string -> int;
-  counted : Coverage.count list;
+  counted : Action_counts.count list;
 }
 
 module Rules = Set.Make (struct
@@ -65,17 +65,18 @@ let in_directory files f =
 
 type reading = { mutable messages : Message.reader; mutable outcome : Outcome.reader; mutable problem : string option;
                  mutable warnings : string list; printed : Printed_graph.t;
-                 mutable counted : Coverage.count list }
+                 mutable counted : Action_counts.count list }
 
 (* SANY's warnings are lines of its own. *)
-let is_warning text = Event.number_after "*** Warnings: " text <> None
+let is_warning text = Tlc_message.number_after "*** Warnings: " text <> None
 
-let others (c : Coverage.count) = List.filter (fun (c' : Coverage.count) -> c'.action <> c.action)
+let others (c : Action_counts.count) = List.filter (fun (c' : Action_counts.count) -> c'.action <> c.action)
 
 let take r message =
-  let event = Event.of_message message in
+  let event = Tlc_message.of_message message in
   r.outcome <- Outcome.event r.outcome event;
-  Option.iter (fun (c : Coverage.count) -> r.counted <- c :: others c r.counted) (Coverage.of_message message);
+  let count (c : Action_counts.count) = r.counted <- c :: others c r.counted in
+  Option.iter count (Action_counts.of_message message);
   match event with
   | Warning text -> r.warnings <- text :: r.warnings
   | Printed text when is_warning text -> r.warnings <- text :: r.warnings

@@ -19,7 +19,7 @@ type t = {
   results : result list;
   warnings : string list;  (** the warnings of SANY and TLC *)
   used : string -> int;  (** in how many of TLC's transitions the rule of this name stands in the derivation *)
-  counted : Coverage.count list;  (** by TLC itself, if it was to *)
+  counted : Action_counts.count list;  (** by TLC itself, if it was to *)
 }
 
 type prepared

@@ -9,7 +9,7 @@ let action rule = "Take_" ^ String.concat "_" (String.split_on_char '-' (Rule.na
 let count installation prepared =
   let counted (batch : Batch.t) =
     let one rule =
-      let is_its (c : Coverage.count) = c.action = action rule in
+      let is_its (c : Action_counts.count) = c.action = action rule in
       let taken = match List.find_opt is_its batch.counted with Some c -> c.taken | None -> 0 in
       { rule; taken; derivations = batch.used (Rule.name rule) }
     in

@@ -1,6 +1,6 @@
 open Dolphin_semantics
 open Dolphin_tlc
-module Run = Dolphin_tla.Run
+module Run = Dolphin_tla.Tlc_questions
 module Search = Dolphin_explore.Search
 module Property = Dolphin_explore.Property
 

@@ -3,7 +3,7 @@ open Dolphin_tlc
 let outcome ?(line = ignore) installation ~main ~configuration files =
   let reader = ref Message.start and outcome = ref Outcome.start in
   let take message =
-    let event = Event.of_message message in
+    let event = Tlc_message.of_message message in
     outcome := Outcome.event !outcome event;
     match event with Printed text -> line text | _ -> ()
   in

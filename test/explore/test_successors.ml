@@ -44,16 +44,16 @@ let settled = function Ok x -> x | Error e -> raise (Refused e)
 (* The output of one instance on states, in as many blocks as there are instances. The others are given its parts. *)
 let expanded instances i states =
   let partitions = Array.length instances in
-  let batch = settled (Successors.expand instances.(i) ~partitions ~targets:true states) in
-  Array.iteri (fun j other -> if j <> i then settled (Successors.give other batch.parts)) instances;
+  let batch = settled (Successor_service.expand instances.(i) ~partitions ~targets:true states) in
+  Array.iteri (fun j other -> if j <> i then settled (Successor_service.give other batch.parts)) instances;
   batch
 
-let reached (b : Successors.batch) = List.concat_map State_columns.states (Array.to_list b.blocks)
+let reached (b : Successor_service.batch) = List.concat_map State_columns.states (Array.to_list b.blocks)
 
 (* The violations, with a state of the batch or a successor. *)
-let note found depth (b : Successors.batch) sources =
+let note found depth (b : Successor_service.batch) sources =
   let states = reached b in
-  let one ((breach : Successors.breach), digest) =
+  let one ((breach : Successor_service.breach), digest) =
     match breach with
     | Breaks No_deadlock ->
       assert (List.mem digest sources);
@@ -62,7 +62,7 @@ let note found depth (b : Successors.batch) sources =
       assert (List.mem digest sources);
       if found.false_in = None then found.false_in <- Some depth
     | Breaks property ->
-      let breaks (s : State_columns.state) = s.kind land 127 = Successors.kind ~is_end:false (Some property) in
+      let breaks (s : State_columns.state) = s.kind land 127 = Successor_service.kind ~is_end:false (Some property) in
       let others = List.map (fun (s : State_columns.state) -> s.digest) (List.filter breaks states) in
       Alcotest.(check string) "the least of them" (List.fold_left min (List.hd others) others) digest;
       if not (List.mem_assoc property found.broken) then found.broken <- (property, depth + 1) :: found.broken
@@ -70,13 +70,13 @@ let note found depth (b : Successors.batch) sources =
   List.iter one b.broken
 
 (* The columns of states beside their texts. *)
-let check_states partitions sources (b : Successors.batch) =
+let check_states partitions sources (b : Successor_service.batch) =
   let parents = Hashtbl.create 16 in
   let leads source place = if not (Hashtbl.mem parents place) then Hashtbl.add parents place (String.sub source 0 8) in
   List.iter2 (fun source places -> List.iter (leads source) places) sources (Array.to_list b.targets);
   let one partition place (s : State_columns.state) =
     Alcotest.(check string) "the digest of the text" (Digest.to_hex (Digest.string s.text)) (Digest.to_hex s.digest);
-    Alcotest.(check int) "where its digest says" (Successors.partition ~partitions s.digest) partition;
+    Alcotest.(check int) "where its digest says" (Successor_service.partition ~partitions s.digest) partition;
     Alcotest.(check string) "the first that leads there" (Hashtbl.find parents place) s.parent
   in
   let block (first, partition) states =
@@ -100,7 +100,8 @@ let level instances found depth frontier =
   in
   let batch i (states : State_columns.state list) =
     let sources = List.map (fun (s : State_columns.state) -> s.digest) states in
-    let source (s : State_columns.state) : Successors.source = { text = s.text; is_end = Successors.is_end s.kind } in
+    let source (s : State_columns.state) : Successor_service.source =
+      { text = s.text; is_end = Successor_service.is_end s.kind } in
     let b = expanded instances i (List.map source states) in
     note found depth b sources;
     let texts = List.map (fun (s : State_columns.state) -> s.text) (reached b) in
@@ -117,7 +118,7 @@ let level instances found depth frontier =
     found.unreached <- Some (Option.fold found.unreached ~none:b.unreached ~some:(List.filter still))
   in
   let partitions = Array.length instances in
-  let is_of i (s : State_columns.state) = Successors.partition ~partitions s.digest = i in
+  let is_of i (s : State_columns.state) = Successor_service.partition ~partitions s.digest = i in
   Array.iteri (fun i _ -> match List.filter (is_of i) frontier with [] -> () | states -> batch i states) instances;
   List.rev !next
 
@@ -126,7 +127,7 @@ let search instances =
     { numbers = Strings.create 100; edges = Hashtbl.create 100; places = Hashtbl.create 10; transitions = 0; depth = 0;
       deadlock = None; broken = []; false_in = None; goes_round = false; unreached = None }
   in
-  let first = List.hd (reached (expanded instances 0 [ Successors.before ])) in
+  let first = List.hd (reached (expanded instances 0 [ Successor_service.before ])) in
   Strings.add found.numbers first.text 0;
   let rec go depth = function
     | [] -> ()
@@ -201,7 +202,7 @@ let numbers = Alcotest.(triple int int int)
 
 (* Whether the states are few enough to decide. *)
 let agree (options : Search.options) (program : Program_file.t) world =
-  let instance () = Successors.make ~greeting:"" options program world in
+  let instance () = Successor_service.make ~greeting:"" options program world in
   match search [| instance (); instance () |] with
   | exception Too_many -> false
   | exception Refused (Inconclusive _) ->
@@ -301,22 +302,22 @@ let rendezvous () =
 
 (* The first states in which a task executes, and the parts sent until then. *)
 let rec executing successors parts sources =
-  let batch = settled (Successors.expand successors sources) in
+  let batch = settled (Successor_service.expand successors sources) in
   let states = reached batch and parts = parts @ batch.parts in
   if List.exists (fun (s : State_columns.state) -> s.text.[0] = 'e') states then (states, parts)
-  else executing successors parts (List.map (fun (s : State_columns.state) : Successors.source ->
+  else executing successors parts (List.map (fun (s : State_columns.state) : Successor_service.source ->
       { text = s.text; is_end = false }) states)
 
 let test_parts () =
   let program, options, world = rendezvous () in
-  let instance () = Successors.make ~greeting:"" options program world in
-  let states, parts = executing (instance ()) [] [ Successors.before ] in
+  let instance () = Successor_service.make ~greeting:"" options program world in
+  let states, parts = executing (instance ()) [] [ Successor_service.before ] in
   let state = List.find (fun (s : State_columns.state) -> s.text.[0] = 'e') states in
-  let source : Successors.source = { text = state.text; is_end = false } in
+  let source : Successor_service.source = { text = state.text; is_end = false } in
   let answer given =
     let other = instance () in
-    settled (Successors.give other given);
-    match Successors.expand other [ source ] with
+    settled (Successor_service.give other given);
+    match Successor_service.expand other [ source ] with
     | Ok batch -> Printf.sprintf "%d transitions, %d parts" batch.transitions (List.length batch.parts)
     | Error e -> Format.asprintf "%a" Error.pp e
   in
@@ -331,8 +332,8 @@ let test_parts () =
   Alcotest.(check bool) all true (Scanf.sscanf all "%d transitions, %d parts%!" (fun n _ -> n > 0));
   (* Sent once, at the first use. *)
   let again = instance () in
-  settled (Successors.give again parts);
-  let told () = List.length (settled (Successors.expand again [ source ])).parts in
+  settled (Successor_service.give again parts);
+  let told () = List.length (settled (Successor_service.expand again [ source ])).parts in
   let first = told () in
   Alcotest.(check (pair bool int)) "told once" (true, 0) (first > 0, told ())
 

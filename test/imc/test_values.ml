@@ -74,11 +74,11 @@ let bits () =
 
 let tuples () =
   let pairs = Alcotest.(list (pair string string)) in
-  check pairs "pairs" [ ("Range", "50"); ("Active", "true") ] (Tuples.of_string " Range = 50; Active=true;");
-  check pairs "no value" [ ("a", ""); ("b", "1=2") ] (Tuples.of_string "a;;b=1=2");
-  check pairs "empty" [] (Tuples.of_string "");
-  check Alcotest.string "printed" "a=1;b=2" (Tuples.to_string [ ("a", "1"); ("b", "2") ]);
-  check Alcotest.(option string) "found" (Some "2") (Tuples.find "b" [ ("a", "1"); ("b", "2") ])
+  check pairs "pairs" [ ("Range", "50"); ("Active", "true") ] (Tuple_list.of_string " Range = 50; Active=true;");
+  check pairs "no value" [ ("a", ""); ("b", "1=2") ] (Tuple_list.of_string "a;;b=1=2");
+  check pairs "empty" [] (Tuple_list.of_string "");
+  check Alcotest.string "printed" "a=1;b=2" (Tuple_list.to_string [ ("a", "1"); ("b", "2") ]);
+  check Alcotest.(option string) "found" (Some "2") (Tuple_list.find "b" [ ("a", "1"); ("b", "2") ])
 
 (* JSON is well-formed whatever the bytes are. *)
 let json () =

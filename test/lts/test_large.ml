@@ -82,12 +82,12 @@ let comparisons () =
   let { Compare.formula; traces } =
     difference (timed "compare chains" (fun () -> Compare.strong (chain million) (chain (million + 1))))
   in
-  check "depth of the formula" million (Formula.depth formula);
-  Alcotest.(check bool) "it holds" true (Formula.holds (chain million) 0 formula);
+  check "depth of the formula" million (Modal_formula.depth formula);
+  Alcotest.(check bool) "it holds" true (Modal_formula.holds (chain million) 0 formula);
   (match traces with
    | Only (Right, trace) -> check "length of the trace" million (List.length trace)
    | Only (Left, _) | Same | Not_known -> Alcotest.fail "not the right one's trace");
-  Alcotest.(check bool) "it prints" true (String.length (Fmt.str "%a" Formula.pp formula) < 20_000);
+  Alcotest.(check bool) "it prints" true (String.length (Fmt.str "%a" Modal_formula.pp formula) < 20_000);
   let isomorphic name g h = timed ("isomorphic " ^ name) (fun () -> Compare.isomorphic g h) in
   Alcotest.(check bool) "grids" true (isomorphic "grid" (grid 1000) (grid 1000) = Ok ());
   Alcotest.(check bool) "grids of one label" true

@@ -151,9 +151,9 @@ let comparison_is_bisimilarity (g, h) =
   | Ok () -> bisimilar g h && Compare.strong h g = Ok ()
   | Error { formula; _ } ->
     (not (bisimilar g h))
-    && Formula.holds g (Graph.initial g) formula
-    && (not (Formula.holds h (Graph.initial h) formula))
-    && Formula.depth (difference h g).formula = Formula.depth formula
+    && Modal_formula.holds g (Graph.initial g) formula
+    && (not (Modal_formula.holds h (Graph.initial h) formula))
+    && Modal_formula.depth (difference h g).formula = Modal_formula.depth formula
 
 (* The formula is not deeper than the number of steps for which the initial states are bisimilar, plus one. *)
 let formula_is_least_deep (g, h) =
@@ -172,7 +172,7 @@ let formula_is_least_deep (g, h) =
   match Compare.strong g h with
   | Ok () -> true
   | Error { formula; _ } ->
-    let depth = Formula.depth formula in
+    let depth = Modal_formula.depth formula in
     depth > 6
     || (similar (depth - 1) (Graph.initial g) (Graph.initial h)
         && not (similar depth (Graph.initial g) (Graph.initial h)))

@@ -8,7 +8,7 @@ let in_file file ~noticed_by mistakes =
 let all =
   List.concat
     [
-      in_file "lib/app/exploration/successors.ml" ~noticed_by:"explore/test_successors"
+      in_file "lib/app/exploration/successor_service.ml" ~noticed_by:"explore/test_successors"
         [
           ( "states keep the old encoding after fields grow",
             {|    t.reached <- States.rewrite t.reached ~words:(Space.words t.space) renewed;|},
@@ -244,7 +244,7 @@ let all =
             {|parts_of_legs from (Inline_plan.path ~from:here ~speed:1. p)|},
             {|anywhere p|} );
         ];
-      in_file "lib/platform_sim/execution.ml" ~noticed_by:"platform_sim/test_fleet"
+      in_file "lib/platform_sim/simulated_execution.ml" ~noticed_by:"platform_sim/test_fleet"
         [
           ("divers fly", {|(Depth | Height) -> Some (Float.min 0.)|}, {|(Depth | Height) -> Some Fun.id|});
           ("planes dive", {|"UAV", Depth -> None|}, {|"UAV", Depth -> Some Fun.id|});

@@ -1,6 +1,6 @@
 (* Work shared among processes: its results, and its end. *)
 
-module Limits = Dolphin_processes.Limits
+module Limits = Dolphin_processes.Process_limits
 module Workers = Dolphin_processes.Workers
 
 let rec all workers found =

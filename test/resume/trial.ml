@@ -22,13 +22,13 @@ let port ~ports number = ports + (number mod (Test_support.Ports.count / ports_o
 
 let check_journal ~is_whole path =
   let channel = open_in_bin path in
-  let verdict = snd (Verdict.check Console.program ~hash:Console.hash (Journal.of_channel channel)) in
+  let verdict = snd (Journal_verdict.check Console.program ~hash:Console.hash (Journal.of_channel channel)) in
   close_in channel;
   match verdict with
   | Run { ending = { how = "completed"; _ }; _ } -> Ok ()
   | Run { ending = { how = "failed"; _ }; _ } when not is_whole -> Ok ()
   | Run _ | Prefix _ | No_run _ | Possible _ | Impossible _ | Unknown _ | Unreadable _ ->
-    Error (Format.asprintf "@[<v>the journal: %a@]" Verdict.pp verdict)
+    Error (Format.asprintf "@[<v>the journal: %a@]" Journal_verdict.pp verdict)
 
 (* Without some of its notes a run may fail; but it starts no plan twice. *)
 let rec is_twice = function plan :: (other :: _ as rest) -> plan = other || is_twice rest | [ _ ] | [] -> false

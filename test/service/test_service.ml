@@ -128,19 +128,19 @@ let calls =
 
 (* {1 The reference} *)
 
-(* Each name of the language has an entry: lib/service/reference.ml. *)
+(* Each name of the language has an entry: lib/service/vocabulary.ml. *)
 let documented () =
   let missing kind names entries =
-    let known = List.map (fun (e : Reference.entry) -> e.name) entries in
+    let known = List.map (fun (e : Vocabulary.entry) -> e.name) entries in
     List.filter_map (fun x -> if List.mem x known then None else Some (kind ^ " " ^ x)) names in
   let builders : Dolphin_syntax.Ast.builder list = [ Pick; Imc_plan; Pos ] in
   Alcotest.(check strings) "without an entry" []
-    (missing "word" Dolphin_syntax.Surroundings.words Reference.words
-     @ missing "procedure" Builtins.names Reference.procedures
-     @ missing "block" Builtins.builder_names Reference.blocks
-     @ List.concat_map (fun b -> missing "setting" (Builtins.settings b) (Reference.settings b)) builders
-     @ missing "setting of a vehicle" Dolphin_scenario.Fleet_parser.vehicle_settings (Reference.fleet_settings "vehicle")
-     @ missing "setting of a plan" Dolphin_scenario.Fleet_parser.plan_settings (Reference.fleet_settings "plan"))
+    (missing "word" Dolphin_syntax.Cursor_context.words Vocabulary.words
+     @ missing "procedure" Builtins.names Vocabulary.procedures
+     @ missing "block" Builtins.builder_names Vocabulary.blocks
+     @ List.concat_map (fun b -> missing "setting" (Builtins.settings b) (Vocabulary.settings b)) builders
+     @ missing "setting of a vehicle" Dolphin_scenario.Fleet_parser.vehicle_settings (Vocabulary.fleet_settings "vehicle")
+     @ missing "setting of a plan" Dolphin_scenario.Fleet_parser.plan_settings (Vocabulary.fleet_settings "plan"))
 
 (* {1 Allocations} *)
 
@@ -195,7 +195,7 @@ let highlighted () =
     let known = words (read_file path) in
     List.filter_map
       (fun x -> if List.mem x known then None else Some (path ^ " lacks " ^ x))
-      (Dolphin_syntax.Surroundings.words @ Builtins.names @ Builtins.builder_names) in
+      (Dolphin_syntax.Cursor_context.words @ Builtins.names @ Builtins.builder_names) in
   Alcotest.(check strings) "lacking" []
     (List.concat_map missing
        [ "../../editors/vim/syntax/dolphin.vim"; "../../editors/vscode/syntaxes/dolphin.tmLanguage.json" ])

@@ -137,7 +137,7 @@ let entities () =
   in
   match List.filter_map report (Harness.heard s) with
   | [ list ] ->
-    let names = List.map fst (Tuples.of_string list) in
+    let names = List.map fst (Tuple_list.of_string list) in
     Alcotest.(check bool) "payload" true (List.mem "DVL" names && List.mem "Sidescan" names)
   | reports -> Alcotest.failf "%d reports" (List.length reports)
 

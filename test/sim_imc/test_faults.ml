@@ -7,8 +7,8 @@ let law ?(count = 300) name = Test_support.Property.case ~count name
 
 (* {1 Links} *)
 
-let faults : Faults.t = { loss = 0.3; duplication = 0.1; reordering = 0.2; delay = 0.01, 0.03 }
-let some_delays = List.init 20_000 (fun number -> Faults.delays ~seed:1 ~link:"l" ~number faults)
+let faults : Link_faults.t = { loss = 0.3; duplication = 0.1; reordering = 0.2; delay = 0.01, 0.03 }
+let some_delays = List.init 20_000 (fun number -> Link_faults.delays ~seed:1 ~link:"l" ~number faults)
 let share list = float_of_int (List.length list) /. float_of_int (List.length some_delays)
 
 let shares () =
@@ -22,10 +22,10 @@ let shares () =
     (List.for_all (List.for_all (fun d -> 0.01 <= d && d <= 0.13)) some_delays)
 
 let again () =
-  let delays seed = List.init 100 (fun number -> Faults.delays ~seed ~link:"l" ~number faults) in
+  let delays seed = List.init 100 (fun number -> Link_faults.delays ~seed ~link:"l" ~number faults) in
   Alcotest.(check bool) "same seed, same luck" true (delays 1 = delays 1);
   Alcotest.(check bool) "another seed, another luck" false (delays 1 = delays 2);
-  Alcotest.(check bool) "no faults" true (Faults.delays ~seed:1 ~link:"l" ~number:1 Faults.none = [ 0. ])
+  Alcotest.(check bool) "no faults" true (Link_faults.delays ~seed:1 ~link:"l" ~number:1 Link_faults.none = [ 0. ])
 
 let bytes packet =
   match Packet.encode packet with Ok s -> s | Error e -> Alcotest.failf "%a" Error.pp_encode e
@@ -71,18 +71,19 @@ let conversation =
 
 let both_ways () =
   let lossless, _ = exchange ~seed:1 conversation in
-  let faults = { Faults.none with loss = 0.5 } in
+  let faults = { Link_faults.none with loss = 0.5 } in
   let got seed = List.length (fst (exchange ~faults ~seed conversation)) in
   let heard = List.filter (fun n -> n > 2) (List.init 40 got) in
   let mean = float_of_int (List.fold_left ( + ) 0 heard) /. float_of_int (List.length heard) in
   let ratio = mean /. float_of_int (List.length lossless) in
   Alcotest.(check bool) "some consoles are never heard" true (List.length heard < 40);
   Alcotest.(check bool) "of the rest, half is lost" true (0.35 < ratio && ratio < 0.55);
-  let starts seed = List.length (snd (exchange ~faults:{ Faults.none with duplication = 1. } ~seed conversation)) in
+  let faults = { Link_faults.none with duplication = 1. } in
+  let starts seed = List.length (snd (exchange ~faults ~seed conversation)) in
   Alcotest.(check int) "a request that comes twice is obeyed twice" 2 (starts 1)
 
 let overtaken () =
-  let faults = { Faults.none with reordering = 0.3 } in
+  let faults = { Link_faults.none with reordering = 0.3 } in
   let got, _ = exchange ~faults ~seed:3 conversation in
   let stamp (_, bytes) = match Packet.decode bytes with Ok p -> p.timestamp | Error _ -> nan in
   let stamps = List.map stamp got in
@@ -92,7 +93,7 @@ let overtaken () =
   Alcotest.(check bool) "nothing is lost, but for what is still under way" true (late >= 0 && late < 20)
 
 let delayed () =
-  let got, _ = exchange ~faults:{ Faults.none with delay = 0.2, 0.2 } ~seed:1 conversation in
+  let got, _ = exchange ~faults:{ Link_faults.none with delay = 0.2, 0.2 } ~seed:1 conversation in
   match List.find_opt (fun (_, bytes) -> String.length bytes = 22) got with
   | Some (at, _) -> Alcotest.(check (float 1e-6)) "there and back" 0.4 at
   | None -> Alcotest.fail "no heartbeat"

@@ -138,7 +138,7 @@ let finds_and_runs () =
 
 (* Half of the requests arrive, and these are obeyed. *)
 let loses () =
-  with_world { (settings source) with faults = { Faults.none with loss = 0.5 } } (fun w ->
+  with_world { (settings source) with faults = { Link_faults.none with loss = 0.5 } } (fun w ->
       let a = List.hd (Network.vehicles w.network) in
       wait_for w (hears_from a) >>= fun () ->
       Lwt_list.iter_s (fun number -> request w a number "long") (List.init 100 Fun.id) >>= fun () ->

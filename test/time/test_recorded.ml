@@ -48,10 +48,10 @@ let run ~seed scenario program =
 
 let follow options run =
   let next (r, found) = function
-    | date, Taken (on, t) -> let r, more = Recorded.transition r ~date ~on t in (r, found @ more)
-    | date, Heard (v, connected) -> (Recorded.heard r ~date v connected, found)
+    | date, Taken (on, t) -> let r, more = Dated_run.transition r ~date ~on t in (r, found @ more)
+    | date, Heard (v, connected) -> (Dated_run.heard r ~date v connected, found)
   in
-  snd (List.fold_left next (Recorded.start ~tolerance:0 options, []) run)
+  snd (List.fold_left next (Dated_run.start ~tolerance:0 options, []) run)
 
 let is_within (w : Timed_analysis.window) date =
   date >= w.earliest - 1 && (match w.latest with At latest -> date <= latest + 1 | Unbounded -> true)
@@ -182,7 +182,7 @@ let test_findings () =
       program; world = Scenario_world.world scenario; durations = Durations.of_scenario scenario;
       dates = Dolphin_semantics.Dated_code.named program } in
   let run = run ~seed:1 (fleet "50, 60") program in
-  let found duration = List.map (fun (f : Recorded.finding) -> f.too_early) (follow (options (fleet duration)) run) in
+  let found duration = List.map (fun (f : Dated_run.finding) -> f.too_early) (follow (options (fleet duration)) run) in
   Alcotest.(check (list bool)) "as it is" [] (found "50, 60");
   Alcotest.(check (list bool)) "too late" [ false ] (found "20, 30");
   Alcotest.(check (list bool)) "too early" [ true ] (found "100, 110");
@@ -190,7 +190,7 @@ let test_findings () =
     ((match line with Taken (Some (Transition.Timer_expired _), _) -> date + 9_000 | _ -> date), line) in
   let late = List.map put_off run in
   Alcotest.(check (list bool)) "a timer" [ false ]
-    (List.map (fun (f : Recorded.finding) -> f.too_early) (follow (options (fleet "50, 60")) late))
+    (List.map (fun (f : Dated_run.finding) -> f.too_early) (follow (options (fleet "50, 60")) late))
 
 let () =
   let case name = Alcotest.test_case name `Quick (check_example name) in

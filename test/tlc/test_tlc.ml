@@ -7,7 +7,7 @@ let read path =
   let channel = open_in_bin path in
   Fun.protect ~finally:(fun () -> close_in channel) (fun () -> really_input_string channel (in_channel_length channel))
 
-let events text = List.map Event.of_message (Message.of_string text)
+let events text = List.map Tlc_message.of_message (Message.of_string text)
 let outcome text = Outcome.finish (List.fold_left Outcome.event Outcome.start (events text))
 let file name = outcome (read ("data/" ^ name))
 
@@ -54,7 +54,7 @@ let steps_of (o : Outcome.t) =
     List.map
       (fun (s : Outcome.step) ->
          Printf.sprintf "%s %s" (Option.value s.action ~default:"-")
-           (Option.value (Option.bind (Event.variable "label" s.state) Quoted.unescape) ~default:"-"))
+           (Option.value (Option.bind (Tlc_message.variable "label" s.state) Quoted.unescape) ~default:"-"))
       steps
   | Holds | Unfinished | Gave_up _ | Failed _ -> [ "no counter-example" ]
 

@@ -123,7 +123,7 @@ let of_scenario ?period ?(seed = 0) scenario source =
   go ~seed ?period ~name:"test.dol" ~source ~scenario (fun () -> None)
 
 let of_text ?period source = of_scenario ?period Scenario.default source
-let check_text r journal = snd (Verdict.check r.program ~hash:r.hash (Journal.of_string journal))
+let check_text r journal = snd (Journal_verdict.check r.program ~hash:r.hash (Journal.of_string journal))
 let check r = check_text r r.journal
 let lines journal = List.filter (fun line -> line <> "") (String.split_on_char '\n' journal)
 let text lines = String.concat "" (List.map (fun line -> line ^ "\n") lines)

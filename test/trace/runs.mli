@@ -28,10 +28,10 @@ val resume : t -> string -> (string, string) result
 (** [resume r text] is the joined journal of a run of [r]'s program that goes on where [text], the journal of a
     console that died, breaks off; or the reason why it cannot. *)
 
-val check : t -> Dolphin_trace.Verdict.t
+val check : t -> Dolphin_trace.Journal_verdict.t
 (** The verdict on its journal. *)
 
-val check_text : t -> string -> Dolphin_trace.Verdict.t
+val check_text : t -> string -> Dolphin_trace.Journal_verdict.t
 (** [check_text r journal] is the verdict on [journal] as one of [r]'s program. *)
 
 val lines : string -> string list

@@ -2,11 +2,11 @@ open Dolphin_semantics
 open Dolphin_trace
 
 let case name test = Alcotest.test_case name `Quick test
-let show verdict = Format.asprintf "@[<v>%a@]" Verdict.pp verdict
+let show verdict = Format.asprintf "@[<v>%a@]" Journal_verdict.pp verdict
 
 let is_run name verdict =
   match verdict with
-  | Verdict.Run _ -> ()
+  | Journal_verdict.Run _ -> ()
   | _ -> Alcotest.failf "%s: %s" name (show verdict)
 
 (* {1 What runs write checks} *)

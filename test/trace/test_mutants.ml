@@ -2,7 +2,7 @@ open Dolphin_trace
 
 (* Mutants that are not journals of runs any more, by their mutation. *)
 let wanted = 2000
-let show verdict = Format.asprintf "@[<v>%a@]" Verdict.pp verdict
+let show verdict = Format.asprintf "@[<v>%a@]" Journal_verdict.pp verdict
 
 (* {1 Mutants} *)
 
@@ -110,9 +110,9 @@ let trial () =
     if !rejected mod 10 = 0 then show_all m.text;
     if m.harmless then begin
       incr doubtful;
-      if Verdict.is_legal verdict then incr still_runs
+      if Journal_verdict.is_legal verdict then incr still_runs
     end
-    else if Verdict.is_legal verdict then
+    else if Journal_verdict.is_legal verdict then
       passed := Printf.sprintf "%s, %s: %s" run.name m.what (show verdict) :: !passed
     else incr rejected
   done;

@@ -1,7 +1,7 @@
 open Dolphin_trace
 
 let case name test = Alcotest.test_case name `Quick test
-let show verdict = Format.asprintf "@[<v>%a@]" Verdict.pp verdict
+let show verdict = Format.asprintf "@[<v>%a@]" Journal_verdict.pp verdict
 let entry line = match Entry.of_string line with Ok entry -> entry | Error why -> failwith why
 
 (* Labels of these kinds, and lines that cannot be hidden; of vehicles, new states. *)
@@ -95,7 +95,7 @@ let unknown () =
   let text =
     Runs.text [ {|{"format":"dolphin-journal","version":1,"observed":["message"]}|}; label "message 'over'" ]
   in
-  let check most = snd (Verdict.check ~most r.program ~hash:r.hash (Journal.of_string text)) in
+  let check most = snd (Journal_verdict.check ~most r.program ~hash:r.hash (Journal.of_string text)) in
   (match check 1000 with Unknown { number = 2; most = 1000 } -> () | verdict -> Alcotest.fail (show verdict));
   match check 100_000 with Possible _ -> () | verdict -> Alcotest.fail (show verdict)
 

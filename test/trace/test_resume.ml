@@ -1,7 +1,7 @@
 open Dolphin_trace
 
 let case name test = Alcotest.test_case name `Quick test
-let show verdict = Format.asprintf "@[<v>%a@]" Verdict.pp verdict
+let show verdict = Format.asprintf "@[<v>%a@]" Journal_verdict.pp verdict
 
 (* A journal without the traces of two consoles: the written samples, and the date of the second. *)
 let story journal =

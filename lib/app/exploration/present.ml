@@ -89,14 +89,14 @@ let timed p (options : Dolphin_time.Clocked.options) =
   let take r (time, line) =
     let date = milliseconds time in
     match line with
-    | Heard (v, connected) -> Recorded.heard r ~date v connected
-    | Took (on, t) -> fst (Recorded.transition r ~date ~on t)
+    | Heard (v, connected) -> Dated_run.heard r ~date v connected
+    | Took (on, t) -> fst (Dated_run.transition r ~date ~on t)
   in
-  let recorded = List.fold_left take (Recorded.start ~tolerance:0 options) p.lines in
+  let recorded = List.fold_left take (Dated_run.start ~tolerance:0 options) p.lines in
   let environment, (_, outside) = start p options.environment options.program in
   let seen = List.map (fun (s : World.vehicle_state) -> (s.id, s.position)) (known p) in
   let date = milliseconds p.time in
-  let options, state = Recorded.onwards recorded ~outside ~date ~seen in
+  let options, state = Dated_run.onwards recorded ~outside ~date ~seen in
   ({ options with environment }, { Timed_analysis.state; date })
 
 (* {1 Texts} *)

@@ -15,7 +15,7 @@ type t = {
   colour : bool;
   mutable log : Log.t;
   mutable board : Status.t;
-  mutable outcome : Outcome.t;
+  mutable outcome : Run_summary.t;
   mutable configuration : Configuration.t;
   mutable world : World.t;
   mutable view : Run.view;
@@ -38,7 +38,7 @@ let remark t text = print t (Log.remark t.log ~time:(t.view.now ()) text)
 
 let see_transition t ~time (transition : Transition.t) =
   t.board <- Status.transition t.board ~time transition;
-  t.outcome <- Outcome.transition t.outcome ~time transition;
+  t.outcome <- Run_summary.transition t.outcome ~time transition;
   t.configuration <- transition.next
 
 let see_vehicle t state =
@@ -204,7 +204,7 @@ let front t ~notice : Run.front =
 let summarise t =
   if t.live || t.show.quiet then
     List.iter (Screen.print t.screen)
-      (Outcome.lines t.outcome ~now:(t.view.now ()) ~journal:t.show.journal ~colour:t.colour)
+      (Run_summary.lines t.outcome ~now:(t.view.now ()) ~journal:t.show.journal ~colour:t.colour)
 
 let has_no_colour () = match Sys.getenv_opt "NO_COLOR" with None | Some "" -> false | Some _ -> true
 
@@ -213,7 +213,7 @@ let make show program interruption ~on_closed =
   { screen = Screen.make ~live ~on_closed Unix.stdout;
     interruption; program; show; live;
     colour = Option.value show.colour ~default:(live && not (has_no_colour ()));
-    log = Log.start; board = Status.start; outcome = Outcome.start;
+    log = Log.start; board = Status.start; outcome = Run_summary.start;
     configuration = Configuration.initial program.program;
     world = World.empty;
     view =

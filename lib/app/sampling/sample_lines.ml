@@ -22,14 +22,14 @@ let of_cause : Fault.cause -> Field.members = function
   | Unknown -> [ ("cause", `String "unknown") ]
   | Task { vehicle; task } -> [ ("cause", `String "task"); ("vehicle", `String vehicle); ("task", `String task) ]
 
-let of_ending p : Sample.ending -> Field.members = function
+let of_ending p : Sampled_run.ending -> Field.members = function
   | Completed -> [ ("end", `String "completed") ]
   | Halted message -> [ ("end", `String "halted"); ("message", `String message) ]
   | Failed { message; site; cause } ->
     (("end", `String "failed") :: ("message", `String message) :: of_cause cause) @ place p site
   | Stuck site -> ("end", `String "stuck") :: Option.fold site ~none:[] ~some:(place p)
 
-let of_task p ((task : Sample.task), (n : Sample.counts)) : Yojson.Safe.t =
+let of_task p ((task : Sampled_run.task), (n : Sampled_run.counts)) : Yojson.Safe.t =
   `Assoc
     ([ ("task", `String task.name); ("vehicle", `String task.vehicle) ]
      @ place p task.site
@@ -37,7 +37,7 @@ let of_task p ((task : Sample.task), (n : Sample.counts)) : Yojson.Safe.t =
 
 let of_handler p (site, n) : Yojson.Safe.t = `Assoc (place p site @ [ ("ran", `Int n) ])
 
-let of_sample p ~seed (s : Sample.t) =
+let of_sample p ~seed (s : Sampled_run.t) =
   let list name write xs = Field.unless_empty name (fun xs -> `List (List.map (write p) xs)) xs in
   Canonical.to_string
     (`Assoc
@@ -62,16 +62,16 @@ let to_cause members =
 let to_ending members =
   let* kind = Field.get Field.text "end" members in
   match kind with
-  | "completed" -> Ok Sample.Completed
-  | "halted" -> Result.map (fun message -> Sample.Halted message) (Field.get Field.text "message" members)
+  | "completed" -> Ok Sampled_run.Completed
+  | "halted" -> Result.map (fun message -> Sampled_run.Halted message) (Field.get Field.text "message" members)
   | "failed" ->
     let* message = Field.get Field.text "message" members in
     let* site = Field.get Field.whole "site" members in
     let* cause = to_cause members in
-    Ok (Sample.Failed { message; site; cause })
+    Ok (Sampled_run.Failed { message; site; cause })
   | "stuck" ->
     let some json = Result.map Option.some (Field.whole json) in
-    Result.map (fun site -> Sample.Stuck site) (Field.optional some ~default:None "site" members)
+    Result.map (fun site -> Sampled_run.Stuck site) (Field.optional some ~default:None "site" members)
   | kind -> Error (Printf.sprintf "'%s' is not an ending of a run" kind)
 
 let to_task json =
@@ -83,7 +83,7 @@ let to_task json =
   let* ended = Field.get Field.whole "ended" members in
   let* failed = Field.get Field.whole "failed" members in
   let* stopped = Field.get Field.whole "stopped" members in
-  Ok ({ Sample.name; vehicle; site }, { Sample.began; ended; failed; stopped })
+  Ok ({ Sampled_run.name; vehicle; site }, { Sampled_run.began; ended; failed; stopped })
 
 let to_handler json =
   let* members = Field.members json in
@@ -97,7 +97,7 @@ let to_sample members =
   let* ending = to_ending members in
   let* tasks = Field.optional (Field.list to_task) ~default:[] "tasks" members in
   let* handlers = Field.optional (Field.list to_handler) ~default:[] "handlers" members in
-  Ok (seed, { Sample.seconds; ending; tasks; handlers })
+  Ok (seed, { Sampled_run.seconds; ending; tasks; handlers })
 
 type before = Nothing | Header | Run of int  (* the last line there, the header once left aside *)
 

@@ -4,8 +4,8 @@ module Workers = Dolphin_processes.Workers
 
 type settings = { seed : int; runs : int option; until : float option; jobs : int; answers : string list }
 type stop = All | Known | Interrupted of int list
-type ending = { ending : Sample.ending; runs : int; seed : int }
-type task = { task : Sample.task; counts : Sample.counts; failing : int }
+type ending = { ending : Sampled_run.ending; runs : int; seed : int }
+type task = { task : Sampled_run.task; counts : Sampled_run.counts; failing : int }
 type handler = { site : Dolphin_semantics.Core.site; ran : int; runs : int }
 
 type t = {
@@ -28,10 +28,10 @@ let level = 0.95
 
 type tally = {
   mutable count : int;
-  endings : (Sample.ending, ending) Hashtbl.t;
+  endings : (Sampled_run.ending, ending) Hashtbl.t;
   mutable times : (float * int) list;  (* of those that completed, with their seeds *)
-  tasks : (Sample.task, task) Hashtbl.t;
-  mutable order : Sample.task list;  (* the latest first *)
+  tasks : (Sampled_run.task, task) Hashtbl.t;
+  mutable order : Sampled_run.task list;  (* the latest first *)
   handlers : (Dolphin_semantics.Core.site, handler) Hashtbl.t;
 }
 
@@ -39,7 +39,7 @@ let nothing () =
   { count = 0; endings = Hashtbl.create 8; times = []; tasks = Hashtbl.create 32; order = [];
     handlers = Hashtbl.create 8 }
 
-let add_task tally (task, (n : Sample.counts)) =
+let add_task tally (task, (n : Sampled_run.counts)) =
   let before =
     match Hashtbl.find_opt tally.tasks task with
     | Some t -> t
@@ -48,7 +48,7 @@ let add_task tally (task, (n : Sample.counts)) =
       { task; counts = { began = 0; ended = 0; failed = 0; stopped = 0 }; failing = 0 }
   in
   let c = before.counts in
-  let counts : Sample.counts =
+  let counts : Sampled_run.counts =
     { began = c.began + n.began; ended = c.ended + n.ended; failed = c.failed + n.failed;
       stopped = c.stopped + n.stopped }
   in
@@ -59,7 +59,7 @@ let add_handler tally (site, n) =
   let before = Option.value (Hashtbl.find_opt tally.handlers site) ~default:{ site; ran = 0; runs = 0 } in
   Hashtbl.replace tally.handlers site { site; ran = before.ran + n; runs = before.runs + 1 }
 
-let add tally seed (sample : Sample.t) =
+let add tally seed (sample : Sampled_run.t) =
   tally.count <- tally.count + 1;
   let { ending; runs; seed = first } =
     Option.value (Hashtbl.find_opt tally.endings sample.ending) ~default:{ ending = sample.ending; runs = 0; seed }
@@ -72,7 +72,7 @@ let add tally seed (sample : Sample.t) =
 let values table = Hashtbl.fold (fun _ x xs -> x :: xs) table []
 
 let by_runs (a : ending) (b : ending) =
-  let key (e : ending) = (e.ending <> Sample.Completed, -e.runs, e.seed) in
+  let key (e : ending) = (e.ending <> Sampled_run.Completed, -e.runs, e.seed) in
   compare (key a) (key b)
 
 (* The best of these times; of equal ones that with the least seed. *)
@@ -164,7 +164,7 @@ let run ~interrupted ~progress ~each (settings : settings) program fleet =
   let began = Unix.gettimeofday () in
   let last = Option.map (fun n -> settings.seed + n - 1) settings.runs in
   let jobs = match settings.runs with Some n -> max 1 (min n settings.jobs) | None -> settings.jobs in
-  let sample seed = Sample.run ~seed ~answers:settings.answers program fleet in
+  let sample seed = Sampled_run.run ~seed ~answers:settings.answers program fleet in
   let tally = nothing () in
   let follow workers =
     Fun.protect

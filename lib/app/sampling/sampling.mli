@@ -20,15 +20,15 @@ type stop =
 
 (** A way in which some runs ended. *)
 type ending = {
-  ending : Sample.ending;
+  ending : Sampled_run.ending;
   runs : int;
   seed : int;  (** of the first run that ended so *)
 }
 
 (** A platform task that began in some run. *)
 type task = {
-  task : Sample.task;
-  counts : Sample.counts;  (** of all runs together *)
+  task : Sampled_run.task;
+  counts : Sampled_run.counts;  (** of all runs together *)
   failing : int;  (** runs in which it failed *)
 }
 
@@ -53,7 +53,7 @@ val share : t -> int -> Dolphin_statistics.Share.interval
 (** [share s n] is the interval for the share of which [n] of the runs of [s] are a sample. *)
 
 val run :
-  interrupted:(unit -> bool) -> progress:(int -> unit) -> each:(seed:int -> Sample.t -> unit) -> settings ->
+  interrupted:(unit -> bool) -> progress:(int -> unit) -> each:(seed:int -> Sampled_run.t -> unit) -> settings ->
   Program_file.t -> Fleet_file.t -> (t, Error.t) result
 (** [run ~interrupted ~progress ~each s program fleet] is the runs with the seeds from [s.seed] on; which ones
     depends neither on [s.jobs] nor on chance, unless [interrupted ()] becomes true. [progress] gets their number,
@@ -61,6 +61,6 @@ val run :
     no process is left. *)
 
 val count :
-  answers:string list -> (add:(seed:int -> Sample.t -> unit) -> (unit, Error.t) result) -> (t, Error.t) result
+  answers:string list -> (add:(seed:int -> Sampled_run.t -> unit) -> (unit, Error.t) result) -> (t, Error.t) result
 (** [count ~answers read] counts in the same way the runs that [read ~add] gives to [add], in the order of their
     seeds, without gaps. They were made with [answers]. *)

@@ -13,25 +13,25 @@ let milliseconds seconds = Option.value (Bounds.milliseconds seconds) ~default:m
 let time seconds = Format.asprintf "%a" Bounds.pp_time (milliseconds seconds)
 let percent x = Printf.sprintf "%.2f %%" (100. *. x)
 
-let kind : Sample.ending -> string = function
+let kind : Sampled_run.ending -> string = function
   | Completed -> "completed"
   | Halted _ -> "halted"
   | Failed _ -> "failed"
   | Stuck _ -> "stuck"
 
-let site : Sample.ending -> Core.site option = function
+let site : Sampled_run.ending -> Core.site option = function
   | Completed | Halted _ | Stuck None -> None
   | Failed fault -> Some fault.site
   | Stuck (Some site) -> Some site
 
-let message : Sample.ending -> string = function
+let message : Sampled_run.ending -> string = function
   | Completed -> ""
   | Halted message -> message
   | Failed fault -> fault.message
   | Stuck None -> "nothing more can happen"
   | Stuck (Some _) -> "rounds follow each other, and none waits for anything"
 
-let ending p (e : Sample.ending) =
+let ending p (e : Sampled_run.ending) =
   let parts = [ kind e; Option.fold (site e) ~none:"" ~some:(Program_file.line p); message e ] in
   String.concat ": " (List.filter (( <> ) "") parts)
 

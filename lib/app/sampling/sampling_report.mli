@@ -6,7 +6,7 @@ val time : float -> string
 val percent : float -> string
 (** ["12.50 %"]. *)
 
-val ending : Program_file.t -> Sample.ending -> string
+val ending : Program_file.t -> Sampled_run.ending -> string
 (** The ending in words, with the place of a fault. *)
 
 val lines : columns:int -> Program_file.t -> Sampling.t -> string list

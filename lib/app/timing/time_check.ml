@@ -2,7 +2,7 @@ open Dolphin_time
 module Replay = Dolphin_trace.Replay
 module Scenario_world = Dolphin_environment.Scenario_world
 
-let text p (f : Recorded.finding) =
+let text p (f : Dated_run.finding) =
   let time = Fmt.to_to_string Bounds.pp_time in
   let least, most =
     match f.pending.bounds with Within { least; most } -> (least, most) | Some_time | Never -> (0, 0) in
@@ -28,21 +28,21 @@ let check ?tolerance (p : Program_file.t) (fleet : Fleet_file.t) path =
       durations = Durations.of_scenario fleet.scenario; dates = Ok [] }
   in
   let replay = ref (Replay.start ~hash:(Program_file.header p).hash p.program) in
-  let recorded = ref (Recorded.start ~tolerance:usual options) and findings = ref [] in
+  let recorded = ref (Dated_run.start ~tolerance:usual options) and findings = ref [] in
   let take time (on, t) =
     let date = Option.value (Bounds.milliseconds time) ~default:0 in
-    let next, found = Recorded.transition !recorded ~date ~on t in
+    let next, found = Dated_run.transition !recorded ~date ~on t in
     recorded := next;
     findings := List.rev_append (List.map (text p) found) !findings
   in
-  let tolerate ms = recorded := Recorded.with_tolerance (Option.value tolerance ~default:ms) !recorded in
+  let tolerate ms = recorded := Dated_run.with_tolerance (Option.value tolerance ~default:ms) !recorded in
   let line (entry : Dolphin_trace.Entry.t) =
     (match entry with
      | Header header -> tolerate (usual_of header)
      | Resumed _ -> tolerate usual
      | Vehicle { time; state } ->
        let date = Option.value (Bounds.milliseconds time) ~default:0 in
-       recorded := Recorded.heard !recorded ~date state.id state.connected
+       recorded := Dated_run.heard !recorded ~date state.id state.connected
      | _ -> ());
     match Replay.feed !replay entry with
     | Ok next -> replay := next; Option.iter (take (Dolphin_trace.Entry.time entry)) (Replay.latest next)

@@ -4,7 +4,7 @@ module Safe_print = Dolphin_display.Safe_print
 module Property = Dolphin_explore.Property
 module Environment = Dolphin_environment.Environment
 
-module Run = Dolphin_tla.Run
+module Run = Dolphin_tla.Tlc_questions
 
 type settings = {
   mode : Invocation.mode;
@@ -22,7 +22,7 @@ let properties : (string * Property.t) list =
 let phrase name = match List.assoc_opt name properties with Some p -> Property.name p | None -> name
 
 (* With a single temporal property: TLC does not name the violated one. *)
-let violated : Event.violation -> string = function
+let violated : Tlc_message.violation -> string = function
   | Invariant name | Property name -> name
   | Temporal -> "Termination"
   | Deadlock -> "NoDeadlock"
@@ -54,7 +54,7 @@ let print_last_step (c : Outcome.counter_example) =
   Safe_print.line
     "some property is violated: TLC's distributed mode does not name it, and shows only the last step. To see a run: \
      --run alone.";
-  let label (step : Outcome.step) = Option.bind (Event.variable "label" step.state) Quoted.unescape in
+  let label (step : Outcome.step) = Option.bind (Tlc_message.variable "label" step.state) Quoted.unescape in
   match List.rev_map label c.steps with
   | Some label :: _ -> Safe_print.printf "last step: %s\n" label
   | None :: _ | [] -> ()

@@ -1,7 +1,7 @@
 open Dolphin_tlc
 open Dolphin_lts
 module Safe_print = Dolphin_display.Safe_print
-module Run = Dolphin_tla.Run
+module Run = Dolphin_tla.Tlc_questions
 module Reference = Dolphin_explore.Reference
 
 (* TLC's counts must equal the printed ones: one line for each state, and one for each transition. *)
@@ -59,7 +59,7 @@ let print_coverage used =
 let ( let* ) = Result.bind
 
 let run installation ~directory ~limit ~coverage model options (program : Program_file.t) world =
-  let* space = State_graph.explored ~limit options program world in
+  let* space = Exported_graph.explored ~limit options program world in
   let files = List.map (fun (f : Dolphin_tla.Model.file) -> (f.name, f.text)) (Run.files ~strict:false model) in
   Tlc_session.in_directory directory files @@ fun directory ->
   let* theirs, used = graph_of_tlc installation ~directory in

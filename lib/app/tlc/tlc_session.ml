@@ -68,7 +68,7 @@ let in_directory directory model f =
 let clear () = Printf.eprintf "\r\027[K%!"
 let show format = Printf.ksprintf (fun text -> Printf.eprintf "\r%s\027[K%!" text) format
 
-let show_progress : Event.t -> unit = function
+let show_progress : Tlc_message.t -> unit = function
   | Version text -> show "%s: reads the model" text
   | Initial_states n -> show "searches from %s" (Dolphin_trace.Phrase.count n "initial state")
   | Progress { depth; generated; distinct; queue } ->
@@ -111,7 +111,7 @@ let run installation mode ~directory ~main ~configuration printed =
   let live = Unix.isatty Unix.stderr in
   let reader = ref Message.start and outcome = ref Outcome.start in
   let take message =
-    let event = Event.of_message message in
+    let event = Tlc_message.of_message message in
     if live then show_progress event;
     (match event with Printed text -> printed text | _ -> ());
     outcome := Outcome.event !outcome event

@@ -61,7 +61,7 @@ let known t =
   let note i = Bytes.unsafe_set known i '\001' in
   let rec of_window first =
     if first < t.window_states then begin
-      let n = min Waiting.most (t.window_states - first) in
+      let n = min Pending.most (t.window_states - first) in
       Packed.members t.pushed t.window ~first ~n note;
       of_window (first + n)
     end

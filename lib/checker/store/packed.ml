@@ -11,7 +11,7 @@ type t = {
   mutable table : Slot.table;
   mutable mask : int;
   mutable most : int;  (* states before the table has to grow *)
-  waiting : Waiting.t;
+  waiting : Pending.t;
 }
 
 let chunk_bits = 16
@@ -25,7 +25,7 @@ let fresh_table slots =
 
 let create ~words =
   let slots = 4096 in
-  let table = fresh_table slots and waiting = Waiting.create ~words in
+  let table = fresh_table slots and waiting = Pending.create ~words in
   let parents = Parents.create () in
   { words; chunks = [||]; parents; count = 0; bare = words = 1; table; mask = slots - 1; most = Slot.most slots;
     waiting }
@@ -152,7 +152,7 @@ let read_states t =
 
 let flush t ~fresh =
   let waiting = t.waiting in
-  Waiting.read_slots waiting t.table t.mask;
+  Pending.read_slots waiting t.table t.mask;
   if not t.bare then read_states t;
   for k = 0 to waiting.length - 1 do
     let at = k * t.words in
@@ -163,9 +163,9 @@ let flush t ~fresh =
       if i < 0 then fresh (-1 - i) (Array.unsafe_get waiting.keys at)
     end
   done;
-  Waiting.clear waiting
+  Pending.clear waiting
 
-let push t key ~parent ~fresh = if Waiting.add t.waiting key ~parent then flush t ~fresh
+let push t key ~parent ~fresh = if Pending.add t.waiting key ~parent then flush t ~fresh
 
 let find t key =
   number_all t;
@@ -175,14 +175,14 @@ let find t key =
 (* {1 Others' states} *)
 
 let parents t = t.parents
-let room t = max 1 (min t.most (Array.length t.chunks * chunk_states) - (2 * Waiting.most))
+let room t = max 1 (min t.most (Array.length t.chunks * chunk_states) - (2 * Pending.most))
 let table t = t.table
 
 let clear t =
   t.count <- 0;
   t.bare <- false;
   t.parents <- Parents.create ();
-  Waiting.clear t.waiting;
+  Pending.clear t.waiting;
   Array1.fill t.table 0
 
 (* The places of waiting states hold others' states meanwhile. *)
@@ -193,16 +193,16 @@ let members t source ~first ~n f =
     for w = 0 to t.words - 1 do
       key.(w) <- Int64.to_int (Bytes.get_int64_le source (8 * (((first + k) * t.words) + w)))
     done;
-    ignore (Waiting.add waiting key ~parent:0 : bool)
+    ignore (Pending.add waiting key ~parent:0 : bool)
   done;
-  Waiting.read_slots waiting t.table t.mask;
+  Pending.read_slots waiting t.table t.mask;
   read_states t;
   for k = 0 to n - 1 do
     let h = waiting.hashes.(k) in
     let entry = t.table.{probe t t.table waiting.keys (k * t.words) (Slot.tag h) (h land t.mask)} in
     if entry <> 0 then f (Slot.number entry)
   done;
-  Waiting.clear waiting
+  Pending.clear waiting
 
 let bytes_of_chunk t = chunk_states * 8 * t.words
 let bytes t = (Array.length t.chunks * bytes_of_chunk t) + (8 * (t.mask + 1)) + Parents.bytes t.parents
@@ -213,7 +213,7 @@ let bytes_to_grow t ~by =
   table + (max 0 chunks * bytes_of_chunk t)
 
 let bytes_to_rewrite t ~words = if words = t.words then 0 else Array.length t.chunks * chunk_states * 8 * words
-let forget_waiting t = Waiting.clear t.waiting
+let forget_waiting t = Pending.clear t.waiting
 
 let rewrite t ~words f =
   let old = Array.make t.words 0 and fresh = Array.make words 0 in
@@ -232,7 +232,7 @@ let rewrite t ~words f =
     t.chunks.(c) <- renewed
   in
   Array.iteri renewed t.chunks;
-  let t = { t with words; waiting = Waiting.create ~words; bare = t.bare && words = 1 } in
+  let t = { t with words; waiting = Pending.create ~words; bare = t.bare && words = 1 } in
   Array1.fill t.table 0;
   fill t;
   t

@@ -61,4 +61,4 @@ val clear : t -> unit
 
 val members : t -> Bytes.t -> first:int -> n:int -> (int -> unit) -> unit
 (** [members t b ~first ~n f] calls [f] with the number of each of [n] vectors that is a member: those in [b] from the
-    one at place [first] on, with 8 bytes a word. [n] is at most {!Waiting.most}. Nothing may wait to be added. *)
+    one at place [first] on, with 8 bytes a word. [n] is at most {!Pending.most}. Nothing may wait to be added. *)

@@ -22,7 +22,7 @@ type t = {
   mutable mask : int;
   mutable most : int;
   mutable grow : t -> unit;
-  waiting : Waiting.t;
+  waiting : Pending.t;
 }
 
 let chunk_bits = 16
@@ -168,7 +168,7 @@ let rec add_bare t keys at ~parent ~fresh slot =
 let set_table t slots =
   t.table <- Array1.sub t.tables slots slots;
   t.mask <- slots - 1;
-  t.most <- Slot.most slots - (t.workers * Waiting.most)
+  t.most <- Slot.most slots - (t.workers * Pending.most)
 
 let rec put (table : Slot.table) mask entry slot =
   if not (Array1.unsafe_get table slot = 0 && Shared_memory.swap table slot 0 entry) then
@@ -176,7 +176,7 @@ let rec put (table : Slot.table) mask entry slot =
 
 (* Slots are read for many states, and only then written to, as in {!flush}. *)
 let put_states t first n =
-  let key = Array.make t.words 0 and hashes = Array.make Waiting.most 0 in
+  let key = Array.make t.words 0 and hashes = Array.make Pending.most 0 in
   let put_some from n =
     let seen = ref 0 in
     for k = 0 to n - 1 do
@@ -194,8 +194,8 @@ let put_states t first n =
   in
   let rec from k =
     if k < n then begin
-      put_some (first + k) (min Waiting.most (n - k));
-      from (k + Waiting.most)
+      put_some (first + k) (min Pending.most (n - k));
+      from (k + Pending.most)
     end
   in
   from 0
@@ -254,7 +254,7 @@ let read_states t =
 let flush t ~fresh =
   if is_full t then t.grow t;
   let waiting = t.waiting in
-  Waiting.read_slots waiting t.table t.mask;
+  Pending.read_slots waiting t.table t.mask;
   if not t.bare then read_states t;
   for k = 0 to waiting.length - 1 do
     let at = k * t.words in
@@ -262,11 +262,11 @@ let flush t ~fresh =
     if t.bare then add_bare t waiting.keys at ~parent ~fresh (h land t.mask)
     else add_at t waiting.keys at h ~parent ~fresh (h land t.mask)
   done;
-  Waiting.clear waiting;
+  Pending.clear waiting;
   publish t
 
-let push t key ~parent ~fresh = if Waiting.add t.waiting key ~parent then flush t ~fresh
-let forget_waiting t = Waiting.clear t.waiting
+let push t key ~parent ~fresh = if Pending.add t.waiting key ~parent then flush t ~fresh
+let forget_waiting t = Pending.clear t.waiting
 
 (* From now on the table has numbers. *)
 let number_all t =
@@ -314,7 +314,7 @@ let rewrite t ~words f =
     done
   in
   List.iter of_chunk (List.sort (fun (first, _) (first', _) -> Int.compare first' first) !chunks);
-  let t = { t with words; waiting = Waiting.create ~words; bare = t.bare && words = 1 } in
+  let t = { t with words; waiting = Pending.create ~words; bare = t.bare && words = 1 } in
   forget_table t;
   fill t;
   t
@@ -325,7 +325,7 @@ let reserved packed ~workers room =
   let most_chunks = (room lsr chunk_bits) + workers + 1 in
   let most = most_chunks lsl chunk_bits in
   let rec slots_for slots =
-    if Slot.most slots - (workers * Waiting.most) > 2 * n then slots else slots_for (2 * slots) in
+    if Slot.most slots - (workers * Pending.most) > 2 * n then slots else slots_for (2 * slots) in
   let rec largest slots = if 2 * slots >= room then slots else largest (2 * slots) in
   let slots = slots_for 4096 in
   let with_array kind n f =
@@ -345,7 +345,7 @@ let reserved packed ~workers room =
   let t =
     { words; workers; me = 0; states; before = Packed.parents packed; places; runs; most_runs = room / 32; tables;
       chunks; most_chunks; owners; control; own = n; own_runs = 0; run = no_run; bare = words = 1;
-      table = tables; mask = 0; most = 0; grow = grow_alone; waiting = Waiting.create ~words }
+      table = tables; mask = 0; most = 0; grow = grow_alone; waiting = Pending.create ~words }
   in
   set_table t slots;
   Shared_memory.write t.control slots_now slots;

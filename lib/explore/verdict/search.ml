@@ -119,7 +119,7 @@ let told verdict =
 
 let termination_of_script graph ~shortest =
   let run ({ stem; around } : Breadth_first.lasso) =
-    let steps, cycle = Replay.around graph ~stem around in
+    let steps, cycle = Rebuilt_run.around graph ~stem around in
     let is_as_short = List.compare_lengths stem steps > 0 && List.compare_lengths around cycle > 0 in
     { steps; cycle; shortest = shortest && is_as_short; decided = None; faults = None }
   in
@@ -128,7 +128,7 @@ let termination_of_script graph ~shortest =
 (* The places where a task may run without end. *)
 let rec termination_of_rounds x (options : options) graph =
   let shown ({ stem; around } : Fair_cycles.lasso) =
-    let steps, cycle = Replay.around graph ~stem around in
+    let steps, cycle = Rebuilt_run.around graph ~stem around in
     Violated { steps; cycle; shortest = false; decided = None; faults = None }
   in
   let all = not (Reduction.by_order options.reduction) in
@@ -158,7 +158,7 @@ let termination x options graph ~shortest =
     | Holds | Violated _ | Inconclusive _ -> termination_of_script graph ~shortest
 
 let run_through graph ~shortest states =
-  { steps = Replay.through graph states; cycle = []; shortest; decided = None; faults = None }
+  { steps = Rebuilt_run.through graph states; cycle = []; shortest; decided = None; faults = None }
 
 let invariant graph ~shortest i : verdict =
   match Invariant.broken i, Invariant.trouble i, State_graph.stopped graph with

@@ -227,16 +227,16 @@ let summary () =
   let bound = [ "v" ] and p = task "dive" in
   let o =
     List.fold_left
-      (fun o (time, t) -> Outcome.transition o ~time t)
-      Outcome.start
+      (fun o (time, t) -> Run_summary.transition o ~time t)
+      Run_summary.start
       [ (0., transition ~bound ~effects:[ Start ("v", p) ] (Start ("v", "dive"))); (60., transition ~bound (Done ("v", "dive")));
         (60., transition ~bound ~effects:[ Start ("v", p) ] (Start ("v", "dive")));
         (61., transition ~bound (Fail ("v", "dive", "leak"))); (61., transition ~effects:[ End (Halted "") ] (Halt "")) ]
   in
   lines "what ran, what failed, where the journal is"
     [ "halted after 1:01"; "  tasks    1 done, 1 failed"; "           v: dive failed at 1:01: leak"; "  journal  m.run" ]
-    (Outcome.lines o ~now:61. ~journal:(Some "m.run") ~colour:false);
-  lines "no end, no summary" [] (Outcome.lines Outcome.start ~now:0. ~journal:None ~colour:false)
+    (Run_summary.lines o ~now:61. ~journal:(Some "m.run") ~colour:false);
+  lines "no end, no summary" [] (Run_summary.lines Run_summary.start ~now:0. ~journal:None ~colour:false)
 
 let () =
   Alcotest.run "display"

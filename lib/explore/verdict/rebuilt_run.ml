@@ -19,7 +19,7 @@ let permutation graph i j =
   let leads (arrival : State_graph.arrival) = arrival.into = j in
   match List.find_opt leads (State_graph.arrivals graph i) with
   | Some arrival -> arrival.via
-  | None -> Fmt.invalid_arg "Replay.permutation: no step from state %d to state %d" i j
+  | None -> Fmt.invalid_arg "Rebuilt_run.permutation: no step from state %d to state %d" i j
 
 (* Each of [states], which follow each other in the task, with its permutation; [last] is that of the last one. *)
 let rec permutations graph last = function
@@ -28,7 +28,7 @@ let rec permutations graph last = function
   | i :: (j :: _ as rest) -> (
       match permutations graph last rest, permutation graph i j with
       | ((_, p) :: _ as found), Some q -> (i, Task_group.compose p q) :: found
-      | _, _ -> Fmt.invalid_arg "Replay.permutations: state %d" i)
+      | _, _ -> Fmt.invalid_arg "Rebuilt_run.permutations: state %d" i)
 
 (* Those of [states] in the task of the first one; the symmetry of the task; and the states after it. *)
 let rec task graph = function
@@ -101,7 +101,7 @@ let in_names_of graph states =
             | inside, Some g, after ->
               let state, last, inside = follow graph g state ~from inside after in
               go state last (List.rev_append inside found) after
-            | _, None, _ -> invalid_arg "Replay.in_names_of"))
+            | _, None, _ -> invalid_arg "Rebuilt_run.in_names_of"))
   in
   match states with
   | [] -> []
@@ -146,4 +146,4 @@ let around graph ~stem states =
   let images = in_names_of graph states in
   match Rounds.closed ~equal (fun state -> Some (real graph state images)) state with
   | Some (before, cycle) -> (stem @ before, cycle)
-  | None -> invalid_arg "Replay.around"
+  | None -> invalid_arg "Rebuilt_run.around"

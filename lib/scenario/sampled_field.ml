@@ -5,7 +5,7 @@ let by_time a b = Float.compare a.time b.time
 
 (* Of the samples of one place, at least one, in order of time. *)
 let rec at time = function
-  | [] -> invalid_arg "Field.at: no samples"
+  | [] -> invalid_arg "Sampled_field.at: no samples"
   | [ last ] -> last.value
   | first :: _ when time <= first.time -> first.value
   | first :: (next :: _ as rest) ->

@@ -5,11 +5,13 @@ environment variable `DOLPHIN`."""
 
 from .adapter import Adapter, serve
 from .analysis import Check, Exploration, Verdict, check, explore
+from .console import Console, ConsoleEvent
 from .diagnostics import Diagnostic
 from .errors import (
     CommandError,
     CommandFault,
     CommandNotFound,
+    ConsoleRefused,
     DolphinError,
     JournalError,
     PlatformError,
@@ -31,10 +33,10 @@ from .vehicle import Absent, Done, Failed, Plan, Stopped, Unknown, Vehicle
 
 __all__ = [
     "Absent", "Adapter", "Area", "Battery", "Check", "Circle", "CommandError", "CommandFault", "CommandNotFound",
-    "Diagnostic", "DolphinError", "Done", "End", "Event", "Exploration", "Failed", "Fake", "Fakes", "Header",
-    "Journal", "JournalError", "Other", "Plan", "PlatformError", "Position", "ProgramError", "Record", "Reference",
-    "RequestRefused", "Resumed", "Run", "RunEnded", "RunFailed", "RunGone", "Sighting", "StartedRun", "Stopped",
-    "Supplier", "SupplierError", "Task", "TaskRun", "TaskTimes", "Timing", "Transition", "Unknown", "Vehicle",
-    "Vehicles", "Verdict", "Window", "Within", "assert_holds", "assert_in_time", "attach", "check", "execute",
-    "explore", "mission", "never", "read", "run", "serve", "time",
+    "Console", "ConsoleEvent", "ConsoleRefused", "Diagnostic", "DolphinError", "Done", "End", "Event",
+    "Exploration", "Failed", "Fake", "Fakes", "Header", "Journal", "JournalError", "Other", "Plan", "PlatformError",
+    "Position", "ProgramError", "Record", "Reference", "RequestRefused", "Resumed", "Run", "RunEnded", "RunFailed",
+    "RunGone", "Sighting", "StartedRun", "Stopped", "Supplier", "SupplierError", "Task", "TaskRun", "TaskTimes",
+    "Timing", "Transition", "Unknown", "Vehicle", "Vehicles", "Verdict", "Window", "Within", "assert_holds",
+    "assert_in_time", "attach", "check", "execute", "explore", "mission", "never", "read", "run", "serve", "time",
 ]

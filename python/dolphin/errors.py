@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Sequence, Tuple
+from typing import Any, Mapping, Sequence, Tuple
 
 from .diagnostics import Diagnostic
 
@@ -70,3 +70,12 @@ class RunEnded(RequestRefused):
 
 class JournalError(DolphinError):
     """A file is not a journal, or damaged."""
+
+
+class ConsoleRefused(RequestRefused):
+    """A console refuses a request. `reply` has all of its members, such as the `diagnostics` of a program."""
+
+    def __init__(self, code: str, message: str, status: int, reply: Mapping[str, Any]) -> None:
+        super().__init__(code, message)
+        self.status = status
+        self.reply = reply

@@ -6,6 +6,7 @@ import os
 import pkgutil
 import re
 import runpy
+import signal
 import subprocess
 import sys
 import unittest
@@ -42,7 +43,8 @@ class Page(InFolder):
 
     def test_the_files(self):
         self.assertEqual(
-            sorted(self.files), ["boats.py", "supply.py", "test_on_fakes.py", "test_rendezvous.py", "watch.py"])
+            sorted(self.files),
+            ["boats.py", "over_http.py", "supply.py", "test_on_fakes.py", "test_rendezvous.py", "watch.py"])
 
     def test_the_adapter_passes_the_kit(self):
         situations = ["greeting", "completion", "stop", "refusal", "killed", "close"]
@@ -59,6 +61,22 @@ class Page(InFolder):
         shown = next(text for (before, (kind, text)) in zip(self.blocks, self.blocks[1:])
                      if kind == "text" and "# watch.py" in before[1])
         self.assertEqual(self.call(sys.executable, "watch.py"), shown)
+
+    def test_the_client_of_a_console(self):
+        server = subprocess.Popen(
+            [command.find(), "console", ".", "--port", "0", "--no-browser"], stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True,
+            env={**os.environ, "XDG_STATE_HOME": self.folder})
+        try:
+            link = None
+            while link is None:
+                line = server.stdout.readline()
+                self.assertTrue(line, "the console ended")
+                link = re.search(r"http://\S+", line)
+            self.assertIn("ends survey3", self.call(sys.executable, "over_http.py", link[0]))
+        finally:
+            server.send_signal(signal.SIGINT)
+            server.communicate(timeout=60)
 
     def test_the_dialogues(self):
         parser, runner, names = doctest.DocTestParser(), doctest.DocTestRunner(verbose=False), {}

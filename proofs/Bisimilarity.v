@@ -114,7 +114,8 @@ Section Bisimilarity.
 
   Lemma enter_similar f K K' : similar K K' -> similar (enter f K) (enter f K').
   Proof.
-    destruct K, K'. intros []. cbn in *. subst. split; try reflexivity. cbn. apply alike_app; [assumption | apply alike_refl].
+    destruct K, K'. intros []. cbn in *. subst. split; try reflexivity. cbn. apply alike_app;
+      [assumption | apply alike_refl].
   Qed.
 
   Lemma goes_similar e K S r t : goes e K S r t -> forall K', similar K K' -> goes e K' S r t.
@@ -135,7 +136,8 @@ Section Bisimilarity.
     intros Hk Hn Hi.
     assert (E : (fun v => mem v (frame_names f)) = (fun v => mem v (frame_names f'))).
     { apply functional_extensionality. intros v. apply mem_alike. exact Hn. }
-    assert (E' : forall g : vehicle -> bool, (fun v => g v || mem v (frame_names f)) = (fun v => g v || mem v (frame_names f'))).
+    assert (E' : forall g : vehicle -> bool, (fun v => g v || mem v (frame_names f)) = (fun v => g v ||
+      mem v (frame_names f'))).
     { intros g. apply functional_extensionality. intros v. rewrite (mem_alike v Hn). reflexivity. }
     split; cbn [enter world_of held needed named taken_numbers its_recruits]; auto.
     - destruct f, f'; cbn [kind] in Hk; try discriminate Hk; auto.
@@ -234,7 +236,8 @@ Section Bisimilarity.
     (forall r, normal r = true -> R r r) -> next_normal t ->
     match t, t' with By l S1 o _, By l' S1' o' _ => l = l' /\ S1 = S1' /\ o = o' end -> agree R t t'.
   Proof.
-    destruct t as [l S o E], t' as [l' S' o' E']. intros HR Hn (-> & -> & <-). split; [reflexivity | split; [reflexivity|]].
+    destruct t as [l S o E], t' as [l' S' o' E']. intros HR Hn (-> & -> & <-). split; [reflexivity | split;
+      [reflexivity|]].
     destruct o; auto.
   Qed.
 

@@ -27,7 +27,8 @@ Section Congruence.
 
   Lemma next_agree t t' : agree eq t t' -> next_normal t' -> next_normal t.
   Proof.
-    destruct t as [l S1 o E], t' as [l' S1' o' E']. intros (_ & _ & H) Hn. destruct o, o'; cbn in *; auto; try contradiction.
+    destruct t as [l S1 o E], t' as [l' S1' o' E']. intros (_ & _ & H) Hn. destruct o, o'; cbn in *; auto;
+      try contradiction.
     subst. exact Hn.
   Qed.
 
@@ -53,7 +54,8 @@ Section Congruence.
   Lemma face_plug f r r' : simple f = true -> normal (plug f r) = true -> face r r' -> face (plug f r) (plug f r').
   Proof.
     intros Hf Hn [H1 H2 H3 H4 H5].
-    split; [ | | | exact Hn | destruct f; try discriminate Hf; cbn [plug normal] in *; rewrite ?andb_true_iff in *; tauto].
+    split; [ | | | exact Hn | destruct f; try discriminate Hf; cbn [plug normal] in *; rewrite ?andb_true_iff in *;
+      tauto].
     - destruct f; try discriminate Hf; cbn [plug names]; try assumption;
         try (apply alike_app; [assumption | apply alike_refl]).
       + apply alike_app; [apply alike_refl | assumption].
@@ -96,14 +98,17 @@ Section Congruence.
       destruct g; apply agree_refl; auto; cbn; auto.
     - subst m'. destruct f; try discriminate Hf; cbn [lift on_err] in *;
         try (destruct Hu as [<- | []]; eexists; split; [left; reflexivity | cbn; auto]; fail).
-      unfold on_error in *. destruct (handles_error (handles h) m K S1) as [x s gone N0 ds | m' ds | m' ds | m' s gone N0 ds |];
+      unfold on_error in *. destruct (handles_error (handles h) m K S1) as [x s gone N0 ds | m' ds | m' ds |
+        m' s gone N0 ds |];
         try contradiction; try (destruct Hu as [<- | []]; eexists; split; [left; reflexivity | cbn; auto]; fail).
-      destruct x; [ | | destruct (anew h) as [(t0 & q)|] | destruct (anew h) as [(t0 & q)|]; [destruct (deepest <=? depth q)|]];
+      destruct x; [ | | destruct (anew h) as [(t0 & q)|] | destruct (anew h) as [(t0 & q)|];
+        [destruct (deepest <=? depth q)|]];
         destruct Hu as [<- | []]; eexists; (split; [left; reflexivity|]); apply agree_refl; cbn; auto.
     - subst x'. destruct Hu as [<- | []]. eexists. split; [left; reflexivity | cbn; auto].
   Qed.
 
-  (** [until], [assure], [during], [within], [watch], rounds, running branches, [holding], [recruited]: for the part that
+  (** [until], [assure], [during], [within], [watch], rounds, running branches, [holding],
+    [recruited]: for the part that
       is active. *)
   Theorem frames_congruent f r r' :
     simple f = true -> normal (plug f r) = true -> bisimilar r r' -> bisimilar (plug f r) (plug f r').
@@ -118,7 +123,8 @@ Section Congruence.
       intros e K S t Ht. assert (Nt := goes_normal Ht Ha).
       apply goes_plug in Ht; [|apply simple_not_beside, Hf]. destruct Ht as [Ht | (u & Hu & Hl)].
       + destruct (own_plug (r' := r') Hf (face_run F) Ht) as (t' & Ht' & Hag). exists t'.
-        split; [apply Itself; exact Ht'|]. eapply agree_more'; [exact Hag | exact Nt | intros; apply up_refl; assumption].
+        split; [apply Itself; exact Ht'|]. eapply agree_more'; [exact Hag | exact Nt | intros; apply up_refl;
+          assumption].
       + destruct (bisimilar_steps H Hu) as (u' & Hu' & Hag).
         destruct (lift_agree Hf Hag Nt Hl) as (t' & Ht' & Hag'). exists t'.
         assert (G : goes e K S (plug f r') t').
@@ -202,7 +208,8 @@ Section Congruence.
     - eapply alike_trans; [apply alike_names_sequence|]. eapply alike_trans; [|apply alike_sym, alike_names_sequence].
       apply alike_app; assumption.
     - rewrite !run_of_sequence. assumption.
-    - eapply alike_trans; [apply alike_numbers_sequence|]. eapply alike_trans; [|apply alike_sym, alike_numbers_sequence].
+    - eapply alike_trans; [apply alike_numbers_sequence|]. eapply alike_trans;
+      [|apply alike_sym, alike_numbers_sequence].
       apply alike_app; assumption.
   Qed.
 
@@ -217,7 +224,8 @@ Section Congruence.
       assert (F := bisimilar_face Hr). assert (F' := bisimilar_face Ht). split; [apply face_sequence; assumption|].
       intros e K S u Hu. apply goes_sequence in Hu. destruct Hu as (v & Hv & Hu).
       destruct (bisimilar_steps Hr (goes_similar Hv (K' := enter (In_sequence t') K)
-        (enter_alike (f := In_sequence t) (f' := In_sequence t') K eq_refl (face_names F') (face_numbers F')))) as (v' & Hv' & Ha).
+        (enter_alike (f := In_sequence t) (f' := In_sequence t') K eq_refl (face_names F') (face_numbers F')))) as
+          (v' & Hv' & Ha).
       destruct v as [l S1 o E], v' as [l' S1' o' E']. destruct Ha as (<- & <- & Ho).
       destruct o as [x | | m | x], o' as [x' | | m' | x']; try contradiction; destruct Hu as [<- | []];
         (eexists; split; [apply goes_sequence; eexists; split; [exact Hv' | left; reflexivity]|]);
@@ -344,7 +352,8 @@ Section Congruence.
     (B ++ A = [] /\ parallel (B ++ flat x ++ A) = x) \/ (around B A /\ parallel (B ++ flat x ++ A) = hole B x A).
   Proof.
     intros H Hx. destruct (B ++ A) as [|y ys] eqn:E.
-    - left. split; [reflexivity|]. apply app_eq_nil in E. destruct E as [-> ->]. rewrite app_nil_r. apply parallel_flat, Hx.
+    - left. split; [reflexivity|]. apply app_eq_nil in E. destruct E as [-> ->]. rewrite app_nil_r.
+      apply parallel_flat, Hx.
     - right. assert (Ha : around B A) by (split; rewrite E; [exact H | discriminate]). split; [exact Ha|].
       destruct (branches_hole Ha Hx). apply parallel_branches; assumption.
   Qed.
@@ -537,17 +546,20 @@ Section Congruence.
     assert (Nv := goes_normal Hv Nr).
     apply in_parts in Hp. destruct f; try discriminate Hp. unfold hole in Hp. injection Hp as Hp.
     rewrite lift_beside in Hu. destruct Hu as [<- | []]. symmetry in Hp.
-    destruct HB as [HB1 HB2]. pose proof HB1 as HB3. rewrite branches_app, andb_true_iff in HB1. destruct HB1 as [BB BA].
+    destruct HB as [HB1 HB2]. pose proof HB1 as HB3. rewrite branches_app, andb_true_iff in HB1.
+      destruct HB1 as [BB BA].
     destruct (three_ways Hp) as [(c & -> & ->) | [(b1 & a1 & F & -> & ->) | (c & -> & ->)]].
     - (* before the hole *)
       assert (Hb := split_branches (b := before) (r := r) (a := c ++ A)).
       assert (Bc : branches_of (before ++ c) = true).
-      { rewrite branches_app in *. unfold branches_of in BB at 2. cbn [forallb] in BB. rewrite !andb_true_iff in *. tauto. }
+      { rewrite branches_app in *. unfold branches_of in BB at 2. cbn [forallb] in BB. rewrite !andb_true_iff in *.
+        tauto. }
       exists (surround before (c ++ flat x' ++ A) v). split.
       + unfold hole. rewrite <- app_assoc. cbn.
         change (Parallel (before ++ r :: c ++ flat x' ++ A)) with (plug (Beside before (c ++ flat x' ++ A)) r).
         eapply Within; [|rewrite lift_beside; left; reflexivity]. eapply goes_similar; [exact Hv|].
-        apply enter_alike; [reflexivity | |]; cbn [frame_names frame_numbers]; rewrite !app_assoc, <- !(app_assoc _ _ A).
+        apply enter_alike; [reflexivity | |]; cbn [frame_names frame_numbers];
+          rewrite !app_assoc, <- !(app_assoc _ _ A).
         * apply alike_hole; [apply through_names | exact F1].
         * apply alike_hole; [apply through_numbers | exact F3].
       + apply beside_agree; [exact Nv | | |].
@@ -572,10 +584,12 @@ Section Congruence.
       + apply up_refl. apply normal_parallel; [exact HB2 | apply branches_normal; exact HB3].
     - (* after it *)
       assert (Bc : branches_of (c ++ after) = true).
-      { rewrite branches_app in *. unfold branches_of in BA at 2. cbn [forallb] in BA. rewrite !andb_true_iff in *. tauto. }
+      { rewrite branches_app in *. unfold branches_of in BA at 2. cbn [forallb] in BA. rewrite !andb_true_iff in *.
+        tauto. }
       exists (surround (B ++ flat x' ++ c) after v). split.
       + unfold hole.
-        replace (B ++ flat x' ++ c ++ r :: after) with ((B ++ flat x' ++ c) ++ r :: after) by (rewrite <- !app_assoc; reflexivity).
+        replace (B ++ flat x' ++ c ++ r :: after) with ((B ++ flat x' ++ c) ++ r :: after) by (rewrite <- !app_assoc;
+          reflexivity).
         change (Parallel ((B ++ flat x' ++ c) ++ r :: after)) with (plug (Beside (B ++ flat x' ++ c) after) r).
         eapply Within; [|rewrite lift_beside; left; reflexivity]. eapply goes_similar; [exact Hv|].
         apply enter_alike; [reflexivity | |]; cbn [frame_names frame_numbers]; rewrite <- !app_assoc.
@@ -726,12 +740,14 @@ Section Congruence.
       assert (Nbc : forallb (fun b => normal (snd b)) ((b ++ c) ++ after) = true)
         by (apply forallb_forall; intros z Hz; apply Parts; rewrite !in_app_iff in *; cbn; tauto).
       assert (Q := branch_of_hole g Hx P P' Ng Nbc). unfold branch_hole in Q. rewrite <- !app_assoc in Q. exact Q.
-    - destruct b1 as [|z b1]; [|destruct b1; discriminate]. injection E as <- <-. rewrite app_nil_r in *. cbn [app] in *.
+    - destruct b1 as [|z b1]; [|destruct b1; discriminate]. injection E as <- <-. rewrite app_nil_r in *.
+      cbn [app] in *.
       apply (Found before (g, x') after); [reflexivity | reflexivity|]. intros ds. cbn [snd].
       rewrite !given_plain by assumption. right. destruct Hs as [-> | ->]; [|exact Hx].
       apply branch_of_congruent; [exact Hx | exact Hn].
     - assert (Ny : normal (snd y) = true) by (apply Parts, in_app_iff; right; apply in_elt).
-      apply (Found (before ++ (g, x') :: c) y a); [unfold branch_hole; rewrite <- app_assoc; reflexivity | reflexivity|].
+      apply (Found (before ++ (g, x') :: c) y a); [unfold branch_hole; rewrite <- app_assoc;
+        reflexivity | reflexivity|].
       intros ds. assert (Ng : normal (given ds (snd y)) = true) by (apply normal_given; exact Ny).
       destruct Hs as [-> | ->]; [left | apply up_refl; exact Ng].
       assert (Nca : forallb (fun b => normal (snd b)) (before ++ c ++ a) = true)
@@ -749,7 +765,8 @@ Section Congruence.
   Theorem branches_congruent p q : in_branch p q -> bisimilar p q.
   Proof.
     apply by_symmetric_relation; [exact in_branch_sym|]. intros a b H. split; [apply face_branch; exact H|].
-    pose proof H as (before & g & x & x' & after & Hx & P & P' & Hn & Hab). destruct (bisimilar_face Hx) as [F1 F2 F3 F4 F5].
+    pose proof H as (before & g & x & x' & after & Hx & P & P' & Hn & Hab).
+      destruct (bisimilar_face Hx) as [F1 F2 F3 F4 F5].
     intros e K S t Ht. assert (Nt := goes_normal Ht (face_normal (face_branch H))).
     destruct Hab as [(-> & ->) | [(Hne & -> & ->) | (r & Hr & -> & ->)]].
     - apply goes_parts in Ht. destruct Ht as [Ht | (f & r1 & u & [] & _)]. cbn [own] in Ht.
@@ -766,9 +783,11 @@ Section Congruence.
       assert (Step : forall t', In t' (lift (Branch_of bs') K u) -> goes e K S (Branch r bs') t').
       { intros t' Ht'. change (Branch r bs') with (plug (Branch_of bs') r). eapply Within; eassumption. }
       assert (Nu := goes_normal Hu Hr).
-      destruct u as [l S1 [r1 | | m | y] E]; destruct Ht as [<- | []]; (eexists; split; [apply Step; left; reflexivity|]);
+      destruct u as [l S1 [r1 | | m | y] E]; destruct Ht as [<- | []]; (eexists; split; [apply Step; left;
+        reflexivity|]);
         (split; [reflexivity | split; [reflexivity|]]); auto.
-      + left. exists before, g, x, x', after. split; [exact Hx | split; [exact P | split; [exact P' | split; [exact Hn|]]]].
+      + left. exists before, g, x, x', after. split; [exact Hx | split; [exact P | split; [exact P' | split;
+        [exact Hn|]]]].
         right. right. exists r1. auto.
       + left. apply all_of_hole; assumption.
   Qed.

@@ -26,7 +26,8 @@ Section Executing.
     exists M, r', r, S. auto using bisimilar_sym.
   Qed.
 
-  Lemma executing_step c c' a d : same_but_residual c c' -> moves c a d -> exists d', moves c' a d' /\ same_but_residual d d'.
+  Lemma executing_step c c' a d : same_but_residual c c' -> moves c a d -> exists d', moves c' a d' /\
+    same_but_residual d d'.
   Proof.
     destruct a as [[w x] l]. intros [-> | (M & r & r' & S & -> & -> & Hr)] (E & Hs).
     - exists d. split; [exists E; exact Hs | left; reflexivity].
@@ -43,7 +44,8 @@ Section Executing.
       + match goal with H : step _ _ _ _ _ _ _ _ |- _ => destruct (Part _ _ _ H) as (o' & E' & H' & Ho) end.
         destruct o'; try contradiction. eexists. split; [eexists; eapply EXECUTE_DONE; exact H' | left; reflexivity].
       + match goal with H : step _ _ _ _ _ _ _ _ |- _ => destruct (Part _ _ _ H) as (o' & E' & H' & Ho) end.
-        destruct o'; try contradiction. subst. eexists. split; [eexists; eapply EXECUTE_ERR; exact H' | left; reflexivity].
+        destruct o'; try contradiction. subst. eexists. split; [eexists; eapply EXECUTE_ERR; exact H' | left;
+          reflexivity].
       + match goal with H : step _ _ _ _ _ _ _ _ |- _ => destruct (Part _ _ _ H) as (o' & E' & H' & Ho) end.
         destruct o'; try contradiction. eexists. split; [eexists; eapply EXECUTING; exact H'|].
         right. do 4 eexists. split; [reflexivity | split; [reflexivity | exact Ho]].

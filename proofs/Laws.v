@@ -91,7 +91,8 @@ Section Laws.
     clear r Hr. intros a r (Hr & ->).
     assert (F : face (plug f r) r).
     { destruct (Hs r) as [N1 N2].
-      split; auto; [rewrite N1; apply alike_refl | destruct f; try discriminate Hf; apply alike_refl | rewrite N2; apply alike_refl]. }
+      split; auto; [rewrite N1; apply alike_refl | destruct f; try discriminate Hf; apply alike_refl | rewrite N2;
+        apply alike_refl]. }
     split; [exact F | split; intros e K S t Ht].
     - apply goes_plug in Ht; [|apply simple_not_beside, Hf]. destruct Ht as [Ht | (v & Hv & Ht)].
       { exfalso. eapply Hown. exact Ht. }
@@ -194,31 +195,39 @@ Section Laws.
 
   (** [assure { g } run (t >> t') = (assure { g } run t) >> (assure { g } run t')] *)
   Theorem assure_sequence at_site g r t : normal r = true -> normal t = true ->
-    bisimilar (Until (Fails at_site) g (sequence r t)) (sequence (Until (Fails at_site) g r) (Until (Fails at_site) g t)).
+    bisimilar (Until (Fails at_site) g (sequence r t)) (sequence (Until (Fails at_site) g r) (Until (Fails at_site) g
+      t)).
   Proof.
     intros Hr Ht.
     apply (@by_relation _ _ (fun a b => exists r, normal r = true /\ a = Until (Fails at_site) g (sequence r t) /\
       b = Sequence (Until (Fails at_site) g r) (Until (Fails at_site) g t))); [|exists r; auto].
     clear r Hr. intros a b (r & Hr & -> & ->).
     assert (Ns : normal (sequence r t) = true) by (apply normal_sequence; assumption).
-    assert (F : face (Until (Fails at_site) g (sequence r t)) (Sequence (Until (Fails at_site) g r) (Until (Fails at_site) g t))).
+    assert (F : face (Until (Fails at_site) g (sequence r t)) (Sequence (Until (Fails at_site) g r) (Until (Fails
+      at_site) g t))).
     { split; [exact (alike_names_sequence r t) | | exact (alike_numbers_sequence r t) | exact Ns |].
       - change (alike (run_of (sequence r t)) (run_of r)). rewrite run_of_sequence. apply alike_refl.
       - cbn [normal is_sequence negb andb]. rewrite Hr, Ht. reflexivity. }
-    assert (A0 : forall x, is_around (Body_until (Fails at_site) x) [] []) by (intros x; repeat split; apply alike_refl).
-    assert (A1 : forall x, is_around (In_sequence x) (names x) (numbers x)) by (intros x; repeat split; apply alike_refl).
+    assert (A0 : forall x, is_around (Body_until (Fails at_site) x) [] []) by (intros x; repeat split;
+      apply alike_refl).
+    assert (A1 : forall x, is_around (In_sequence x) (names x) (numbers x)) by (intros x; repeat split;
+      apply alike_refl).
     assert (Ctx : forall K, similar (enter (In_sequence t) (enter (Body_until (Fails at_site) g) K))
-                                    (enter (Body_until (Fails at_site) g) (enter (In_sequence (Until (Fails at_site) g t)) K))).
+                                    (enter (Body_until (Fails at_site) g) (enter (In_sequence (Until (Fails at_site)
+                                      g t)) K))).
     { intros K. apply (similar_trans (K2 := enter (In_sequence t) K)).
       - eapply enter_two; [apply A1 | apply A0 | rewrite !app_nil_r; apply A1].
       - apply similar_sym. eapply enter_two; [apply A0 | apply (A1 (Until (Fails at_site) g t)) | exact (A1 t)]. }
     split; [exact F | split; intros e K S u Hu].
     - change (Until (Fails at_site) g (sequence r t)) with (plug (Body_until (Fails at_site) g) (sequence r t)) in Hu.
       apply goes_plug in Hu; [|reflexivity]. destruct Hu as [Hu | (w & Hw & Hu)].
-      + assert (Step : forall v u', In v (own e (enter (In_sequence (Until (Fails at_site) g t)) K) S (Until (Fails at_site) g r)) ->
-          In u' (lift (In_sequence (Until (Fails at_site) g t)) K v) -> goes e K S (Sequence (Until (Fails at_site) g r) (Until (Fails at_site) g t)) u').
+      + assert (Step : forall v u', In v (own e (enter (In_sequence (Until (Fails at_site) g t)) K) S (Until (Fails
+        at_site) g r)) ->
+          In u' (lift (In_sequence (Until (Fails at_site) g t)) K v) ->
+            goes e K S (Sequence (Until (Fails at_site) g r) (Until (Fails at_site) g t)) u').
         { intros v u' Hv Hu'.
-          change (Sequence (Until (Fails at_site) g r) (Until (Fails at_site) g t)) with (plug (In_sequence (Until (Fails at_site) g t)) (Until (Fails at_site) g r)).
+          change (Sequence (Until (Fails at_site) g r) (Until (Fails at_site) g t)) with (plug (In_sequence (Until
+            (Fails at_site) g t)) (Until (Fails at_site) g r)).
           eapply Within; [apply Itself; exact Hv | exact Hu']. }
         cbn [plug own] in Hu, Step. unfold guarded, coded, breaks in Hu, Step. destruct e; [contradiction|].
         change (runs g [] (enter (In_sequence (Until (Fails at_site) g t)) K) S) with (runs g [] K S) in Step.
@@ -228,20 +237,26 @@ Section Laws.
           (eexists; split; [eapply Step; [left; reflexivity | left; reflexivity]|]); cbn; auto.
       + apply goes_sequence in Hw. destruct Hw as (v & Hv & Hw). assert (Nv := goes_normal Hv Hr).
         eapply goes_similar in Hv; [|apply Ctx].
-        assert (Step : forall v1 u', In v1 (lift (Body_until (Fails at_site) g) (enter (In_sequence (Until (Fails at_site) g t)) K) v) ->
-          In u' (lift (In_sequence (Until (Fails at_site) g t)) K v1) -> goes e K S (Sequence (Until (Fails at_site) g r) (Until (Fails at_site) g t)) u').
+        assert (Step : forall v1 u', In v1 (lift (Body_until (Fails at_site) g) (enter (In_sequence (Until (Fails
+          at_site) g t)) K) v) ->
+          In u' (lift (In_sequence (Until (Fails at_site) g t)) K v1) ->
+            goes e K S (Sequence (Until (Fails at_site) g r) (Until (Fails at_site) g t)) u').
         { intros v1 u' Hv1 Hu'.
-          change (Sequence (Until (Fails at_site) g r) (Until (Fails at_site) g t)) with (plug (In_sequence (Until (Fails at_site) g t)) (plug (Body_until (Fails at_site) g) r)).
+          change (Sequence (Until (Fails at_site) g r) (Until (Fails at_site) g t)) with (plug (In_sequence (Until
+            (Fails at_site) g t)) (plug (Body_until (Fails at_site) g) r)).
           eapply Within; [eapply Within; eassumption | exact Hu']. }
         destruct v as [l S1 [x | | m | x] E]; destruct Hw as [<- | []]; destruct Hu as [<- | []];
-          (eexists; split; [eapply Step; [left; reflexivity | left; reflexivity]|]); (split; [reflexivity | split; [reflexivity|]]); auto.
+          (eexists; split; [eapply Step; [left; reflexivity | left; reflexivity]|]); (split; [reflexivity | split;
+            [reflexivity|]]); auto.
         * left. exists x. auto.
         * right. apply bisimilar_refl. exact Ht.
-    - change (Sequence (Until (Fails at_site) g r) (Until (Fails at_site) g t)) with (plug (In_sequence (Until (Fails at_site) g t)) (Until (Fails at_site) g r)) in Hu.
+    - change (Sequence (Until (Fails at_site) g r) (Until (Fails at_site) g t)) with (plug (In_sequence (Until (Fails
+      at_site) g t)) (Until (Fails at_site) g r)) in Hu.
       apply goes_plug in Hu; [|reflexivity]. destruct Hu as [[] | (w & Hw & Hu)].
       change (Until (Fails at_site) g r) with (plug (Body_until (Fails at_site) g) r) in Hw.
       apply goes_plug in Hw; [|reflexivity]. destruct Hw as [Hw | (v & Hv & Hw)].
-      + assert (Step : forall u', In u' (own e K S (Until (Fails at_site) g (sequence r t))) -> goes e K S (Until (Fails at_site) g (sequence r t)) u')
+      + assert (Step : forall u', In u' (own e K S (Until (Fails at_site) g (sequence r t))) ->
+        goes e K S (Until (Fails at_site) g (sequence r t)) u')
           by (intros; apply Itself; assumption).
         cbn [plug own] in Hw, Step. unfold guarded, coded, breaks in Hw, Step. destruct e; [contradiction|].
         change (runs g [] (enter (In_sequence (Until (Fails at_site) g t)) K) S) with (runs g [] K S) in Hw.
@@ -253,10 +268,12 @@ Section Laws.
         eapply goes_similar in Hv; [|apply similar_sym, Ctx].
         assert (Step : forall v1 u', In v1 (lift (In_sequence t) (enter (Body_until (Fails at_site) g) K) v) ->
           In u' (lift (Body_until (Fails at_site) g) K v1) -> goes e K S (Until (Fails at_site) g (sequence r t)) u').
-        { intros v1 u' Hv1 Hu'. change (Until (Fails at_site) g (sequence r t)) with (plug (Body_until (Fails at_site) g) (sequence r t)).
+        { intros v1 u' Hv1 Hu'. change (Until (Fails at_site) g (sequence r t)) with (plug (Body_until (Fails
+          at_site) g) (sequence r t)).
           eapply Within; [apply goes_sequence; eexists; split; [exact Hv | exact Hv1] | exact Hu']. }
         destruct v as [l S1 [x | | m | x] E]; destruct Hw as [<- | []]; destruct Hu as [<- | []];
-          (eexists; split; [eapply Step; [left; reflexivity | left; reflexivity]|]); (split; [reflexivity | split; [reflexivity|]]); auto.
+          (eexists; split; [eapply Step; [left; reflexivity | left; reflexivity]|]); (split; [reflexivity | split;
+            [reflexivity|]]); auto.
         * left. exists x. auto.
         * right. apply bisimilar_refl. exact Ht.
   Qed.
@@ -283,7 +300,8 @@ Section Laws.
     simple f = true -> simple f' = true -> is_around f [] is -> is_around f' [] is ->
     (forall r, normal (plug f r) = normal r /\ normal (plug f' r) = normal r /\
        names (plug f r) = names r /\ names (plug f' r) = names r /\ run_of (plug f r) = run_of r /\
-       run_of (plug f' r) = run_of r /\ numbers (plug f r) = is ++ numbers r /\ numbers (plug f' r) = is ++ numbers r) ->
+       run_of (plug f' r) = run_of r /\ numbers (plug f r) = is ++ numbers r /\
+         numbers (plug f' r) = is ++ numbers r) ->
     (forall r, replug f r = plug f r /\ replug f' r = plug f' r) ->
     (forall K l S1 E, (exists E1, lift f K (By l S1 Ok E) = [By l S1 Ok E1]) /\
        (exists E1, lift f' K (By l S1 Ok E) = [By l S1 Ok E1]) /\
@@ -295,7 +313,8 @@ Section Laws.
     forall r, normal r = true -> bisimilar (Watch (plug f r) h) (plug f' (Watch r h)).
   Proof.
     intros Hh Hs Hf Hf' Ha Ha' Hface Hre Hlift Hown Hown' r Hr.
-    apply (@by_relation _ _ (fun a b => exists r, normal r = true /\ a = Watch (plug f r) h /\ b = plug f' (Watch r h)));
+    apply (@by_relation _ _ (fun a b => exists r, normal r = true /\ a = Watch (plug f r) h /\
+      b = plug f' (Watch r h)));
       [|exists r; auto].
     clear r Hr. intros a b (r & Hr & -> & ->).
     destruct (Hface r) as (N1 & _ & N3 & _ & N5 & _ & N7 & _).
@@ -328,15 +347,19 @@ Section Laws.
           - destruct Ha as (_ & _ & A1), Ha' as (_ & _ & A2). eapply alike_trans; [exact A1 | apply alike_sym, A2]. }
         destruct v as [l S1 [x | | m | x] E].
         * destruct Hw1 as [<- | []]. destruct (Hre x) as [R1 _]. rewrite R1 in Hu. destruct Hu as [<- | []].
-          eexists. split; [eapply Step; [left; reflexivity | left; reflexivity]|]. destruct (Hre (Watch x h)) as [_ R2]. cbn [replug].
-          split; [reflexivity | split; [reflexivity|]]. left. exists x. split; [exact Nv | split; [reflexivity | exact R2]].
-        * destruct (Hlift (enter (In_watch h) K) l S1 E) as ((E1 & L1) & _). rewrite L1 in Hw1. destruct Hw1 as [<- | []].
+          eexists. split; [eapply Step; [left; reflexivity | left;
+            reflexivity]|]. destruct (Hre (Watch x h)) as [_ R2]. cbn [replug].
+          split; [reflexivity | split; [reflexivity|]]. left. exists x. split; [exact Nv | split;
+            [reflexivity | exact R2]].
+        * destruct (Hlift (enter (In_watch h) K) l S1 E) as ((E1 & L1) & _). rewrite L1 in Hw1.
+          destruct Hw1 as [<- | []].
           destruct Hu as [<- | []]. destruct (Hlift K l S1 E) as (_ & (E2 & L2) & _).
           eexists. split; [eapply Step; [left; reflexivity | cbn [on_ok]; rewrite L2; left; reflexivity]|]. cbn. auto.
         * destruct (Hlift (enter (In_watch h) K) l S1 E) as (_ & _ & L1). destruct (L1 m) as (E1 & L1').
           rewrite L1' in Hw1. destruct Hw1 as [<- | []]. cbn [lift on_err] in Hu. rewrite Hw in Hu.
           destruct Hu as [<- | []]. destruct (Hlift K l S1 (E ++ [])) as (_ & (E2 & L2) & _).
-          eexists. split; [eapply Step; [cbn [lift on_err]; rewrite Hw; left; reflexivity | rewrite L2; left; reflexivity]|].
+          eexists. split; [eapply Step; [cbn [lift on_err]; rewrite Hw; left; reflexivity | rewrite L2; left;
+            reflexivity]|].
           cbn. auto.
         * destruct Hw1 as [<- | []]. destruct Hu as [<- | []].
           eexists. split; [eapply Step; [left; reflexivity | left; reflexivity]|]. cbn. auto.
@@ -373,14 +396,16 @@ Section Laws.
         * cbn [lift on_err] in Hw1. rewrite Hw in Hw1. destruct Hw1 as [<- | []].
           destruct (Hlift K l S1 (E ++ [])) as (_ & (E2 & L2) & _). rewrite L2 in Hu. destruct Hu as [<- | []].
           destruct (Hlift (enter (In_watch h) K) l S1 E) as (_ & _ & L1). destruct (L1 m) as (E1 & L1').
-          eexists. split; [eapply Step; [rewrite L1'; left; reflexivity | cbn [lift on_err]; rewrite Hw; left; reflexivity]|].
+          eexists. split; [eapply Step; [rewrite L1'; left; reflexivity | cbn [lift on_err]; rewrite Hw; left;
+            reflexivity]|].
           cbn. auto.
         * destruct Hw1 as [<- | []]. destruct Hu as [<- | []].
           eexists. split; [eapply Step; [left; reflexivity | left; reflexivity]|]. cbn. auto.
   Qed.
 
   (** [watch (assure { g } run t) onError { ignore() } = until { !g } run watch t onError { ignore() }] *)
-  Theorem watch_assure at_site g g' h r : opposite g g' -> just Ignores h -> solid_handler h = true -> normal r = true ->
+  Theorem watch_assure at_site g g' h r : opposite g g' -> just Ignores h -> solid_handler h = true ->
+    normal r = true ->
     bisimilar (Watch (Until (Fails at_site) g r) h) (Until Completes g' (Watch r h)).
   Proof.
     intros Hg Hh Hs. apply (@ignored_cut (Body_until (Fails at_site) g) (Body_until Completes g') h []);
@@ -492,7 +517,8 @@ Section Laws.
     intros Ha Hb Hc.
     assert (N : forall x y, normal x = true -> normal y = true -> normal (parallel [x; y]) = true).
     { intros x y Hx Hy. apply normal_parallel; [discriminate|]. cbn. rewrite Hx, Hy. reflexivity. }
-    rewrite (parallel_two (N a b Ha Hb) Hc), (parallel_two Ha (N b c Hb Hc)), (parallel_two Ha Hb), (parallel_two Hb Hc).
+    rewrite (parallel_two (N a b Ha Hb) Hc), (parallel_two Ha (N b c Hb Hc)), (parallel_two Ha Hb),
+      (parallel_two Hb Hc).
     cbn [flat]. rewrite app_assoc. reflexivity.
   Qed.
 
@@ -514,7 +540,8 @@ Section Laws.
         exists ys, xs. split; [symmetry; exact Hp|].
         destruct H as [(-> & ->) | [(-> & ->) | (r & -> & ->)]]; eauto.
       - intros a b Hab. assert (Nb := N a b Hab). destruct Hab as (Na & xs & ys & Hp & H).
-        assert (A1 := alike_permuted (fun b => names (snd b)) Hp). assert (A3 := alike_permuted (fun b => numbers (snd b)) Hp).
+        assert (A1 := alike_permuted (fun b => names (snd b)) Hp).
+          assert (A3 := alike_permuted (fun b => numbers (snd b)) Hp).
         split.
         { destruct H as [(-> & ->) | [(-> & ->) | (r & -> & ->)]]; split; try assumption; try apply alike_refl;
             (apply alike_app; [apply alike_refl | assumption]). }
@@ -534,7 +561,8 @@ Section Laws.
                   normal (snd y) = true /\ forallb (fun b => normal (snd b)) (b ++ a) = true).
         { intros b0 y a0 -> Hx. rewrite forallb_app in *. cbn [forallb] in Hx. rewrite !andb_true_iff in *. tauto. }
         assert (All : forallb (fun b => normal (snd b)) xs = true).
-        { destruct H as [(-> & _) | [(-> & _) | (r & -> & _)]]; cbn [normal] in Na; rewrite !andb_true_iff in Na; tauto. }
+        { destruct H as [(-> & _) | [(-> & _) | (r & -> & _)]]; cbn [normal] in Na; rewrite !andb_true_iff in Na;
+          tauto. }
         intros e K S u Hu. assert (Nu := goes_normal Hu Na).
         destruct H as [(-> & ->) | [(-> & ->) | (r & -> & ->)]].
         + apply goes_parts in Hu. destruct Hu as [Hu | (f & r1 & v & [] & _)]. cbn [own] in Hu.
@@ -559,7 +587,8 @@ Section Laws.
           { intros u' Hu'. change (Branch r ys) with (plug (Branch_of ys) r).
             eapply Within; [eapply goes_similar; [exact Hv|] | exact Hu'].
             apply enter_alike; [reflexivity | exact A1 | exact A3]. }
-          destruct v as [l S1 [x | | m | x] E]; destruct Hu as [<- | []]; (eexists; split; [apply Step; left; reflexivity|]);
+          destruct v as [l S1 [x | | m | x] E]; destruct Hu as [<- | []]; (eexists; split; [apply Step; left;
+            reflexivity|]);
             (split; [reflexivity | split; [reflexivity|]]); auto.
           * left. split; [exact Nu|]. exists xs, ys. split; [exact Hp|]. right. right. exists x. auto.
           * assert (Hl := Permutation_length Hp). cbn [next_normal on_ok] in Nu. unfold all_of in *.
@@ -589,7 +618,8 @@ Section Laws.
     { intros X f Hf x. rewrite in_app_iff, !in_flat_map. split.
       - intros [(y & Hy & Hx) | Hx].
         + exists (ext y). split; [apply in_map; exact Hy|]. apply Hf, in_app_iff. auto.
-        + destruct bs as [|y ys]; [discriminate|]. exists (ext y). split; [left; reflexivity|]. apply Hf, in_app_iff. auto.
+        + destruct bs as [|y ys]; [discriminate|]. exists (ext y). split; [left;
+          reflexivity|]. apply Hf, in_app_iff. auto.
       - intros (y & Hy & Hx). apply in_map_iff in Hy. destruct Hy as (z & <- & Hz). cbn [ext snd] in Hx.
         apply Hf, in_app_iff in Hx. destruct Hx as [Hx | Hx]; eauto. }
     assert (F : face (Sequence (One_of bs) t) (One_of (map ext bs))).
@@ -630,7 +660,8 @@ Section Laws.
       assert (Hy : In y (b1 ++ y :: a1)) by apply in_elt.
       assert (Step : forall v u', In v (choose e K S (fun _ r => r) b1 y a1) -> In u' (lift (In_sequence t) K v) ->
                 goes e K S (Sequence (One_of (b1 ++ y :: a1)) t) u').
-      { intros v u' Hv Hu'. change (Sequence (One_of (b1 ++ y :: a1)) t) with (plug (In_sequence t) (One_of (b1 ++ y :: a1))).
+      { intros v u' Hv Hu'. change (Sequence (One_of (b1 ++ y :: a1)) t) with (plug (In_sequence t) (One_of (b1 ++ y
+        :: a1))).
         eapply Within; [|exact Hu']. apply Itself. cbn [own]. apply in_each. exists b1, y, a1. auto. }
       unfold choose, guarded, coded, breaks in Hu, Step. destruct e; [contradiction|]. cbn [ext fst snd] in Hu.
       destruct (runs (fst y) [] K S) as [x s N0 ds | m ds | m ds | m s N0 ds |]; try contradiction;
@@ -640,5 +671,255 @@ Section Laws.
       change (up (fun b a => a = Sequence (One_of (b1 ++ y :: a1)) t /\ b = One_of (map ext (b1 ++ y :: a1)))
                 (given ds (sequence (snd y) t)) (sequence (given ds (snd y)) t)).
       rewrite (Plain y ds Hy), (Plain' y ds Hy). apply up_refl, Hb', Hy.
+  Qed.
+
+  (** {1 A cut of parallel parts} *)
+
+  (** The guard does not ask which vehicles are held. *)
+  Definition asks_no_held (g : code) : Prop :=
+    forall K K' S, world_of K = world_of K' -> runs g [] K S = runs g [] K' S.
+
+  Lemma without_both a b S : without (run_of b) (without (run_of a) S) = without (flat_map run_of (flat a ++ flat b)) S.
+  Proof.
+    rewrite without_twice. apply without_alike. intros v.
+    rewrite flat_map_app, !(@through_flat _ _ _ _ through_run_of), !in_app_iff. tauto.
+  Qed.
+
+  Lemma run_of_two a b : normal a = true -> normal b = true ->
+    alike (run_of (parallel [a; b])) (flat_map run_of (flat a ++ flat b)).
+  Proof. intros Ha Hb. rewrite (parallel_two Ha Hb), through_run_of. apply alike_refl. Qed.
+
+  (** The steps of [a | b] are those of [a] beside [b], and of [b] beside [a]. *)
+  Definition of_left (b : residual) (v : transition) : transition :=
+    match v with
+    | By l S1 (Next a) E => By l S1 (Next (parallel [a; b])) E
+    | By l S1 Ok E => By l S1 (Next b) E
+    | By l S1 (Err m) E => By l (without (run_of b) S1) (Err m) E
+    | By l S1 (Ends x) E => By l S1 (Ends x) E
+    end.
+  Definition of_right (a : residual) (v : transition) : transition :=
+    match v with
+    | By l S1 (Next b) E => By l S1 (Next (parallel [a; b])) E
+    | By l S1 Ok E => By l S1 (Next a) E
+    | By l S1 (Err m) E => By l (without (run_of a) S1) (Err m) E
+    | By l S1 (Ends x) E => By l S1 (Ends x) E
+    end.
+
+  Lemma agree_eq_trans t t1 t2 : agree eq t t1 -> agree eq t1 t2 -> agree eq t t2.
+  Proof. intros H1 H2. eapply agree_eq_both; [exact H1 | exact H2 | apply agree_self]. Qed.
+
+  Lemma agree_eq_sym t t1 : agree eq t t1 -> agree eq t1 t.
+  Proof.
+    destruct t as [l S1 o E], t1 as [l1 S2 o1 E1]. intros (H1 & H2 & H3). split; [auto | split; [auto|]].
+    destruct o, o1; auto.
+  Qed.
+
+  Lemma surround_left b v : normal b = true -> next_normal v -> agree eq (surround [] (flat b) v) (of_left b v).
+  Proof.
+    intros Hb Nv. destruct v as [l S1 [x | | m | x] E]; cbn [surround of_left app].
+    - split; [reflexivity | split; [reflexivity|]]. rewrite (parallel_two Nv Hb). reflexivity.
+    - split; [reflexivity | split; [reflexivity|]]. apply parallel_flat. exact Hb.
+    - split; [reflexivity | split; [|reflexivity]]. rewrite (@through_flat _ _ _ _ through_run_of). reflexivity.
+    - cbn. auto.
+  Qed.
+
+  Lemma surround_right a v : normal a = true -> next_normal v -> agree eq (surround (flat a) [] v) (of_right a v).
+  Proof.
+    intros Ha Nv. destruct v as [l S1 [x | | m | x] E]; cbn [surround of_right]; rewrite ?app_nil_r.
+    - split; [reflexivity | split; [reflexivity|]]. rewrite (parallel_two Ha Nv). reflexivity.
+    - split; [reflexivity | split; [reflexivity|]]. apply parallel_flat. exact Ha.
+    - split; [reflexivity | split; [|reflexivity]]. rewrite (@through_flat _ _ _ _ through_run_of). reflexivity.
+    - cbn. auto.
+  Qed.
+
+  Lemma around_one r : normal r = true -> around [] (flat r) /\ around (flat r) [].
+  Proof.
+    intros Hr. destruct (normal_flat r Hr) as [H1 H2]. unfold around. rewrite app_nil_r. cbn [app]. auto.
+  Qed.
+
+  Lemma goes_two a b e K S u : normal a = true -> normal b = true -> goes e K S (parallel [a; b]) u ->
+    (exists v, goes e (enter (Beside [] (flat b)) K) S a v /\ agree eq u (of_left b v)) \/
+    (exists v, goes e (enter (Beside (flat a) []) K) S b v /\ agree eq u (of_right a v)).
+  Proof.
+    intros Ha Hb Hu. destruct (around_one Ha) as [A1 A2], (around_one Hb) as [B1 B2].
+    rewrite (parallel_two Ha Hb) in Hu. apply goes_parts in Hu. destruct Hu as [[] | (f & r & v & Hp & Hv & Hu)].
+    apply in_parts in Hp. destruct f; try discriminate Hp. injection Hp as Hp. rewrite lift_beside in Hu.
+    destruct Hu as [<- | []]. symmetry in Hp.
+    destruct (@three_ways _ before r after [] (flat a) (flat b) Hp) as [(c & E & _) | [(b1 & a1 & F & ->
+      & ->) | (c & F & ->)]].
+    - destruct before; discriminate.
+    - left. destruct (hole_forward B1 Ha F Hv) as (w & Hw & Hag). exists w. split; [exact Hw|].
+      eapply agree_eq_trans; [exact Hag|]. apply surround_left; [exact Hb | exact (goes_normal Hw Ha)].
+    - right. cbn [app] in Hv |- *. replace after with (after ++ []) in Hv |- * by apply app_nil_r.
+      destruct (hole_forward A2 Hb F Hv) as (w & Hw & Hag). exists w. split; [exact Hw|].
+      eapply agree_eq_trans; [exact Hag|]. apply surround_right; [exact Ha | exact (goes_normal Hw Hb)].
+  Qed.
+
+  Lemma goes_left a b e K S v : normal a = true -> normal b = true -> goes e (enter (Beside [] (flat b)) K) S a v ->
+    exists u, goes e K S (parallel [a; b]) u /\ agree eq u (of_left b v).
+  Proof.
+    intros Ha Hb Hv. destruct (around_one Hb) as [B1 _]. destruct (hole_backward B1 Ha Hv) as (u & Hu & Hag).
+    exists u. split; [rewrite (parallel_two Ha Hb); exact Hu|]. eapply agree_eq_trans; [apply agree_eq_sym; exact Hag|].
+    apply surround_left; [exact Hb | exact (goes_normal Hv Ha)].
+  Qed.
+
+  Lemma goes_right a b e K S v : normal a = true -> normal b = true -> goes e (enter (Beside (flat a) []) K) S b v ->
+    exists u, goes e K S (parallel [a; b]) u /\ agree eq u (of_right a v).
+  Proof.
+    intros Ha Hb Hv. destruct (around_one Ha) as [_ A2]. destruct (hole_backward A2 Hb Hv) as (u & Hu & Hag).
+    exists u. split.
+    - rewrite (parallel_two Ha Hb). unfold hole in Hu. rewrite app_nil_r in Hu. exact Hu.
+    - eapply agree_eq_trans; [apply agree_eq_sym; exact Hag|]. apply surround_right;
+      [exact Ha | exact (goes_normal Hv Hb)].
+  Qed.
+
+  Lemma until_beside k g B A B' A' K :
+    alike (flat_map names (B ++ A)) (flat_map names (B' ++ A')) ->
+    alike (flat_map numbers (B ++ A)) (flat_map numbers (B' ++ A')) ->
+    similar (enter (Beside B A) (enter (Body_until k g) K)) (enter (Body_until k g) (enter (Beside B' A') K)).
+  Proof.
+    intros Hn Hi. assert (A0 : is_around (Body_until k g) [] []) by (repeat split; apply alike_refl).
+    eapply similar_trans; [apply enter_similar, enter_none, A0|].
+    eapply similar_trans; [|apply similar_sym, enter_none, A0]. apply enter_alike; [reflexivity | exact Hn | exact Hi].
+  Qed.
+
+  (** The steps of [until], by itself or by its part. *)
+  Lemma goes_until e K S k g r u : goes e K S (Until k g r) u <->
+    In u (own e K S (Until k g r)) \/ exists v, goes e (enter (Body_until k g) K) S r v /\
+      In u (lift (Body_until k g) K v).
+  Proof. change (Until k g r) with (plug (Body_until k g) r). apply goes_plug. reflexivity. Qed.
+
+  (** [assure { g } run (t | t') = (assure { g } run t) | (assure { g } run t')], if g does not ask for held vehicles *)
+  Theorem assure_parallel at_site g a b : asks_no_held g -> normal a = true -> normal b = true ->
+    bisimilar (Until (Fails at_site) g (parallel [a; b]))
+              (parallel [Until (Fails at_site) g a; Until (Fails at_site) g b]).
+  Proof.
+    intros Hg Ha Hb.
+    set (cutting := fun r => Until (Fails at_site) g r).
+    apply (@by_relation _ _ (fun x y => exists a b, normal a = true /\ normal b = true /\
+      x = cutting (parallel [a; b]) /\ y = parallel [cutting a; cutting b])); [|exists a, b; auto].
+    clear a b Ha Hb. intros x y (a & b & Ha & Hb & -> & ->).
+    assert (Na : normal (cutting a) = true) by exact Ha. assert (Nb : normal (cutting b) = true) by exact Hb.
+    assert (N2 : forall p q, normal p = true -> normal q = true -> normal (parallel [p; q]) = true).
+    { intros p q Hp Hq. apply normal_parallel; [discriminate|]. cbn. rewrite Hp, Hq. reflexivity. }
+    assert (Through : forall X (f : residual -> list X), through f -> (forall r, f (cutting r) = f r) ->
+      alike (f (cutting (parallel [a; b]))) (f (parallel [cutting a; cutting b]))).
+    { intros X f Hf Hc. rewrite Hc, !(through_parallel _ _ _ Hf). cbn [flat_map]. rewrite !Hc. apply alike_refl. }
+    assert (F : face (cutting (parallel [a; b])) (parallel [cutting a; cutting b])).
+    { split.
+      - apply Through; [apply through_names | reflexivity].
+      - apply Through; [apply through_run_of | reflexivity].
+      - apply Through; [apply through_numbers | reflexivity].
+      - exact (N2 a b Ha Hb).
+      - apply N2; assumption. }
+    assert (CutA : forall S, without (run_of (cutting b)) (without (run_of a) S) = without (run_of (parallel [a;
+      b])) S).
+    { intros S. change (run_of (cutting b)) with (run_of b). rewrite without_both. apply without_alike, alike_sym.
+      apply run_of_two; assumption. }
+    assert (CutB : forall S, without (run_of (cutting a)) (without (run_of b) S) = without (run_of (parallel [a;
+      b])) S).
+    { intros S. change (run_of (cutting a)) with (run_of a). rewrite without_twice. apply without_alike. intros v.
+      rewrite (run_of_two Ha Hb v), flat_map_app, !(@through_flat _ _ _ _ through_run_of), !in_app_iff. tauto. }
+    assert (Names : forall X (f : residual -> list X) r, through f -> f (cutting r) = f r ->
+              alike (flat_map f (flat r)) (flat_map f (flat (cutting r)))).
+    { intros X f r Hf Hc. rewrite !(@through_flat _ _ _ _ Hf), Hc. apply alike_refl. }
+    assert (CtxA : forall K, similar (enter (Beside [] (flat b)) (enter (Body_until (Fails at_site) g) K))
+                     (enter (Body_until (Fails at_site) g) (enter (Beside [] (flat (cutting b))) K))).
+    { intros K. apply until_beside; cbn [app];
+        [apply Names; [apply through_names | reflexivity] | apply Names; [apply through_numbers | reflexivity]]. }
+    assert (CtxB : forall K, similar (enter (Beside (flat a) []) (enter (Body_until (Fails at_site) g) K))
+                     (enter (Body_until (Fails at_site) g) (enter (Beside (flat (cutting a)) []) K))).
+    { intros K. apply until_beside; rewrite !app_nil_r;
+        [apply Names; [apply through_names | reflexivity] | apply Names; [apply through_numbers | reflexivity]]. }
+    split; [exact F | split; intros e K S t Ht].
+    - apply goes_until in Ht. destruct Ht as [Ht | (w & Hw & Ht)].
+      + assert (Step : forall v, In v (own e (enter (Beside [] (flat (cutting b))) K) S (cutting a)) ->
+                  exists u, goes e K S (parallel [cutting a; cutting b]) u /\ agree eq u (of_left (cutting b) v)).
+        { intros v Hv. apply goes_left; [exact Na | exact Nb | apply Itself; exact Hv]. }
+        unfold cutting in Step at 2. cbn [own] in Ht, Step. unfold guarded, coded, breaks in Ht, Step.
+        destruct e; [contradiction|].
+        rewrite (Hg (enter (Beside [] (flat (cutting b))) K) K S eq_refl) in Step.
+        destruct (runs g [] K S) as [x s N0 ds | m ds | m ds | m s N0 ds |]; try contradiction;
+          [destruct (truth x) as [[]|] | destruct (is_unknown m) | |]; try contradiction; destruct Ht as [<- | []];
+          (edestruct Step as (u & Hu & Hag); [left; reflexivity|]; exists u; split; [exact Hu|];
+           apply agree_eq_sym in Hag; destruct u as [l2 S2 o2 E2]; destruct Hag as (<- & <- & Ho); cbn [of_left] in Ho;
+           cbn [agree]; rewrite ?CutA; destruct o2; try contradiction; auto).
+      + destruct (goes_two Ha Hb Hw) as [(v & Hv & Hag) | (v & Hv & Hag)].
+        * assert (Nv := goes_normal Hv Ha). eapply goes_similar in Hv; [|apply CtxA].
+          assert (Step : forall v1, In v1 (lift (Body_until (Fails at_site) g) (enter (Beside [] (flat (cutting b)))
+            K) v) ->
+                    exists u, goes e K S (parallel [cutting a; cutting b]) u /\ agree eq u (of_left (cutting b) v1)).
+          { intros v1 Hv1. apply goes_left; [exact Na | exact Nb|]. apply goes_until. right. exists v. auto. }
+          destruct v as [l S1 [p | | m | p] E], w as [l1 S2 o1 E1]; destruct Hag as (-> & -> & Ho); cbn [of_left] in Ho;
+            destruct o1; try contradiction; subst; destruct Ht as [<- | []];
+            (edestruct Step as (u & Hu & Hag); [left; reflexivity|]; exists u; split; [exact Hu|];
+             apply agree_eq_sym in Hag; destruct u as [l2 S3 o2 E2]; destruct Hag as (<- & <- & Ho);
+               cbn [of_left] in Ho;
+             destruct o2; try contradiction; cbn [agree]; split; [reflexivity | split; [reflexivity|]]); auto.
+          -- subst. left. exists p, b. auto.
+          -- subst. right. apply bisimilar_refl. exact Nb.
+        * assert (Nv := goes_normal Hv Hb). eapply goes_similar in Hv; [|apply CtxB].
+          assert (Step : forall v1, In v1 (lift (Body_until (Fails at_site) g) (enter (Beside (flat (cutting a)) [])
+            K) v) ->
+                    exists u, goes e K S (parallel [cutting a; cutting b]) u /\ agree eq u (of_right (cutting a) v1)).
+          { intros v1 Hv1. apply goes_right; [exact Na | exact Nb|]. apply goes_until. right. exists v. auto. }
+          destruct v as [l S1 [p | | m | p] E], w as [l1 S2 o1 E1]; destruct Hag as (-> & -> & Ho);
+            cbn [of_right] in Ho;
+            destruct o1; try contradiction; subst; destruct Ht as [<- | []];
+            (edestruct Step as (u & Hu & Hag); [left; reflexivity|]; exists u; split; [exact Hu|];
+             apply agree_eq_sym in Hag; destruct u as [l2 S3 o2 E2]; destruct Hag as (<- & <- & Ho);
+               cbn [of_right] in Ho;
+             destruct o2; try contradiction; cbn [agree]; split; [reflexivity | split; [reflexivity|]]); auto.
+          -- subst. left. exists a, p. auto.
+          -- subst. right. apply bisimilar_refl. exact Na.
+    - destruct (goes_two Na Nb Ht) as [(w & Hw & Hag) | (w & Hw & Hag)].
+      + apply goes_until in Hw. destruct Hw as [Hw | (v & Hv & Hw)].
+        * assert (Step : forall v, In v (own e K S (cutting (parallel [a; b]))) -> goes e K S (cutting (parallel [a;
+          b])) v)
+            by (intros; apply Itself; assumption).
+          unfold cutting in Step at 1. cbn [own] in Hw, Step. unfold guarded, coded, breaks in Hw, Step.
+          destruct e; [contradiction|]. rewrite (Hg (enter (Beside [] (flat (cutting b))) K) K S eq_refl) in Hw.
+          destruct (runs g [] K S) as [x s N0 ds | m ds | m ds | m s N0 ds |]; try contradiction;
+            [destruct (truth x) as [[]|] | destruct (is_unknown m) | |]; try contradiction; destruct Hw as [<- | []];
+            destruct t as [l2 S2 o2 E2]; destruct Hag as (-> & -> & Ho); cbn [of_left] in Ho;
+            destruct o2; try contradiction; subst; rewrite ?CutA;
+            (eexists; split; [apply Step; left; reflexivity | cbn; auto]).
+        * assert (Nv := goes_normal Hv Ha). eapply goes_similar in Hv; [|apply similar_sym, CtxA].
+          destruct (goes_left Ha Hb Hv) as (q & Hq & Haq).
+          assert (Step : forall u, In u (lift (Body_until (Fails at_site) g) K q) ->
+            goes e K S (cutting (parallel [a; b])) u).
+          { intros u Hu. apply goes_until. right. exists q. auto. }
+          destruct v as [l S1 [p | | m | p] E], q as [l1 S2 o1 E1]; destruct Haq as (-> & -> & Ho1);
+            cbn [of_left] in Ho1;
+            destruct o1; try contradiction; subst; destruct Hw as [<- | []];
+            destruct t as [l2 S3 o2 E2]; destruct Hag as (-> & -> & Ho); cbn [of_left] in Ho;
+            destruct o2; try contradiction; subst;
+            (eexists; split; [apply Step; left; reflexivity | split; [reflexivity | split; [reflexivity|]]]); auto.
+          -- left. exists p, b. auto.
+          -- right. apply bisimilar_refl. exact Nb.
+      + apply goes_until in Hw. destruct Hw as [Hw | (v & Hv & Hw)].
+        * assert (Step : forall v, In v (own e K S (cutting (parallel [a; b]))) -> goes e K S (cutting (parallel [a;
+          b])) v)
+            by (intros; apply Itself; assumption).
+          unfold cutting in Step at 1. cbn [own] in Hw, Step. unfold guarded, coded, breaks in Hw, Step.
+          destruct e; [contradiction|]. rewrite (Hg (enter (Beside (flat (cutting a)) []) K) K S eq_refl) in Hw.
+          destruct (runs g [] K S) as [x s N0 ds | m ds | m ds | m s N0 ds |]; try contradiction;
+            [destruct (truth x) as [[]|] | destruct (is_unknown m) | |]; try contradiction; destruct Hw as [<- | []];
+            destruct t as [l2 S2 o2 E2]; destruct Hag as (-> & -> & Ho); cbn [of_right] in Ho;
+            destruct o2; try contradiction; subst; rewrite ?CutB;
+            (eexists; split; [apply Step; left; reflexivity | cbn; auto]).
+        * assert (Nv := goes_normal Hv Hb). eapply goes_similar in Hv; [|apply similar_sym, CtxB].
+          destruct (goes_right Ha Hb Hv) as (q & Hq & Haq).
+          assert (Step : forall u, In u (lift (Body_until (Fails at_site) g) K q) ->
+            goes e K S (cutting (parallel [a; b])) u).
+          { intros u Hu. apply goes_until. right. exists q. auto. }
+          destruct v as [l S1 [p | | m | p] E], q as [l1 S2 o1 E1]; destruct Haq as (-> & -> & Ho1);
+            cbn [of_right] in Ho1;
+            destruct o1; try contradiction; subst; destruct Hw as [<- | []];
+            destruct t as [l2 S3 o2 E2]; destruct Hag as (-> & -> & Ho); cbn [of_right] in Ho;
+            destruct o2; try contradiction; subst;
+            (eexists; split; [apply Step; left; reflexivity | split; [reflexivity | split; [reflexivity|]]]); auto.
+          -- left. exists a, p. auto.
+          -- right. apply bisimilar_refl. exact Na.
   Qed.
 End Laws.

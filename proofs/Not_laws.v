@@ -1,4 +1,5 @@
-(** Equations of docs/semantics.md that look like laws but are not. Each theorem has residuals of that shape, and a step of
+(** Equations of docs/semantics.md that look like laws but are not.
+  Each theorem has residuals of that shape, and a step of
     one of them, perhaps after others that both can make, which the other does not have. *)
 From Dolphin Require Export Laws.
 Set Implicit Arguments.
@@ -9,7 +10,8 @@ Section Not_laws.
 
   (** Bisimilar by steps alone, whatever is seen from beside. *)
   Definition alike_steps (r r' : residual) : Prop :=
-    exists R : residual -> residual -> Prop, (forall a b, R a b -> R b a) /\ (forall a b, R a b -> simulates R a b) /\ R r r'.
+    exists R : residual -> residual -> Prop, (forall a b, R a b -> R b a) /\
+      (forall a b, R a b -> simulates R a b) /\ R r r'.
 
   Lemma bisimilar_alike r r' : bisimilar r r' -> alike_steps r r'.
   Proof. intros (R & HR & H). exists R. destruct HR. auto. Qed.
@@ -31,7 +33,8 @@ Section Not_laws.
     [apply steps_iff_goes; cbn | apply steps_iff_goes in T; cbn in T; destruct u; cbn in A].
 
   (** [idle 0 >> t = t] *)
-  Theorem idle_first_is_no_law (w : world) (S : shared) i n p v : ~ alike_steps (Sequence (Idle i n) (Ready p v)) (Ready p v).
+  Theorem idle_first_is_no_law (w : world) (S : shared) i n p v : ~ alike_steps (Sequence (Idle i n) (Ready p v))
+    (Ready p v).
   Proof.
     intros H. apply alike_back in H.
     answer H (@None event) (alone w) S (By (LStart v p) (start_on v p S) (Next (Running p v)) [Start p v]) T A.
@@ -56,10 +59,12 @@ Section Not_laws.
     end; cbn; auto.
 
   (** [idle 0 | t = t] *)
-  Theorem idle_beside_is_no_law (w : world) (S : shared) i n p v : ~ alike_steps (Parallel [Idle i n; Ready p v]) (Ready p v).
+  Theorem idle_beside_is_no_law (w : world) (S : shared) i n p v : ~ alike_steps (Parallel [Idle i n;
+    Ready p v]) (Ready p v).
   Proof.
     intros H. apply alike_back in H.
-    answer H (@None event) (alone w) S (By (LStart v p) (start_on v p S) (Next (Running p v)) [Start p v]) T A; [done_by|].
+    answer H (@None event) (alone w) S (By (LStart v p) (start_on v p S) (Next (Running p v)) [Start p v]) T A;
+      [done_by|].
     sole T A. destruct A as (_ & _ & H1). clear H.
     answer H1 (Some (Done v)) (alone w) S (By (LDone v p) (without [v] S) Ok []) T1 A1; [done_by|].
     sole T1 A1.
@@ -75,24 +80,29 @@ Section Not_laws.
   Qed.
 
   (** [action { } >> t = t] *)
-  Theorem action_first_is_no_law (w : world) (S : shared) a p v : ~ alike_steps (Sequence (Action a) (Ready p v)) (Ready p v).
+  Theorem action_first_is_no_law (w : world) (S : shared) a p v : ~ alike_steps (Sequence (Action a) (Ready p v))
+    (Ready p v).
   Proof.
     intros H. apply alike_back in H.
-    answer H (@None event) (alone w) S (By (LStart v p) (start_on v p S) (Next (Running p v)) [Start p v]) T A; [done_by|].
+    answer H (@None event) (alone w) S (By (LStart v p) (start_on v p S) (Next (Running p v)) [Start p v]) T A;
+      [done_by|].
     unfold coded, breaks in T. destruct (runs a [] _ S); sole T A.
   Qed.
 
   (** [condition { true } >> t = t] *)
-  Theorem condition_first_is_no_law (w : world) (S : shared) g p v : ~ alike_steps (Sequence (Condition g) (Ready p v)) (Ready p v).
+  Theorem condition_first_is_no_law (w : world) (S : shared) g p v : ~ alike_steps (Sequence (Condition g) (Ready p
+    v)) (Ready p v).
   Proof.
     intros H. apply alike_back in H.
-    answer H (@None event) (alone w) S (By (LStart v p) (start_on v p S) (Next (Running p v)) [Start p v]) T A; [done_by|].
+    answer H (@None event) (alone w) S (By (LStart v p) (start_on v p S) (Next (Running p v)) [Start p v]) T A;
+      [done_by|].
     unfold guarded, coded, breaks in T. destruct (runs g [] _ S) as [x s N ds | m ds | m ds | m s N ds |];
       [destruct (truth x) as [[]|] | destruct (is_unknown m) | | |]; sole T A.
   Qed.
 
   (** [t | t = t] *)
-  Theorem twice_is_no_law (w : world) (S : shared) p v v' : v <> v' -> ~ alike_steps (Parallel [Ready p v; Ready p v']) (Ready p v).
+  Theorem twice_is_no_law (w : world) (S : shared) p v v' : v <> v' -> ~ alike_steps (Parallel [Ready p v;
+    Ready p v']) (Ready p v).
   Proof.
     intros Hv H.
     answer H (@None event) (alone w) S
@@ -102,7 +112,8 @@ Section Not_laws.
 
   (** [t >> (t' | t'') = (t >> t') | (t >> t'')] *)
   Theorem distribution_is_no_law (w : world) (S : shared) p v v' t t' : v <> v' ->
-    ~ alike_steps (Sequence (Ready p v) (Parallel [t; t'])) (Parallel [Sequence (Ready p v) t; Sequence (Ready p v') t']).
+    ~ alike_steps (Sequence (Ready p v) (Parallel [t; t'])) (Parallel [Sequence (Ready p v) t;
+      Sequence (Ready p v') t']).
   Proof.
     intros Hv H. apply alike_back in H.
     answer H (@None event) (alone w) S
@@ -117,7 +128,8 @@ Section Not_laws.
                   (Parallel [Ready p v; Sequence (Confirm i x at_site) (Ready p u)]).
   Proof.
     intros Hv H. apply alike_back in H.
-    answer H (Some (Answered i true)) (alone w) S (By (LAnswered true) S (Next (Parallel [Ready p v; Ready p u])) []) T A;
+    answer H (Some (Answered i true)) (alone w) S (By (LAnswered true) S (Next (Parallel [Ready p v;
+      Ready p u])) []) T A;
       [done_by|].
     sole T A. destruct A as (_ & _ & H1).
     answer H1 (@None event) (alone w) S
@@ -126,15 +138,18 @@ Section Not_laws.
   Qed.
 
   (** [during { n } run t = during n run t] *)
-  Theorem during_code_is_no_law (w : world) (S : shared) k i n d r : ~ alike_steps (During_code k i d r) (During k i n r).
+  Theorem during_code_is_no_law (w : world) (S : shared) k i n d r : ~ alike_steps (During_code k i d r) (During k i
+    n r).
   Proof.
     intros H. apply alike_back in H.
-    answer H (Some (Expired i)) (alone w) S (By LTimeout (without (run_of r) S) (time_out k n) (cut [r])) T A; [done_by|].
+    answer H (Some (Expired i)) (alone w) S (By LTimeout (without (run_of r) S) (time_out k n) (cut [r])) T A;
+      [done_by|].
     contradiction.
   Qed.
 
   (** [until { true } run t = action { }] *)
-  Theorem until_true_is_no_law (w : world) (S : shared) g a p v : ~ alike_steps (Until Completes g (Ready p v)) (Action a).
+  Theorem until_true_is_no_law (w : world) (S : shared) g a p v : ~ alike_steps (Until Completes g (Ready p v))
+    (Action a).
   Proof.
     intros H. destruct (alike_next H (e := None) (K := alone w) (S := S)
       (t := By (LStart v p) (start_on v p S) (Next (Until Completes g (Running p v))) [Start p v])) as (t' & T & A).
@@ -155,7 +170,8 @@ Section Not_laws.
       as (t' & T & A).
     - apply Itself. cbn [own]. unfold guarded, coded. rewrite Hr, Hx. left. reflexivity.
     - apply steps_iff_goes in T. cbn in T. destruct t'. unfold guarded, coded in T.
-      change (runs g [] (enter (In_sequence (Until Completes g (Idle j m))) (alone w)) S) with (runs g [] (alone w) S) in T.
+      change (runs g [] (enter (In_sequence (Until Completes g (Idle j m))) (alone w)) S) with (runs g [] (alone w)
+        S) in T.
       rewrite Hr, Hx in T. sole T A.
   Qed.
 
@@ -174,7 +190,8 @@ Section Not_laws.
   Qed.
 
   (** [repeat t until { true } = t]: to ask is a step. *)
-  Theorem repeat_until_is_no_law (w : world) (S : shared) more g i n : ~ alike_steps (Repeat (Idle i n) more (Some g) (Idle i n)) (Idle i n).
+  Theorem repeat_until_is_no_law (w : world) (S : shared) more g i n : ~ alike_steps (Repeat (Idle i n) more (Some g)
+    (Idle i n)) (Idle i n).
   Proof.
     intros H. apply alike_back in H.
     answer H (Some (Expired i)) (alone w) S (By LTimeout S Ok []) T A; [done_by|]. sole T A.

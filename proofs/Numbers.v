@@ -114,7 +114,8 @@ Section Numbers.
 
   Lemma numbered_flat r : Numbered r -> (forall x, In x (flat r) -> Numbered x) /\ separate (map numbers (flat r)).
   Proof.
-    intros H. destruct r; cbn [flat]; try (split; [intros ? [<- | []]; exact H | cbn; split; [intros ? _ [] | exact I]]; fail).
+    intros H. destruct r; cbn [flat]; try (split; [intros ? [<- | []]; exact H | cbn; split;
+      [intros ? _ [] | exact I]]; fail).
     inversion H; subst; [split; assumption | discriminate].
   Qed.
 
@@ -140,7 +141,8 @@ Section Numbers.
   Lemma numbered_parallel rs : (forall r, In r rs -> Numbered r) -> separate (map numbers rs) -> Numbered (parallel rs).
   Proof.
     intros H Hs. destruct (numbered_flats H Hs) as [F1 F2]. unfold parallel.
-    destruct (flat_map flat rs) as [|x [|y rest]]; [constructor; auto | apply F1; left; reflexivity | constructor; auto].
+    destruct (flat_map flat rs) as [|x [|y rest]]; [constructor; auto | apply F1; left; reflexivity | constructor;
+      auto].
   Qed.
 
   Lemma numbers_parallel rs : numbers (parallel rs) = flat_map numbers rs.
@@ -150,7 +152,8 @@ Section Numbers.
   Proof. destruct more as [[|n]|]; cbn [repeat_ numbers]; rewrite ?in_app_iff; auto. Qed.
 
   Lemma numbered_repeat r more g t : Numbered r -> Numbered t -> Numbered (repeat_ r more g t).
-  Proof. intros. destruct more as [[|n]|]; cbn [repeat_]; [assumption | constructor; assumption | constructor; assumption]. Qed.
+  Proof. intros. destruct more as [[|n]|]; cbn [repeat_]; [assumption | constructor; assumption | constructor;
+    assumption]. Qed.
 
   Lemma numbers_given ds r : numbers (given ds r) = numbers r.
   Proof. destruct r; cbn; auto. destruct (has_parameters a); reflexivity. Qed.
@@ -222,7 +225,8 @@ Section Numbers.
         destruct (W i Hi) as (a1 & b1 & A1 & A2 & ->). exists a1, b1. split; [lia | split; [lia | reflexivity]]. }
     induction t using task_rect'; intros ok k0 a0 b0; unfold within_numbers in *; cbn [build timers places];
       try (split; [constructor; reflexivity | intros i []]; fail);
-      try (split; [constructor; reflexivity | intros i [<- | []]; exists a0, b0; split; [lia | split; [lia | reflexivity]]]; fail).
+      try (split; [constructor; reflexivity | intros i [<- | []]; exists a0, b0; split; [lia | split;
+        [lia | reflexivity]]]; fail).
     - destruct (IHt1 ok k0 a0 b0) as [N1 W1].
       destruct (IHt2 ok (k0 + leaves t1) (a0 + timers t1) (b0 + places t1)) as [N2 W2].
       destruct (Two _ _ _ _ _ _ W1 W2) as [D W]. split; [apply numbered_sequence; assumption|].
@@ -245,9 +249,11 @@ Section Numbers.
         (split; [constructor; assumption | exact W]).
     - destruct (may_recover h).
       + destruct (IHt ok k0 a0 (Datatypes.S b0)) as [N1 W1]. split; [constructor; exact N1|].
-        intros i Hi. destruct (W1 i Hi) as (a1 & b1 & A1 & A2 & ->). exists a1, b1. split; [lia | split; [lia | reflexivity]].
+        intros i Hi. destruct (W1 i Hi) as (a1 & b1 & A1 & A2 & ->). exists a1, b1. split; [lia | split;
+          [lia | reflexivity]].
       + destruct (IHt ok k0 a0 b0) as [N1 W1]. split; [constructor; exact N1|].
-        intros i Hi. destruct (W1 i Hi) as (a1 & b1 & A1 & A2 & ->). exists a1, b1. split; [lia | split; [lia | reflexivity]].
+        intros i Hi. destruct (W1 i Hi) as (a1 & b1 & A1 & A2 & ->). exists a1, b1. split; [lia | split;
+          [lia | reflexivity]].
     - destruct (IHt ok k0 a0 b0) as [N1 W1]. split; [apply numbered_repeat; assumption|].
       intros i Hi. apply numbers_repeat in Hi. destruct Hi as [Hi | Hi]; apply W1; exact Hi.
   Qed.
@@ -300,7 +306,8 @@ Section Numbers.
   Lemma guarded_numbers K r e g S holds fails faulty u : In u (guarded e g K S holds fails faulty) ->
     (forall s N ds, In u (holds s N ds) -> keeps_numbers K r u) -> (In u fails -> keeps_numbers K r u) ->
     (forall m ds, In u (faulty m ds) -> keeps_numbers K r u) -> keeps_numbers K r u.
-  Proof. intros H H1 H2 H3. eapply guarded_spec; [exact H | exact H1 | exact H2 | exact H3 |]. intros; subst. exact I. Qed.
+  Proof. intros H H1 H2 H3. eapply guarded_spec; [exact H | exact H1 | exact H2 | exact H3 |]. intros;
+    subst. exact I. Qed.
 
   Lemma chosen_branch bs b g r after : bs = b ++ (g, r) :: after ->
     (forall x, In x bs -> Numbered (snd x)) -> separate (map of_branch bs) ->
@@ -318,7 +325,8 @@ Section Numbers.
     separate (numbers r :: map of_branch bs) -> Numbered (branch_of r bs).
   Proof. intros H H1 H2. destruct bs; [exact H | constructor; assumption]. Qed.
 
-  Lemma numbers_branch_of r bs i : In i (numbers (branch_of r bs)) -> In i (numbers r) \/ In i (concat (map of_branch bs)).
+  Lemma numbers_branch_of r bs i : In i (numbers (branch_of r bs)) ->
+    In i (numbers r) \/ In i (concat (map of_branch bs)).
   Proof.
     rewrite concat_branches. destruct bs; cbn [branch_of]; [auto|]. cbn [numbers]. rewrite in_app_iff. auto.
   Qed.
@@ -397,12 +405,14 @@ Section Numbers.
       { intros i Hin. destruct (Hi i Hin) as [H | H]; [auto | right]. intros H1. apply H. cbn. apply in_app_iff. auto. }
       destruct f; cbn [plug replug] in *; inversion Hn; subst; try discriminate.
       + split.
-        * apply numbered_sequence; auto. eapply (apart_from_frame (f := In_sequence t)); [eassumption | apply incl_refl | exact Hi].
+        * apply numbered_sequence; auto. eapply (apart_from_frame (f := In_sequence t));
+          [eassumption | apply incl_refl | exact Hi].
         * intros i H. apply alike_numbers_sequence, in_app_iff in H. cbn [numbers]. rewrite in_app_iff.
           destruct H as [H | H]; [destruct (New i H); auto | auto].
       + match goal with H : separate _ |- _ => rename H into Hs end.
         match goal with H : forall r, In r _ -> Numbered r |- _ => rename H into Ha end.
-        rewrite map_app in Hs. cbn [map] in Hs. apply separate_middle in Hs. cbn [separate] in Hs. destruct Hs as [S1' S2'].
+        rewrite map_app in Hs. cbn [map] in Hs. apply separate_middle in Hs. cbn [separate] in Hs.
+          destruct Hs as [S1' S2'].
         assert (Hd : disjoint (numbers r') (concat (map numbers before ++ map numbers after))).
         { rewrite <- map_app, concat_numbers. rewrite <- map_app, concat_numbers in S1'.
           eapply (apart_from_frame (f := Beside before after)); [exact S1' | apply incl_refl | exact Hi]. }
@@ -422,8 +432,10 @@ Section Numbers.
           destruct H as [H | [H | H]]; auto. destruct (New i H); auto.
       + match goal with H : separate _ |- _ => destruct H as [S1' S2'] end. split.
         * constructor; auto. split; [|exact S2'].
-          eapply (apart_from_frame (f := Branch_of bs)); [exact S1' | rewrite concat_branches; apply incl_refl | exact Hi].
-        * intros i H. cbn [numbers] in *. rewrite in_app_iff in *. destruct H as [H | H]; auto. destruct (New i H); auto.
+          eapply (apart_from_frame (f := Branch_of bs)); [exact S1' | rewrite concat_branches;
+            apply incl_refl | exact Hi].
+        * intros i H. cbn [numbers] in *. rewrite in_app_iff in *. destruct H as [H | H]; auto. destruct (New i H);
+          auto.
       + split; [constructor; exact Hn' | exact New].
       + split.
         * constructor; [exact Hn'|]. intros Hj. destruct (Hi _ Hj) as [Hj1 | Hj1]; [contradiction|].
@@ -455,7 +467,8 @@ Section Numbers.
       unfold on_error in Hu.
       destruct (handles_error (handles h) m K S1) as [y s gone N0 ds | m' ds | m' ds | m' s gone N0 ds |];
         try contradiction; try (destruct Hu as [<- | []]; exact I).
-      destruct y; [ | | destruct (anew h) as [(t0 & q)|] | destruct (anew h) as [(t0 & q)|]; [destruct (deepest <=? depth q)|]];
+      destruct y; [ | | destruct (anew h) as [(t0 & q)|] | destruct (anew h) as [(t0 & q)|];
+        [destruct (deepest <=? depth q)|]];
         destruct Hu as [<- | []]; try exact I; (split; [repeat constructor | intros i []]).
     - destruct Hu as [<- | []]. exact I.
   Qed.
@@ -482,7 +495,8 @@ Section Numbers.
     cnt t (open_tokens c) <= 1.
   Proof.
     intros H. assert (R := history_reachable H). split.
-    - apply (opened_is_closed_once H). intros c1 M1 r R1 Hc. right. apply numbered_distinct. eapply always_numbered; eassumption.
+    - apply (opened_is_closed_once H). intros c1 M1 r R1 Hc. right. apply numbered_distinct. eapply always_numbered;
+      eassumption.
     - destruct t as [i | i | v]; [| | apply (plans_end_once v H)].
       all: destruct c as [[M1 | M1 q | M1 r | y] S]; cbn [open_tokens control_of]; rewrite ?cnt_nil; try lia;
         try (destruct q; rewrite ?cnt_nil, ?cnt_one; try lia; destruct (token_eq _ _); lia).

@@ -1,5 +1,6 @@
 (** Each timer that is set is cancelled once or expires, each question that is put is answered once or withdrawn, and
-    each plan that is started ends once: it is done, fails, or is stopped. What is open, opened and closed is counted. *)
+    each plan that is started ends once: it is done, fails, or is stopped.
+      What is open, opened and closed is counted. *)
 From Dolphin Require Export Invariants.
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -63,17 +64,20 @@ Section Once.
 
   Lemma begun_open r : opens (begun r) = map token_of (waits r) /\ closes (begun r) = [].
   Proof.
-    unfold begun. induction (waits r) as [|[i []] ws [IH1 IH2]]; [auto | |]; cbn; rewrite <- ?IH1; unfold opens, closes in *;
+    unfold begun. induction (waits r) as [|[i []] ws [IH1 IH2]]; [auto | |]; cbn; rewrite <- ?IH1;
+      unfold opens, closes in *;
       rewrite ?IH2; auto.
   Qed.
 
   Lemma ceases_open ws : opens (map ceases ws) = [] /\ closes (map ceases ws) = map token_of ws.
   Proof.
-    induction ws as [|[i []] ws [IH1 IH2]]; [auto | |]; cbn; rewrite <- ?IH2; unfold opens, closes in *; rewrite ?IH1; auto.
+    induction ws as [|[i []] ws [IH1 IH2]]; [auto | |]; cbn; rewrite <- ?IH2; unfold opens, closes in *;
+      rewrite ?IH1; auto.
   Qed.
 
   Lemma stops_open vs : opens (map Stop vs) = [] /\ closes (map Stop vs) = map Plan_of vs.
-  Proof. induction vs as [|v vs [IH1 IH2]]; [auto|]. cbn. rewrite <- IH2. unfold opens, closes in *. rewrite ?IH1. auto. Qed.
+  Proof. induction vs as [|v vs [IH1 IH2]];
+    [auto|]. cbn. rewrite <- IH2. unfold opens, closes in *. rewrite ?IH1. auto. Qed.
 
   Lemma release_open vs : opens (release vs) = [] /\ closes (release vs) = [].
   Proof. destruct vs; auto. Qed.
@@ -104,11 +108,13 @@ Section Once.
   Qed.
 
   Lemma tokens_flat t r : cnt t (flat_map tokens (flat r)) = cnt t (tokens r).
-  Proof. destruct r; cbn [flat]; try (cbn [flat_map]; rewrite app_nil_r; reflexivity). symmetry. apply tokens_parallel. Qed.
+  Proof. destruct r; cbn [flat]; try (cbn [flat_map]; rewrite app_nil_r;
+    reflexivity). symmetry. apply tokens_parallel. Qed.
 
   Lemma tokens_flats t rs : cnt t (flat_map tokens (flat_map flat rs)) = cnt t (flat_map tokens rs).
   Proof.
-    induction rs as [|r rs IH]; [reflexivity|]. cbn [flat_map]. rewrite cnt_flat_map_app, IH, tokens_flat, cnt_app. reflexivity.
+    induction rs as [|r rs IH]; [reflexivity|]. cbn [flat_map]. rewrite cnt_flat_map_app, IH, tokens_flat, cnt_app.
+      reflexivity.
   Qed.
 
   Lemma tokens_parallel_of t rs : cnt t (tokens (parallel rs)) = cnt t (flat_map tokens rs).
@@ -191,23 +197,28 @@ Section Once.
       change (0 + cnt t [Plan_of v] = cnt t [Plan_of v] + 0 + 0). lia.
     - destruct e as [[]|]; try contradiction; destruct (vehicle_eq v0 v) as [->|]; try contradiction; is_only Hu;
         intros t; cbn; rewrite ?cnt_nil; lia.
-    - eapply coded_conserves; [exact Hu | |]; cbv beta; intros; subst e; is_only H0; intros t; counts; cbn; rewrite ?cnt_nil; lia.
-    - eapply guarded_conserves; [exact Hu | | |]; cbv beta; intros; subst e; try contradiction; is_only H0; intros t; counts; cbn; rewrite ?cnt_nil; lia.
+    - eapply coded_conserves; [exact Hu | |]; cbv beta; intros; subst e; is_only H0; intros t; counts; cbn;
+      rewrite ?cnt_nil; lia.
+    - eapply guarded_conserves; [exact Hu | | |]; cbv beta; intros; subst e; try contradiction; is_only H0; intros t;
+      counts; cbn; rewrite ?cnt_nil; lia.
     - apply in_each in Hu. destruct Hu as (b & (g & r) & after & Hbs & Hu). cbn [app] in Hu.
       inversion W as [| | | | | | |X' bs' Wb Qb| | | | | | | | | | | | | |]; subst X' bs'.
       destruct (branches_split _ _ _ _ _ _ Hbs Wb Qb) as (Wr & Qr & _). unfold choose in Hu. cbn [fst snd] in Hu.
-      eapply guarded_conserves; [exact Hu | | |]; cbv beta; intros; subst e; try contradiction; is_only H0; intros t; counts.
+      eapply guarded_conserves; [exact Hu | | |]; cbv beta; intros; subst e; try contradiction; is_only H0; intros t;
+        counts.
       + rewrite tokens_branch_of, tokens_given, (tokens_quiet Qr). cbn. rewrite ?cnt_nil. lia.
       + cbn. rewrite ?cnt_nil. lia.
     - apply in_each in Hu. destruct Hu as (b & (g & r) & after & Hbs & Hu). cbn [app] in Hu.
       inversion W as [| | | | | | | |X' bs' Wb Qb| | | | | | | | | | | | |]; subst X' bs'.
       destruct (branches_split _ _ _ _ _ _ Hbs Wb Qb) as (Wr & Qr & _). unfold choose in Hu. cbn [fst snd] in Hu.
-      eapply guarded_conserves; [exact Hu | | |]; cbv beta; intros; subst e; try contradiction; is_only H0; intros t; counts.
+      eapply guarded_conserves; [exact Hu | | |]; cbv beta; intros; subst e; try contradiction; is_only H0; intros t;
+        counts.
       + rewrite tokens_given, (tokens_quiet Qr). cbn. rewrite ?cnt_nil. lia.
       + cbn. rewrite ?cnt_nil. lia.
     - assert (T : tokens (Until k g r) = tokens r) by reflexivity.
       eapply guarded_conserves; [exact Hu | | |]; cbv beta; intros; subst e; destruct k; try contradiction;
-        (is_only H || is_only H0); intros t; counts; rewrite T; cbn [flat_map ends_token]; rewrite app_nil_r, ?cnt_nil; lia.
+        (is_only H || is_only H0); intros t; counts; rewrite T; cbn [flat_map ends_token];
+          rewrite app_nil_r, ?cnt_nil; lia.
     - destruct e as [[]|]; try contradiction. destruct (timer_eq i0 i) as [->|]; [|contradiction]. is_only Hu.
       intros t. cbn. rewrite ?cnt_nil. lia.
     - destruct e as [[]|]; try contradiction; [destruct yes|]; (destruct (timer_eq i0 i) as [->|]; [|contradiction]);
@@ -230,7 +241,8 @@ Section Once.
         * cbn. rewrite ?cnt_nil. lia.
       + is_only H0. intros t. counts. rewrite T. cbn. rewrite ?cnt_nil. lia.
     - inversion W as [| | | | | | | | | | | | | | | |X' more' g' t' Wt Qt| | | | |]; subst.
-      eapply guarded_conserves; [exact Hu | | |]; cbv beta; intros; subst e; (is_only H || is_only H0); intros t0; counts.
+      eapply guarded_conserves; [exact Hu | | |]; cbv beta; intros; subst e; (is_only H || is_only H0); intros t0;
+        counts.
       + cbn. rewrite ?cnt_nil. lia.
       + rewrite tokens_repeat, (tokens_quiet Qt). cbn. rewrite ?cnt_nil. lia.
       + cbn. rewrite ?cnt_nil. lia.
@@ -250,7 +262,8 @@ Section Once.
   Qed.
 
   Definition frame_tokens (f : frame) : list token :=
-    match f with Beside before after => flat_map tokens (before ++ after) | Body_during _ i _ => [Timer i] | _ => [] end.
+    match f with Beside before after => flat_map tokens (before ++ after) | Body_during _ i _ => [Timer i] |
+      _ => [] end.
 
   Lemma tokens_plug t f r : cnt t (tokens (plug f r)) = cnt t (frame_tokens f) + cnt t (tokens r).
   Proof.
@@ -273,7 +286,8 @@ Section Once.
 
   Lemma built_part f r : built (plug f r) -> built r /\ quiet_frame f.
   Proof.
-    intros (X & W). destruct f; cbn [plug quiet_frame] in *; inversion W; subst; (split; [|auto]); try (eexists; eassumption).
+    intros (X & W). destruct f; cbn [plug quiet_frame] in *; inversion W; subst; (split; [|auto]); try (eexists;
+      eassumption).
     exists X. match goal with H : forall r, In r _ -> Wf X r |- _ => apply H, in_elt end.
   Qed.
 
@@ -304,7 +318,8 @@ Section Once.
         try contradiction.
       2, 3, 4: destruct Hu as [<- | []]; cbn [conserves]; intros t0; specialize (Hc t0); rewrite tokens_plug;
              cbn [frame_tokens]; rewrite ?cnt_nil; counts; rewrite ?cnt_nil; lia.
-      destruct y; [ | | destruct (anew h) as [(t0 & q)|] | destruct (anew h) as [(t0 & q)|]; [destruct (deepest <=? depth q)|]];
+      destruct y; [ | | destruct (anew h) as [(t0 & q)|] | destruct (anew h) as [(t0 & q)|];
+        [destruct (deepest <=? depth q)|]];
         destruct Hu as [<- | []]; cbn [conserves]; intros t1; specialize (Hc t1); rewrite tokens_plug;
         cbn [frame_tokens]; rewrite ?cnt_nil; counts; cbn; rewrite ?cnt_nil; lia.
     - cbn in Hu. destruct Hu as [<- | []]. intros t. specialize (Hc t). rewrite tokens_plug. lia.
@@ -348,7 +363,8 @@ Section Once.
       destruct (in_dec token_eq (Plan_of v) (closes E ++ ends_token x)) as [I | I]; auto; destruct (H v I).
   Qed.
 
-  Lemma loses_cut r l S m E x S0 : closes E = closes (cut [r]) -> ends_token x = [] \/ (exists i, ends_token x = [Timer i]) ->
+  Lemma loses_cut r l S m E x S0 : closes E = closes (cut [r]) -> ends_token x = [] \/ (exists i,
+    ends_token x = [Timer i]) ->
     allocation S0 = allocation S -> loses x S (By l (without (run_of r) S0) (Err m) E).
   Proof.
     intros HE Hx HS v. rewrite HE. cbn [without with_allocation allocation]. rewrite HS.
@@ -356,7 +372,8 @@ Section Once.
     { rewrite in_app_iff, closes_cut_plan. cbn [flat_map]. rewrite app_nil_r. split; [|auto].
       intros [H | H]; [exact H|].
       destruct Hx as [Hx | (i & Hx)]; rewrite Hx in H; [destruct H | destruct H as [H | []]; discriminate]. }
-    destruct (mem v (run_of r)) eqn:M; destruct (in_dec token_eq (Plan_of v) (closes (cut [r]) ++ ends_token x)) as [I | I];
+    destruct (mem v (run_of r)) eqn:M; destruct (in_dec token_eq (Plan_of v) (closes (cut [r]) ++ ends_token x)) as
+      [I | I];
       auto.
     - exfalso. apply I, H, mem_spec, M.
     - exfalso. apply H, mem_spec in I. congruence.
@@ -393,7 +410,8 @@ Section Once.
       destruct (mem u [v]) eqn:M; destruct (in_dec token_eq (Plan_of u) [Plan_of v]) as [J | J]; auto.
       + exfalso. apply J. apply mem_spec in M. destruct M as [-> | []]. left. reflexivity.
       + exfalso. apply mem_false in M. apply M. destruct J as [J | []]. injection J as ->. left. reflexivity.
-    - eapply coded_loses; [exact Hu | |]; cbv beta; intros; subst e; is_only H0; apply loses_nothing; try reflexivity; no_plan.
+    - eapply coded_loses; [exact Hu | |]; cbv beta; intros; subst e; is_only H0; apply loses_nothing;
+      try reflexivity; no_plan.
     - eapply guarded_loses; [exact Hu | | |]; cbv beta; intros; subst e; try contradiction; is_only H0;
         apply loses_nothing; try reflexivity; no_plan.
     - apply in_each in Hu. destruct Hu as (b & y & after & _ & Hu). unfold choose in Hu.
@@ -455,7 +473,8 @@ Section Once.
         destruct (handles_error (handles h) m K S1) as [y s gone N0 ds | m' ds | m' ds | m' s gone N0 ds |];
           try contradiction;
           try (destruct Hu as [<- | []]; eapply loses_more; [exact Hl | reflexivity | no_plan]; fail).
-        destruct y; [ | | destruct (anew h) as [(t0 & q)|] | destruct (anew h) as [(t0 & q)|]; [destruct (deepest <=? depth q)|]];
+        destruct y; [ | | destruct (anew h) as [(t0 & q)|] | destruct (anew h) as [(t0 & q)|];
+          [destruct (deepest <=? depth q)|]];
           destruct Hu as [<- | []]; try exact I; eapply loses_more; try exact Hl; try reflexivity; no_plan.
       + destruct Hu as [<- | []]. eapply loses_more; [exact Hl | reflexivity |]. no_plan.
     - destruct Hu as [<- | []]. exact Hl.
@@ -499,7 +518,8 @@ Section Once.
     count_occ vehicle_eq (List.filter P vs) v = if P v then count_occ vehicle_eq vs v else 0.
   Proof.
     induction vs as [|u vs IH]; [destruct (P v); reflexivity|]. cbn [List.filter count_occ].
-    destruct (P u) eqn:E; cbn [count_occ]; rewrite IH; destruct (vehicle_eq u v) as [->|]; try rewrite E; try reflexivity.
+    destruct (P u) eqn:E; cbn [count_occ]; rewrite IH; destruct (vehicle_eq u v) as [->|]; try rewrite E;
+      try reflexivity.
   Qed.
 
   Lemma cnt_filter (P : timer -> bool) i t ws : t = Timer i \/ t = Question i ->
@@ -514,7 +534,8 @@ Section Once.
     - destruct (P j) eqn:E; cbn [map]; [rewrite cnt_cons, (Hj Hij), IH | rewrite IH]; rewrite ?(Hj Hij); reflexivity.
   Qed.
 
-  Lemma one_number i ws : NoDup (map fst ws) -> cnt (Timer i) (map token_of ws) + cnt (Question i) (map token_of ws) <= 1.
+  Lemma one_number i ws : NoDup (map fst ws) ->
+    cnt (Timer i) (map token_of ws) + cnt (Question i) (map token_of ws) <= 1.
   Proof.
     intros H. assert (E : cnt (Timer i) (map token_of ws) + cnt (Question i) (map token_of ws) =
                           count_occ timer_eq (map fst ws) i).
@@ -536,7 +557,8 @@ Section Once.
   Lemma spent_in i x : In i (spent_numbers x) <-> In (Timer i) (ends_token x) \/ In (Question i) (ends_token x).
   Proof.
     destruct x as [[]|]; cbn; split; intros H; try tauto; try (intuition discriminate);
-      try (destruct H as [-> | []]; auto); destruct H as [[H | []] | [H | []]]; try discriminate; injection H as ->; auto.
+      try (destruct H as [-> | []]; auto); destruct H as [[H | []] | [H | []]]; try discriminate; injection H as ->;
+        auto.
   Qed.
 
   Definition is_plan (t : token) : Prop := exists v, t = Plan_of v.
@@ -572,8 +594,10 @@ Section Once.
     all: destruct Ht as [(v & Hv) | Hd]; [discriminate|]; assert (H1 := one_number i Hd);
       rewrite !(cnt_plans_no (t := _)) in * by discriminate;
       rewrite (@cnt_filter (fun i => negb (timer_mem i (spent_numbers x ++ ceased E))) i) by auto;
-      destruct (Hc (Timer i)) as [_ HT], (Hc (Question i)) as [_ HQ]; unfold tokens in HT, HQ; rewrite cnt_app in HT, HQ;
-      rewrite (@cnt_plans_no (Timer i)) in HT by discriminate; rewrite (@cnt_plans_no (Question i)) in HQ by discriminate;
+      destruct (Hc (Timer i)) as [_ HT], (Hc (Question i)) as [_ HQ]; unfold tokens in HT, HQ;
+        rewrite cnt_app in HT, HQ;
+      rewrite (@cnt_plans_no (Timer i)) in HT by discriminate;
+        rewrite (@cnt_plans_no (Question i)) in HQ by discriminate;
       destruct (timer_mem i (spent_numbers x ++ ceased E)) eqn:M; cbn [negb].
     1, 3: apply timer_mem_spec, in_app_iff in M; rewrite spent_in, ceased_in, !cnt_in in M; lia.
     all: assert (N : ~ In i (spent_numbers x ++ ceased E)) by (intros H; apply timer_mem_spec in H; congruence);
@@ -591,7 +615,8 @@ Section Once.
 
   Lemma filter_all X (P : X -> bool) xs : (forall x, In x xs -> P x = true) -> List.filter P xs = xs.
   Proof.
-    induction xs as [|x xs IH]; intros H; [reflexivity|]. cbn. rewrite H by (left; reflexivity). rewrite IH; [reflexivity|].
+    induction xs as [|x xs IH]; intros H; [reflexivity|]. cbn. rewrite H by (left; reflexivity). rewrite IH;
+      [reflexivity|].
     intros y Hy. apply H. right. exact Hy.
   Qed.
 
@@ -640,19 +665,22 @@ Section Once.
     destruct Hs; try (simple_step; fail).
     - (* INPUT *) destruct k; cbn; rewrite ?cnt_nil; lia.
     - (* EXECUTE *) cbn [open_tokens control_of script_at executes ends_token]. apply alloc_built in H0.
-      destruct H0 as (_ & Q & _). rewrite (tokens_quiet Q), (proj1 (begun_open r)), (proj2 (begun_open r)), !cnt_nil. lia.
+      destruct H0 as (_ & Q & _). rewrite (tokens_quiet Q), (proj1 (begun_open r)), (proj2 (begun_open r)), !cnt_nil.
+        lia.
     - (* EXECUTE-DONE *) destruct (Ex _ _ _ _ _ _ _ _ eq_refl H) as (Hc & _). specialize (Hc t). cbn in Hc |- *.
       rewrite cnt_nil. lia.
     - (* EXECUTE-ERR *) destruct (Ex _ _ _ _ _ _ _ _ eq_refl H) as (Hc & _ & Hp & _). specialize (Hc t).
       cbn [open_tokens control_of executes ended conserves] in Hc |- *. unfold end_by_error.
       rewrite still_none by (intros v; eapply (nothing_runs_after _ _ _ _ _ _ _ _ (sound_alone w) Hp H); eauto).
-      cbn [map app]. rewrite opens_app, closes_app, !cnt_app, (proj1 (closes_end _ _)), (proj2 (closes_end _ _)), !cnt_nil. lia.
+      cbn [map app]. rewrite opens_app, closes_app, !cnt_app, (proj1 (closes_end _ _)), (proj2 (closes_end _ _)),
+        !cnt_nil. lia.
     - (* EXECUTING *) destruct (Ex _ _ _ _ _ _ _ _ eq_refl H) as (Hc & _). exact (Hc t).
     - (* ENDS *) destruct (Ex _ _ _ _ _ _ _ _ eq_refl H) as (Hc & Hl & _ & Hn & HA).
       assert (R := stops_rest Hn HA (Hd _ _ eq_refl) Hc Hl). destruct (Hc t) as [Ho _].
       cbn [open_tokens control_of executes ended]. unfold end_of.
       rewrite !opens_app, !closes_app, !cnt_app, stops_opens, Ho, !cnt_nil.
-      rewrite (proj1 (release_open _)), (proj2 (release_open _)). cbn [opens closes flat_map app]. rewrite !cnt_nil. lia.
+      rewrite (proj1 (release_open _)), (proj2 (release_open _)). cbn [opens closes flat_map app]. rewrite !cnt_nil.
+        lia.
     - (* INTERRUPT *) cbn [open_tokens control_of ended ends_token]. unfold end_of.
       rewrite !opens_app, !closes_app, !cnt_app, stops_opens, !cnt_nil.
       rewrite (proj1 (release_open _)), (proj2 (release_open _)). cbn [opens closes flat_map app]. rewrite !cnt_nil.
@@ -685,7 +713,8 @@ Section Once.
   Lemma history_reachable M s N h c : history (initial M s N) h c -> reachable M s N c.
   Proof. induction 1; [constructor | econstructor; eassumption]. Qed.
 
-  (** On every run: as often as a timer was set, a question put or a plan started, it was cancelled, withdrawn or stopped,
+  (** On every run: as often as a timer was set, a question put or a plan started, it was cancelled,
+    withdrawn or stopped,
       or ended by an event, or is open still. *)
   Theorem opened_is_closed_once M s N h c t :
     history (initial M s N) h c ->

@@ -98,7 +98,8 @@ Section Partial_order.
 
   Lemma outside_later T s a s1 b : T a = false -> goes s a s1 -> outside T s1 b -> outside T s b.
   Proof.
-    intros Ta Hg (Tb & w & t & Hw & Hp). split; [exact Tb|]. exists (a :: w), t. split; [econstructor; eassumption | exact Hp].
+    intros Ta Hg (Tb & w & t & Hw & Hp). split; [exact Tb|]. exists (a :: w), t. split; [econstructor;
+      eassumption | exact Hp].
   Qed.
 
   Lemma outside_now T s a : T a = false -> possible s a -> outside T s a.
@@ -201,7 +202,8 @@ Section Partial_order.
 
   (** A run after a step that is followed, from the state that is visited. *)
   Lemma onward s a t w d : chosen s a = true -> goes s a t -> run goes t w d ->
-    exists a' u w' d', visits s a' u /\ equal t u /\ run goes u w' d' /\ length w' = length w /\ equal d d' /\ same a a'.
+    exists a' u w' d', visits s a' u /\ equal t u /\ run goes u w' d' /\ length w' = length w /\ equal d d' /\
+      same a a'.
   Proof.
     intros Ha Hg Hr. destruct (visits_chosen Ha Hg) as (a' & u & Hs & V & E).
     destruct (bisimilar_runs equal_bisimulation Hr E) as (w' & d' & Hw & Hr' & Ed).
@@ -270,7 +272,8 @@ Section Partial_order.
       destruct (IH u w' d' R) with (f := f1) as (w2 & d2 & f2 & R2 & S2 & F2).
       - rewrite Hw, <- (equal_size E). exact Hl.
       - exact Hf'.
-      - exists (a' :: w2), d2, f2. split; [econstructor; eassumption | split; [eapply same_trans; eassumption | exact F2]]. }
+      - exists (a' :: w2), d2, f2. split; [econstructor; eassumption | split; [eapply same_trans;
+        eassumption | exact F2]]. }
     destruct (chosen_enough s) as [All | En].
     - destruct Hr as [s | s a s1 w d Hg Hr].
       + exists [], s, f. split; [constructor | split; [apply same_refl | exact Hf]].
@@ -294,7 +297,8 @@ Section Partial_order.
   Definition overtaken (a : step) : Prop := traceless a /\ exists k, cuts a k = true /\ last k.
   Hypothesis same_overtaken : forall a b, same a b -> overtaken b -> overtaken a.
 
-  (** Each step that some run takes is taken; but perhaps not a cut without a trace, if the nest may be over before it. *)
+  (** Each step that some run takes is taken;
+    but perhaps not a cut without a trace, if the nest may be over before it. *)
   Theorem steps_are_kept : forall s w d, run goes s w d -> forall a t, goes d a t -> ~ overtaken a ->
     exists w' d' a' u, run visits s w' d' /\ same a a' /\ visits d' a' u.
   Proof.

@@ -134,14 +134,16 @@ Section Dead_variables.
   Variable reads : place -> variable -> Prop.
   Variable writes : place -> label -> place -> variable -> bool.
 
-  (** A step depends on what it reads alone: from other values of the rest the same step is possible, it writes the same,
+  (** A step depends on what it reads alone: from other values of the rest the same step is possible,
+    it writes the same,
       and leaves the rest as it is. *)
   Hypothesis steps_by_reads :
     forall c v v' l d u, (forall x, reads c x -> v x = v' x) -> goes (c, v) l (d, u) ->
     exists u', goes (c, v') l (d, u') /\
       forall x, if writes c l d x then u x = u' x else u x = v x /\ u' x = v' x.
 
-  (** A variable is live where a step reads it, and before a step that does not write it if it is live after the step. *)
+  (** A variable is live where a step reads it,
+    and before a step that does not write it if it is live after the step. *)
   Variable live : place -> variable -> bool.
   Hypothesis live_if_read : forall c x, reads c x -> live c x = true.
   Hypothesis live_before : forall c l d x, live d x = true -> writes c l d x = false -> live c x = true.
@@ -156,7 +158,8 @@ Section Dead_variables.
   Proof. intros (H & E). split; [auto|]. rewrite <- H. intros x Hx. symmetry. auto. Qed.
   Lemma alike_trans s t u : alike s t -> alike t u -> alike s u.
   Proof.
-    intros (H & E) (H' & E'). split; [congruence|]. intros x Hx. rewrite E by exact Hx. apply E'. rewrite <- H. exact Hx.
+    intros (H & E) (H' & E'). split; [congruence|]. intros x Hx. rewrite E by exact Hx. apply E'. rewrite <- H.
+      exact Hx.
   Qed.
   Lemma forget_alike s : alike s (forget s).
   Proof. split; [reflexivity|]. cbn. intros x ->. reflexivity. Qed.

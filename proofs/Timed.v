@@ -85,7 +85,8 @@ Section Timed.
   Qed.
 
   Lemma urun_reachable M s N c ls c' : urun c ls c' -> reachable M s N c -> reachable M s N c'.
-  Proof. induction 1 as [c | w c x l E c1 ls c2 Hs _ IH]; intros H; [exact H|]. apply IH. eapply By_step; eassumption. Qed.
+  Proof. induction 1 as [c | w c x l E c1 ls c2 Hs _ IH]; intros H; [exact H|]. apply IH. eapply By_step;
+    eassumption. Qed.
 
   (** So what holds of each configuration that a program comes to holds of those of all timed runs. *)
   Theorem timed_runs_keep_invariants M s N (P : configuration -> Prop) e ls t :

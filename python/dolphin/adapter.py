@@ -15,7 +15,7 @@ from typing import Any, Awaitable, Callable, Dict, Iterable, List, Mapping, Opti
 
 from .channel import Channel, StandardStreams
 from .requests import COMMANDED, Request, plan_of, was_commanded
-from .vehicle import Absent, Done, Failed, Plan, Stopped, Unknown, Vehicle
+from .vehicle import Absent, Done, Failed, Plan, Stopped, Unknown, Vehicle, finite
 
 PROTOCOL = 1
 TELEMETRY_ON, TELEMETRY_OFF = 1.0, 10.0
@@ -431,8 +431,9 @@ class Adapter:
         """`Plan.progress` calls this."""
         request = self._requests.get(plan.request)
         if request is not None and not request.has_ended:
-            members = {"share": share, "remaining": remaining}
-            known = {name: x for name, x in members.items() if x is not None}
+            members = {"share": finite(share), "remaining": finite(remaining)}
+            known = {name: max(0.0, x) for name, x in members.items() if x is not None}
+            known.update({"share": min(1.0, known["share"])} if "share" in known else {})
             self._send({"kind": "progress", "request": plan.request, **known})
 
     async def keep_note(self, plan: Plan, note: Mapping[str, Any]) -> None:

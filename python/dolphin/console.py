@@ -46,7 +46,7 @@ class Console:
             raise ValueError(f"{link} is not a link of a console")
         self._secure = parts.scheme == "https"
         self._host, self._port = parts.hostname, parts.port or (443 if self._secure else 80)
-        self._token = token or (parse_qs(parts.query).get("token") or [None])[0]
+        self._token = token or next(iter(parse_qs(parts.query).get("token", [])), None)
         name, _, digest = parts.fragment.partition("=")
         self._digest = digest.replace(":", "").lower() if name == "sha256" else None
         self.client = secrets.token_hex(16)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import math
+import numbers
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, Sequence
 
@@ -64,9 +66,34 @@ class Plan:
             await self._adapter.keep_note(self, note)
 
 
+_RANGES = {"latitude": (-90.0, 90.0), "longitude": (-180.0, 180.0), "battery": (0.0, 1.0)}
+_NUMBERS = frozenset({"latitude", "longitude", "height", "depth", "altitude", "battery", "speed"})
 _URGENT = frozenset({"type", "payload", "link", "unready"})
-_MAY_BE_UNKNOWN = frozenset({"depth", "altitude", "battery", "speed"})
-_MEMBERS = _URGENT | _MAY_BE_UNKNOWN | {"latitude", "longitude", "height", "readings"}
+_MEMBERS = _URGENT | _NUMBERS | {"readings"}
+
+
+def finite(value: Any) -> Any:
+    """A number of any library as one of Python, `None` if it is not finite. Other values stay."""
+    if isinstance(value, (bool, int)) or not isinstance(value, numbers.Real):
+        return value
+    number = float(value)
+    return number if math.isfinite(number) else None
+
+
+def _clean(name: str, value: Any) -> Any:
+    """The value of a member as the protocol has it. An error in the caller's code is raised there."""
+    if name not in _MEMBERS:
+        raise TypeError(f"a vehicle has no member {name!r}")
+    if name == "readings":
+        return {str(key): finite(reading) for key, reading in value.items()}
+    value = finite(value)
+    if name in _NUMBERS and value is not None:
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise TypeError(f"{name} is {value!r}, not a number")
+        least, most = _RANGES.get(name, (-math.inf, math.inf))
+        if not least <= value <= most:
+            raise ValueError(f"{name} is {value}, not from {least:g} to {most:g}")
+    return value
 
 
 class Vehicle:
@@ -128,19 +155,20 @@ class Vehicle:
 
     def report(self, **members: Any) -> None:
         """Reports news of the vehicle: `latitude` and `longitude`, `height`, `depth`, `altitude`, `battery`
-        (0 to 1), `speed`, `readings`, `link`, `unready`, `type`, `payload`. `None` is *not known*. Link, readiness,
-        type, payload and the first position are sent at once, the rest at the pace that Dolphin asks for. May be
-        called from any thread.
+        (0 to 1), `speed`, `readings`, `link`, `unready`, `type`, `payload`. `None` and NaN are *not known*; a position
+        that is not known leaves the last one. Link, readiness, type, payload and the first position are sent at once,
+        the rest at the pace that Dolphin asks for. May be called from any thread.
 
         >>> boat = Vehicle("boat-1", type="USV", latitude=41.18, longitude=-8.7)
         >>> boat.report(battery=0.8, readings={"Temperature": 14.2})
         >>> boat.known["battery"], boat.known["link"]
         (0.8, True)
         """
-        for name in members:
-            if name not in _MEMBERS:
-                raise TypeError(f"a vehicle has no member {name!r}")
-        clean = {name: self._clean(name, value) for name, value in members.items()}
+        clean = {name: _clean(name, value) for name, value in members.items()}
+        if clean.get("latitude", 0) is None or clean.get("longitude", 0) is None:  # as receivers without a fix have it
+            clean.pop("latitude", None)
+            clean.pop("longitude", None)
+        json.dumps(clean, allow_nan=False)
         adapter = self._adapter
         if adapter is not None and not adapter.is_of_this_thread():
             adapter.call_soon(lambda: self._take(clean))
@@ -154,16 +182,6 @@ class Vehicle:
         return why
 
     # For the adapter.
-
-    @staticmethod
-    def _clean(name: str, value: Any) -> Any:
-        if isinstance(value, float) and not math.isfinite(value):
-            if name in _MAY_BE_UNKNOWN:
-                return None
-            raise ValueError(f"{name} is {value}")
-        if name == "readings":
-            return {key: None if isinstance(x, float) and not math.isfinite(x) else x for key, x in value.items()}
-        return value
 
     def _take(self, members: Mapping[str, Any]) -> None:
         is_first_place = "latitude" in members and "latitude" not in self.known

@@ -500,10 +500,40 @@ class Telemetry(unittest.TestCase):
             self.board.report(battery=nan, readings={"Temperature": nan}, link=False)
             sent = self.sightings(console)[-1]
             self.assertEqual((sent["battery"], sent["readings"]), (None, {"Temperature": None}))
-            with self.assertRaises(ValueError):
-                self.board.report(latitude=nan)
+            self.board.report(latitude=nan, longitude=-9.0, link=True)
+            self.assertEqual((self.board.known["latitude"], self.board.known["longitude"]), (41.0, -8.0))
+            for wrong in ({"battery": 83}, {"latitude": 91}, {"longitude": -181.0}):
+                with self.assertRaises(ValueError):
+                    self.board.report(**wrong)
+            for wrong in ({"speed": "fast"}, {"readings": {"a": object()}}, {"payload": [object()]}):
+                with self.assertRaises(TypeError):
+                    self.board.report(**wrong)
             with self.assertRaises(TypeError):
                 self.board.report(batery=0.5)
+
+        self.check(script)
+
+    def test_numbers_of_other_libraries(self):
+        from fractions import Fraction
+
+        async def script(console):
+            self.board.report(battery=Fraction(1, 2), readings={"Temperature": Fraction(57, 4)}, link=False)
+            sent = self.sightings(console)[-1]
+            self.assertEqual((sent["battery"], sent["readings"]), (0.5, {"Temperature": 14.25}))
+
+        self.check(script)
+
+    def test_estimates_are_within_bounds(self):
+        async def script(console):
+            console.start("r")
+            await self.board.go("start")
+            plan = dolphin.Plan("p", request="r", _adapter=self.adapter)
+            for share, remaining in [(0.5, 20), (1.2, -3), (float("nan"), float("inf"))]:
+                plan.progress(share, remaining)
+            self.assertEqual([r for r in console.reports if r["kind"] == "progress"], [
+                {"kind": "progress", "request": "r", "share": 0.5, "remaining": 20},
+                {"kind": "progress", "request": "r", "share": 1.0, "remaining": 0.0},
+                {"kind": "progress", "request": "r"}])
 
         self.check(script)
 

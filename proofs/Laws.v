@@ -922,4 +922,81 @@ Section Laws.
           -- left. exists a, p. auto.
           -- right. apply bisimilar_refl. exact Na.
   Qed.
+
+  (** {1 Rounds that begin in the middle} *)
+
+  Definition turned (t u a b : residual) : Prop :=
+    exists x, normal x = true /\ a = Repeat (sequence x u) None None (sequence t u) /\
+      b = Repeat x None None (sequence u t).
+
+  Lemma turned_step t u a b : normal t = true -> normal u = true -> turned t u a b ->
+    let Q := fun a b => turned t u a b \/ turned u t b a in
+    face a b /\ simulates (up Q) a b /\ simulates (up (fun a b => Q b a)) b a.
+  Proof.
+    intros Ht Hu (x & Hx & -> & ->) Q. set (tu := sequence t u). set (ut := sequence u t).
+    assert (Nxu : normal (sequence x u) = true) by (apply normal_sequence; assumption).
+    assert (Ntu : normal tu = true) by (apply normal_sequence; assumption).
+    assert (Nut : normal ut = true) by (apply normal_sequence; assumption).
+    assert (A1 : forall i, In i (names u ++ names tu) <-> In i (names ut)).
+    { intros i. unfold tu, ut. rewrite in_app_iff, !names_sequence. tauto. }
+    assert (A3 : forall i, In i (numbers u ++ numbers tu) <-> In i (numbers ut)).
+    { intros i. unfold tu, ut. rewrite in_app_iff, !(alike_numbers_sequence _ _ i), !in_app_iff. tauto. }
+    assert (F : face (Repeat (sequence x u) None None tu) (Repeat x None None ut)).
+    { split.
+      - intros i. cbn [names]. rewrite !in_app_iff, names_sequence. specialize (A1 i). rewrite in_app_iff in A1. tauto.
+      - change (alike (run_of (sequence x u)) (run_of x)). rewrite run_of_sequence. apply alike_refl.
+      - intros i. cbn [numbers]. rewrite !in_app_iff, (alike_numbers_sequence x u i), in_app_iff. specialize (A3 i).
+        rewrite in_app_iff in A3. tauto.
+      - cbn [normal some_left]. rewrite Nxu, Ntu. reflexivity.
+      - cbn [normal some_left]. rewrite Hx, Nut. reflexivity. }
+    assert (Ctx : forall K, similar (enter (In_sequence u) (enter (Round_of None None tu) K)) (enter (Round_of None
+      None ut) K)).
+    { intros K.
+      assert (P1 : is_around (In_sequence u) (names u) (numbers u)) by (repeat split; apply alike_refl).
+      assert (P2 : is_around (Round_of None None tu) (names tu) (numbers tu)) by (repeat split; apply alike_refl).
+      assert (P3 : is_around (Round_of None None ut) (names u ++ names tu) (numbers u ++ numbers tu))
+        by (split; [reflexivity | split; [apply alike_sym; exact A1 | apply alike_sym; exact A3]]).
+      eapply enter_two; eassumption. }
+    assert (Turn : turned u t (Repeat ut None None ut) (Repeat u None None tu)) by (exists u; auto).
+    split; [exact F | split; intros e K S w Hw].
+    - change (Repeat (sequence x u) None None tu) with (plug (Round_of None None tu) (sequence x u)) in Hw.
+      apply goes_plug in Hw; [|reflexivity]. destruct Hw as [[] | (w1 & Hw1 & Hw)].
+      apply goes_sequence in Hw1. destruct Hw1 as (v & Hv & Hw1). assert (Nv := goes_normal Hv Hx).
+      eapply goes_similar in Hv; [|apply Ctx].
+      assert (Step : forall u', In u' (lift (Round_of None None ut) K v) -> goes e K S (Repeat x None None ut) u').
+      { intros u' Hu'. change (Repeat x None None ut) with (plug (Round_of None None ut) x). eapply Within;
+        eassumption. }
+      destruct v as [l S1 [y | | m | y] E]; destruct Hw1 as [<- | []]; destruct Hw as [<- | []];
+        (eexists; split; [apply Step; left; reflexivity|]); (split; [reflexivity | split; [reflexivity|]]); auto.
+      + left. left. exists y. auto.
+      + left. right. exact Turn.
+    - change (Repeat x None None ut) with (plug (Round_of None None ut) x) in Hw.
+      apply goes_plug in Hw; [|reflexivity]. destruct Hw as [[] | (v & Hv & Hw)]. assert (Nv := goes_normal Hv Hx).
+      eapply goes_similar in Hv; [|apply similar_sym, Ctx].
+      assert (Step : forall v1 u', In v1 (lift (In_sequence u) (enter (Round_of None None tu) K) v) ->
+        In u' (lift (Round_of None None tu) K v1) -> goes e K S (Repeat (sequence x u) None None tu) u').
+      { intros v1 u' Hv1 Hu'.
+        change (Repeat (sequence x u) None None tu) with (plug (Round_of None None tu) (sequence x u)).
+        eapply Within; [apply goes_sequence; exists v; split; [exact Hv | exact Hv1] | exact Hu']. }
+      destruct v as [l S1 [y | | m | y] E]; destruct Hw as [<- | []];
+        (eexists; split; [eapply Step; [left; reflexivity | left; reflexivity]|]);
+        (split; [reflexivity | split; [reflexivity|]]); auto.
+      + left. left. exists y. auto.
+      + left. right. exact Turn.
+  Qed.
+
+  (** [repeat (t >> t') = t >> repeat (t' >> t)] *)
+  Theorem repeat_turned t u : normal t = true -> normal u = true ->
+    bisimilar (Repeat (sequence t u) None None (sequence t u))
+              (sequence t (Repeat (sequence u t) None None (sequence u t))).
+  Proof.
+    intros Ht Hu. apply (bisimilar_trans (r' := Repeat t None None (sequence u t))).
+    - apply (@by_relation _ _ (fun a b => turned t u a b \/ turned u t b a)); [|left; exists t; auto].
+      intros a b [H | H].
+      + apply turned_step; assumption.
+      + destruct (turned_step Hu Ht H) as (F & S1 & S2). split; [apply face_sym; exact F | split].
+        * eapply simulates_more; [|exact S2]. intros p q [Hpq | Hpq]; [left; tauto | right; exact Hpq].
+        * eapply simulates_more; [|exact S1]. intros p q [Hpq | Hpq]; [left; tauto | right; exact Hpq].
+    - apply (@repeat_unrolled t None (sequence u t)); [reflexivity | exact Ht | apply normal_sequence; assumption].
+  Qed.
 End Laws.

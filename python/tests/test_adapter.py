@@ -380,7 +380,7 @@ class Orders(unittest.TestCase):
             await self.board.go("start")
             console.order("close")
             await self.board.go("stop")
-            await until(lambda: console.reports[-1]["kind"] == "quiet")
+            await until(lambda: [r["kind"] for r in console.reports[-1:]] == ["quiet"])
             self.assertEqual(console.words("r"), ["taken", "stopped"])
 
         self.assertTrue(self.run_script(script))
@@ -615,7 +615,7 @@ class Drawn(unittest.TestCase):
                 for gate in board.gates.values():
                     if not gate.done():
                         gate.set_result(None)
-                return console.reports[-1]["kind"] == "quiet"
+                return [r["kind"] for r in console.reports[-1:]] == ["quiet"]
 
             await until(quiet)
             for request in requests:

@@ -999,4 +999,83 @@ Section Laws.
         * eapply simulates_more; [|exact S1]. intros p q [Hpq | Hpq]; [left; tauto | right; exact Hpq].
     - apply (@repeat_unrolled t None (sequence u t)); [reflexivity | exact Ht | apply normal_sequence; assumption].
   Qed.
+
+  (** {1 Endless rounds} *)
+
+  (** What comes after endless rounds makes no difference, if it names nothing else and has no timers of its own. *)
+  Lemma endless_rounds f t : kind f = (0, []) -> is_beside f = false ->
+    (forall v, In v (frame_names f) -> In v (names t)) -> (forall i, In i (frame_numbers f) -> In i (numbers t)) ->
+    (forall r, normal r = true -> normal (plug f (Repeat r None None t)) = true) ->
+    (forall r, alike (names (plug f r)) (names r ++ frame_names f) /\ run_of (plug f r) = run_of r /\
+       alike (numbers (plug f r)) (numbers r ++ frame_numbers f)) ->
+    (forall e K S r x, ~ In x (own e K S (plug f r))) ->
+    (forall r, replug f (Repeat r None None t) = plug f (Repeat r None None t)) ->
+    (forall K l S1 m E, lift f K (By l S1 (Err m) E) = [By l S1 (Err m) E]) ->
+    forall r, normal r = true -> normal t = true -> bisimilar (plug f (Repeat r None None t)) (Repeat r None None t).
+  Proof.
+    intros Hk Hb Hn Hi Nf Hface Hown Hre Herr r Hr Ht.
+    apply (@by_relation _ _ (fun a b => exists r, normal r = true /\ a = plug f (Repeat r None None t) /\
+      b = Repeat r None None t)); [|exists r; auto].
+    clear r Hr. intros a b (r & Hr & -> & ->). set (R := Repeat r None None t).
+    destruct (Hface R) as (F1 & F2 & F3).
+    assert (NR : normal R = true) by (cbn [R normal some_left]; rewrite Hr, Ht; reflexivity).
+    assert (F : face (plug f R) R).
+    { split; [| rewrite F2; apply alike_refl | | apply Nf; exact Hr | exact NR].
+      - eapply alike_trans; [exact F1|]. intros v. rewrite in_app_iff. cbn [R names]. rewrite in_app_iff.
+        specialize (Hn v). tauto.
+      - eapply alike_trans; [exact F3|]. intros v. rewrite in_app_iff. cbn [R numbers]. rewrite in_app_iff.
+        specialize (Hi v). tauto. }
+    assert (Ctx : forall K, similar (enter (Round_of None None t) (enter f K)) (enter (Round_of None None t) K)).
+    { intros K.
+      assert (P1 : is_around (Round_of None None t) (names t) (numbers t)) by (repeat split; apply alike_refl).
+      assert (P2 : is_around f (frame_names f) (frame_numbers f)) by (split; [exact Hk | split; apply alike_refl]).
+      assert (P3 : is_around (Round_of None None t) (names t ++ frame_names f) (numbers t ++ frame_numbers f)).
+      { split; [reflexivity | split; intros y; rewrite in_app_iff; cbn [frame_names frame_numbers];
+          [specialize (Hn y) | specialize (Hi y)]; tauto]. }
+      eapply enter_two; [exact P1 | exact P2 | exact P3]. }
+    split; [exact F | split; intros e K S u Hu].
+    - apply goes_plug in Hu; [|exact Hb]. destruct Hu as [Hu | (w & Hw & Hu)]; [destruct (Hown _ _ _ _ _ Hu)|].
+      change R with (plug (Round_of None None t) r) in Hw. apply goes_plug in Hw; [|reflexivity].
+      destruct Hw as [[] | (v & Hv & Hw)]. assert (Nv := goes_normal Hv Hr). eapply goes_similar in Hv; [|apply Ctx].
+      assert (Step : forall u', In u' (lift (Round_of None None t) K v) -> goes e K S R u').
+      { intros u' Hu'. change R with (plug (Round_of None None t) r). eapply Within; eassumption. }
+      destruct v as [l S1 [x | | m | x] E]; destruct Hw as [<- | []].
+      + change (In u [By l S1 (Next (replug f (Repeat x None None t))) E]) in Hu. rewrite Hre in Hu.
+        destruct Hu as [<- | []].
+        eexists. split; [apply Step; left; reflexivity|]. split; [reflexivity | split;
+          [reflexivity|]]. left. exists x. auto.
+      + change (In u [By l S1 (Next (replug f (Repeat t None None t))) (E ++ begun t)]) in Hu. rewrite Hre in Hu.
+        destruct Hu as [<- | []].
+        eexists. split; [apply Step; left; reflexivity|]. split; [reflexivity | split;
+          [reflexivity|]]. left. exists t. auto.
+      + rewrite Herr in Hu. destruct Hu as [<- | []]. eexists. split; [apply Step; left; reflexivity|]. cbn. auto.
+      + destruct Hu as [<- | []]. eexists. split; [apply Step; left; reflexivity|]. cbn. auto.
+    - change R with (plug (Round_of None None t) r) in Hu. apply goes_plug in Hu; [|reflexivity].
+      destruct Hu as [[] | (v & Hv & Hu)]. assert (Nv := goes_normal Hv Hr).
+      eapply goes_similar in Hv; [|apply similar_sym, Ctx].
+      assert (Step : forall v1 u', In v1 (lift (Round_of None None t) (enter f K) v) -> In u' (lift f K v1) ->
+        goes e K S (plug f R) u').
+      { intros v1 u' Hv1 Hu'. change R with (plug (Round_of None None t) r).
+        eapply Within; [eapply Within; [exact Hv | exact Hv1] | exact Hu']. }
+      destruct v as [l S1 [x | | m | x] E]; destruct Hu as [<- | []].
+      + eexists. split; [eapply Step; [left; reflexivity | cbn [lift]; left; reflexivity]|].
+        split; [reflexivity | split; [reflexivity|]]. left. exists x.
+        split; [exact Nv | split; [apply Hre | reflexivity]].
+      + eexists. split; [eapply Step; [left; reflexivity | cbn [lift]; left; reflexivity]|].
+        split; [reflexivity | split; [reflexivity|]]. left. exists t.
+        split; [exact Ht | split; [apply Hre | reflexivity]].
+      + eexists. split; [eapply Step; [left; reflexivity | rewrite Herr; left; reflexivity]|]. cbn. auto.
+      + eexists. split; [eapply Step; [left; reflexivity | left; reflexivity]|]. cbn. auto.
+  Qed.
+
+  (** [repeat repeat t = repeat t] *)
+  Theorem repeat_repeat r t more : some_left more = true -> normal r = true -> normal t = true ->
+    bisimilar (Repeat (Repeat r None None t) more None (Repeat t None None t)) (Repeat r None None t).
+  Proof.
+    intros Hm Hr Ht. apply (@endless_rounds (Round_of more None (Repeat t None None t)) t); auto.
+    - intros v. cbn. rewrite in_app_iff. tauto.
+    - intros v. cbn. rewrite in_app_iff. tauto.
+    - intros x Hx. cbn [plug normal some_left]. rewrite Hx, Ht, Hm. reflexivity.
+    - intros x. repeat split; apply alike_refl.
+  Qed.
 End Laws.

@@ -42,7 +42,9 @@ let judge_with ask ~named ~with_matrix ~verbose cases : (Exit_status.t, Error.t)
     Safe_print.printf "%d passed, %d failed\n" (List.length passed) (List.length failed);
     Ok (if failed = [] && complete then Done else Violated)
 
-let run paths command timeout with_matrix verbose =
+type asked = { paths : string list; command : string option; timeout : float; with_matrix : bool; verbose : bool }
+
+let run { paths; command; timeout; with_matrix; verbose } =
   let judge cases =
     Corpus.with_implementation ~name:("dolphin " ^ Version.number) ~timeout command (fun ask ->
         judge_with ask ~named:(command <> None) ~with_matrix ~verbose cases)
@@ -79,6 +81,15 @@ let verbose =
   let doc = "Print cases that pass, too." in
   Arg.(value & flag & info [ "v"; "verbose" ] ~doc)
 
+let asked =
+  let open Options.Syntax in
+  let+ paths = paths
+  and+ command = implementation
+  and+ timeout = timeout
+  and+ with_matrix = matrix
+  and+ verbose = verbose in
+  { paths; command; timeout; with_matrix; verbose }
+
 let man =
   [ `S Manpage.s_description;
     `P "$(tname) judges an implementation of Dolphin's semantics by the cases of a corpus. A case is a small program \
@@ -102,4 +113,4 @@ let command =
   let info =
     Cmd.info "conform" ~docs:Options.s_others ~doc:"judge an implementation by a corpus of cases" ~man ~exits
   in
-  Cmd.v info Term.(const run $ paths $ implementation $ timeout $ matrix $ verbose)
+  Cmd.v info Term.(const run $ asked)

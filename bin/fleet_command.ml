@@ -3,10 +3,19 @@ open Dolphin_app
 
 let ( let* ) = Result.bind
 
-let run () options adapters definition as_json once seconds =
+type asked = {
+  network : Dolphin_platform_imc.Udp_platform.options;
+  adapters : string list;
+  definition : string option;
+  as_json : bool;
+  once : bool;
+  seconds : float option;
+}
+
+let run { network; adapters; definition; as_json; once; seconds } =
   Report.result
     (let* definition = Definition_file.load definition in
-     let options = Imc_options.with_names definition options in
+     let options = Imc_options.with_names definition network in
      let interruption = Interruption.make () in
      Interruption.on_signals ~again:Exit_status.exit_interrupted interruption;
      let* () =
@@ -31,6 +40,17 @@ let seconds =
   in
   Arg.(value & opt (some positive) None & info [ "seconds" ] ~docv:"SECONDS" ~doc)
 
+let asked =
+  let open Options.Syntax in
+  let+ () = Verbosity.setup
+  and+ network = Imc_options.options
+  and+ adapters = Platform_options.looking
+  and+ definition = Imc_options.definition
+  and+ as_json = as_json
+  and+ once = once
+  and+ seconds = seconds in
+  { network; adapters; definition; as_json; once; seconds }
+
 let man =
   [ `S Manpage.s_description;
     `P "$(tname) listens for systems that speak IMC over UDP and shows them: their names as programs pick them, \
@@ -54,7 +74,4 @@ let command =
     Cmd.info "fleet" ~docs:Options.s_run ~doc:"show the vehicles of the network" ~man
       ~exits:(Options.exits [ Done; Bad_input; Platform_trouble; Bug ])
   in
-  Cmd.v info
-    Term.(
-      const run $ Verbosity.setup $ Imc_options.options $ Platform_options.looking $ Imc_options.definition
-      $ as_json $ once $ seconds)
+  Cmd.v info Term.(const run $ asked)

@@ -31,16 +31,17 @@ let conclude command junit verdicts =
       Text_file.write path (fun channel -> output_string channel (Kit.to_junit ~command verdicts))) in
   Ok (if failed = [] then Exit_status.Done else Failed)
 
-let run command short long vehicle patience only junit =
-  let plans = { Kit.short; long; vehicle; patience } in
+type asked = { adapter : string; plans : Kit.plans; only : string list; junit : string option }
+
+let run { adapter; plans; only; junit } =
   Report.result
     (let* () = known only in
      let interruption = Interruption.make () in
      Interruption.on_signals interruption;
      let goes_on () = not (Interruption.happened interruption) in
-     let judged = Interruption.unless interruption (fun () -> Kit.judge plans ~only ~goes_on tell command) in
+     let judged = Interruption.unless interruption (fun () -> Kit.judge plans ~only ~goes_on tell adapter) in
      match Lwt_main.run judged with
-     | Some verdicts -> conclude command junit verdicts
+     | Some verdicts -> conclude adapter junit verdicts
      | None ->
        Safe_print.line "interrupted; the adapter is ended";
        Ok Exit_status.Interrupted)
@@ -73,6 +74,17 @@ let junit =
   let doc = "Write the verdicts into $(docv) as JUnit's XML too." in
   Arg.(value & opt (some string) None & info [ "junit" ] ~docv:"FILE" ~doc)
 
+let asked =
+  let open Options.Syntax in
+  let+ adapter = adapter
+  and+ short = short
+  and+ long = long
+  and+ vehicle = vehicle
+  and+ patience = patience
+  and+ only = only
+  and+ junit = junit in
+  { adapter; plans = { short; long; vehicle; patience }; only; junit }
+
 let man =
   let situation (name, what) = `I ("$(b," ^ name ^ ")", what) in
   [ `S Manpage.s_description;
@@ -96,7 +108,7 @@ let exits =
 
 let check =
   let info = Cmd.info "check" ~doc:"judge an adapter by situations that it must handle" ~man ~exits in
-  Cmd.v info Term.(const run $ adapter $ short $ long $ vehicle $ patience $ only $ junit)
+  Cmd.v info Term.(const run $ asked)
 
 let command =
   let man =

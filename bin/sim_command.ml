@@ -22,7 +22,17 @@ let adapt (settings : Scenario.t -> Network.settings) ~state (fleet : Fleet_file
   | Ok () -> Ok Exit_status.Done
   | Error why -> Error (Error.Bad_input why)
 
-let run fleet imc platform state log lasts settings =
+type asked = {
+  fleet : string option;
+  imc : bool;
+  platform : bool;
+  state : string option;
+  log : string option;
+  lasts : float option;  (* seconds *)
+  settings : Scenario.t -> Network.settings;
+}
+
+let run { fleet; imc; platform; state; log; lasts; settings } =
   let bad why = Report.error (Error.Bad_input why) in
   match imc, platform with
   | true, true -> bad "--imc and --platform exclude each other: give one of them"
@@ -66,6 +76,17 @@ let lasts =
   let doc = "End after $(docv) seconds. By default Ctrl-C ends it." in
   Arg.(value & opt (some Sim_options.natural) None & info [ "for" ] ~docv:"SECONDS" ~doc)
 
+let asked =
+  let open Options.Syntax in
+  let+ fleet = fleet
+  and+ imc = imc
+  and+ platform = platform
+  and+ state = state
+  and+ log = log_file
+  and+ lasts = lasts
+  and+ settings = Sim_options.settings in
+  { fleet; imc; platform; state; log; lasts; settings }
+
 let man =
   [ `S Manpage.s_description;
     `P "$(tname) puts the vehicles of a fleet file on the network. Each is a system that speaks IMC over UDP as a \
@@ -96,4 +117,4 @@ let command =
     Cmd.info "sim" ~docs:Options.s_run ~doc:"put simulated vehicles on the network" ~man
       ~exits:(Options.exits [ Done; Bad_input; Platform_trouble; Bug; Interrupted ])
   in
-  Cmd.v info Term.(const run $ fleet $ imc $ platform $ state $ log_file $ lasts $ Sim_options.settings)
+  Cmd.v info Term.(const run $ asked)

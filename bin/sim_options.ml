@@ -108,8 +108,6 @@ let flood =
 let fault name kind default ~docv doc = option ~section:faults_section name kind default ~docv doc
 
 let faults =
-  let make loss duplication reordering delay : Dolphin_sim_imc.Link_faults.t =
-    { loss; duplication; reordering; delay } in
   let loss = fault "loss" share 0. ~docv:"SHARE" "Lose this share of the datagrams, from 0 to 1, in both directions." in
   let duplication = fault "duplication" share 0. ~docv:"SHARE" "Deliver this share of the datagrams twice." in
   let reordering =
@@ -120,7 +118,12 @@ let faults =
     fault "delay" delay (0., 0.) ~docv:"SECONDS"
       "Delay each datagram by $(docv), or by a random time between $(i,LEAST-MOST)."
   in
-  Term.(const make $ loss $ duplication $ reordering $ delay)
+  let open Options.Syntax in
+  let+ loss = loss
+  and+ duplication = duplication
+  and+ reordering = reordering
+  and+ delay = delay in
+  { Dolphin_sim_imc.Link_faults.loss; duplication; reordering; delay }
 
 let refuses =
   let doc = "Let the vehicle refuse to start any plan, with the words $(i,WHY). May be repeated." in
@@ -177,11 +180,22 @@ let address =
   Arg.(value & opt (some host) None & info [ "address" ] ~docs:network_section ~docv:"ADDRESS" ~doc)
 
 let settings =
-  let make speed seed strict flood faults refuses blocks stalls vanishes announce_period contact_period first_port
-      first_id discovery_ports address scenario : Network.settings =
+  let open Options.Syntax in
+  let+ speed = speed
+  and+ seed = seed
+  and+ strict = strict
+  and+ flood = flood
+  and+ faults = faults
+  and+ refuses = refuses
+  and+ blocks = blocks
+  and+ stalls = stalls
+  and+ vanishes = vanishes
+  and+ announce_period = announce_period
+  and+ contact_period = contact_period
+  and+ first_port = first_port
+  and+ first_id = first_id
+  and+ discovery_ports = discovery_ports
+  and+ address = address in
+  fun scenario : Network.settings ->
     { scenario; seed; speed; strict; flood; faults; refuses; blocks; stalls; vanishes; announce_period;
       contact_period; first_port; first_id; discovery_ports; address }
-  in
-  Term.(
-    const make $ speed $ seed $ strict $ flood $ faults $ refuses $ blocks $ stalls $ vanishes $ announce_period
-    $ contact_period $ first_port $ first_id $ discovery_ports $ address)

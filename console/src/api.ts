@@ -12,7 +12,7 @@ export interface Diagnostic {
 }
 export interface RunStatus {
   id: string; state: "running" | "stopping" | "over"; speed: number | null; simulated: boolean; inputs: string[];
-  question: Question | null; questions: OpenQuestion[]; outcome: { how: string; text: string; diagnostics: Diagnostic[] } | null;
+  question: Question | null; questions: OpenQuestion[]; progress: Progress[]; outcome: { how: string; text: string; diagnostics: Diagnostic[] } | null;
   program: string | null; journal: string | null; counterexample: string | null; outlook: Outlook | null;
 }
 // Of the run from its present on, or why that is unknown.
@@ -20,6 +20,8 @@ export type Outlook = { error: string } | {
   from: { time: number; transitions: number }; over: { earliest: number; latest: number | null } | null;
   violated: string[]; by_faults: string[]; complete: boolean;
 };
+// How far a vehicle is with its plan, by its own estimate; [remaining] in seconds.
+export interface Progress { vehicle: string; plan: string; share: number; remaining: number | null }
 export interface Going { number: number; state: string; progress: string }
 export interface Status {
   instance: string; folder: string; tiles: string | null; simulated: boolean; version: string; run: RunStatus | null;

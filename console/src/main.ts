@@ -9,6 +9,8 @@ import { Editor } from "./editor";
 import { Layers } from "./layers";
 import { ChartMap } from "./map";
 import { type Message, Run, clock } from "./model";
+import { Layout } from "./layout";
+import { VehiclePanel } from "./vehicle";
 import { VehicleTable } from "./vehicles";
 import { beside, inWords, read as readPlace } from "./place";
 import { outlook } from "./outlook";
@@ -39,8 +41,17 @@ let answers = false;  // but it answers questions and posts inputs
 let me = "";  // the name that others know this page by
 let operator: Operator | null = null;
 
-const map = new ChartMap($("map"), (id) => { $<HTMLSelectElement>("about").value = id; renderLog(true); });
-const table = new VehicleTable($("vehicles"), (id) => map.focus(id));
+const map = new ChartMap($("map"), (id) => { $<HTMLSelectElement>("about").value = id; renderLog(true); look(id); });
+const table = new VehicleTable($("vehicles"), (id) => { map.focus(id); look(id); });
+const panel = new VehiclePanel(changed);
+new Layout(changed);
+
+// The panel of this vehicle.
+function look(id: string) {
+  panel.open(id);
+  changed();
+}
+
 const layers = new Layers(map, tell);
 const editor = new Editor($("editor"), { changed: () => setDirty(true), checked: showFaults, save,
   elsewhere: (path, from, to) => attempt(async () => { if (await openOther(path)) editor.select(from, to); })() });
@@ -580,6 +591,7 @@ function renderHead() {
   $<HTMLButtonElement>("explore").disabled = watches || !linked || status?.exploration?.state === "running" || !program();
   $<HTMLButtonElement>("time").disabled = watches || !linked || status?.timing?.state === "running" || !program();
   $<HTMLSelectElement>("speed").disabled = status !== null && !status.simulated;
+  document.body.classList.toggle("going", going);
   document.body.classList.toggle("dead", status !== null && !linked);
   const world = status === null ? "" : (going ? run.simulated : status.simulated) ? "SIMULATED" : "REAL";
   if ($("world").textContent !== world) $("world").textContent = world;
@@ -600,6 +612,7 @@ function changed() {
     due = false;
     map.render(shown);
     table.show(shown, past?.steps ?? false);
+    panel.show(shown, past ? [] : status?.run?.progress ?? []);
     renderNow();
     renderTimeLeft();
     renderAbout();

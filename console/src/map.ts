@@ -37,6 +37,7 @@ export class ChartMap {
   private fitted = false;  // all that is known now is in view, or somebody has chosen the view
   private chosen = false;
   private follow: string | null = null;
+  private arrows = h("div", { class: "map-arrows" });  // to vehicles that are out of view
 
   constructor(el: HTMLElement, private select: (id: string) => void) {
     this.map = L.map(el, { center: [41.185, -8.706], zoom: 15, maxZoom: 21, minZoom: 2, attributionControl: false,
@@ -50,6 +51,8 @@ export class ChartMap {
       const buttons = h("div", { class: "map-buttons" },
         h("button", { class: "map-button", type: "button", title: "Show all vehicles, places and ways",
           click: () => { this.chosen = false; this.unfollow(); this.fit(); } }, "All"),
+        h("button", { class: "map-button", type: "button", title: "Show the vehicles where they are now",
+          click: () => { this.chosen = true; this.unfollow(); this.fitFleet(); } }, "Fleet"),
         new Measure(this.map).button, this.following);
       this.following.addEventListener("click", () => this.unfollow());
       L.DomEvent.disableClickPropagation(buttons);
@@ -57,6 +60,9 @@ export class ChartMap {
     } });
     new Fit({ position: "topright" }).addTo(this.map);
     new (L.Control.extend({ onAdd: () => this.legend }))({ position: "bottomleft" }).addTo(this.map);
+    L.DomEvent.disableClickPropagation(this.arrows);
+    el.append(this.arrows);
+    this.map.on("move", () => this.point());
     new ResizeObserver(() => this.map.invalidateSize({ animate: false })).observe(el);
     this.draw();
   }
@@ -99,6 +105,44 @@ export class ChartMap {
     if (bounds.isValid()) this.map.fitBounds(bounds.pad(0.25), { animate: false, maxZoom: 18 });
   }
 
+  private fitFleet() {
+    const bounds = L.latLngBounds([...this.shown.values()].map((s) => s.marker.getLatLng()));
+    if (bounds.isValid()) this.map.fitBounds(bounds.pad(0.4), { animate: false, maxZoom: 18 });
+  }
+
+  // An arrow at the edge for each vehicle out of view, the nearest twelve of them; pressed, the map follows it.
+  private point() {
+    const { x: wide, y: high } = this.map.getSize(), middle = { x: wide / 2, y: high / 2 }, edge = 16;
+    const away = [...this.shown.entries()].map(([id, s]) => ({ id, tint: s.track.options.color!, at: this.map.latLngToContainerPoint(s.marker.getLatLng()) }))
+      .filter(({ at }) => at.x < 0 || at.y < 0 || at.x > wide || at.y > high)
+      .map((a) => ({ ...a, far: Math.hypot(a.at.x - middle.x, a.at.y - middle.y) })).sort((a, b) => a.far - b.far).slice(0, 12);
+    const known = new Map([...this.arrows.querySelectorAll<HTMLElement>("button")].map((el) => [el.dataset.vehicle!, el]));
+    const used: { x: number; y: number }[] = [];
+    for (const { id, tint, at } of away) {
+      const dx = at.x - middle.x, dy = at.y - middle.y;
+      const scale = Math.min((middle.x - edge) / Math.max(Math.abs(dx), 1e-9), (middle.y - edge) / Math.max(Math.abs(dy), 1e-9));
+      const spot = { x: middle.x + dx * scale, y: middle.y + dy * scale };
+      // Arrows never lie upon each other: those in one direction stand side by side.
+      while (used.some((u) => Math.hypot(u.x - spot.x, u.y - spot.y) < 26)) {
+        if (Math.abs(dx) * middle.y > Math.abs(dy) * middle.x) spot.y += 26; else spot.x += 26;
+      }
+      used.push(spot);
+      const el = known.get(id) ?? h("button", { type: "button", "data-vehicle": id, "aria-label": `${id} is out of view: follow it`, title: id,
+        click: () => { this.focus(id); this.select(id); } }, h("span", {}, "➤"));
+      known.delete(id);
+      el.style.color = tint;
+      el.style.transform = `translate(${spot.x.toFixed(0)}px, ${spot.y.toFixed(0)}px)`;
+      (el.firstElementChild as HTMLElement).style.transform = `rotate(${Math.atan2(dy, dx).toFixed(2)}rad)`;
+      if (!el.parentElement) this.arrows.append(el);
+    }
+    for (const el of known.values()) el.remove();
+  }
+
+  private isOut() {
+    const bounds = this.map.getBounds();
+    return [...this.shown.values()].some((s) => !bounds.contains(s.marker.getLatLng()));
+  }
+
   render(run: Run) {
     const ids = [...run.vehicles.keys()];
     for (const [id, s] of this.shown)
@@ -111,8 +155,11 @@ export class ChartMap {
     this.charted(run.places);
     this.planned(run);
     if (!this.fitted && this.shown.size) { this.fitted = true; this.fit(); }
+    // Vehicles move out of a view that nobody has chosen: it grows.
+    if (!this.chosen && !this.follow && this.sketched.getLayers().length === 0 && this.isOut()) this.fit();
     if (this.follow) this.focus(this.follow);
     this.labels(run);
+    this.point();
   }
 
   private vehicle(run: Run, v: Vehicle, tint: string) {
@@ -127,7 +174,7 @@ export class ChartMap {
     }
     s.marker.setLatLng(at);
     s.track.setLatLngs(v.samples.map((p) => L.latLng(p.latitude, p.longitude)));
-    const heading = headingOf(v), t = trouble(run, v), plan = run.allocation.get(v.id) ?? "";
+    const heading = courseOf(v), t = trouble(run, v), plan = run.allocation.get(v.id) ?? "";
     const age = run.moves ? run.time - v.heard : 0;
     const key = [heading, t.rank, plan, Math.floor(age / 5), percent(last.battery)].join();
     if (key !== s.key) {
@@ -279,7 +326,7 @@ export class ChartMap {
 }
 
 // Where it went last; vehicles do not tell where they look.
-function headingOf(v: Vehicle): number | null {
+export function courseOf(v: Vehicle): number | null {
   const s = v.samples, last = s[s.length - 1];
   for (let i = s.length - 2; i >= Math.max(0, s.length - 20); i--) {
     const north = last.latitude - s[i].latitude;

@@ -3,7 +3,10 @@
 import type { Fence, Json, LogLine, Place, Waiting, Way } from "./api";
 
 export interface Task { plan: string; from: number; until: number | null; how: "runs" | "done" | "failed" | "stopped"; why?: string; at?: string; step: number }
-export interface Sample { time: number; latitude: number; longitude: number; battery: number | null }
+export interface Sample {
+  time: number; latitude: number; longitude: number; battery: number | null;
+  depth?: number; altitude?: number; speed?: number; readings?: Record<string, number>;
+}
 export interface Vehicle {
   id: string; kind: string; payload: string[]; connected: boolean; unready: string | null;
   heard: number; samples: Sample[]; tasks: Task[]; silent: { from: number; until: number | null }[]; low: boolean;
@@ -79,7 +82,8 @@ export class Run {
       const last = v.silent[v.silent.length - 1];
       if (last && last.until === null) { last.until = line.time; this.pass("link", v.id); }
       this.charge(v, line.battery);
-      v.samples.push({ time: line.time, latitude: line.latitude, longitude: line.longitude, battery: line.battery });
+      const { time, latitude, longitude, battery = null, depth, altitude, speed, readings } = line;
+      v.samples.push({ time, latitude, longitude, battery, depth, altitude, speed, readings });
       // The older half is thinned out: a track stays a track.
       if (v.samples.length > mostSamples)
         v.samples = v.samples.filter((_, i) => i % 2 === 0 || i > mostSamples * 0.9);

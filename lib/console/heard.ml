@@ -100,6 +100,8 @@ let leave h =
 
 let make choice ~changed =
   let h =
-    { choice; changed; vehicles = Names.empty; time = 0.; error = None; latest = `Null; due = false; listening = None } in
+    { choice; changed; vehicles = Names.empty; time = 0.; error = None; latest = `Null; due = false;
+      listening = None }
+  in
   listen h;
   h

@@ -295,6 +295,13 @@ let of_outcome r outcome : Yojson.Safe.t =
   in
   `Assoc [ ("how", `String how); ("text", `String text); ("diagnostics", trouble) ]
 
+(* Rounded, so that the state changes only now and then. *)
+let progress (e : Networks.estimate) : Yojson.Safe.t =
+  let rounded x step = Float.round (x /. step) *. step in
+  `Assoc [ ("vehicle", `String e.vehicle); ("plan", `String e.plan);
+           ("share", Canonical.number (Float.round (e.share *. 100.) /. 100.));
+           ("remaining", Field.of_option (fun x -> Canonical.number (rounded x 10.)) e.remaining) ]
+
 let to_json ~addressee r : Yojson.Safe.t =
   let to_ prompt = ("to", Field.of_option (fun name -> `String name) (addressee prompt)) in
   let question q : Yojson.Safe.t =
@@ -326,4 +333,5 @@ let to_json ~addressee r : Yojson.Safe.t =
       ("inputs", Field.texts (if r.enacts = None then r.order.program.program.inputs else []));
       ("question", Field.of_option question r.question);
       ("questions", `List (List.map open_question (if goes_on r then Narrator.open_questions r.narrator else [])));
+      ("progress", `List (if goes_on r then List.map progress (r.view.estimates ()) else []));
       ("outcome", outcome) ]

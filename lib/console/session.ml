@@ -287,7 +287,13 @@ let without_time : Yojson.Safe.t -> Yojson.Safe.t =
           members)
   | json -> json
 
-type reader = { mutable told : string; mutable heard_told : Yojson.Safe.t; mutable run_id : string; mutable offset : int; mutable spoken : float }
+type reader = {
+  mutable told : string;
+  mutable heard_told : Yojson.Safe.t;
+  mutable run_id : string;
+  mutable offset : int;
+  mutable spoken : float;
+}
 
 let clock h =
   match h.run with

@@ -130,7 +130,7 @@ Vehicles of an adapter are heard before a run; the adapter ends before that of t
   $ dolphin console . --platform ./adapter --port 0 --no-browser > real & real=$!
   $ while ! grep -qs "is at" real; do sleep 0.05; done
   $ python3 - $(sed -n 's/.*:\([0-9]*\)\/$/\1/p' real) << 'END'
-  > import json, sys, urllib.request
+  > import json, sys, time, urllib.request
   > base = f"http://127.0.0.1:{sys.argv[1]}/api/"
   > def ask(path, body=None):
   >     request = urllib.request.Request(base + path, body and json.dumps(body).encode(), {"Content-Type": "application/json"})
@@ -143,7 +143,7 @@ Vehicles of an adapter are heard before a run; the adapter ends before that of t
   > events = ask("events")
   > print("heard:", heard(events))
   > ask("run", {"program": "picks.dol"})
-  > while json.load(ask("status"))["run"]["state"] != "over": pass
+  > while json.load(ask("status"))["run"]["state"] != "over": time.sleep(0.05)
   > print("heard again:", heard(events))
   > END
   heard: ['a', 'b']

@@ -25,22 +25,26 @@ let with_environment added =
   Array.of_list (kept @ List.map (fun (name, x) -> name ^ "=" ^ x) added)
 
 (* In the child: never returns. *)
-let become command environment standard_input standard_output =
+let become command environment standard_input standard_output standard_error =
   (try
      ignore (Unix.setsid ());
      List.iter (fun signal -> Sys.set_signal signal Sys.Signal_default) [ Sys.sigpipe; Sys.sigxfsz ];
      Unix.dup2 ~cloexec:false standard_input Unix.stdin;
      Unix.dup2 ~cloexec:false standard_output Unix.stdout;
+     Unix.dup2 ~cloexec:false standard_error Unix.stderr;
      Unix.execve "/bin/sh" [| "/bin/sh"; "-c"; command |] environment
    with _ ->
      (* Whatever it is: an exception would go on as a second copy of the console. *)
      ());
   Unix._exit 127
 
-let reaped pid =
-  Lwt_unix.waitpid [] pid >|= fun (_, status) ->
+(* The time for the last errors of a child that has ended. *)
+let last_errors = 0.5
+
+let reaped pid ~errors =
+  Lwt_unix.waitpid [] pid >>= fun (_, status) ->
   kill_group pid;
-  status
+  Lwt.pick [ Lwt.protected errors; Lwt_unix.sleep last_errors ] >|= fun () -> status
 
 let start ~environment command =
   Sys.set_signal Sys.sigpipe Sys.Signal_ignore;
@@ -48,12 +52,14 @@ let start ~environment command =
   try
     let standard_input, input = Lwt_unix.pipe_out ~cloexec:true () in
     let output, standard_output = Lwt_unix.pipe_in ~cloexec:true () in
+    let errors, standard_error = Lwt_unix.pipe_in ~cloexec:true () in
     match Unix.fork () with
-    | 0 -> become command environment standard_input standard_output
+    | 0 -> become command environment standard_input standard_output standard_error
     | pid ->
       Unix.close standard_input;
       Unix.close standard_output;
-      Ok { pid; input; output; exited = reaped pid; closing = None }
+      Unix.close standard_error;
+      Ok { pid; input; output; exited = reaped pid ~errors:(Error_stream.pass_on errors); closing = None }
   with Unix.Unix_error (error, _, _) -> Error (Unix.error_message error)
 
 let name_of_signal number =

@@ -1,4 +1,5 @@
-(** A child process that is spoken to through its standard input and output. Its errors go where ours go. *)
+(** A child process that is spoken to through its standard input and output. Its standard error goes to ours, line by
+    line, fit for a terminal. *)
 
 type t
 

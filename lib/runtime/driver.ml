@@ -54,6 +54,10 @@ let most_rounds = 10_000
    until an event that was waited for: so the number does not depend on how fast the machine is. *)
 let most_steps = 1_000_000
 
+(* Limit on silent transitions of the script at one instant, each of 10,000 evaluations: a computation without any
+   visible step. *)
+let most_silent_steps = 10_000
+
 (* Where time passes by itself, a round takes some even if it does not wait: a vehicle that refuses a plan does, and so
    does a busy machine. There, [most_rounds] must take less on average than [instant] (s), and in the machine's time,
    of which a simulation may have several seconds in one, than [moment] (s). *)
@@ -114,6 +118,7 @@ module Make (P : Platform.S) = struct
     starts : (Core.vehicle, int) Hashtbl.t;  (* of tasks, in the same way *)
     mutable restless : Core.site option;  (* the place of the task that one vehicle began too often *)
     mutable steps : int;  (* visible transitions at this instant *)
+    mutable silent_steps : int;  (* silent ones at this instant *)
     mutable stepped : float;  (* the instant, in virtual time *)
     immediate : (Residual.timer, unit) Hashtbl.t;  (* timers of no length, and questions answered as they were put *)
     mutable at_once : bool;  (* whether [reply] was there as it was asked for *)
@@ -284,9 +289,14 @@ module Make (P : Platform.S) = struct
       | Some event when not P.virtual_time -> not (is_immediate s event)
       | Some _ | None -> P.virtual_time && time > s.stepped
     in
-    if waited then s.steps <- 0;
+    if waited then begin
+      s.steps <- 0;
+      s.silent_steps <- 0
+    end;
     s.stepped <- time;
-    match t.label with Silent -> () | _ -> s.steps <- s.steps + 1
+    match t.label with
+    | Silent -> s.silent_steps <- s.silent_steps + 1
+    | _ -> s.steps <- s.steps + 1
 
   let take s ~cause (t : Transition.t) =
     s.since_pause <- (match t.label with Silent -> most_without_pause | _ -> s.since_pause + 1);
@@ -504,7 +514,7 @@ module Make (P : Platform.S) = struct
     | Executing (_, r) when s.rounds >= most_rounds ->
       give_up s (Spins (Option.value (first_repeat r) ~default:Fault.unknown_site))
     | Executing _ when s.restless <> None -> give_up s (Spins (Option.value s.restless ~default:Fault.unknown_site))
-    | Script _ | Waiting _ | Executing _ when s.steps >= most_steps ->
+    | Script _ | Waiting _ | Executing _ when s.steps >= most_steps || s.silent_steps >= most_silent_steps ->
       give_up s (Spins (Configuration.site s.configuration))
     | Script _ | Waiting _ | Executing _ -> (
         look s;
@@ -608,7 +618,7 @@ module Make (P : Platform.S) = struct
         telemetry = Off; upcoming = None; reply = None; questions = Task_questions.create (); posted = None;
         input_before = false; unknown = []; since_pause = 0; rounds = 0;
         round_began = beginning.time; counted_since = (beginning.time, Clock.system.elapsed ());
-        starts = Hashtbl.create 16; restless = None; steps = 0; stepped = beginning.time;
+        starts = Hashtbl.create 16; restless = None; steps = 0; silent_steps = 0; stepped = beginning.time;
         immediate = Hashtbl.create 16; at_once = false }
     in
     let whole () =

@@ -85,6 +85,10 @@ let from_zero json =
   let* x = number json in
   if x >= 0. then Ok x else Error (Printf.sprintf "%g, not a number from 0" x)
 
+(* Limit on times: a million of the longest waits, one after the other. *)
+let latest = 1e6 *. Time.longest
+let moment = between 0. latest
+
 let to_position found =
   let* latitude = get number "latitude" found in
   let* longitude = get number "longitude" found in
@@ -131,7 +135,7 @@ let to_ways json =
 
 let of_members found =
   let* kind = get text "kind" found in
-  let* time = if kind = "label" then optional number ~default:0. "time" found else get number "time" found in
+  let* time = if kind = "label" then optional moment ~default:0. "time" found else get moment "time" found in
   match kind with
   | "label" -> Result.map (fun label -> Label { time; label }) (get text "label" found)
   | "vehicle" -> Result.map (fun state -> Vehicle { time; state }) (to_state found)

@@ -101,6 +101,10 @@ let check_format json =
     else Error (Printf.sprintf "this journal is of version %d; version %d is known here" its_version version)
   | _ -> Error "this is not a journal: its first line is not the header of one"
 
+let positive json =
+  let* x = number json in
+  if x > 0. then Ok x else Error (Printf.sprintf "%g, not a number above 0" x)
+
 let of_json json =
   let* () = check_format json in
   let* found = members json in
@@ -110,7 +114,7 @@ let of_json json =
   let* run = optional (fun json -> Result.map Option.some (text json)) ~default:None "run" found in
   let* order = optional to_order ~default:By_hearing "order" found in
   let* seed = get whole "seed" found in
-  let* speed = get (nullable number) "speed" found in
+  let* speed = get (nullable positive) "speed" found in
   let* started = get text "started" found in
   let* fences = optional (list Dolphin_json.On_map.to_fence) ~default:[] "fences" found in
   let* place = optional (fun json -> Result.map Option.some (to_place json)) ~default:None "place" found in

@@ -1,6 +1,8 @@
 open Dolphin_semantics
 module Location = Dolphin_syntax.Location
 
+type stuck = In of Residual.t | At of Core.site
+
 type t = {
   program : Core.program;
   hash : string;  (* of its text *)
@@ -10,7 +12,7 @@ type t = {
   transitions : int;
   time : float;
   event : Event.t option;  (* whose transition comes next *)
-  stuck : Residual.t option;  (* the place where the run was stuck, if it was interrupted for that *)
+  stuck : stuck option;  (* the place where the run was stuck, if it was interrupted for that *)
   idle : bool;  (* the run was interrupted when it could do nothing by itself *)
   latest : (Transition.event option * Transition.t) option;  (* of the latest line, if that was a transition *)
   ending : Request.ending option;
@@ -26,7 +28,7 @@ let transitions r = r.transitions
 let time r = r.time
 let ending r = r.ending
 let latest r = r.latest
-let stuck_in r = r.stuck
+let stuck r = r.stuck
 let was_stuck r = r.stuck <> None
 
 let event r =
@@ -190,7 +192,8 @@ let caused r (step : Step.t) event =
             let idle = match event with Interruption _ -> r.idle || not (is_left ()) | _ -> r.idle in
             let stuck =
               match event, r.configuration.control with
-              | Interruption { stuck = true }, Executing (_, residual) -> Some residual
+              | Interruption { stuck = true }, Executing (_, residual) -> Some (In residual)
+              | Interruption { stuck = true }, (Script _ | Waiting _) -> Some (At (Configuration.site r.configuration))
               | _, _ -> r.stuck
             in
             Ok { (moved r (Some e) t) with stuck; idle }))
@@ -199,9 +202,10 @@ let caused r (step : Step.t) event =
 
 let has_ended r = match r.configuration.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false
 
-(* Of rounds without end it is not known whether there were as many as make a program stuck. *)
+(* Of rounds and loops without end it is not known whether there were as many as make a program stuck. *)
 let ended_stuck r (ending : Configuration.ending) =
-  ending = Interrupted && (r.idle || (r.stuck <> None && r.program.goes_round))
+  let goes_round = match r.stuck with Some (In _) -> r.program.goes_round | Some (At _) -> true | None -> false in
+  ending = Interrupted && (r.idle || goes_round)
 
 let finish r transitions (ending : Request.ending) =
   match r.configuration.control with

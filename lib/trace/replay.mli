@@ -90,8 +90,11 @@ val time : t -> float
 val was_stuck : t -> bool
 (** The program was interrupted because it was stuck. *)
 
-val stuck_in : t -> Residual.t option
-(** The place where it was stuck, if so. *)
+(** The place where a run was stuck: in tasks, or in a loop of the script. *)
+type stuck = In of Residual.t | At of Core.site
+
+val stuck : t -> stuck option
+(** Where the run was stuck, if it was interrupted for that. *)
 
 val ending : t -> Request.ending option
 (** How the run ended, if its last line was there. *)

@@ -55,7 +55,13 @@ let ending_of_members found =
 (* A timer may be infinite: JSON has no number for that. *)
 let of_seconds seconds : Yojson.Safe.t = if Float.is_finite seconds then Canonical.number seconds else `Null
 
-let to_seconds json = Result.map (Option.value ~default:infinity) (nullable number json)
+(* No finite time of a program is as long. *)
+let seconds json =
+  let* x = number json in
+  if Float.abs x <= Time.longest then Ok x
+  else Error (Printf.sprintf "%g, not a number of seconds up to %g" x Time.longest)
+
+let to_seconds json = Result.map (Option.value ~default:infinity) (nullable seconds json)
 
 let to_json r : Yojson.Safe.t =
   let one name text = [ (name, `String text) ] in

@@ -95,6 +95,27 @@ a loop that ends is not.
   $ dolphin exec -q --sim=idle.fleet many.dol > log; echo $?
   0
 
+Nor does a loop without a visible step go on; its journal is that of a run that was stuck.
+
+  $ echo 'while (true) { x = 1 }' > silent.dol
+  $ printf 'def f() { f() }\nf()\n' > pure.dol
+  $ for p in silent pure; do
+  >   cp idle.fleet $p.fleet; dolphin exec -q --sim=$p.fleet $p.dol --journal $p.run > log 2> error; echo $?
+  >   sed -n '1s/, and.*//p' error; dolphin trace check $p.dol $p.run | sed 's/of [0-9]* transitions/of so many/'
+  > done
+  1
+  silent.dol:1:8: error: the program is stuck in rounds that begin here: they follow each other
+  silent.run: a run, of so many in 0:00; stuck
+  1
+  pure.dol:1:11: error: the program is stuck in rounds that begin here: they follow each other
+  pure.run: a run, of so many in 0:00; stuck
+  $ cat > long.dol << 'END'
+  > n = 0
+  > while (n < 1000000) { n = n + 1 }
+  > END
+  $ dolphin exec -q --sim=idle.fleet long.dol > log; echo $?
+  0
+
 All of these are known before they run; no example of a mission is such a loop.
 
   $ for p in empty only popup script idle; do dolphin check $p.dol 2>&1 | grep warning: ; done

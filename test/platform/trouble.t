@@ -22,6 +22,26 @@ A line that is no report is told, and does no harm.
   program     releases auv-1
   program     ends
 
+Its standard error reaches ours line by line: nothing in it commands the terminal, and nothing is lost.
+
+  $ cat > loud.py <<'END'
+  > import runpy, sys
+  > sys.stderr.buffer.write(b"\x1b[31mred\x1b[0m, \xff and \xe2\x80\xae\r\n")
+  > sys.stderr.buffer.write(b"".join(b"line %d\n" % n for n in range(20000)))
+  > sys.stderr.buffer.write(b"\xc3\xa9" * 50000 + b"\none without an end")
+  > sys.stderr.flush()
+  > runpy.run_path("../../examples/adapter.py")
+  > END
+  $ dolphin platform check --only greeting "python3 loud.py" 2> errors.txt | tail -1
+  1 of 1 situations passed
+  $ head -1 errors.txt; tail -1 errors.txt; grep -c '^line' errors.txt; wc -l < errors.txt
+  ?[31mred?[0m, ? and ?
+  one without an end
+  20000
+  20003
+  $ sed -n 20002p errors.txt | tr -d '\n' | wc -c
+  100000
+
 A report of which one member is wrong is ignored as a whole, and the adapter is informed: it reports all again.
 
   $ cat > half.py <<'END'

@@ -28,6 +28,23 @@ What no vehicle can have shown is not the line of a run, nor is what JSON does n
   dolphin: changed.run:3: "speed" is -5, not a number from 0
   dolphin: changed.run:3: "cruise" is -5, not a number from 0
   dolphin: changed.run:3: "drain" is -5, not a number from 0
+  $ for time in 1e300 -1; do check '3s/"time":0,/"time":'$time',/' | head -n 1; done
+  dolphin: changed.run:3: "time" is 1e+300, not from 0 to 1e+18
+  dolphin: changed.run:3: "time" is -1, not from 0 to 1e+18
+  $ for reader in "trace show" "trace draw -o x.svg" "trace export -o x.gpx" "exec pick.dol --resume"; do
+  >   sed '3s/"time":0,/"time":1e300,/' pick.run > changed.run; dolphin $reader changed.run 2>&1 | grep -o '"time" is.*'
+  > done
+  "time" is 1e+300, not from 0 to 1e+18
+  "time" is 1e+300, not from 0 to 1e+18
+  "time" is 1e+300, not from 0 to 1e+18
+  "time" is 1e+300, not from 0 to 1e+18
+  $ echo "pause 5.seconds" > pause.dol; dolphin exec pause.dol --journal pause.run > log
+  $ sed 's/"seconds":[0-9.]*/"seconds":1e13/' pause.run > changed.run; dolphin trace check pause.dol changed.run
+  dolphin: changed.run:2: "effects" is "seconds" is 1e+13, not a number of seconds up to 1e+12
+  [2]
+  $ for speed in 0 -1; do check '1s/"speed":null/"speed":'$speed'/' | head -n 1; done
+  dolphin: changed.run:1: "speed" is 0, not a number above 0
+  dolphin: changed.run:1: "speed" is -1, not a number above 0
   $ check 's/"time":0,/"time":1e999,/' | head -n 1
   dolphin: changed.run:2: this is not JSON: a number in it is not finite, or too large
   $ sed 's/"type":"UUV"/"type":"UU\xff"/' pick.run > changed.run; dolphin trace check pick.dol changed.run

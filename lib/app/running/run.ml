@@ -256,8 +256,11 @@ let beginning resumed news : Driver.beginning option =
 (* A run that was stuck when its console died ends as one that is stuck, whichever console sees its end. *)
 let as_it_began r : Driver.outcome -> Driver.outcome = function
   | Ended Interrupted as ended ->
-    let stuck_in (resumed : Resumed.t) = Replay.stuck_in resumed.past.replay in
-    Option.fold (Option.bind r.resumed stuck_in) ~none:ended ~some:(fun residual -> Driver.Stuck residual)
+    let stuck (resumed : Resumed.t) = Replay.stuck resumed.past.replay in
+    (match Option.bind r.resumed stuck with
+     | None -> ended
+     | Some (In residual) -> Stuck residual
+     | Some (At site) -> Spins site)
   | (Ended (Completed | Halted _ | Failed _) | Stuck _ | Spins _) as outcome -> outcome
 
 let drive r recording host ~interruption (Platform ((module P), { platform; estimates; news; leave = _ })) =

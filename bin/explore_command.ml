@@ -108,6 +108,7 @@ let rest_of_run settings path set named ~journal ~strict ~json ~period ~files ~c
   in
   let* present, program, fleet = Present.load path ~set ~fleet:named ~journal in
   let remarks = Present.remarks present program fleet in
+  let remarks = remarks @ Ignored_faults.of_assumptions program.program fleet in
   List.iter Report.complain (remarks @ Ignored_faults.sentences settings.Exploration.faults fleet);
   of_program settings program fleet ~from:(Some present) ~strict ~json ~period ~files ~cache
 
@@ -117,7 +118,9 @@ let all_runs settings path set named ~strict ~json ~period ~files ~cache =
   let* question = Sweep.within fleet question in
   List.iter Report.complain (Ignored_faults.sentences settings.Exploration.faults fleet);
   match question with
-  | One program -> of_program settings program fleet ~from:None ~strict ~json ~period ~files ~cache
+  | One program ->
+    List.iter Report.complain (Ignored_faults.of_assumptions program.program fleet);
+    of_program settings program fleet ~from:None ~strict ~json ~period ~files ~cache
   | Several sweep -> of_values settings sweep fleet ~strict ~json ~period ~files ~cache
 
 (* What is asked, and how it is shown. *)

@@ -34,7 +34,7 @@ let violations from faults program fleet =
   let counts (property, (verdict : Search.verdict)) =
     match verdict with
     | Violated _ | Unreached _ -> not (Exploration.is_remark property)
-    | Holds | By_design _ | Inconclusive _ -> false
+    | Holds | Holds_if _ | By_design _ | Inconclusive _ -> false
   in
   let of_outcome (o : Search.outcome) = (List.map fst (List.filter counts o.verdicts), o.stopped = None) in
   Result.map of_outcome (Exploration.explore ~from ~interrupted:never ~progress:unseen settings program fleet)

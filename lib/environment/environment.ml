@@ -14,6 +14,7 @@ type options = {
   faults : Faults.t;
   most_faults : int option;
   who_is_lost_matters : bool;
+  recurring : World.assumption list list;
 }
 
 exception Unclear of Fault.t
@@ -23,7 +24,7 @@ let clear = function Ok x -> x | Error fault -> raise (Unclear fault)
 let default =
   { endings = (fun _ _ -> Succeeds); plans = []; may_be_late = (fun _ -> true); answers = (fun _ -> []);
     replies = (fun _ -> []);
-    inputs = []; faults = Faults.none; most_faults = None; who_is_lost_matters = true }
+    inputs = []; faults = Faults.none; most_faults = None; who_is_lost_matters = true; recurring = [] }
 
 let ending options v name =
   match options.endings v name, options.faults.fail with

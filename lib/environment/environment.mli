@@ -60,6 +60,9 @@ type options = {
   who_is_lost_matters : bool;
   (** whether the program may look for vehicles after a loss. If not, it makes no difference who is lost, and it is not
       remembered unless losses are counted. *)
+  recurring : World.assumption list list;
+  (** assumptions on endless runs: each is that a choice which looks at the sensor again and again finds one of these
+      again and again. No transition depends on them *)
 }
 
 exception Unclear of Fault.t

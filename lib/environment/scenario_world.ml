@@ -1,33 +1,22 @@
 open Dolphin_plans
 open Dolphin_semantics
 module Scenario = Dolphin_scenario.Scenario
+module Open_sensors = Dolphin_scenario.Open_sensors
 
 let still scenario =
   let add world (state : World.vehicle_state) = World.add { state with connected = true } world in
   List.fold_left add World.empty (Scenario.states scenario)
 
-(* Its battery, speed and link show anything. *)
-let open_vehicle v ~places ~batteries world =
-  let world = World.open_position v places (World.open_battery v batteries world) in
-  World.open_sensor Connected v [ Boolean true; Boolean false ] (World.open_sensor Speed v [] world)
-
 let world (scenario : Scenario.t) =
-  let open_measurement (v : Scenario.vehicle) world (name, xs) =
-    let several = match xs with [ _ ] -> [] | xs -> List.map (fun x -> Core.Number x) xs in
-    World.open_sensor (Measurement name) v.id several world
-  in
-  let open_sensors world (v : Scenario.vehicle) =
-    let world = open_vehicle v.id ~places:v.places ~batteries:v.batteries world in
-    List.fold_left (open_measurement v) world v.shows
-  in
-  World.at Any (List.fold_left open_sensors (still scenario) scenario.vehicles)
+  World.at Any (List.fold_left Open_sensors.of_entry (still scenario) scenario.vehicles)
 
 let seen scenario known =
   let add world (s : World.vehicle_state) =
     let is_new = World.find s.id world = None in
     let world = World.add { s with connected = true; unready = None } world in
     let open_reading world (name, _) = World.open_sensor (Measurement name) s.id [] world in
-    if is_new then List.fold_left open_reading (open_vehicle s.id ~places:[] ~batteries:[] world) s.readings else world
+    if not is_new then world
+    else List.fold_left open_reading (Open_sensors.of_vehicle s.id ~places:[] ~batteries:[] world) s.readings
   in
   List.fold_left add (world scenario) (World.vehicles known)
 
@@ -85,4 +74,5 @@ let environment ~answers:given ~faults (program : Core.program) (scenario : Scen
     faults;
     most_faults = None;
     who_is_lost_matters = true;
+    recurring = List.map (fun (r : Scenario.recurrence) -> r.readings) scenario.recurrences;
   }

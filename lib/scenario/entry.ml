@@ -67,6 +67,15 @@ type input = {
 (** A measurement at a place, from a time on. *)
 type sample = { quantity : string; value : float; place : Dolphin_geo.Position.t; time : float  (** in seconds *) }
 
+(** An assumption on readings. *)
+type recurrence = {
+  source : string;  (** the entry, as a fleet file has it *)
+  readings : Dolphin_semantics.World.assumption list;
+  (** the sensor that it compares shows any of these, or what satisfies this comparison; of an [assume] for each
+      vehicle, those of one *)
+  at : Dolphin_syntax.Location.t;  (** its place in the file *)
+}
+
 type t = {
   vehicles : vehicle list;
   plans : plan list;
@@ -77,5 +86,6 @@ type t = {
   fences : Dolphin_plans.Fences.fence list;  (** the fences of every program's vehicles *)
   plans_at : Dolphin_geo.Position.t option;  (** the place of inline plans without one of their own or of their
                                                  program *)
+  recurrences : recurrence list;
 }
 (** Vehicles, plans, prompts and calls are unique by their names; all are in the order of the file. *)

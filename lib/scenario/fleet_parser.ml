@@ -140,6 +140,7 @@ type state = {
   samples : sample list;
   fences : Fences.fence list;
   plans_at : Dolphin_geo.Position.t option;
+  assumptions : (Location.t * argument list) list;
   constants : Constants.t;                      (* the names that fences may use: maps, and no variables *)
   unplaced : int;                               (* vehicles without a position *)
   faults : Diagnostic.t list;
@@ -296,13 +297,14 @@ let locate state at arguments =
   | Ok place -> { state with plans_at = Some place }
   | Error found -> add_faults state (List.map without_variables found)
 
-let entries = [ "vehicle"; "plan"; "answer"; "reply"; "input"; "field"; "fence"; "locate" ]
+let entries = [ "vehicle"; "plan"; "answer"; "reply"; "input"; "field"; "fence"; "locate"; Recurrence.word ]
 
 let entry state (word : string located) arguments =
   let misused state = add_fault state (Diagnostic.error word.at (usage word.it)) in
   let positional = List.filter_map (function Positional e -> Some e | Named _ | Keyed _ -> None) arguments in
   if word.it = Fence_declarations.word then fence state word arguments
   else if word.it = Default_place.word then locate state word.at arguments
+  else if word.it = Recurrence.word then { state with assumptions = (word.at, arguments) :: state.assumptions }
   else if List.length positional < List.length arguments then misused state
   else
     match word.it, positional with
@@ -321,7 +323,7 @@ let entry state (word : string located) arguments =
       let hint =
         match Diagnostic.suggest other entries with
         | Some near -> Printf.sprintf "did you mean '%s'?" near
-        | None -> "a fleet consists of vehicle, plan, answer, reply, input, field and fence"
+        | None -> "a fleet consists of vehicle, plan, answer, reply, input, field, fence, locate and assume"
       in
       add_fault state (Diagnostic.error word.at (Printf.sprintf "a fleet has no '%s'" other) ~hint)
 
@@ -332,7 +334,8 @@ let statement state (s : statement) =
   | Expression { it = Variable word; at } -> entry state { it = word; at } []
   | _ ->
     add_fault state
-      (Diagnostic.error s.at "only vehicle, plan, answer, reply, input, field and fence may stand in a fleet"
+      (Diagnostic.error s.at
+         "only vehicle, plan, answer, reply, input, field, fence, locate and assume may stand in a fleet"
          ~hint:"as in vehicle 'x8-02', { type 'UAV' }")
 
 (* {1 All together} *)
@@ -365,6 +368,18 @@ let unmeasured state =
   in
   List.concat_map of_vehicle state.vehicles
 
+(* Vehicles may stand behind the assumptions on them. Of several with the same readings the first counts. *)
+let recurrences state vehicles =
+  let one (at, arguments) = Recurrence.read ~vehicles at arguments in
+  let read (found, faults) assumption =
+    match one assumption with Ok more -> (found @ more, faults) | Error more -> (found, faults @ more) in
+  let found, faults = List.fold_left read ([], []) (List.rev state.assumptions) in
+  let add unique (r : recurrence) =
+    let is_same (r' : recurrence) = List.equal (fun a b -> World.compare_assumption a b = 0) r.readings r'.readings in
+    if List.exists is_same unique then unique else r :: unique
+  in
+  (List.rev (List.fold_left add [] found), faults)
+
 let rec take n = function
   | x :: rest when n > 0 -> x :: take (n - 1) rest
   | _ -> []
@@ -372,21 +387,25 @@ let rec take n = function
 let read ~chart ~file source =
   let* program = Parse.program ~file source in
   let start = { source; vehicles = []; plans = []; answers = []; replies = []; inputs = []; samples = []; fences = [];
-                plans_at = None; constants = Constants.of_program ~chart ~place:None []; unplaced = 0; faults = [] } in
+                plans_at = None; assumptions = []; constants = Constants.of_program ~chart ~place:None [];
+                unplaced = 0; faults = [] } in
   let state = List.fold_left statement start program in
+  let vehicles = List.rev_map (fun { entry; name_at = _ } -> entry) state.vehicles in
+  let recurrences, unassumed = recurrences state vehicles in
   let faults =
     repeated "vehicle" (fun (v : vehicle) -> v.id) state.vehicles
     @ repeated "plan" (fun (p : plan) -> p.name) state.plans
     @ repeated "answer" (fun a -> a.prompt) state.answers
     @ repeated "reply" (fun r -> r.call) state.replies
     @ (if state.faults = [] then unmeasured state else [])
-    @ state.faults in
+    @ unassumed @ state.faults in
   let entries named = List.rev_map (fun { entry; name_at = _ } -> entry) named in
   if faults = [] then
     Ok
-      { Entry.vehicles = entries state.vehicles; plans = entries state.plans; answers = entries state.answers;
+      { Entry.vehicles; plans = entries state.plans; answers = entries state.answers;
         replies = entries state.replies; inputs = List.rev state.inputs;
-        samples = List.rev state.samples; fences = List.rev state.fences; plans_at = state.plans_at }
+        samples = List.rev state.samples; fences = List.rev state.fences; plans_at = state.plans_at;
+        recurrences }
   else Error (take Parse.most_faults (List.sort Diagnostic.compare faults))
 
 let names_at word ~file source =

@@ -16,11 +16,15 @@ let equal_input (a : input) (b : input) =
 let equal_fence (a : Fences.fence) (b : Fences.fence) =
   Fences.equal_rule a.rule b.rule && a.margin = b.margin && a.text = b.text
 
+let equal_recurrence (a : recurrence) (b : recurrence) =
+  a.source = b.source
+  && List.equal (fun x y -> World.compare_assumption x y = 0) a.readings b.readings
+
 (* The rest is plain data without functions, cycles or NaN. *)
 let equal (a : t) (b : t) =
   a.vehicles = b.vehicles && a.plans = b.plans && a.answers = b.answers && List.equal equal_reply a.replies b.replies
   && List.equal equal_input a.inputs b.inputs && a.samples = b.samples && List.equal equal_fence a.fences b.fences
-  && a.plans_at = b.plans_at
+  && a.plans_at = b.plans_at && List.equal equal_recurrence a.recurrences b.recurrences
 
 let beside program = Filename.remove_extension program ^ ".fleet"
 
@@ -190,7 +194,10 @@ let pp ppf (s : t) =
   List.iter (pp_input ppf) s.inputs;
   List.iter (pp_sample ppf) s.samples;
   List.iter (fun (fence : Fences.fence) -> Format.fprintf ppf "%s@\n" fence.text) s.fences;
-  Option.iter (fun place -> Format.fprintf ppf "locate(location(%a))@\n" pp_coordinates place) s.plans_at
+  Option.iter (fun place -> Format.fprintf ppf "locate(location(%a))@\n" pp_coordinates place) s.plans_at;
+  (* An entry for each vehicle is one. *)
+  let add sources (r : recurrence) = if List.mem r.source sources then sources else r.source :: sources in
+  List.iter (Format.fprintf ppf "%s@\n") (List.rev (List.fold_left add [] s.recurrences))
 
 (* {1 The default} *)
 
@@ -206,4 +213,4 @@ let default =
         underwater "noptilus-2" (at 41.18600 (-8.70720));
         underwater "noptilus-3" (at 41.18400 (-8.70760));
         vehicle "x8-02" "UAV" [ "Camera" ] (at 41.18450 (-8.70500)) 0.4 ];
-    plans = []; answers = []; replies = []; inputs = []; samples = []; fences = []; plans_at = None }
+    plans = []; answers = []; replies = []; inputs = []; samples = []; fences = []; plans_at = None; recurrences = [] }

@@ -155,4 +155,7 @@ reply 'queue.await', task('survey1'), either(task('survey2'), fails('the queue i
     [fence inside AREA, margin: LENGTH] and its like: as in programs
     ({!Dolphin_semantics.Fence_declarations}), without variables. Every program is kept to it.
 
+    [assume eventually { CONDITION }], [assume eventually { v -> CONDITION }]: an assumption on endless runs, about one
+    vehicle, named in quotes, or each. Stands as often as wanted.
+
     Times without a unit are seconds. *)

@@ -316,6 +316,7 @@ let fleet_entries =
       "field", "field 'Temperature', 12, at(41.185, -8.706)", "The value of a quantity at a place, from a time on.";
       "fence", "fence inside map('harbour.geojson').basin, margin: 20.m", "A limit that always holds for vehicles.";
       "locate", "locate 41.185, -8.706", "The place of plans, in programs without one.";
+      "assume", "assume eventually { battery('x8-02') > 0.8 }", "A reading that recurs where programs look for it.";
       "reply", "reply 'call', r1, r2", "A supplier's replies to a call, one after another." ]
 
 let of_vehicle =

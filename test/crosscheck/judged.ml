@@ -27,7 +27,7 @@ let violated_here (c : Case.t) =
   let violated (property, (verdict : Search.verdict)) =
     match verdict with
     | Violated run when is_asked_of_tlc property run -> Some (Property.name property)
-    | Violated _ | Holds | By_design _ | Unreached _ | Inconclusive _ -> None
+    | Violated _ | Holds | Holds_if _ | By_design _ | Unreached _ | Inconclusive _ -> None
   in
   List.filter_map violated o.verdicts
 

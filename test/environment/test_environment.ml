@@ -19,7 +19,7 @@ let breaks name environment expected text =
       let is_broken (p, verdict) =
         match (verdict : Search.verdict) with
         | Violated _ -> Some p
-        | Holds | By_design _ | Unreached _ -> None
+        | Holds | Holds_if _ | By_design _ | Unreached _ -> None
         | Inconclusive bound -> Alcotest.failf "%a: %a" Property.pp p Dolphin_checker.Limits.pp_bound bound
       in
       List.filter_map is_broken outcome.verdicts

@@ -19,7 +19,7 @@ let note property = Hashtbl.replace broken property (1 + Option.value (Hashtbl.f
 
 let verdict_agrees ?start program world environment ~goes_round reference (property, verdict) =
   match (verdict : Search.verdict), List.assoc_opt property reference with
-  | (Holds | By_design _), None when goes_round && property = Property.Termination -> true
+  | (Holds | Holds_if _ | By_design _), None when goes_round && property = Property.Termination -> true
   | Violated run, None when goes_round && property = Property.Termination -> is_run ?start program world environment run
   | Holds, None -> true
   | Unreached _, None -> property = Property.All_reached
@@ -28,7 +28,7 @@ let verdict_agrees ?start program world environment ~goes_round reference (prope
     let shown = List.length run.steps + List.length run.cycle in
     (shown = length || (property = Property.Termination && shown >= length))
     && is_run ?start program world environment run
-  | (Holds | By_design _ | Violated _ | Unreached _ | Inconclusive _), (Some _ | None) -> false
+  | (Holds | Holds_if _ | By_design _ | Violated _ | Unreached _ | Inconclusive _), (Some _ | None) -> false
 
 let unsettled = ref 0
 
@@ -76,7 +76,7 @@ let agrees case = agrees_from case (compile case)
 
 let is_violated = function
   | Search.Violated _ -> true
-  | Holds | By_design _ | Unreached _ | Inconclusive _ -> false
+  | Holds | Holds_if _ | By_design _ | Unreached _ | Inconclusive _ -> false
 
 (* The state of the run after some of its steps, each drawn among the possible ones. *)
 let rec walk environment program world ((c, e) as start) = function
@@ -98,7 +98,7 @@ let reductions_agree start ((_, world), _, (_, environment)) program =
     let is_right =
       match (verdict' : Search.verdict) with
       | Violated run -> is_run ~start program world environment run
-      | Holds | By_design _ | Unreached _ | Inconclusive _ -> true
+      | Holds | Holds_if _ | By_design _ | Unreached _ | Inconclusive _ -> true
     in
     property = property' && is_violated verdict = is_violated verdict' && is_right
     || QCheck2.Test.fail_reportf "reduced: %a" (Search.pp_verdict program) (property', verdict')

@@ -47,7 +47,7 @@ let follows ((ast, world), answers) =
   let violation (property, verdict) =
     match (verdict : Search.verdict) with
     | Violated run -> Some (property, run)
-    | Holds | By_design _ | Unreached _ | Inconclusive _ -> None
+    | Holds | Holds_if _ | By_design _ | Unreached _ | Inconclusive _ -> None
   in
   List.for_all (comes_back program world) (List.filter_map violation o.verdicts)
 

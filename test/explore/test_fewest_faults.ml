@@ -109,7 +109,7 @@ let agrees (((((_, world), _, (_, environment)) as case), reduction, may_fail)) 
     let run (o : Search.outcome) property =
       match List.assoc property o.verdicts with
       | Violated run -> Some run
-      | Holds | By_design _ | Unreached _ | Inconclusive _ -> None
+      | Holds | Holds_if _ | By_design _ | Unreached _ | Inconclusive _ -> None
     in
     let judge property =
       match run none property, run first property, run found property with

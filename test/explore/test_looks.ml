@@ -99,6 +99,7 @@ let note what = Hashtbl.replace found what (1 + Option.value ~default:0 (Hashtbl
 let said (verdict : Search.verdict) =
   match verdict with
   | Holds -> "holds"
+  | Holds_if _ -> "holds if"
   | Violated _ -> "violated"
   | By_design _ -> "by design"
   | Unreached _ | Inconclusive _ -> "inconclusive"

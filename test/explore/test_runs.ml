@@ -192,7 +192,8 @@ let fleet =
   let reply call : Scenario.reply = { call; rounds = Calls.replies call } in
   let replies = List.map reply Calls.names in
   let vehicles = List.map (fun v -> draining (steadily v)) vehicles in
-  return { Scenario.vehicles; plans; answers; replies; inputs = []; samples = []; fences = []; plans_at = None }
+  return { Scenario.vehicles; plans; answers; replies; inputs = []; samples = []; fences = []; plans_at = None;
+           recurrences = [] }
 
 let random_case =
   QCheck2.Gen.(

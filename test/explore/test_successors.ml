@@ -176,7 +176,7 @@ let check_verdict ~exact found (property, (verdict : Search.verdict)) =
     match verdict, expected with
     | Holds, None -> ()
     | Violated run, Some depth when length run = told (Some depth) -> ()
-    | (Holds | Violated _ | By_design _ | Unreached _ | Inconclusive _), (None | Some _) ->
+    | (Holds | Holds_if _ | Violated _ | By_design _ | Unreached _ | Inconclusive _), (None | Some _) ->
       fail "%s: the explorer finds otherwise (%s)" (Property.name property) what
   in
   match (property : Property.t) with
@@ -195,7 +195,7 @@ let check_verdict ~exact found (property, (verdict : Search.verdict)) =
       (match verdict with
        | Holds when not is_cyclic -> ()
        | Violated _ when is_cyclic -> ()
-       | Holds | Violated _ | By_design _ | Unreached _ | Inconclusive _ -> fail "termination")
+       | Holds | Holds_if _ | Violated _ | By_design _ | Unreached _ | Inconclusive _ -> fail "termination")
   | Formula _ | Apart _ -> ()
 
 let numbers = Alcotest.(triple int int int)

@@ -17,7 +17,7 @@ let number name default = match Sys.getenv_opt name with Some n -> int_of_string
 let is_violated (o : Search.outcome) property =
   match List.assoc property o.verdicts with
   | Search.Violated _ -> true
-  | Holds | By_design _ | Unreached _ | Inconclusive _ -> false
+  | Holds | Holds_if _ | By_design _ | Unreached _ | Inconclusive _ -> false
 
 (* The states that a run may be in, after its steps and after its cycle: each transition leads on from the end of the
    one before. *)
@@ -164,7 +164,7 @@ let agrees_on_fair_runs program world environment at plain (f, verdict) =
     Product_search.satisfying ~holds:at plain (Not f) <> None
     && is_run program world environment run
     && not (Linear.holds at (word_of program run) f)
-  | Unreached _ | By_design _ | Inconclusive _ -> false
+  | Unreached _ | Holds_if _ | By_design _ | Inconclusive _ -> false
 
 let agrees_on program world environment at plain (f, verdict) =
   let expected = Product_search.satisfying ~holds:at plain (Not f) = None in
@@ -175,7 +175,7 @@ let agrees_on program world environment at plain (f, verdict) =
     if run.decided <> None then note "are violated whatever follows";
     (not expected) && is_run program world environment run && is_soonest at plain f run
     && not (Linear.holds at (word_of program run) f)
-  | Unreached _ | By_design _ | Inconclusive _ -> false
+  | Unreached _ | Holds_if _ | By_design _ | Inconclusive _ -> false
 
 let agrees ((ast, world), looped, (_, environment), formulas) =
   let ast = if looped then Generate.for_ever ast else ast in
@@ -241,7 +241,7 @@ let is_broken o property =
   is_violated o property
   || match List.assoc_opt property o.Search.verdicts with
   | Some (By_design _) -> true
-  | Some (Holds | Violated _ | Unreached _ | Inconclusive _) | None -> false
+  | Some (Holds | Holds_if _ | Violated _ | Unreached _ | Inconclusive _) | None -> false
 
 let agrees_with_properties (ast, looped, failing) =
   let program = Generate.compile (if looped then Generate.for_ever ast else ast) in
@@ -257,7 +257,7 @@ let agrees_with_properties (ast, looped, failing) =
     | Violated run ->
       (List.exists (is_broken o) properties || o.stopped <> None)
       && is_run program Generate.world environment run
-    | Unreached _ | By_design _ -> false
+    | Unreached _ | Holds_if _ | By_design _ -> false
   in
   List.for_all (fun a -> agree a || QCheck2.Test.fail_reportf "%s" (fst a)) agreements
 

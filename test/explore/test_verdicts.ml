@@ -18,10 +18,11 @@ let run ?(options = options) source =
 let text verdict =
   match (verdict : Search.verdict) with
   | Holds -> "holds"
+  | Holds_if needs -> Format.asprintf "holds %a" Search.pp_needs needs
   | Violated { steps; cycle = [] } -> Printf.sprintf "violated in %d" (List.length steps)
   | Violated { steps; cycle } -> Printf.sprintf "for ever %d+%d" (List.length steps) (List.length cycle)
   | Unreached pieces -> "unreached: " ^ String.concat ", " (List.map (fun (p : Coverage.piece) -> p.what) pieces)
-  | By_design { repeats; left_by } ->
+  | By_design { repeats; left_by; _ } ->
     Printf.sprintf "by design, by %d, until %s" (List.length repeats) (String.concat ", " left_by)
   | Inconclusive _ -> "inconclusive"
 
@@ -212,7 +213,7 @@ let shows_shortest n expected () =
   let _, o = run ~options:{ options with reduction = Partial_order; search_again = 1_000 } (parts n task) in
   match List.assoc Property.No_error o.verdicts with
   | Violated { shortest; _ } -> Alcotest.(check bool) "shortest" expected shortest
-  | Holds | By_design _ | Unreached _ | Inconclusive _ -> Alcotest.fail "the error is not found"
+  | Holds | Holds_if _ | By_design _ | Unreached _ | Inconclusive _ -> Alcotest.fail "the error is not found"
 
 (* Found before the bound was met: still a violation. *)
 let test_violation_before_bound () =

@@ -13,6 +13,7 @@ let broken = Hashtbl.create 7
 let kind (verdict : Search.verdict) =
   match verdict with
   | Holds -> "holds"
+  | Holds_if _ -> "holds if"
   | By_design _ -> "by design not"
   | Violated { shortest = true; steps; cycle = [] } -> Printf.sprintf "violated after %d" (List.length steps)
   | Violated { shortest; cycle; _ } -> Printf.sprintf "violated %b %b" shortest (cycle = [])
@@ -42,7 +43,7 @@ let agrees (((_, world), _, (_, environment)) as case) =
     | Violated run ->
       Hashtbl.replace broken property ();
       is_run program world environment run || QCheck2.Test.fail_reportf "%a: no run" Property.pp property
-    | Holds | By_design _ | Unreached _ | Inconclusive _ -> true
+    | Holds | Holds_if _ | By_design _ | Unreached _ | Inconclusive _ -> true
   in
   let same reduction =
     let alone = search reduction 1 in

@@ -130,7 +130,7 @@ let terminates_alike (whole : Search.verdict) (verdict : Search.verdict) =
   match whole, verdict with
   | Holds, Holds | Violated _, Violated _ -> true
   | By_design { repeats; _ }, By_design { repeats = repeats'; _ } -> repeats = repeats'
-  | (Holds | Violated _ | By_design _ | Unreached _ | Inconclusive _), _ -> false
+  | (Holds | Holds_if _ | Violated _ | By_design _ | Unreached _ | Inconclusive _), _ -> false
 
 let agrees ?termination options program world reference unreached (property, verdict) =
   let wrong what = Error (Printf.sprintf "%s: %s" (Property.name property) what) in
@@ -144,7 +144,7 @@ let agrees ?termination options program world reference unreached (property, ver
     | Holds, false when property <> All_reached || unreached = [] -> Ok ()
     | Unreached pieces, _ when pieces = unreached -> Ok ()
     | Violated run, true -> if shows options program world property run then Ok () else wrong "this is no such run"
-    | (Holds | By_design _ | Violated _), _ -> wrong "another verdict"
+    | (Holds | Holds_if _ | By_design _ | Violated _), _ -> wrong "another verdict"
     | Unreached _, _ -> wrong "other pieces are reached"
     | Inconclusive _, _ -> wrong "inconclusive"
 
@@ -155,7 +155,7 @@ let check_graph ~reductions environment program world graph =
   let unreached =
     match List.assoc Property.All_reached whole.verdicts with
     | Unreached pieces -> pieces
-    | Holds | By_design _ | Violated _ | Inconclusive _ -> []
+    | Holds | Holds_if _ | By_design _ | Violated _ | Inconclusive _ -> []
   in
   let termination =
     if Reference.goes_round graph then List.assoc_opt Property.Termination whole.verdicts else None
@@ -261,7 +261,7 @@ let same_invariant program environment world condition =
     if List.compare_lengths run.steps run'.steps <> 0 then wrong "another length"
     else if List.exists is_broken (follow environment program world start run'.steps) then Ok ()
     else wrong "this is no such run"
-  | (Holds | By_design _ | Violated _ | Inconclusive _ | Unreached _), _ -> wrong "another verdict"
+  | (Holds | Holds_if _ | By_design _ | Violated _ | Inconclusive _ | Unreached _), _ -> wrong "another verdict"
 
 let check_peers ?limit ?(invariants = []) environment program world =
   match explored ?limit environment program world with

@@ -403,6 +403,7 @@ let rounds =
         let found = Search.run options (Pure_run.compile_exn text) world in
         match List.assoc Dolphin_explore.Property.Termination found.verdicts with
         | Holds -> "holds"
+        | Holds_if _ -> "holds if"
         | Violated _ -> "violated"
         | By_design { repeats; retries; _ } -> Printf.sprintf "by design: %d" (List.length (repeats @ retries))
         | Unreached _ | Inconclusive _ -> "inconclusive"

@@ -263,7 +263,7 @@ let scenario =
   let* samples = list_size (int_range 1 3) sample in
   let* fences = list_size (int_bound 2) (oneofl (Lazy.force some_fences)) in
   let* plans_at = option place in
-  return { Scenario.vehicles; plans; answers; replies; inputs; samples; fences; plans_at }
+  return { Scenario.vehicles; plans; answers; replies; inputs; samples; fences; plans_at; recurrences = [] }
 
 (* Fences as JSON, in journals and on maps. *)
 let fences_as_json () =
@@ -305,9 +305,21 @@ let fields () =
 
 let shown_scenario s = Fmt.str "%a" Scenario.pp s
 
+(* A fleet with assumptions, which depend on its vehicles. *)
+let assuming =
+  let open QCheck2.Gen in
+  let* s = scenario in
+  let condition = oneofl [ "speed(v) > 1.5"; "connected(v)"; "!connected(v)"; "60 < now()"; "!(speed(v) >= 1.5)" ] in
+  let entry = map (Printf.sprintf "assume eventually { v -> %s }\n") condition in
+  let* entries = list_size (int_range 1 3) entry in
+  return (reads (shown_scenario s ^ String.concat "" entries))
+
 let laws =
   [ law "what is written is read back" scenario ~print:shown_scenario (fun s ->
         Scenario.equal s (reads (shown_scenario s)));
+    law "assumptions too" assuming ~print:shown_scenario (fun s ->
+        let n = List.length s.vehicles and found = List.length s.recurrences in
+        found >= min n 1 && Scenario.equal s (reads (shown_scenario s)));
     law "no text makes reading raise"
       QCheck2.Gen.(pair scenario (pair (int_bound 2000) (int_bound 30)))
       ~print:(fun (s, _) -> shown_scenario s)

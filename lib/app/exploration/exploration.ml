@@ -74,8 +74,14 @@ type verdict = Dolphin_checker.Verdict.t = Holds | Violated | Inconclusive
 let verdict ~strict (o : Search.outcome) =
   let matters (property, _) = strict || not (is_remark property) in
   let verdicts = List.map snd (List.filter matters o.verdicts) in
-  let is_violated = function Search.Violated _ | Unreached _ -> true | Holds | By_design _ | Inconclusive _ -> false in
-  let is_open = function Search.Inconclusive _ -> true | Holds | By_design _ | Violated _ | Unreached _ -> false in
+  let is_violated = function
+    | Search.Violated _ | Unreached _ -> true
+    | Holds | Holds_if _ | By_design _ | Inconclusive _ -> false
+  in
+  let is_open = function
+    | Search.Inconclusive _ -> true
+    | Holds | Holds_if _ | By_design _ | Violated _ | Unreached _ -> false
+  in
   if List.exists is_violated verdicts then Violated else if List.exists is_open verdicts then Inconclusive else Holds
 
 let counterexample ~strict (o : Search.outcome) =
@@ -83,7 +89,7 @@ let counterexample ~strict (o : Search.outcome) =
     (fun (property, verdict) ->
        match (verdict : Search.verdict) with
        | Violated run when strict || not (is_remark property) -> Some (property, run)
-       | Violated _ | Holds | By_design _ | Unreached _ | Inconclusive _ -> None)
+       | Violated _ | Holds | Holds_if _ | By_design _ | Unreached _ | Inconclusive _ -> None)
     o.verdicts
 
 (* {1 Witnesses} *)

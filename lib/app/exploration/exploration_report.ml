@@ -9,10 +9,10 @@ let mebibytes bytes = bytes / 1024 / 1024
 
 let print_verdict program (property, (verdict : Search.verdict), remark) =
   match verdict with
-  | (Holds | Inconclusive _) when remark -> ()
+  | (Holds | Holds_if _ | Inconclusive _) when remark -> ()
   (* The verdict on tasks stands for both, unless vehicles are missing. *)
-  | (Holds | Inconclusive _) when property = Property.Vehicles -> ()
-  | Holds | Violated _ | By_design _ | Unreached _ | Inconclusive _ ->
+  | (Holds | Holds_if _ | Inconclusive _) when property = Property.Vehicles -> ()
+  | Holds | Holds_if _ | Violated _ | By_design _ | Unreached _ | Inconclusive _ ->
     Safe_print.format "%s%a@." (if remark then "note: " else "") (Search.pp_verdict program) (property, verdict)
 
 let print_counts (o : Search.outcome) =
@@ -75,7 +75,7 @@ let print_violation (program : Program_file.t) (property, (verdict : Search.verd
   match verdict with
   | Violated run when not remark -> print_run program property run
   | Unreached pieces when not remark -> print_unreached program.program property pieces
-  | Holds | By_design _ | Inconclusive _ | Violated _ | Unreached _ -> ()
+  | Holds | Holds_if _ | By_design _ | Inconclusive _ | Violated _ | Unreached _ -> ()
 
 let with_remarks ~strict (o : Search.outcome) =
   let with_remark (property, verdict) = (property, verdict, Exploration.is_remark property && not strict) in
@@ -95,6 +95,10 @@ let print ?from ~strict (program : Program_file.t) (o : Search.outcome) =
 
 (* {1 For programs} *)
 
+let recurring name needs =
+  let one readings = `String (Format.asprintf "%a" Dolphin_explore.Looks.pp_readings readings) in
+  (name, `List (List.map one needs))
+
 let json_of_run (run : Search.run) =
   let labels steps =
     `List
@@ -108,11 +112,13 @@ let json_of_run (run : Search.run) =
     if t.assumed = [] then None
     else Some (`Assoc [ ("step", `Int (i + 1)); ("assumed", `List (List.map what t.assumed)) ])
   in
+  let helpful = if run.helpful = [] then [] else [ recurring "holds if these recur" run.helpful ] in
   let faults { Search.number; fewest } = [ ("faults", `Int number); ("fewest_faults", `Bool fewest) ] in
   let assumptions = List.filter_map Fun.id (List.mapi assumed (run.steps @ run.cycle)) in
   [ ("shortest", `Bool run.shortest); ("run", labels run.steps); ("cycle", labels run.cycle) ]
   @ Option.fold run.decided ~none:[] ~some:(fun n -> [ ("decided", `Int n) ])
   @ Option.fold run.faults ~none:[] ~some:faults
+  @ helpful
   @ if assumptions = [] then [] else [ ("assumptions", `List assumptions) ]
 
 let to_json ?from (p : Program_file.t) (o : Search.outcome) : Yojson.Safe.t =
@@ -122,12 +128,14 @@ let to_json ?from (p : Program_file.t) (o : Search.outcome) : Yojson.Safe.t =
     let result, more =
       match (verdict : Search.verdict) with
       | Holds -> ("holds", [])
+      | Holds_if needs -> ("holds", [ recurring "assuming" needs ])
       | Violated run -> ("violated", json_of_run run)
-      | By_design { repeats; retries; left_by } ->
+      | By_design { repeats; retries; left_by; needs } ->
         let at site = `String (Format.asprintf "%a" Dolphin_syntax.Location.pp program.locations.(site)) in
         let what = List.map (fun text -> `String text) left_by in
         let sites name found = (name, `List (List.map at found)) in
-        ("by design not", [ sites "repeats" repeats; sites "retries" retries; ("ended by", `List what) ])
+        ("by design not", [ sites "repeats" repeats; sites "retries" retries; ("ended by", `List what) ]
+                          @ if needs = [] then [] else [ recurring "assuming" needs ])
       | Unreached pieces ->
         let piece (p : Dolphin_explore.Coverage.piece) =
           let at = Format.asprintf "%a" Dolphin_syntax.Location.pp program.locations.(p.site) in

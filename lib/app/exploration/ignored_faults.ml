@@ -19,4 +19,10 @@ let sentences (faults : Faults.t) fleet =
     (fun v -> v.joins > 0.)
   @ of_links faults fleet
 
+let of_assumptions (program : Dolphin_semantics.Core.program) (fleet : Fleet_file.t) =
+  let sentence (r : Scenario.recurrence) =
+    Format.asprintf "%a: the program reads no sensor, so %s does not matter" Dolphin_syntax.Location.pp r.at r.source in
+  if program.reads_sensors || program.reads_now then []
+  else List.sort_uniq String.compare (List.map sentence fleet.scenario.recurrences)
+
 let of_time (faults : Faults.t) fleet = if Faults.is_possible faults.join then of_links faults fleet else []

@@ -21,7 +21,7 @@ let findings ~strict (p : Program_file.t) (property, (verdict : Search.verdict))
   in
   match verdict with
   | Holds -> []
-  | By_design _ -> [ Element ("system-out", [], [ Text message ]) ]
+  | Holds_if _ | By_design _ -> [ Element ("system-out", [], [ Text message ]) ]
   | Violated run -> violated ("\n" ^ Run_columns.text ?decided:run.decided p ~steps:run.steps ~cycle:run.cycle ^ "\n")
   | Unreached _ -> violated ""
   | Inconclusive _ -> [ Element ("error", [ ("message", message); ("type", "inconclusive") ], []) ]

@@ -69,7 +69,7 @@ let results ~strict (p : Program_file.t) (property, (verdict : Search.verdict)) 
   in
   let violated = result "fail" (if strict || not (Exploration.is_remark property) then "error" else "note") in
   match verdict with
-  | Holds | By_design _ -> [ result "pass" "none" None [] ]
+  | Holds | Holds_if _ | By_design _ -> [ result "pass" "none" None [] ]
   | Inconclusive _ -> [ result "open" "none" None [] ]
   | Violated run ->
     let rows = Columns.rows p.program ~source:p.source (run.steps @ run.cycle) in

@@ -65,7 +65,7 @@ let rec make_directory path =
 let is_conclusive (o : Search.outcome) =
   let is_open = function
     | _, Search.Inconclusive _ -> true
-    | _, (Holds | Violated _ | By_design _ | Unreached _) -> false
+    | _, (Holds | Holds_if _ | Violated _ | By_design _ | Unreached _) -> false
   in
   o.stopped = None && not (List.exists is_open o.verdicts)
 

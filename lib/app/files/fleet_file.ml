@@ -46,5 +46,5 @@ let nobody =
   { path = None; source = ""; warnings = [];
     scenario =
       { vehicles = []; plans = []; answers = []; replies = []; inputs = []; samples = []; fences = [];
-        plans_at = None } }
+        plans_at = None; recurrences = [] } }
 let header f = Option.map (fun path -> Dolphin_trace.Header.source ~path f.source) f.path

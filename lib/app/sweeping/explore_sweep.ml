@@ -7,13 +7,14 @@ let violated ~strict (o : Search.outcome) =
   let name (property, (verdict : Search.verdict)) =
     match verdict with
     | (Violated _ | Unreached _) when strict || not (Exploration.is_remark property) -> Some (Property.name property)
-    | Violated _ | Unreached _ | Holds | By_design _ | Inconclusive _ -> None
+    | Violated _ | Unreached _ | Holds | Holds_if _ | By_design _ | Inconclusive _ -> None
   in
   List.filter_map name o.verdicts
 
 let cells ~strict ({ found; verdict; _ } : Search.outcome Sweep.row) =
   let words =
     match verdict with
+    | Holds when Search.needs found <> [] -> Format.asprintf "holds %a" Search.pp_needs (Search.needs found)
     | Holds -> "holds"
     | Violated -> "violated: " ^ String.concat ", " (violated ~strict found)
     | Inconclusive -> "inconclusive"

@@ -13,9 +13,14 @@ type verdict =
 
 (* {1 The part of the graph in which tasks execute} *)
 
+(* Where it is decided by readings how a run goes on: in this code, or among the guards of this component; in the
+   script, by this comparison or sensor. *)
+type choice = Code_at of Core.site | Guards_of of int list | Looking_at of string
+
 (* Of a step, by its number: see {!Space.possible}. [renews] is the places of the repeats that begin a round,
    [valuation] that of a formula's propositions, [looks] its assumptions. A step that [chooses] is possible
-   with any readings; others wait. *)
+   with any readings; others wait. [choices] is the choices that it makes. Of the assumptions, by number: it [meets]
+   those whose readings its looks allow; others are [against] it, if another step of the choice meets them. *)
 type edge = {
   into : int;
   by : int;
@@ -25,6 +30,9 @@ type edge = {
   valuation : int;
   looks : Looks.t;
   chooses : bool;
+  choices : choice list;
+  meets : (int * choice) list;
+  against : (int * choice) list;
 }
 
 (* The steps that are possible and that no vehicle or person may prevent by staying away, and the successors of the
@@ -40,14 +48,18 @@ type t = {
   automaton : Monitor.t option;  (* then what is searched is pairs: see {!Formulas} below *)
   is_open : bool;  (* whether sensors, or the date, may show several things *)
   whole : bool;  (* whether no steps are left out *)
+  assumed : World.assumption list array;
+  mutable active : int list;  (* the assumptions that count, by number *)
   mutable unsure : bool;  (* whether omitted steps may matter to the property *)
 }
 
-let create ?automaton ?(whole = true) program graph =
+let create ?automaton ?(whole = true) ?(assumed = []) program graph =
   let reads = program.Core.reads_sensors || program.reads_now in
   let is_open = reads && World.is_open (Space.world (State_graph.system graph)) in
-  { program; graph; is_open; whole; unsure = false; numbers = Hashtbl.create 100; steps = Hashtbl.create 100;
-    nodes = Hashtbl.create 1_000; automaton }
+  let assumed = Array.of_list (if is_open then assumed else []) in
+  let active = List.init (Array.length assumed) Fun.id in
+  { program; graph; is_open; whole; assumed; active; unsure = false; numbers = Hashtbl.create 100;
+    steps = Hashtbl.create 100; nodes = Hashtbl.create 1_000; automaton }
 
 let number t (p : Space.possible) =
   let id = p.at @ (-2 :: p.name) in
@@ -92,9 +104,55 @@ let chooses (Task_rules.Step { offer; _ }) =
   | Start _ | Perform _ | Guard_either _ | Measure _ | Make _ | End_of _ | Expiry_of _ | Answer_to _ -> true
   | Check _ | Guard_values _ | Guard_false _ | Allocate _ | Recruit_for _ -> false
 
+(* {1 Choices} *)
+
+let concerns t = Looks.at_one_moment t.program
+
+let choices_of_task t (p : Space.possible) looks =
+  let (Task_rules.Step { offer; _ }) = p.step.source in
+  let code (c : Core.closure) = [ Code_at c.lambda.lambda_site ] in
+  if not (t.is_open && Looks.is_look (concerns t) looks) then []
+  else
+    match offer, p.name with
+    | Perform c, _ | Guard_either c, _ | Measure c, _ | Make (c, _, _), _ -> code c
+    | (Check _ | Guard_values _ | Guard_false _), family :: local :: _ -> [ Guards_of [ family; local ] ]
+    | (Check _ | Guard_values _ | Guard_false _), _ -> []
+    | (Start _ | Allocate _ | End_of _ | Expiry_of _ | Answer_to _ | Recruit_for _), _ -> []
+
+let choices_of_script t looks =
+  let subject : World.assumption -> choice option = function
+    | Claim (text, _) -> Some (Looking_at text)
+    | Sensed (s, v, _) -> Some (Looking_at (World.spell s v))
+    | Placed (v, _) -> Some (Looking_at (Printf.sprintf "position(%s)" v))
+    | Late _ | Missing _ -> None
+  in
+  if not (t.is_open && Looks.is_look (concerns t) looks) then []
+  else List.sort_uniq Stdlib.compare (List.filter_map subject (Looks.readings (concerns t) looks))
+
+(* The assumptions that a step with these looks meets, and the others about its sensors, each with its choice. *)
+let weighed t (choices, looks) =
+  let at_choices numbers = List.concat_map (fun i -> List.map (fun c -> (i, c)) choices) numbers in
+  let concerns = concerns t in
+  let is_about i = choices <> [] && Looks.are_at concerns t.assumed.(i) looks in
+  let about = List.filter is_about (List.init (Array.length t.assumed) Fun.id) in
+  let meets, others = List.partition (fun i -> Looks.may_show concerns t.assumed.(i) looks) about in
+  (at_choices meets, at_choices others)
+
+(* The edges of one state. [ways] is the choices and looks of all its steps: those that violate no formula any more
+   are no edges, but a run may take them. *)
+let with_assumptions t ways edges =
+  if Array.length t.assumed = 0 then edges
+  else
+    let met = List.concat_map (fun way -> fst (weighed t way)) ways in
+    let weigh e =
+      let meets, others = weighed t (e.choices, e.looks) in
+      { e with meets; against = List.filter (fun pair -> List.mem pair met) others }
+    in
+    List.map weigh edges
+
 let examined t i =
   State_graph.visiting t.graph i (fun key arrived visitor ->
-      let found = ref [] and edges = ref [] and waits = ref true in
+      let found = ref [] and edges = ref [] and waits = ref true and ways = ref [] in
       let possible (p : Space.possible) =
         if p.step.event = None && (chooses p.step.source || not p.depends) then waits := false;
         found := (number t p, p) :: !found
@@ -102,24 +160,34 @@ let examined t i =
       let taken (p : Space.possible) rounds layers looks =
         let by = number t p and is_event = is_event p and renews = places_of rounds layers in
         let chooses = chooses p.step.source in
+        let choices = choices_of_task t p looks in
+        ways := (choices, looks) :: !ways;
         let arrive into valuation =
-          edges := { into; by; is_event; rounds; renews; valuation; looks; chooses } :: !edges in
+          let e =
+            { into; by; is_event; rounds; renews; valuation; looks; chooses; choices; meets = []; against = [] } in
+          edges := e :: !edges
+        in
         arrived := arrive
       in
       Space.examine (State_graph.system t.graph) key ~possible ~taken visitor;
-      { possible = certain t key !found; waits = !waits; edges = List.rev !edges })
+      { possible = certain t key !found; waits = !waits; edges = with_assumptions t !ways (List.rev !edges) })
 
 (* The number of no step of a task. *)
 let of_script = -1
 
 let scripted t i =
   State_graph.visiting t.graph i (fun key arrived visitor ->
-      let edges = ref [] in
+      let edges = ref [] and ways = ref [] in
       let taken (next : Transition.t) =
         let is_event = Looks.is_event next and looks = Looks.of_transition next in
+        let choices = choices_of_script t looks in
+        ways := (choices, looks) :: !ways;
         let arrive into valuation =
-          edges :=
-            { into; by = of_script; is_event; rounds = []; renews = []; valuation; looks; chooses = true } :: !edges in
+          let e =
+            { into; by = of_script; is_event; rounds = []; renews = []; valuation; looks; chooses = true; choices;
+              meets = []; against = [] } in
+          edges := e :: !edges
+        in
         arrived := arrive
       in
       Space.examine_script (State_graph.system t.graph) key ~taken visitor;
@@ -128,7 +196,7 @@ let scripted t i =
         | Waiting _ -> true
         | Script _ | Executing _ | Ended _ -> false
       in
-      { possible = []; waits; edges = List.rev !edges })
+      { possible = []; waits; edges = with_assumptions t !ways (List.rev !edges) })
 
 let state_executes t i = Space.executes (State_graph.system t.graph) (State_graph.load t.graph i).(0)
 
@@ -304,6 +372,29 @@ let lasting t ~tick part states =
   in
   List.concat_map with_time (of_one_date t ~tick part states)
 
+(* {1 Assumptions on readings}
+
+   A run around a component meets an assumption at a choice if it takes a step there that meets it, or none that is
+   against it. *)
+
+let unmet t edges =
+  let pairs f = List.sort_uniq Stdlib.compare (List.concat_map f edges) in
+  let met = pairs (fun e -> e.meets) in
+  let is_unmet ((i, _) as pair) = List.mem i t.active && not (List.mem pair met) in
+  List.filter is_unmet (pairs (fun e -> e.against))
+
+(* Those that a run may repeat without end so that it meets the assumptions: without the steps against those that the
+   whole does not meet, for no part of it does. *)
+let rec recurring t ~tick part states =
+  let divided (part, members) =
+    match unmet t (edges_inside t part members) with
+    | [] -> [ (part, members) ]
+    | pairs ->
+      let keeps e = part.keeps e && not (List.exists (fun pair -> List.mem pair pairs) e.against) in
+      recurring t ~tick { part with keeps } members
+  in
+  List.concat_map divided (lasting t ~tick part states)
+
 (* Those that a run may repeat in no time. *)
 let spinning t ~tick part states =
   let keeps e = part.keeps e && not e.is_event in
@@ -387,8 +478,13 @@ let around ?start t part members =
     else if List.exists waits members then ([ waits ], [])
     else ([], [ (fun e -> e.is_event) ])
   in
+  let all = List.concat_map edges members in
+  let meets (pair : int * choice) e = List.mem pair e.meets in
+  let is_met ((i, _) as pair) = List.mem i t.active && List.exists (meets pair) all in
+  let against = List.sort_uniq Stdlib.compare (List.concat_map (fun e -> e.against) all) in
+  let to_meet = List.map meets (List.filter is_met against) in
   let goals = List.map elsewhere sometimes @ acceptance t @ to_wait in
-  let wanted = List.map (fun k e -> e.by = k) owed @ to_take in
+  let wanted = List.map (fun k e -> e.by = k) owed @ to_take @ to_meet in
   let from, cycle = List.fold_left meet (List.fold_left go_on (start, []) wanted) goals in
   let back =
     if from = start && cycle <> [] then []
@@ -405,7 +501,7 @@ let lasso ?start t part members =
 
 (* {1 Cycles of the script} *)
 
-(* Whether some run repeats these states without end. *)
+(* Whether some run repeats these states without end, and meets the assumptions. *)
 let may_last t states =
   let hop (i, j) = List.filter (fun e -> e.into = j) (node_of_state t i).edges in
   let rec pairs = function i :: (j :: _ as rest) -> (i, j) :: pairs rest | [ _ ] | [] -> [] in
@@ -413,7 +509,8 @@ let may_last t states =
   let agree concerns looks = Looks.agree concerns (List.map (List.concat_map looks) hops) in
   let passes_time =
     List.exists (List.exists (fun e -> e.is_event)) hops || List.exists (fun i -> (node_of_state t i).waits) states in
-  if passes_time then agree (Looks.of_date t.program) choice
+  (* One of several steps between two states may be taken now, and another the next time. *)
+  if passes_time then unmet t (List.concat hops) = [] && agree (Looks.of_date t.program) choice
   else agree (Looks.at_one_moment t.program) (fun e -> e.looks)
 
 let whole = { within = (fun _ -> true); keeps = (fun _ -> true) }
@@ -423,7 +520,10 @@ let script_node t members = List.find_opt (fun i -> not (executes t i)) (List.so
 
 let script_cycle_that_lasts t ~tick =
   let shown (part, members) = Option.map (fun start -> lasso ~start t part members) (script_node t members) in
-  List.find_map shown (lasting t ~tick whole (State_graph.all t.graph))
+  let all = State_graph.all t.graph in
+  match List.find_map shown (recurring t ~tick whole all) with
+  | None when t.active <> [] -> List.find_map shown (spinning t ~tick whole all)
+  | found -> found
 
 let first_script_cycle t ~tick =
   if not (Space.may_cycle_in_script (State_graph.system t.graph)) then None
@@ -494,8 +594,9 @@ let by_design t members =
   let retries = found retried in
   (found endless, retries, left_by t members ~done_too:(retries <> []))
 
-let judge program graph ~all:whole =
-  let t = create ~whole program graph in
+let verdict t =
+  let graph = t.graph and whole = t.whole in
+  t.unsure <- false;
   let tick = State_graph.ticker graph "looking for cycles" in
   let states = List.filter (executes t) (State_graph.all graph) in
   let of_kind keeps =
@@ -504,7 +605,7 @@ let judge program graph ~all:whole =
       | Perhaps when whole -> (Unfair, (part, members))
       | fairness -> (fairness, (part, members))
     in
-    List.map judged (lasting t ~tick (of_tasks t keeps) states)
+    List.map judged (recurring t ~tick (of_tasks t keeps) states)
   in
   let without_endless e = not (is_endless e) and all _ = true in
   match script_cycle t ~tick, spinning t ~tick (of_tasks t all) states with
@@ -528,6 +629,90 @@ let judge program graph ~all:whole =
             let retries = together (fun (_, retries, _) -> retries) in
             By_design { repeats; retries; left_by = together (fun (_, _, left_by) -> left_by) }))
 
+(* {1 Verdicts under assumptions} *)
+
+let under t active =
+  t.active <- active;
+  verdict t
+
+(* How good news it is. *)
+let rank = function Ends -> 2 | By_design _ -> 1 | Goes_on _ | Spins _ | Unsure -> 0
+
+(* Of the assumptions [active], which lead to [found], those without which it would be worse. *)
+let needed t active found =
+  let drop kept i =
+    let rest = List.filter (fun j -> j <> i) kept in
+    if rank (under t rest) >= rank found then rest else kept
+  in
+  List.fold_left drop active active
+
+(* Symmetry may exchange the vehicles of readings. *)
+let is_symmetric t =
+  let space = State_graph.system t.graph in
+  Space.has_vehicle_symmetry space || Space.used_task_symmetry space
+
+type judgement = { verdict : verdict; needs : World.assumption list list }
+
+let judge program graph ~all:whole ~assumed =
+  let t = create ~whole ~assumed program graph in
+  let all = t.active in
+  match under t [] with
+  | (Ends | Spins _ | Unsure) as verdict -> { verdict; needs = [] }
+  | (Goes_on _ | By_design _) as verdict when all = [] -> { verdict; needs = [] }
+  | Goes_on _ when is_symmetric t -> { verdict = Unsure; needs = [] }
+  | By_design _ as verdict when is_symmetric t -> { verdict; needs = [] }
+  | (Goes_on _ | By_design _) as plain -> (
+      match under t all with
+      | (Ends | By_design _) as found when rank found > rank plain ->
+        let needs = needed t all found in
+        { verdict = under t needs; needs = List.map (Array.get t.assumed) needs }
+      | By_design _ -> { verdict = plain; needs = [] }
+      | (Ends | Goes_on _ | Spins _ | Unsure) as verdict -> { verdict; needs = [] })
+
+(* {1 Assumptions that would help} *)
+
+let most_candidates = 8
+
+(* The readings of other ways to go, at the choices of the steps of endless runs. *)
+let candidates t ~tick =
+  let other_ways i e =
+    let shares e' = List.exists (fun c -> List.mem c e'.choices) e.choices in
+    let ways = List.filter shares (node_of_state t i).edges in
+    let readings = List.concat_map (fun e' -> Looks.readings (concerns t) e'.looks) ways in
+    List.filter (fun a -> not (Looks.may_show (concerns t) [ a ] e.looks)) readings
+  in
+  let of_part (part, members) =
+    let at i = List.concat_map (other_ways i) (kept_inside t part members i) in
+    if fairness t part members = Unfair then [] else List.concat_map at members
+  in
+  let found = List.concat_map of_part (recurring t ~tick whole (State_graph.all t.graph)) in
+  List.sort_uniq World.compare_assumption found
+
+let helpful program graph ~all:whole ~assumed =
+  let t = create ~whole ~assumed program graph in
+  let tick = State_graph.ticker graph "looking for assumptions" in
+  if (not t.is_open) || is_symmetric t then []
+  else
+    let found = List.map (fun a -> [ a ]) (candidates t ~tick) in
+    if found = [] || List.length found > most_candidates then []
+    else
+      let given = List.length assumed in
+      let t = create ~whole ~assumed:(assumed @ found) program graph in
+      let always = List.init given Fun.id and further = List.mapi (fun i _ -> given + i) found in
+      let ends active = under t active = Ends in
+      let chosen =
+        match List.find_opt (fun i -> ends (always @ [ i ])) further with
+        | Some i -> [ i ]
+        | None when ends (always @ further) ->
+          let drop kept i =
+            let rest = List.filter (fun j -> j <> i) kept in
+            if ends (always @ rest) then rest else kept
+          in
+          List.fold_left drop further further
+        | None -> []
+      in
+      List.map (Array.get t.assumed) chosen
+
 (* {1 Formulas} *)
 
 let shown ?start t part members =
@@ -535,7 +720,7 @@ let shown ?start t part members =
   (fst (split t start), List.map (fun e -> (fst (split t e.into), e.valuation)) cycle)
 
 (* An accepting cycle through the script, in which no step stays possible all around. *)
-let accepting_through_script t automaton ~tick =
+let accepting_through_script t automaton ~parts ~tick =
   if not (Space.may_cycle_in_script (State_graph.system t.graph)) then None
   else if t.is_open then
     let found (part, members) =
@@ -543,7 +728,7 @@ let accepting_through_script t automaton ~tick =
         Option.map (fun start -> shown ~start t part members) (script_node t members)
       else None
     in
-    List.find_map found (lasting t ~tick whole (pairs_of t automaton (State_graph.all t.graph)))
+    List.find_map found (parts whole (pairs_of t automaton (State_graph.all t.graph)))
   else
     let successors i =
       let state, q = split t i in
@@ -562,8 +747,9 @@ let accepting_through_script t automaton ~tick =
     in
     Option.map shown (Cycles.find ~tick graph (pairs_of t automaton starts))
 
-let violation program graph automaton ~fair : Breadth_first.violation option =
-  let t = create ~automaton program graph in
+let violation_under t automaton ~fair active : Breadth_first.violation option =
+  t.active <- active;
+  let graph = t.graph in
   let tick = State_graph.ticker graph "checking formulas" in
   let pairs = pairs_of t automaton (List.filter (state_executes t) (State_graph.all graph)) in
   let tasks = of_tasks t (fun _ -> true) in
@@ -572,10 +758,12 @@ let violation program graph automaton ~fair : Breadth_first.violation option =
     Option.map (fun (part, members) -> shown t part members) (List.find_opt is_it found)
   in
   let is_fair part members = (not fair) || fairness t part members = Fair in
+  let parts part states = if fair then recurring t ~tick part states else lasting t ~tick part states in
   let ways =
-    [ (fun () -> accepting_through_script t automaton ~tick);
+    [ (fun () -> accepting_through_script t automaton ~parts ~tick);
+      (fun () -> if active = [] then None else accepting_through_script t automaton ~parts:(spinning t ~tick) ~tick);
       (fun () -> accepting (spinning t ~tick tasks pairs) (fun _ _ -> true));
-      (fun () -> accepting (lasting t ~tick tasks pairs) is_fair) ]
+      (fun () -> accepting (parts tasks pairs) is_fair) ]
   in
   let rec first = function
     | [] -> None
@@ -583,3 +771,15 @@ let violation program graph automaton ~fair : Breadth_first.violation option =
   in
   let of_found (start, cycle) = Breadth_first.Around { stem = State_graph.path graph start; cycle } in
   Option.map of_found (first ways)
+
+let violation program graph automaton ~fair ~assumed =
+  let t = create ~automaton ~assumed:(if fair then assumed else []) program graph in
+  let all = t.active in
+  let holds active = violation_under t automaton ~fair active = None in
+  let drop kept i =
+    let rest = List.filter (fun j -> j <> i) kept in
+    if holds rest then rest else kept
+  in
+  match violation_under t automaton ~fair all with
+  | Some _ as violation -> (violation, [])
+  | None -> (None, List.map (Array.get t.assumed) (List.fold_left drop all all))

@@ -18,9 +18,22 @@ type verdict =
       these events *)
   | Unsure  (** only a search of all states decides: partial order reduction omitted steps *)
 
-val judge : Dolphin_semantics.Core.program -> State_graph.t -> all:bool -> verdict
-(** [judge p g ~all] is about all runs of [p], [g] being searched; [all] is whether no steps were left out in it. Then
-    it is never [Unsure].
+(** A verdict, and the assumptions on readings that it needs: a run without them is worse. *)
+type judgement = { verdict : verdict; needs : Dolphin_semantics.World.assumption list list }
+
+val judge :
+  Dolphin_semantics.Core.program -> State_graph.t -> all:bool ->
+  assumed:Dolphin_semantics.World.assumption list list -> judgement
+(** [judge p g ~all ~assumed] is about all runs of [p] that meet [assumed], as of
+    {!Dolphin_environment.Environment.options}, [g] being searched; [all] is whether no steps were left out in it. Then
+    it is [Unsure] only where symmetry was used.
+    @raise Dolphin_checker.Limits.Stop *)
+
+val helpful :
+  Dolphin_semantics.Core.program -> State_graph.t -> all:bool ->
+  assumed:Dolphin_semantics.World.assumption list list -> Dolphin_semantics.World.assumption list list
+(** [helpful p g ~all ~assumed] is assumptions with which every fair run would end, where {!judge} finds one that
+    does not; as few as were found, none if symmetry was used or no such assumption is known.
     @raise Dolphin_checker.Limits.Stop *)
 
 val may_go_round : Dolphin_semantics.Core.program -> State_graph.t -> lasso -> bool
@@ -32,7 +45,9 @@ val violation :
   State_graph.t ->
   Dolphin_ltl.Monitor.t ->
   fair:bool ->
-  Dolphin_checker.Breadth_first.violation option
-(** [violation p g m ~fair] is a cycle that a run of [p] may repeat without end, the runs around it accepted by [m], and
-    if [fair], they are fair, or without any event; [g] has been searched with [m], without reductions.
+  assumed:Dolphin_semantics.World.assumption list list ->
+  Dolphin_checker.Breadth_first.violation option * Dolphin_semantics.World.assumption list list
+(** [violation p g m ~fair ~assumed] is a cycle that a run of [p] may repeat without end, the runs around it accepted by
+    [m], and if [fair], they are fair and meet [assumed], or are without any event. Without such a cycle it has the
+    assumptions without which there would be one. [g] has been searched with [m], without reductions.
     @raise Dolphin_checker.Limits.Stop *)

@@ -5,7 +5,7 @@ let violated (found : Search.outcome) =
   let run (property, (verdict : Search.verdict)) =
     match verdict with
     | Violated run -> Some (property, run)
-    | Holds | By_design _ | Unreached _ | Inconclusive _ -> None
+    | Holds | Holds_if _ | By_design _ | Unreached _ | Inconclusive _ -> None
   in
   List.filter_map run found.verdicts
 

@@ -12,75 +12,6 @@ let is_event (t : Transition.t) =
   | Start _ | Check _ | Act _ | Cut _ | Set_time _ | Make | Allocate _ | Recruit _ | Broken _ | Did _ | Silent | Pick _
   | Bind _ | Ask _ | Pause _ | Call _ | Execute | Cannot_execute _ | End | Halt _ | Fault _ -> false
 
-(* {1 Comparisons}
-
-   The semantics spells a comparison in one way: two operands with [<], [>], [==] or [in] between them. *)
-
-type bound = { value : float; closed : bool }
-type range = { least : bound; most : bound }
-
-let split_at symbol text =
-  let n = String.length symbol and length = String.length text in
-  let rec find depth i =
-    if i + n > length then None
-    else if depth = 0 && String.sub text i n = symbol then
-      Some (String.sub text 0 i, String.sub text (i + n) (length - i - n))
-    else
-      match text.[i] with
-      | '(' -> find (depth + 1) (i + 1)
-      | ')' -> find (depth - 1) (i + 1)
-      | _ -> find depth (i + 1)
-  in
-  find 0 0
-
-let from value closed = { least = { value; closed }; most = { value = infinity; closed = false } }
-let upto value closed = { least = { value = neg_infinity; closed = false }; most = { value; closed } }
-
-(* The values of an operand for which the comparison of it with [x] has this outcome, if they are in a row. *)
-let range symbol x holds =
-  match symbol, holds with
-  | "<", true -> Some (upto x false)
-  | "<", false -> Some (from x true)
-  | ">", true -> Some (from x false)
-  | ">", false -> Some (upto x true)
-  | "==", true -> Some { least = { value = x; closed = true }; most = { value = x; closed = true } }
-  | _, _ -> None
-
-let mirrored = function "<" -> ">" | ">" -> "<" | symbol -> symbol
-
-(* The operand that a claim compares with a number, and the values that it may have. *)
-let ranged text holds =
-  let with_symbol symbol =
-    Option.bind (split_at (" " ^ symbol ^ " ") text) (fun (left, right) ->
-        match float_of_string_opt left, float_of_string_opt right with
-        | None, Some x -> Option.map (fun r -> (left, r)) (range symbol x holds)
-        | Some x, None -> Option.map (fun r -> (right, r)) (range (mirrored symbol) x holds)
-        | None, None | Some _, Some _ -> None)
-  in
-  List.find_map with_symbol [ "<"; ">"; "==" ]
-
-let is_empty { least; most } =
-  least.value > most.value || (least.value = most.value && not (least.closed && most.closed))
-
-let common a b =
-  let least =
-    if a.least.value > b.least.value || (a.least.value = b.least.value && not a.least.closed) then a.least else b.least
-  and most =
-    if a.most.value < b.most.value || (a.most.value = b.most.value && not a.most.closed) then a.most else b.most
-  in
-  { least; most }
-
-let contradict (a : World.assumption) (b : World.assumption) =
-  match a, b with
-  | Claim (text, holds), Claim (text', holds') when String.equal text text' -> holds <> holds'
-  | Claim (text, holds), Claim (text', holds') -> (
-      match ranged text holds, ranged text' holds' with
-      | Some (x, r), Some (y, r') -> String.equal x y && is_empty (common r r')
-      | _, _ -> false)
-  | Sensed (s, v, x), Sensed (s', v', x') -> s = s' && String.equal v v' && Value.compare x x' <> 0
-  | Placed (v, p), Placed (v', p') -> String.equal v v' && Dolphin_geo.Position.compare p p' <> 0
-  | (Late _ | Missing _ | Sensed _ | Placed _ | Claim _), _ -> false
-
 (* {1 Concerns} *)
 
 type concerns = World.assumption -> bool
@@ -88,7 +19,11 @@ type concerns = World.assumption -> bool
 let is_letter c = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c = '_'
 let is_digit c = c >= '0' && c <= '9'
 
-(* The names in a text; a name does not begin with a digit. *)
+(* The sensors that take a vehicle. *)
+let of_vehicle = [ "battery"; "position"; "speed"; "connected"; "reading" ]
+
+(* The names in a text; a name does not begin with a digit. The vehicle and the quantity of a sensor are not among
+   them, though a variable may have the name of a vehicle. *)
 let names text =
   let length = String.length text in
   let rec after is_part i = if i < length && is_part text.[i] then after is_part (i + 1) else i in
@@ -98,7 +33,9 @@ let names text =
     else if is_digit text.[i] then go (after (fun c -> in_word c || c = '.') i) found
     else if is_letter text.[i] then
       let j = after in_word i in
-      go j (String.sub text i (j - i) :: found)
+      let name = String.sub text i (j - i) in
+      let is_sensor = List.mem name of_vehicle && j < length && text.[j] = '(' in
+      go (if is_sensor then after (fun c -> c <> ')') j else j) (name :: found)
     else go (i + 1) found
   in
   go 0 []
@@ -122,6 +59,16 @@ let of_date program : concerns = function
     && not (mentions_variable program text)
   | Sensed _ | Placed _ | Late _ | Missing _ -> false
 
+(* {1 Readings} *)
+
+let pp_reading ppf (a : World.assumption) =
+  match a with
+  | Claim (text, true) -> Format.pp_print_string ppf text
+  | Claim (text, false) -> Format.pp_print_string ppf (Comparison.negated text)
+  | Sensed _ | Placed _ | Late _ | Missing _ -> World.pp_assumption ppf a
+
+let pp_readings ppf readings = Fmt.(list ~sep:(any " or ") pp_reading) ppf readings
+
 (* {1 Knowledge} *)
 
 type known = { holds : World.assumption list; fails : World.assumption list }
@@ -130,7 +77,7 @@ let nothing = { holds = []; fails = [] }
 let same a b = World.compare_assumption a b = 0
 
 let agrees known a =
-  (not (List.exists (contradict a) known.holds)) && not (List.exists (same a) known.fails)
+  (not (List.exists (World.contradict a) known.holds)) && not (List.exists (same a) known.fails)
 
 let kept (concerns : concerns) known (looks : t) =
   List.filter (List.for_all (agrees known)) (List.map (List.filter concerns) looks)
@@ -165,3 +112,53 @@ let rec can_agree concerns known all =
   | Ask (one, other) -> can_agree concerns one all || can_agree concerns other all
 
 let agree concerns all = can_agree concerns nothing all
+
+(* {1 Readings that are looked for} *)
+
+let readings (concerns : concerns) (looks : t) =
+  List.sort_uniq World.compare_assumption (List.filter concerns (List.concat looks))
+
+let split_at_any symbol text =
+  let n = String.length symbol and length = String.length text in
+  let rec find i =
+    if i + n > length then None
+    else if String.sub text i n = symbol then Some (String.sub text 0 i, String.sub text (i + n) (length - i - n))
+    else find (i + 1)
+  in
+  find 0
+
+(* The sensors in a text, as {!World.spell} has them. *)
+let rec sensors_in text =
+  let opening name = Option.map (fun (_, rest) -> (name, rest)) (split_at_any (name ^ "(") text) in
+  List.concat_map
+    (fun (name, rest) ->
+       match String.index_opt rest ')' with
+       | Some i ->
+         let after = String.sub rest (i + 1) (String.length rest - i - 1) in
+         Printf.sprintf "%s(%s)" name (String.sub rest 0 i) :: sensors_in after
+       | None -> [])
+    (List.filter_map opening ("now" :: of_vehicle))
+
+let sensors : World.assumption -> string list = function
+  | Claim (text, _) -> ( match sensors_in text with [] -> [ text ] | found -> found)
+  | Sensed (s, v, _) -> [ World.spell s v ]
+  | Placed (v, _) -> [ Printf.sprintf "position(%s)" v ]
+  | Late _ | Missing _ -> []
+
+let are_at concerns wanted looks =
+  let wanted = List.concat_map sensors wanted in
+  List.exists (fun a -> List.exists (fun s -> List.mem s wanted) (sensors a)) (readings concerns looks)
+
+let is_look concerns (looks : t) = List.for_all (List.exists concerns) looks && looks <> []
+let may_show concerns readings looks = agree concerns [ List.map (fun a -> [ a ]) readings; looks ]
+
+let may_repeat program ~assumed cycle =
+  let all = List.map of_transition cycle in
+  let at_one_moment = at_one_moment program in
+  let is_met readings =
+    List.for_all (may_show at_one_moment readings) all
+    || List.exists (fun looks -> are_at at_one_moment readings looks && may_show at_one_moment readings looks) all
+  in
+  agree (of_date program) all
+  && (List.exists is_event cycle || agree at_one_moment all)
+  && List.for_all is_met assumed

@@ -26,6 +26,28 @@ val at_one_moment : Core.program -> concerns
 val of_date : Core.program -> concerns
 (** Comparisons of the date with numbers: on a run without end each of them comes to one outcome, and keeps it. *)
 
+(** {1:readings Readings} *)
+
+val pp_readings : Format.formatter -> World.assumption list -> unit
+(** The disjunction of these, as conditions: ["battery(a) > 0.8"], ["battery(a) is 0.9 or battery(a) is 1"]. *)
+
+val is_look : concerns -> t -> bool
+(** [is_look c looks] is whether a reading that [c] concerns is needed. *)
+
+val are_at : concerns -> World.assumption list -> t -> bool
+(** [are_at c readings looks] is whether [looks], as far as [c] concerns them, are at a sensor of [readings]. *)
+
+val may_show : concerns -> World.assumption list -> t -> bool
+(** [may_show c readings looks] is whether a moment at which one of [readings] is shown can have [looks]. *)
+
+val readings : concerns -> t -> World.assumption list
+(** [readings c looks] is all assumptions in [looks] that [c] concerns. *)
+
+val may_repeat : Core.program -> assumed:World.assumption list list -> Transition.t list -> bool
+(** [may_repeat p ~assumed cycle] is whether a run may repeat these transitions of the script without end: their looks
+    agree, if there is no event among them, those at the date in any case, and each of [assumed] may be shown at a look,
+    or all looks may be at something else. *)
+
 (** {1:known Knowledge} *)
 
 type known

@@ -49,12 +49,19 @@ type run = {
   shortest : bool;
   decided : int option;
   faults : faults option;
+  helpful : World.assumption list list;
 }
 
 type verdict =
   | Holds
   | Violated of run
-  | By_design of { repeats : Core.site list; retries : Core.site list; left_by : string list }
+  | Holds_if of World.assumption list list
+  | By_design of {
+      repeats : Core.site list;
+      retries : Core.site list;
+      left_by : string list;
+      needs : World.assumption list list;
+    }
   | Unreached of Coverage.piece list
   | Inconclusive of Limits.bound
 
@@ -117,48 +124,103 @@ let told verdict =
 
 (* {1 Verdicts} *)
 
+let run_of ?decided ?(shortest = false) ~steps ~cycle () =
+  { steps; cycle; shortest; decided; faults = None; helpful = [] }
+
 let termination_of_script graph ~shortest =
   let run ({ stem; around } : Breadth_first.lasso) =
     let steps, cycle = Rebuilt_run.around graph ~stem around in
     let is_as_short = List.compare_lengths stem steps > 0 && List.compare_lengths around cycle > 0 in
-    { steps; cycle; shortest = shortest && is_as_short; decided = None; faults = None }
+    run_of ~shortest:(shortest && is_as_short) ~steps ~cycle ()
   in
   of_verdict run (State_graph.termination graph ~exact:(State_graph.is_exact graph))
 
+let is_symmetric graph =
+  let space = State_graph.system graph in
+  Space.has_vehicle_symmetry space || Space.used_task_symmetry space
+
+(* Assumptions with which it would hold; they are looked for as long as shortest runs are. *)
+let helpful x (options : options) graph =
+  let by_order = Reduction.by_order options.reduction in
+  let all = not by_order in
+  let assumed = options.environment.recurring in
+  let search graph =
+    if State_graph.stopped graph <> None then [] else Fair_cycles.helpful x.program graph ~all ~assumed in
+  let reads = x.program.reads_sensors || x.program.reads_now in
+  let most = Option.fold ~none:options.search_again ~some:(min options.search_again) options.limits.max_states in
+  match
+    if (not reads) || State_graph.count graph > most then []
+    else if is_symmetric graph then
+      let reduction = if by_order then Reduction.Partial_order else Whole in
+      let limits = { options.limits with max_states = Some most } in
+      let options = { options with reduction; invariants = []; limits } in
+      with_graph ~phase:"looking for assumptions" { x with symmetry = Symmetry.none } options (fun graph ->
+          State_graph.run graph;
+          search graph)
+    else search graph
+  with
+  | found -> found
+  | exception (Limits.Stop _ | Environment.Unclear _ | Out_of_memory) -> []
+
 (* The places where a task may run without end. *)
 let rec termination_of_rounds x (options : options) graph =
-  let shown ({ stem; around } : Fair_cycles.lasso) =
-    let steps, cycle = Rebuilt_run.around graph ~stem around in
-    Violated { steps; cycle; shortest = false; decided = None; faults = None }
-  in
   let all = not (Reduction.by_order options.reduction) in
+  let violated ({ stem; around } : Fair_cycles.lasso) ~helpful =
+    let steps, cycle = Rebuilt_run.around graph ~stem around in
+    Violated { (run_of ~steps ~cycle ()) with helpful }
+  in
   match State_graph.stopped graph with
   | Some bound -> Inconclusive bound
   | None -> (
-      match Fair_cycles.judge x.program graph ~all with
+      let { Fair_cycles.verdict; needs } =
+        Fair_cycles.judge x.program graph ~all ~assumed:options.environment.recurring in
+      match verdict with
+      | Ends when needs <> [] -> Holds_if needs
       | Ends -> Holds
-      | Goes_on lasso | Spins lasso -> shown lasso
-      | By_design { repeats; retries; left_by } -> By_design { repeats; retries; left_by }
-      | Unsure -> in_all_states x options)
+      | Goes_on lasso -> violated lasso ~helpful:(helpful x options graph)
+      | Spins lasso -> violated lasso ~helpful:[]
+      | By_design { repeats; retries; left_by } -> By_design { repeats; retries; left_by; needs }
+      | Unsure -> in_more_states x options graph)
 
-(* Partial order reduction may omit the fair steps. *)
-and in_all_states x options =
-  let options = { options with reduction = Whole; invariants = [] } in
+(* Partial order reduction may omit the fair steps, and symmetry exchange the vehicles whose sensors are looked at. *)
+and in_more_states x options graph =
+  let reduction =
+    if is_symmetric graph && Reduction.by_order options.reduction then Reduction.Partial_order else Reduction.Whole in
+  let options = { options with reduction; invariants = [] } in
   with_graph ~phase:"looking for cycles" { x with symmetry = Symmetry.none } options (fun graph ->
       State_graph.run graph;
       termination_of_rounds x options graph)
 
-let termination x options graph ~shortest =
+(* A cycle that a search without all states met is one only of runs that may go round it. *)
+let of_some_states x (options : options) graph found =
+  match found with
+  | Violated { cycle; _ }
+    when State_graph.stopped graph = None
+      && not (Looks.may_repeat x.program ~assumed:options.environment.recurring cycle) ->
+    termination_of_rounds x options graph
+  | Violated { cycle; _ } when not (Looks.may_repeat x.program ~assumed:options.environment.recurring cycle) ->
+    Inconclusive
+      (Unsettled "the readings on the cycle that was met contradict each other or an assumption of the fleet")
+  | found -> found
+
+let termination x (options : options) graph ~shortest =
   let is_kept = options.walks = None && options.bitstate = None in
+  let by_script () = termination_of_script graph ~shortest in
   if Space.goes_round (State_graph.system graph) then termination_of_rounds x options graph
+  else if not is_kept then of_some_states x options graph (by_script ())
   else
-    match if is_kept then State_graph.termination graph ~exact:(State_graph.is_exact graph) else Holds with
-    | Violated { stem; around } when not (Fair_cycles.may_go_round x.program graph { stem; around }) ->
-      termination_of_rounds x options graph
-    | Holds | Violated _ | Inconclusive _ -> termination_of_script graph ~shortest
+    match State_graph.termination graph ~exact:(State_graph.is_exact graph) with
+    | Holds | Inconclusive _ -> by_script ()
+    | Violated { stem; around } ->
+      if not (Fair_cycles.may_go_round x.program graph { stem; around }) || options.environment.recurring <> [] then
+        termination_of_rounds x options graph
+      else
+        match by_script () with
+        | Violated run -> Violated { run with helpful = helpful x options graph }
+        | (Holds | Holds_if _ | By_design _ | Unreached _ | Inconclusive _) as verdict -> verdict
 
 let run_through graph ~shortest states =
-  { steps = Rebuilt_run.through graph states; cycle = []; shortest; decided = None; faults = None }
+  run_of ~shortest ~steps:(Rebuilt_run.through graph states) ~cycle:[] ()
 
 let invariant graph ~shortest i : verdict =
   match Invariant.broken i, Invariant.trouble i, State_graph.stopped graph with
@@ -206,7 +268,7 @@ let effort_of_state n = max 1 (n * n / 64)
 let with_shortest_runs x (options : options) verdicts =
   let is_sought = function
     | (Property.Termination | Invariant _ | Formula _ | Apart _), _ -> false
-    | _, (Holds | By_design _ | Unreached _ | Inconclusive _) -> false
+    | _, (Holds | Holds_if _ | By_design _ | Unreached _ | Inconclusive _) -> false
     | _, Violated { shortest; _ } -> not shortest
   in
   match List.map fst (List.filter is_sought verdicts) with
@@ -225,7 +287,7 @@ let with_shortest_runs x (options : options) verdicts =
         let shorter (property, verdict) =
           match Option.map shortest (if List.mem property sought then shown graph property else None) with
           | Some (Violated _ as shorter) -> (property, shorter)
-          | Some (Holds | By_design _ | Unreached _ | Inconclusive _) | None -> (property, verdict)
+          | Some (Holds | Holds_if _ | By_design _ | Unreached _ | Inconclusive _) | None -> (property, verdict)
         in
         List.map shorter verdicts)
 
@@ -238,25 +300,25 @@ let formula x (options : options) f : verdict * int * int =
     let tick = State_graph.ticker graph "checking formulas" in
     let run violation =
       let found = Counterexample.of_violation ~tick options.environment x.program x.world graph labelling violation in
-      { steps = found.steps; cycle = found.cycle; shortest = found.decided <> None; decided = found.decided;
-        faults = None }
+      run_of ?decided:found.decided ~shortest:(found.decided <> None) ~steps:found.steps ~cycle:found.cycle ()
     in
-    let in_fair_runs (verdict : _ Breadth_first.verdict) : _ Breadth_first.verdict =
-      let fair = options.fairness = Weak in
+    let in_fair_runs (verdict : _ Breadth_first.verdict) =
+      let fair = options.fairness = Weak and assumed = options.environment.recurring in
       let is_kept stem cycle =
         let around = List.nth stem (List.length stem - 1) :: List.map fst cycle in
-        not (fair && Space.goes_round (State_graph.system graph))
+        not (fair && (assumed <> [] || Space.goes_round (State_graph.system graph)))
         && Fair_cycles.may_go_round x.program graph { stem; around }
       in
       match verdict with
       | Violated (Breadth_first.Around { stem; cycle }) when not (is_kept stem cycle) -> (
-          match Fair_cycles.violation x.program graph (Labelling.monitor labelling) ~fair with
-          | Some violation -> Violated violation
-          | None -> Holds)
-      | Holds | Violated _ | Inconclusive _ -> verdict
+          match Fair_cycles.violation x.program graph (Labelling.monitor labelling) ~fair ~assumed with
+          | Some violation, _ -> Violated (run violation)
+          | None, [] -> Holds
+          | None, needs -> Holds_if needs)
+      | Holds | Violated _ | Inconclusive _ -> of_verdict run verdict
     in
     State_graph.run graph;
-    let verdict = told (fun () -> of_verdict run (in_fair_runs (State_graph.formula graph))) in
+    let verdict = told (fun () -> in_fair_runs (State_graph.formula graph)) in
     (verdict, State_graph.count graph, State_graph.memory graph)
   in
   match
@@ -451,7 +513,7 @@ let in_step options program world ~image found =
   in
   let of_verdict (property, verdict) =
     match verdict with
-    | Holds | By_design _ | Unreached _ | Inconclusive _ -> Some (property, verdict)
+    | Holds | Holds_if _ | By_design _ | Unreached _ | Inconclusive _ -> Some (property, verdict)
     | Violated ({ steps; cycle; _ } as run) ->
       let real ({ steps; cycle } : Lockstep.run) =
         (property,
@@ -500,17 +562,31 @@ let reductions o =
   @ (if o.vehicle_symmetry then [ "symmetry of vehicles" ] else [])
   @ if o.alike_values then [ "symmetry of values" ] else []
 
+let pp_needs ppf needs =
+  let one ppf readings = Format.fprintf ppf "%a recurs" Looks.pp_readings readings in
+  Format.fprintf ppf "if %a" Fmt.(list ~sep:(any " and ") one) needs
+
+let needs o =
+  let of_verdict = function
+    | _, (Holds_if needs | By_design { needs; _ }) -> needs
+    | _, (Holds | Violated _ | Unreached _ | Inconclusive _) -> []
+  in
+  let compare = List.compare World.compare_assumption in
+  List.sort_uniq compare (List.concat_map of_verdict o.verdicts)
+
 let faults_text { number; _ } =
   match number with 0 -> "without a fault" | 1 -> "with 1 fault" | n -> Printf.sprintf "with %d faults" n
 
 let pp_verdict (program : Core.program) ppf (property, verdict) =
   let print format = Format.fprintf ppf format in
+  let with_help found = if found.helpful <> [] then print "; holds %a" pp_needs found.helpful in
   let steps n = if n = 1 then "1 step" else Printf.sprintf "%d steps" n in
   let with_faults { faults; _ } = Option.fold faults ~none:"" ~some:(fun faults -> ", " ^ faults_text faults) in
   print "%a: " Property.pp property;
   match verdict with
   | Holds -> print "holds"
-  | By_design { repeats; retries; left_by } ->
+  | Holds_if needs -> print "holds %a" pp_needs needs
+  | By_design { repeats; retries; left_by; needs } ->
     let at ppf (word, site) =
       match Fault.location program (Fault.make site "") with
       | Some at -> Format.fprintf ppf "%s at %a" word Dolphin_syntax.Location.pp at
@@ -518,7 +594,8 @@ let pp_verdict (program : Core.program) ppf (property, verdict) =
     in
     let all = List.map (fun site -> ("repeat", site)) repeats @ List.map (fun site -> ("retry", site)) retries in
     let left_by = if left_by = [] then "nothing that may happen here" else String.concat ", " left_by in
-    print "by design not: %a; ended by %s" (Fmt.list ~sep:(Fmt.any ", ") at) all left_by
+    print "by design not: %a; ended by %s" (Fmt.list ~sep:(Fmt.any ", ") at) all left_by;
+    if needs <> [] then print "; only this, %a" pp_needs needs
   | Violated ({ steps = run; cycle = []; _ } as found) when property = Assertions -> (
       print "violated after %s%s: " (steps (List.length run)) (with_faults found);
       match (List.nth run (List.length run - 1)).next.control with
@@ -533,7 +610,8 @@ let pp_verdict (program : Core.program) ppf (property, verdict) =
     print "violated after %s%s: %s" (steps (List.length run)) (with_faults found) (Property.question property)
   | Violated ({ steps = run; cycle; _ } as found) ->
     print "violated%s: after %s, %s that can repeat without end" (with_faults found) (steps (List.length run))
-      (steps (List.length cycle))
+      (steps (List.length cycle));
+    with_help found
   | Unreached pieces ->
     let piece ppf (p : Coverage.piece) =
       match Fault.location program (Fault.make p.site "") with

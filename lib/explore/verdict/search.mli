@@ -87,6 +87,8 @@ type run = {
   (** after how many steps a formula is known not to hold, whatever follows, or if the run rests there; then
       [shortest] speaks of these steps. [None]: the cycle violates it, or no formula is asked *)
   faults : faults option;  (** by {!Fewest_faults}; [None] from {!run} *)
+  helpful : World.assumption list list;
+  (** of termination: assumptions on readings ({!Environment.options}) with which it would hold, if some are known *)
 }
 
 (** The verdict on one property. [Unreached] is of {!Property.All_reached}: the pieces that no run reaches. *)
@@ -94,7 +96,14 @@ type verdict =
   | Holds
   | Violated of run  (** without reduction, or if [search_again] states suffice, by a shortest run; for cycles,
                           without reduction, one with a shortest way to the cycle *)
-  | By_design of { repeats : Core.site list; retries : Core.site list; left_by : string list }
+  | Holds_if of World.assumption list list
+  (** of runs that meet these assumptions on readings, which [environment.recurring] has; not of all *)
+  | By_design of {
+      repeats : Core.site list;
+      retries : Core.site list;
+      left_by : string list;
+      needs : World.assumption list list;  (** of runs that meet these assumptions; otherwise it is violated *)
+    }
   (** of termination: fair runs are endless only by rounds of these, each a [repeat] without end, or by [retry()] of
       these handlers, which may be [left_by] these events *)
   | Unreached of Coverage.piece list
@@ -137,6 +146,12 @@ val run :
 val reductions : outcome -> string list
 (** Those that were used: {!Reduction.names}, and ["symmetry of vehicles"] for [vehicle_symmetry],
     ["symmetry of values"] for [alike_values]. *)
+
+val needs : outcome -> World.assumption list list
+(** The assumptions on readings that its verdicts need. *)
+
+val pp_needs : Format.formatter -> World.assumption list list -> unit
+(** ["if battery(a) > 0.8 recurs"] *)
 
 val faults_text : faults -> string
 (** ["without a fault"], ["with 2 faults"] *)

@@ -96,6 +96,13 @@ let carries devices state =
 
 (* {1 Open worlds} *)
 
+let contradict a b =
+  match a, b with
+  | Claim (text, holds), Claim (text', holds') -> Comparison.contradict (text, holds) (text', holds')
+  | Sensed (s, v, x), Sensed (s', v', x') -> s = s' && String.equal v v' && Value.compare x x' <> 0
+  | Placed (v, p), Placed (v', p') -> String.equal v v' && Position.compare p p' <> 0
+  | (Late _ | Missing _ | Sensed _ | Placed _ | Claim _), _ -> false
+
 let spell (s : Core.sensor) v =
   match s with
   | Battery -> Printf.sprintf "battery(%s)" v
@@ -182,7 +189,11 @@ let places_of world state =
   match position world state with Shows p -> [ p ] | One_of ps -> ps | Anything -> [ state.position ]
 
 let claim world text =
-  let supposed = function Claim (text', holds) when String.equal text text' -> Some holds | _ -> None in
-  Option.to_result ~none:[ Claim (text, true); Claim (text, false) ] (List.find_map supposed world.supposed)
+  let yes = Claim (text, true) and no = Claim (text, false) in
+  let excludes a = List.exists (contradict a) world.supposed in
+  if world.supposed = [] then Error [ yes; no ]
+  else if excludes no then Ok true
+  else if excludes yes then Ok false
+  else Error [ yes; no ]
 
 let claims world = List.length (List.filter (function Claim _ -> true | _ -> false) world.supposed)

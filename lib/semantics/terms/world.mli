@@ -86,6 +86,10 @@ type assumption =
 val compare_assumption : assumption -> assumption -> int
 (** A total order. *)
 
+val contradict : assumption -> assumption -> bool
+(** [contradict a b] is whether no moment has both: a comparison has both outcomes, a sensor shows two values, or no
+    number satisfies two comparisons of one quantity with numbers. *)
+
 val pp_assumption : Format.formatter -> assumption -> unit
 (** ["battery(x8-02) is 0.2"], ["battery(x8-02) < 0.3 is true"], ["x8-02 is missing"]. *)
 
@@ -156,7 +160,8 @@ val place : t -> vehicle_state -> (Dolphin_geo.Position.t, question) result
 (** [place w s] is the place of [s], or if that may be anywhere, [s.position]: for picking and allocating. *)
 
 val claim : t -> string -> (bool, question) result
-(** [claim w text] is whether a comparison with an open value holds. *)
+(** [claim w text] is whether a comparison with an open value holds: open, unless some claim that was supposed of [w]
+    decides it. *)
 
 val claims : t -> int
 (** [claims w] is how many claims were supposed of [w]. *)

@@ -1,0 +1,84 @@
+A loop until the battery is charged ends if that happens some time. Without an assumption the verdict names the readings
+whose recurrence would make it end.
+
+  $ explore() { dolphin explore "$@" | grep -e ^termination: -e ^formula; }
+  $ cat > world.fleet <<'EOF'
+  > vehicle 'a', { type 'UUV' }
+  > vehicle 'b', { type 'UUV' }
+  > plan 'charge', { duration 3.min, 9.min }
+  > plan 'survey', { duration 3.min, 9.min }
+  > EOF
+  $ cp world.fleet assuming.fleet
+  $ echo "assume eventually { battery('a') > 0.8 }" >> assuming.fleet
+  $ cat > recharge.dol <<'EOF'
+  > v = pick { id 'a' }
+  > execute task('survey')[v] >> (repeat task('charge')[v] until { battery(v) >= 0.5 })
+  > EOF
+  $ explore recharge.dol --fleet world.fleet
+  termination: violated: after 5 steps, 3 steps that can repeat without end; holds if battery(a) >= 0.5 recurs
+  termination: a run in which the program may never end
+  $ explore recharge.dol --fleet assuming.fleet --ltl 'F ended' --ltl 'G !fail'
+  termination: holds if battery(a) > 0.8 recurs
+  formula F ended: holds if battery(a) > 0.8 recurs
+  formula G !fail: holds
+  $ dolphin explore recharge.dol --fleet assuming.fleet --ltl 'F ended' --fairness none | grep ^formula.*violated
+  formula F ended: violated: after 5 steps, 3 steps that can repeat without end
+  $ dolphin explore recharge.dol --fleet assuming.fleet --json | jq -c '.verdicts[] | select(.property == "termination")'
+  {"property":"termination","verdict":"holds","assuming":["battery(a) > 0.8"]}
+
+The same in the script, with a variable that has the vehicle's name, and by branches.
+
+  $ cat > script.dol <<'EOF'
+  > a = pick { id 'a' }
+  > while (battery(a) < 0.5) { execute task('charge')[a] }
+  > EOF
+  $ explore script.dol --fleet assuming.fleet
+  termination: holds if battery(a) > 0.8 recurs
+  $ cat > branches.dol <<'EOF'
+  > v = pick { id 'a' }
+  > done = false
+  > execute repeat oneOf {
+  >   when { battery(v) < 0.8 } then task('charge')[v]
+  >   when { battery(v) >= 0.8 } then action { done = true }
+  > } until { done }
+  > EOF
+  $ explore branches.dol --fleet assuming.fleet
+  termination: holds if battery(a) > 0.8 recurs
+
+Another reading does not help, nor that of another vehicle; with a parameter the assumption is about each. A vehicle that
+is picked may be any: the states are searched without symmetry.
+
+  $ sed 's/>= 0.5/< 0.1/' recharge.dol > empty.dol
+  $ explore empty.dol --fleet assuming.fleet | head -1
+  termination: violated: after 5 steps, 3 steps that can repeat without end; holds if battery(a) < 0.1 recurs
+  $ sed "s/id 'a'/count 1/" recharge.dol > any.dol
+  $ explore any.dol --fleet assuming.fleet | head -1
+  termination: violated: after 5 steps, 3 steps that can repeat without end; holds if battery(b) >= 0.5 recurs
+  $ cp world.fleet each.fleet
+  $ echo 'assume eventually { v -> battery(v) > 0.8 }' >> each.fleet
+  $ explore any.dol --fleet each.fleet
+  termination: holds if battery(a) > 0.8 recurs and battery(b) > 0.8 recurs
+
+What is endless by design stays so, and a spin is one in any case.
+
+  $ cat > patrol.dol <<'EOF'
+  > v = pick { id 'a' }
+  > execute repeat (task('survey')[v] >> (repeat task('charge')[v] until { battery(v) > 0.8 }))
+  > EOF
+  $ explore patrol.dol --fleet world.fleet | head -1
+  termination: violated: after 5 steps, 3 steps that can repeat without end
+  $ explore patrol.dol --fleet assuming.fleet
+  termination: by design not: repeat at patrol.dol:2:9; ended by nothing that may happen here; only this, if battery(a) > 0.8 recurs
+  $ cat > spin.dol <<'EOF'
+  > v = pick { id 'a' }
+  > while (battery(v) <= 0.8) { message 'low' }
+  > EOF
+  $ explore spin.dol --fleet assuming.fleet --ltl 'F ended' | grep -v run
+  termination: violated: after 3 steps, 1 step that can repeat without end
+  formula F ended: violated: after 3 steps, 1 step that can repeat without end
+
+An assumption does not matter to a program that reads no sensor.
+
+  $ echo "message 'hello'" > hello.dol
+  $ dolphin explore hello.dol --fleet assuming.fleet 2>&1 | grep sensor
+  dolphin: assuming.fleet:5:1: the program reads no sensor, so assume(eventually { battery('a') > 0.8 }) does not matter

@@ -27,7 +27,7 @@ let command =
       Exec_command.command;
       Explore_command.command; Fleet_command.command; Fmt_command.command; Lsp_command.command; Lts_command.command;
       New_command.command; Parse_command.command; Plan_command.command; Platform_command.command;
-      Post_command.command; Runs_command.command; Sim_command.command; Step_command.command;
+      Post_command.command; Replace_command.command; Runs_command.command; Sim_command.command; Step_command.command;
       Successors_command.command; Time_command.command;
       Tla_command.command; Trace_command.command; Walk_command.command ] in
   let help = Help_command.command ~others:(List.map Cmd.name commands) in

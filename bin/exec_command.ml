@@ -34,7 +34,7 @@ let on_terminal show (s : Run.settings) program run : Exit_status.t =
   in
   match Terminal_run.run ~notice:Report.complain ~again show program run with
   | Error e -> Report.error e
-  | Ok outcome -> (
+  | Ok (outcome, program) -> (
       Option.iter Report.tell (Run.explain program outcome);
       match outcome with
       | Ended Completed -> Done

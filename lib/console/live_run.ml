@@ -17,7 +17,7 @@ type state = Running | Stopping | Over of (Driver.outcome, Error.t) result
 
 type t = {
   id : string;
-  order : order;
+  mutable order : order;
   journal : string option;
   enacts : string option;  (* the property that a counterexample breaks *)
   feed : Feed.t;
@@ -162,6 +162,12 @@ let answer ?by r number text =
 
 (* {1 The run} *)
 
+let replaced r program replay =
+  r.order <- { r.order with program };
+  Narrator.replaced r.narrator program (Dolphin_trace.Replay.configuration replay);
+  remark r ("the run goes on with " ^ program.path);
+  will_tell_waiting r
+
 let front r : Run.front =
   { replayed =
       (fun entry replay ->
@@ -170,7 +176,7 @@ let front r : Run.front =
          Narrator.replayed r.narrator entry replay);
     notice = remark r;
     opened = begun r;
-    remark = remark r; observer = observer r; person = person r; wants_telemetry = true }
+    remark = remark r; replaced = replaced r; observer = observer r; person = person r; wants_telemetry = true }
 
 let follower r entry = Narrator.entry r.narrator entry
 
@@ -190,7 +196,7 @@ let begin_ ~id ~changed ?journal ?enacts order go =
   let finished, finish = Lwt.wait () and opened, open_ = Lwt.wait () in
   let view : Run.view =
     { now = (fun () -> 0.); estimates = (fun () -> []); post = (fun _ _ -> Lwt.return_false);
-      questions = (fun () -> []); acted = (fun _ -> Ok ()) } in
+      questions = (fun () -> []); replace = Replacement.refused; acted = (fun _ -> Ok ()) } in
   let r =
     { id; order; journal; enacts; feed;
       narrator = Narrator.make order.program (fun ~event data -> Feed.add feed ~event data);

@@ -7,7 +7,7 @@ module Canonical = Dolphin_json.Canonical
 type tell = event:string -> string -> unit
 
 type t = {
-  program : Program_file.t;
+  mutable program : Program_file.t;
   tell_ : tell;
   mutable log : Log.t;
   mutable world : World.t;
@@ -72,6 +72,10 @@ let transition n ~stuck ~time (t : Transition.t) =
   List.iter (line n ~time) lines
 
 let configuration n = n.configuration
+
+let replaced n program configuration =
+  n.program <- program;
+  n.configuration <- configuration
 
 let news n ~time state =
   n.world <- World.add state n.world;

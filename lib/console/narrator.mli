@@ -22,6 +22,9 @@ val transition : t -> stuck:bool -> time:float -> Transition.t -> unit
 val configuration : t -> Configuration.t
 (** The configuration after the latest transition. *)
 
+val replaced : t -> Dolphin_app.Program_file.t -> Dolphin_semantics.Configuration.t -> unit
+(** The run goes on with this program, in this configuration. *)
+
 val news : t -> time:float -> World.vehicle_state -> unit
 (** The lines of the log about this report on a vehicle, if there are any. *)
 

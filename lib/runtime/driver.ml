@@ -38,6 +38,8 @@ type beginning = {
   time : float;
 }
 
+type replacement = { program : Core.program; configuration : Configuration.t }
+
 let afresh program order =
   { configuration = Configuration.initial program; world = World.nobody order; news = []; pending = None;
     transitions = 0; time = 0. }
@@ -83,23 +85,26 @@ type news =
   | Asked_again  (* an answer was neither yes nor no *)
   | Date_reached  (* code that reads the date may do something else now *)
   | Unanswered of Residual.timer  (* unanswered here, but it may be answered elsewhere *)
+  | Offered of (unit -> replacement option)  (* another program *)
   | Nothing_more
 
 module Make (P : Platform.S) = struct
   type t = {
     platform : P.t;
-    program : Core.program;
+    mutable program : Core.program;
     console : Console.t;
     call : call;
     observer : Observer.t;
     always_telemetry : bool;
     breakable : Breakable.t;
     inputs : Inputs.t;
+    replacements : (unit -> replacement option) Lwt_mvar.t option;
+    mutable offered : news Lwt.t option;  (* the next of them, if it was asked for *)
     mutable interruptions : news Lwt.t list;  (* those to come, the next one first *)
     mutable configuration : Configuration.t;
     mutable taken : int;  (* transitions of the run *)
     mutable world : World.t;
-    dates : Dated_code.t;
+    mutable dates : Dated_code.t;
     mutable moment : float;  (* the time of the world, if the program reads it *)
     mutable alarm : int option;  (* the date for which the platform's timer is set *)
     mutable alarms : int;  (* that rang since the latest event *)
@@ -374,6 +379,18 @@ module Make (P : Platform.S) = struct
       s.posted <- Some promise;
       promise
 
+  (* A reply of the host may hold a task, which has the place of the call: that call ends with its own program. *)
+  let next_replacement s =
+    let ask replacements =
+      let promise = Lwt_mvar.take replacements >|= fun offer -> Offered offer in
+      s.offered <- Some promise;
+      promise
+    in
+    match s.configuration.control, s.offered with
+    | Waiting (_, Host_call _), _ -> []
+    | (Script _ | Waiting _ | Executing _ | Ended _), Some promise -> [ promise ]
+    | (Script _ | Waiting _ | Executing _ | Ended _), None -> List.map ask (Option.to_list s.replacements)
+
   let next_interruption s = match s.interruptions with next :: _ -> [ next ] | [] -> []
 
   (* Pairs that the program neither declares nor asks for cannot be posted. *)
@@ -386,16 +403,17 @@ module Make (P : Platform.S) = struct
     s.reply <- Option.bind s.reply unless;
     s.interruptions <- List.filter (fun p -> p != promise) s.interruptions;
     s.posted <- Option.bind s.posted unless;
+    s.offered <- Option.bind s.offered unless;
     Task_questions.forget s.questions promise
 
-  (* The next piece of news: of several that are there, an interruption before a reply before inputs and the
-     platform's, which take turns: posting cannot delay the vehicles' news. *)
+  (* The next piece of news: of several that are there, an interruption before another program before a reply before
+     inputs and the platform's, which take turns: posting cannot delay the vehicles' news. *)
   let next_news s =
     let answers = Option.to_list s.reply @ Option.to_list (Task_questions.shown s.questions) in
     let platform = if P.virtual_time && answers <> [] then [] else [ next_of_platform s ] in
     let inputs = inputs_of s in
     let others = if s.input_before then platform @ inputs else inputs @ platform in
-    let sources = next_interruption s @ answers @ others in
+    let sources = next_interruption s @ next_replacement s @ answers @ others in
     let rec first_of = function
       | promise :: _ when is_resolved promise -> forget s promise; promise
       | _ :: others -> first_of others
@@ -441,7 +459,7 @@ module Make (P : Platform.S) = struct
                  | Posted item -> ignore (take_input s item)
                  | Event event -> ignore (deliver_if_any s event)
                  | Date_reached -> s.alarm <- None
-                 | Asked_again | Unanswered _ | Nothing_more -> ());
+                 | Asked_again | Unanswered _ | Offered _ | Nothing_more -> ());
                 catch_up s))
 
   (* {1 The run} *)
@@ -483,6 +501,17 @@ module Make (P : Platform.S) = struct
     end
 
   let interrupt s = ignore (deliver s Interruption)
+
+  (* {2 Another program} *)
+
+  (* Tasks, timers, questions and calls that go on are those of the new configuration, so nothing is commanded. *)
+  let replace s ({ program; configuration } : replacement) =
+    s.program <- program;
+    s.configuration <- configuration;
+    s.dates <- Dated_code.of_program program;
+    s.unknown <- [];
+    s.steps <- 0;
+    forget_rounds s
 
   (* Goes on with [f s], after others had their turn if it is time. *)
   let continue s f =
@@ -560,6 +589,10 @@ module Make (P : Platform.S) = struct
     | Date_reached -> s.alarm <- None; s.alarms <- s.alarms + 1; continue s advance
     | Asked_again -> continue s (wait ~sensitive)
     | Unanswered question -> Task_questions.leave s.questions question; wait ~sensitive s
+    | Offered offer -> (
+        match offer () with
+        | Some replacement -> replace s replacement; continue s advance
+        | None -> continue s (wait ~sensitive))
     | Nothing_more -> (
         match s.configuration.control with
         | Executing (_, r) -> give_up s (Stuck r)
@@ -586,10 +619,12 @@ module Make (P : Platform.S) = struct
     Option.iter Lwt.cancel s.reply;
     Option.iter Lwt.cancel (Task_questions.shown s.questions);
     Option.iter Lwt.cancel s.posted;
+    Option.iter Lwt.cancel s.offered;
     (match Option.map Lwt.state s.posted with
      | Some (Return (Posted item)) -> Inputs.tell item false
      | Some
-         (Return (Seen _ | Event _ | Date_reached | Asked_again | Unanswered _ | Nothing_more) | Sleep | Fail _)
+         ( Return (Seen _ | Event _ | Date_reached | Asked_again | Unanswered _ | Offered _ | Nothing_more)
+         | Sleep | Fail _ )
      | None -> ());
     Inputs.close s.inputs;
     P.close s.platform
@@ -605,11 +640,12 @@ module Make (P : Platform.S) = struct
     attempt (fun () -> stop s.configuration);
     Lwt.catch (fun () -> finish s) (fun _ -> Lwt.return_unit)
 
-  let run platform ~always_telemetry ~observer ~call ~inputs ~console ~interruptions ~breakable
+  let run platform ~always_telemetry ~observer ~call ~inputs ~replacements ~console ~interruptions ~breakable
       ~(beginning : beginning) program =
     let interruption promise = Lwt.protected promise >|= fun () -> Event (Ok Interruption) in
     let s =
-      { platform; program; console; call; observer; always_telemetry; inputs; breakable;
+      { platform; program; console; call; observer; always_telemetry; inputs; replacements; offered = None;
+        breakable;
         interruptions = List.map interruption interruptions;
         configuration = beginning.configuration;
         taken = beginning.transitions;
@@ -632,20 +668,20 @@ module Make (P : Platform.S) = struct
 end
 
 let run (type platform) (module P : Platform.S with type t = platform) (platform : platform)
-    ?(always_telemetry = false) ?(observer = Observer.nobody) ?(host = no_host) ?inputs ?beginning ?fenced ~console
-    ~interruption ?again ?breakable (program : Core.program) =
+    ?(always_telemetry = false) ?(observer = Observer.nobody) ?(host = no_host) ?inputs ?replacements ?beginning ?fenced
+    ~console ~interruption ?again ?breakable (program : Core.program) =
   let inputs = match inputs with Some inputs -> inputs | None -> Inputs.create () in
   let interruptions = interruption :: Option.to_list again in
   let breakable = match breakable with Some breakable -> breakable | None -> Breakable.make () in
   let beginning = Option.value beginning ~default:(afresh program P.order) in
   if Fences.is_none program.fences then
     let module Driver = Make (P) in
-    Driver.run platform ~always_telemetry ~observer ~call:host ~inputs ~console ~interruptions ~breakable ~beginning
-      program
+    Driver.run platform ~always_telemetry ~observer ~call:host ~inputs ~replacements ~console ~interruptions
+      ~breakable ~beginning program
   else
     let module Fenced = Fenced.Make (P) in
     let module Driver = Make (Fenced) in
     let past : Fence_guard.past = Option.value fenced ~default:(Fence_guard.replay program.fences []) in
     let platform = Fenced.make past.guard ~untold:past.untold platform in
-    Driver.run platform ~always_telemetry ~observer ~call:host ~inputs ~console ~interruptions ~breakable ~beginning
-      program
+    Driver.run platform ~always_telemetry ~observer ~call:host ~inputs ~replacements ~console ~interruptions
+      ~breakable ~beginning program

@@ -62,6 +62,10 @@ type beginning = {
   time : float;  (** of the latest line of its journal *)
 }
 
+(** A program with which a run goes on, instead of the program that it began with. [configuration] is that of the run,
+    as one of [program]: the same platform tasks, timers, questions and calls go on in it. *)
+type replacement = { program : Core.program; configuration : Configuration.t }
+
 val run :
   (module Platform.S with type t = 'platform) ->
   'platform ->
@@ -69,6 +73,7 @@ val run :
   ?observer:Observer.t ->
   ?host:call ->
   ?inputs:Inputs.t ->
+  ?replacements:(unit -> replacement option) Lwt_mvar.t ->
   ?beginning:beginning ->
   ?fenced:Fence_guard.past ->
   console:Console.t ->
@@ -92,6 +97,10 @@ val run :
     The run begins with the program, or at [beginning], and [platform] is one that stands as it did then: tasks that the
     program has started and not ended run, its timers too. A question that was not answered, or a call of the host
     without reply, is made again.
+
+    A function in [replacements] is called while the run waits for an event and no transition is left, unless it waits
+    for a reply of the host, which comes first. With its replacement the run goes on at once, and nothing is commanded
+    by the change itself. It has the fences of [program].
 
     If [program] has fences, {!Fenced} keeps the vehicles to them, from the state [fenced] of the run so far on.
 

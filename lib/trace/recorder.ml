@@ -9,7 +9,7 @@ type vehicle = {
 }
 
 type t = {
-  program : Core.program;
+  mutable program : Core.program;
   period : float;
   write : Entry.t -> unit;
   vehicles : (Core.vehicle, vehicle) Hashtbl.t;
@@ -121,6 +121,13 @@ let transition ?(unasked = fun _ -> false) r ~time ~cause (t : Transition.t) =
   r.write (Transition { time = r.time; index = r.transitions; step; ways = ways r t });
   r.transitions <- r.transitions + 1;
   r.configuration <- t.next
+
+let replace r ~time program ~line replay =
+  pass r time;
+  catch_up r;
+  r.program <- program;
+  r.configuration <- Replay.configuration replay;
+  r.write (line ~time:r.time)
 
 let finish r ~time ~stuck =
   pass r time;

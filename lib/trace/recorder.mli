@@ -30,6 +30,10 @@ val transition :
 val news : t -> time:float -> World.vehicle_state -> unit
 (** [news r ~time state] writes what is known of a vehicle now, or keeps it to be written later. *)
 
+val replace : t -> time:float -> Core.program -> line:(time:float -> Entry.t) -> Replay.t -> unit
+(** [replace r ~time program ~line replay] writes [line], at [time] or later as {!write} does; from then on the run is
+    one of [program], whose configuration is that of [replay], which has read the journal so far. *)
+
 val finish : t -> time:float -> stuck:bool -> unit
 (** The run is over. With [~stuck:true] its interruption was the end of a stuck program, and not a person's wish.
     Nothing is written of a run that did not end: of one that an exception broke. *)

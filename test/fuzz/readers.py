@@ -20,6 +20,7 @@ INPUTS_FLEET = b"vehicle 'lauv-1', { type 'UUV' }\nplan 'survey', { duration 10.
 REQUESTS = b"""{"request": "status", "id": 1}
 {"request": "post", "key": "n", "value": {"latitude": 41.18, "longitude": -8.7}, "id": "a"}
 {"request": "post", "key": "n", "value": [1, 1.5, "text", {"vehicles": ["lauv-1"]}, true]}
+{"request": "replace", "program": "/nowhere/a.dol", "hash": "0", "set": {"n": "1"}, "id": 2}
 {"request": "follow"}
 {"request": "post", "key": "over", "value": true}
 {"request": "stop"}

@@ -1,6 +1,7 @@
 (* Journals and displays never change a run: random programs on random fleets, with and without a journal, a picture,
    a follower, telemetry for displays, debug messages. Transitions, their times and causes, the outcome and the time
-   of the end are compared. PROGRAMS in the environment is the number of programs, 150 by default. *)
+   of the end are compared. Nor does a replacement of the program by itself, or by one that differs later, when it is
+   made: the run is that of the new program. PROGRAMS in the environment is the number of programs, 150 by default. *)
 
 open Dolphin_semantics
 open Dolphin_runtime
@@ -11,7 +12,16 @@ module Calls = Test_support.Calls
 
 (* {1 Kinds of recording} *)
 
-type kind = { name : string; recording : Recording.settings; telemetry : bool; messages : bool }
+(* Another program in a file, asked for at some transitions. *)
+type other = { path : string; is_due : int -> bool }
+
+type kind = {
+  name : string;
+  recording : Recording.settings;
+  telemetry : bool;
+  messages : bool;
+  other : other option;
+}
 
 let temporary ending = Filename.temp_file "dolphin" ending
 
@@ -24,7 +34,7 @@ let with_temporary f =
 let kinds ~journal ~picture =
   let nothing = Recording.nothing in
   let kind ?(recording = nothing) ?(telemetry = false) ?(messages = false) name =
-    { name; recording; telemetry; messages } in
+    { name; recording; telemetry; messages; other = None } in
   let drawing = Result.to_option (Drawing.of_path picture) in
   [ kind "a journal" ~recording:{ nothing with journal = Some journal };
     kind "a picture" ~recording:{ nothing with drawing };
@@ -50,19 +60,34 @@ let silent =
 
 let cause ppf = function None -> () | Some event -> Dolphin_trace.Event.(pp ppf (of_event event))
 
+let replaced = ref 0
+let refused = ref None
+
+let ask_for other (view : Run.view) n =
+  if other.is_due n then
+    Lwt.async (fun () ->
+        Lwt.map
+          (function
+            | Ok _ -> incr replaced
+            | Error (Replacement.Busy | Over) -> ()
+            | Error (No_journal | Wrong_program _ | Differs _ as refusal) ->
+              refused := Some (Replacement.message refusal))
+          (view.replace other.path))
+
 (* The run, a line for each transition, and its end. *)
-let happened (program : Program_file.t) scenario ~seed { recording; telemetry; messages; name = _ } =
+let happened (program : Program_file.t) scenario ~seed { recording; telemetry; messages; other; name = _ } =
   let lines = ref [] and left = ref most_transitions in
   let add line = lines := line :: !lines in
+  let view = ref None in
   let transition ~time ~cause:why (t : Transition.t) =
     if !left = 0 then raise Enough;
     decr left;
-    add (Format.asprintf "%g %a %a" time Label.pp t.label cause why)
+    add (Format.asprintf "%g %a %a" time Label.pp t.label cause why);
+    Option.iter (fun other -> Option.iter (fun view -> ask_for other view !left) !view) other
   in
-  let now = ref (fun () -> 0.) in
   let front =
     { Run.unattended with
-      wants_telemetry = telemetry; opened = (fun view -> now := view.now);
+      wants_telemetry = telemetry; opened = (fun opened -> view := Some opened);
       observer = { Observer.nobody with transition } }
   in
   let fleet = { Fleet_file.nobody with scenario } in
@@ -70,7 +95,9 @@ let happened (program : Program_file.t) scenario ~seed { recording; telemetry; m
   Logs.set_reporter silent;
   Logs.set_level (if messages then Some Debug else None);
   (match Lwt_main.run (Run.start front ~interruption:(Interruption.make ()) settings program fleet) with
-   | Ok outcome -> add (Format.asprintf "%g %a" (!now ()) Driver.pp_outcome outcome)
+   | Ok outcome ->
+     let time = Option.fold !view ~none:0. ~some:(fun (view : Run.view) -> view.now ()) in
+     add (Format.asprintf "%g %a" time Driver.pp_outcome outcome)
    | Error e -> add (Format.asprintf "%a" Error.pp e)
    | exception Enough -> add "and so on");
   List.rev !lines
@@ -87,12 +114,14 @@ let first_difference plain recorded =
 
 let compared = ref 0
 
+let program_of source : Program_file.t =
+  { path = "random.dol"; source; parameters = []; set = []; program = Test_support.Pure_run.compile_exn source;
+    warnings = []; ast = []; without_place = lazy []; plans = (fun ~place:_ -> []) }
+
+let plain = { name = ""; recording = Recording.nothing; telemetry = false; messages = false; other = None }
+
 let is_unchanged ~seed scenario source =
-  let program : Program_file.t =
-    { path = "random.dol"; source; parameters = []; set = []; program = Test_support.Pure_run.compile_exn source;
-      warnings = []; ast = []; without_place = lazy []; plans = (fun ~place:_ -> []) }
-  in
-  let plain = { name = ""; recording = Recording.nothing; telemetry = false; messages = false } in
+  let program = program_of source in
   let expected = happened program scenario ~seed plain in
   compared := !compared + List.length expected;
   let check ~journal kind =
@@ -166,6 +195,43 @@ let random_runs (source, scenario, seed) =
   if is_program source then is_unchanged ~seed scenario source;
   true
 
+(* {1 Replacements} *)
+
+(* The new program goes on where the old one ends, with a function and a date that the old one does not have. *)
+let longer source =
+  source ^ "def last(text) { message text }\nexecute condition { now() > 300 }\nlast('longer')\n"
+
+(* When a program is stuck depends on the dates that it has. *)
+let is_stuck line = String.ends_with ~suffix:"interrupt an interruption" line
+
+let is_replaced ~seed scenario ~every source =
+  let check ~name source' =
+    with_temporary (fun ~journal ~picture:_ ->
+        let path = temporary ".dol" in
+        Fun.protect ~finally:(fun () -> Sys.remove path) (fun () ->
+            let channel = open_out_bin path in
+            output_string channel source';
+            close_out channel;
+            let recording = { Recording.nothing with journal = Some journal } in
+            let other = Some { path; is_due = (fun n -> n mod every = 0) } in
+            let expected = happened (program_of source') scenario ~seed plain in
+            let before = !replaced in
+            let found = happened (program_of source) scenario ~seed { plain with recording; other } in
+            let why = !refused in
+            refused := None;
+            Option.iter (Alcotest.failf "%s: refused: %s" name) why;
+            if !replaced > before && not (List.exists is_stuck expected) then
+              match first_difference expected found with
+              | None -> ()
+              | Some (n, x, y) -> Alcotest.failf "%s: line %d is '%s' instead of '%s'" name n y x))
+  in
+  check ~name:"replaced by itself" source;
+  check ~name:"replaced by a longer one" (longer source)
+
+let random_replacements ((source, scenario, seed), every) =
+  if is_program source then is_replaced ~seed scenario ~every source;
+  true
+
 (* {1 Programs that a recording changed} *)
 
 let one_vehicle = { Scenario.default with vehicles = [ { (List.hd Scenario.default.vehicles) with id = "u1"; kind = "UUV" } ] }
@@ -200,6 +266,10 @@ let allocation_after_a_stop =
 
 let count = match Sys.getenv_opt "PROGRAMS" with Some n -> int_of_string n | None -> 150
 
+let replacement_case = QCheck2.Gen.(pair random_case (int_range 1 12))
+
+let enough_replacements () = if !replaced < count then Alcotest.failf "%d replacements are few" !replaced
+
 let enough () = if !compared < 5 * count then Alcotest.failf "%d lines are few" !compared
 
 let () =
@@ -208,4 +278,10 @@ let () =
       ( "random",
         [ Test_support.Property.case "runs are the same with and without recordings" ~count random_case ~print
             random_runs;
-          Alcotest.test_case "there was much to compare" `Quick enough ] ) ]
+          Alcotest.test_case "there was much to compare" `Quick enough ] );
+      ( "replaced",
+        [ Test_support.Property.case "a run goes on as one of the program that replaces its own" ~count
+            replacement_case
+            ~print:(fun (case, every) -> Format.sprintf "%s@.every %d" (print case) every)
+            random_replacements;
+          Alcotest.test_case "there were many replacements" `Quick enough_replacements ] ) ]

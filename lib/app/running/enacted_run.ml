@@ -30,7 +30,7 @@ let enact (front : Run.front) recording ~interruption ~speed (program : Program_
   let on (type p) (module P : Platform.S with type t = p) (platform : p) =
     front.opened
       { now = (fun () -> P.now platform); estimates = (fun () -> []); post = (fun _ _ -> Lwt.return_false);
-        questions = (fun () -> []); acted = (fun _ -> Ok ()) };
+        questions = (fun () -> []); replace = Replacement.refused; acted = (fun _ -> Ok ()) };
     Enactment.run (module P) platform ~observer ~interruption:(Interruption.promise interruption) program.program steps
     >|= fun outcome -> (P.now platform, outcome)
   in

@@ -28,6 +28,7 @@ type t = {
   mutable is_over : bool;
 }
 
+let resumption source ~time = Entry.Resumed { time; program = source; at = utc_now () }
 let trouble path why = Printf.sprintf "the journal cannot be written: %s: %s" path why
 
 let protected path f =
@@ -156,8 +157,7 @@ let resume settings program ~source (run : Resumed.t) =
   in
   let make write =
     let recorder = Recorder.resume program replay ~seen:(Resumption.seen run.past) write in
-    Recorder.write recorder ~time:(Replay.time replay)
-      (fun ~time -> Entry.Resumed { time; program = source; at = utc_now () });
+    Recorder.write recorder ~time:(Replay.time replay) (resumption source);
     recorder
   in
   opened ~notes:run.past.notes { settings with journal = Some path } run.past.header run.summary ~check ~clear make
@@ -175,6 +175,10 @@ let act r ~time act =
     match Option.iter (fun recorder -> Recorder.write recorder ~time line) (Lazy.force r.recorder) with
     | () -> Ok ()
     | exception Broken why -> Error why
+
+let replace r ~time program ~source replay =
+  let replace recorder = Recorder.replace recorder ~time program ~line:(resumption source) replay in
+  Option.iter replace (Lazy.force r.recorder)
 
 let sync r =
   let sync file =

@@ -43,6 +43,11 @@ val act : t -> time:float -> Act.t -> (unit, string) result
 (** [act r ~time a] keeps the act of an operator, unless {!finish} was called. The error is the reason why it cannot be
     written. *)
 
+val replace :
+  t -> time:float -> Dolphin_semantics.Core.program -> source:Header.source -> Replay.t -> unit
+(** [replace r ~time program ~source replay] keeps that the run goes on with [program], whose file is [source] and which
+    [replay] has taken through the journal so far. It may raise {!Broken}. *)
+
 val sync : t -> (unit -> unit Lwt.t) option
 (** Resolves once all earlier lines are on the disk, and may fail with {!Broken}; [None]: no journal is kept. *)
 

@@ -40,6 +40,7 @@ type view = {
   estimates : unit -> estimate list;
   post : string -> Core.value -> bool Lwt.t;
   questions : unit -> string list;
+  replace : ?set:(string * string) list -> ?hash:string -> string -> (float, Replacement.refusal) result Lwt.t;
   acted : Act.t -> (unit, string) result;
 }
 
@@ -48,13 +49,15 @@ type front = {
   notice : string -> unit;
   opened : view -> unit;
   remark : string -> unit;
+  replaced : Program_file.t -> Replay.t -> unit;
   observer : Observer.t;
   person : Questions.person;
   wants_telemetry : bool;
 }
 
 let unattended =
-  { replayed = (fun _ _ -> ()); notice = ignore; opened = ignore; remark = ignore; observer = Observer.nobody;
+  { replayed = (fun _ _ -> ()); notice = ignore; opened = ignore; remark = ignore; replaced = (fun _ _ -> ());
+    observer = Observer.nobody;
     person = Questions.nobody; wants_telemetry = false }
 
 (* {1 Outcomes} *)
@@ -100,7 +103,7 @@ type t = {
   seed : int;
   run : string option;  (* its identity, that copies of its journal share *)
   program : Program_file.t;
-  scenario : Dolphin_scenario.Scenario.t;
+  fleet : Fleet_file.t;
   resumed : Resumed.t option;
   fenced : Fence_guard.past option;  (* of the run that it resumes, if it has fences *)
 }
@@ -155,7 +158,7 @@ type platform = Platform : (module Platform.S with type t = 'p) * 'p fleet -> pl
 let open_simulated r =
   let fresh platform = { platform; estimates = (fun () -> []); leave = Lwt.return; news = [] } in
   let rebuilt (platform, news) = { (fresh platform) with news } in
-  let seed = r.seed and scenario = r.scenario in
+  let seed = r.seed and scenario = r.fleet.scenario in
   let virtual_ fleet = Platform ((module Simulator.Virtual), fleet) in
   let paced fleet = Platform ((module Simulator.Paced), fleet) in
   match r.settings.speed, r.resumed with
@@ -205,7 +208,7 @@ let not_there_yet r ~time =
   let joins (v : Dolphin_scenario.Scenario.vehicle) =
     if v.joins > time then Some (Printf.sprintf "%s joins at %s" v.id (Phrase.time v.joins)) else None
   in
-  match is_simulated r.settings, List.filter_map joins r.scenario.vehicles with
+  match is_simulated r.settings, List.filter_map joins r.fleet.scenario.vehicles with
   | false, _ | true, [] -> None
   | true, late ->
     Some (Printf.sprintf "the pick gave up at %s, and %s: 'timeout' lets a pick wait longer" (Phrase.time time)
@@ -223,11 +226,12 @@ let watching_picks r unmet : Observer.t =
 (* {1 The socket} *)
 
 (* A run whose time passes by itself has one, beside its journal. *)
-let open_socket r recording ~interruption ~inputs ~now ~virtual_time =
+let open_socket r recording ~replacement ~interruption ~inputs ~now ~virtual_time =
   match Recording.journal recording with
   | Some journal when r.settings.socket && not virtual_time -> (
       let stop () = Interruption.once_more interruption in
-      match Run_socket.open_ { program = r.program; inputs; now; stop } ~journal with
+      let program () = Replacement.program replacement and replace = Replacement.replace replacement in
+      match Run_socket.open_ { program; inputs; now; stop; replace } ~journal with
       | Ok socket -> Some socket
       | Error why -> r.front.notice why; None)
   | Some _ | None -> None
@@ -264,15 +268,18 @@ let as_it_began r : Driver.outcome -> Driver.outcome = function
   | (Ended (Completed | Halted _ | Failed _) | Stuck _ | Spins _) as outcome -> outcome
 
 let drive r recording host ~interruption (Platform ((module P), { platform; estimates; news; leave = _ })) =
-  let now () = P.now platform in
+  let now () = P.now platform and scenario = r.fleet.scenario in
   let inputs = Inputs.create () in
-  let socket = open_socket r recording ~interruption ~inputs ~now ~virtual_time:P.virtual_time in
+  let replacement =
+    Replacement.make { fleet = r.fleet; recording; now; took = r.front.replaced } r.program in
+  let socket = open_socket r recording ~replacement ~interruption ~inputs ~now ~virtual_time:P.virtual_time in
   r.front.opened { now; estimates; post = Inputs.post inputs;
                    questions = (fun () -> Inputs.questions inputs);
+                   replace = Replacement.replace replacement;
                    acted = (fun act -> Recording.act recording ~time:(now ()) act) };
   let console =
     Questions.console r.front.person ~answered:(History.answers (history r)) ~answers:r.settings.answers
-      ~scenario:(if r.settings.people then { r.scenario with answers = [] } else r.scenario)
+      ~scenario:(if r.settings.people then { scenario with answers = [] } else scenario)
   in
   let unmet = ref None in
   let observer =
@@ -288,8 +295,8 @@ let drive r recording host ~interruption (Platform ((module P), { platform; esti
         ((not P.virtual_time) || r.front.wants_telemetry || r.resumed <> None
          || Recording.is_wanted r.settings.recording)
       ~observer
-      ~host:(match host with Some host -> Host.call host | None -> Replies.call ~past:(history r) r.scenario)
-      ~inputs ?beginning:(beginning r.resumed news) ?fenced:r.fenced
+      ~host:(match host with Some host -> Host.call host | None -> Replies.call ~past:(history r) scenario)
+      ~inputs ~replacements:(Replacement.inbox replacement) ?beginning:(beginning r.resumed news) ?fenced:r.fenced
       ~console ~interruption:(Interruption.promise interruption)
       ~again:(Interruption.again interruption) ~breakable:(Interruption.breakable interruption) r.program.program
   in
@@ -300,9 +307,10 @@ let drive r recording host ~interruption (Platform ((module P), { platform; esti
     Result.map (fun () -> outcome) (Recording.finish recording ~time:(now ()) ~stuck)
   in
   let unavailable why = Lwt.return (Error (Error.Unavailable why)) in
+  let close () = Replacement.close replacement; close_host host in
   let close_socket () = Option.fold socket ~none:Lwt.return_unit ~some:Run_socket.close in
   Lwt.catch
-    (fun () -> Lwt.finalize (fun () -> Lwt.finalize run (fun () -> close_host host) >|= finish) close_socket)
+    (fun () -> Lwt.finalize (fun () -> Lwt.finalize run close >|= finish) close_socket)
     (function
       | Recording.Broken why -> unavailable (why ^ "; the run was ended as by Ctrl-C")
       | Unix.Unix_error (error, call, _) ->
@@ -349,7 +357,7 @@ let new_identity () =
 let start front ~interruption (settings : settings) program (fleet : Fleet_file.t) =
   let seed = Option.value settings.seed ~default:0 in
   let run = if is_simulated settings then None else Some (new_identity ()) in
-  let r = { front; settings; seed; run; program; scenario = fleet.scenario; resumed = None; fenced = None } in
+  let r = { front; settings; seed; run; program; fleet; resumed = None; fenced = None } in
   log_start settings program fleet ~seed;
   go r ~interruption (Recording.start settings.recording (header r fleet) program.program)
 
@@ -398,13 +406,13 @@ let resumption front settings ~changed ~fleet program path =
       (Error.Bad_input
          (path ^ ": this run has a supplier, which died with its console: name it again with --supplier"))
   else
-    let seed = resumed.past.header.seed and scenario = fleet.scenario in
+    let seed = resumed.past.header.seed in
     let fences = program.program.fences in
     let fenced =
       if Fences.is_none fences then None else Some (Fence_guard.replay fences resumed.past.history) in
     log_start settings program fleet ~seed;
     let run = resumed.past.header.run in
-    Ok ({ front; settings; seed; run; program; scenario; resumed = Some resumed; fenced }, resumed)
+    Ok ({ front; settings; seed; run; program; fleet; resumed = Some resumed; fenced }, resumed)
 
 let resume front ~interruption (settings : settings) ~changed ~fleet program path =
   let*? r, resumed = resumption front settings ~changed ~fleet program path in

@@ -47,6 +47,8 @@ type view = {
   estimates : unit -> estimate list;  (** of the vehicles that give one *)
   post : string -> Dolphin_semantics.Core.value -> bool Lwt.t;  (** {!Inputs.post} *)
   questions : unit -> string list;  (** {!Inputs.questions} *)
+  replace : ?set:(string * string) list -> ?hash:string -> string -> (float, Replacement.refusal) result Lwt.t;
+  (** {!Replacement.replace} *)
   acted : Act.t -> (unit, string) result;  (** keeps an operator's act in the journal: {!Recording.act} *)
 }
 
@@ -57,6 +59,8 @@ type front = {
   notice : string -> unit;  (** shows a sentence, before the run begins or after its end *)
   opened : view -> unit;  (** The run begins; the view is valid from now on. *)
   remark : string -> unit;  (** shows what is unusual about a vehicle *)
+  replaced : Program_file.t -> Replay.t -> unit;
+  (** The run goes on with this program from now on; the journal so far, as read with it. *)
   observer : Observer.t;  (** gets each transition, and the known state of vehicles *)
   person : Questions.person;
   wants_telemetry : bool;  (** whether positions and batteries are wanted even if the program does not look at them *)

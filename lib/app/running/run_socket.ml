@@ -8,10 +8,11 @@ let longest_request = 65_536
 let most_clients = 100
 
 type run = {
-  program : Program_file.t;
+  program : unit -> Program_file.t;
   inputs : Inputs.t;
   now : unit -> float;
   stop : unit -> unit;
+  replace : ?set:(string * string) list -> ?hash:string -> string -> (float, Replacement.refusal) result Lwt.t;
 }
 
 type t = {
@@ -41,7 +42,7 @@ let done_ ?id members = reply ?id (("ok", `Bool true) :: members)
 let post t ?id found =
   match List.assoc_opt "key" found, List.assoc_opt "value" found with
   | Some (`String key), Some json -> (
-      let program = t.run.program.program and questions = Inputs.questions t.run.inputs in
+      let program = (t.run.program ()).program and questions = Inputs.questions t.run.inputs in
       match Typed_input.declared program ~questions key, Host_value.data_of_json json with
       | Error why, _ -> Lwt.return (wrong ?id "not-declared" why)
       | Ok (), Error why -> Lwt.return (wrong ?id "bad-value" why)
@@ -56,11 +57,47 @@ let post t ?id found =
   | _, _ -> Lwt.return (wrong ?id "bad-request" "post needs a key, a text, and a value")
 
 let status t ?id () =
-  let { Program_file.path; program; _ } = t.run.program in
+  let { Program_file.path; program; _ } = t.run.program () in
   done_ ?id
     [ ("protocol", `String "dolphin-run"); ("version", `Int version); ("program", `String path);
       ("time", `Float (t.run.now ())); ("inputs", `List (List.map (fun k -> `String k) program.inputs));
       ("questions", `List (List.map (fun k -> `String k) (Inputs.questions t.run.inputs))) ]
+
+let code_of : Replacement.refusal -> string = function
+  | Busy -> "busy"
+  | No_journal -> "no-journal"
+  | Wrong_program _ -> "bad-program"
+  | Differs _ -> "differs"
+  | Over -> "ended"
+
+(* The values of parameters, as on the command line. *)
+let settings_of : Yojson.Safe.t -> (string * string) list option = function
+  | `Assoc found ->
+    let setting (name, value) = match value with `String text -> Some (name, text) | _ -> None in
+    let settings = List.filter_map setting found in
+    if List.compare_lengths settings found = 0 then Some settings else None
+  | _ -> None
+
+let replace t ?id found =
+  let bad () =
+    let why = "replace needs a program, the absolute path of a file; a hash is a text, and set an object of texts" in
+    Lwt.return (wrong ?id "bad-request" why)
+  in
+  let with_ ?set ?hash path =
+    t.run.replace ?set ?hash path >|= function
+    | Ok time -> done_ ?id [ ("time", `Float time) ]
+    | Error refusal -> wrong ?id (code_of refusal) (Replacement.message refusal)
+  in
+  let member name = List.assoc_opt name found in
+  match member "program", member "set", member "hash" with
+  | Some (`String path), None, None when not (Filename.is_relative path) -> with_ path
+  | Some (`String path), None, Some (`String hash) when not (Filename.is_relative path) -> with_ ~hash path
+  | Some (`String path), Some set, hash when not (Filename.is_relative path) -> (
+      match settings_of set, hash with
+      | Some set, None -> with_ ~set path
+      | Some set, Some (`String hash) -> with_ ~set ~hash path
+      | _, _ -> bad ())
+  | _, _, _ -> bad ()
 
 let usage = "a request is an object with a request, as in {\"request\": \"status\"}"
 
@@ -77,6 +114,7 @@ let perform t (line : Lines.line) =
           let id = List.assoc_opt "id" found in
           match List.assoc_opt "request" found with
           | Some (`String "post") -> post t ?id found >|= fun reply -> `Reply reply
+          | Some (`String "replace") -> replace t ?id found >|= fun reply -> `Reply reply
           | Some (`String "status") -> Lwt.return (`Reply (status t ?id ()))
           | Some (`String "stop") ->
             t.run.stop ();
@@ -85,7 +123,7 @@ let perform t (line : Lines.line) =
           | Some (`String "follow") -> Lwt.return (`Follow (done_ ?id []))
           | Some (`String other) ->
             bad ?id "unknown-request"
-              (Printf.sprintf "unknown request '%s': the requests are post, status, follow and stop" other)
+              (Printf.sprintf "unknown request '%s': the requests are post, status, follow, replace and stop" other)
           | Some _ | None -> bad ?id "bad-request" usage)
       | Ok _ -> bad "bad-request" usage)
 
@@ -247,15 +285,18 @@ let ask c request =
           match List.assoc_opt "message" why with Some (`String text) -> Error text | Some _ | None -> Error line)
       | json -> Ok json)
 
+let time_of : Yojson.Safe.t -> float = function
+  | `Assoc found -> (match List.assoc_opt "time" found with Some (`Float time) -> time | Some _ | None -> 0.)
+  | _ -> 0.
+
 let post c key x =
-  match Host_value.to_json x with
-  | Error why -> Error why
-  | Ok json -> (
-      match ask c [ ("request", `String "post"); ("key", `String key); ("value", json) ] with
-      | Ok (`Assoc found) -> (
-          match List.assoc_opt "time" found with Some (`Float time) -> Ok time | Some _ | None -> Ok 0.)
-      | Ok _ -> Ok 0.
-      | Error why -> Error why)
+  let ask json = ask c [ ("request", `String "post"); ("key", `String key); ("value", json) ] in
+  Result.map time_of (Result.bind (Host_value.to_json x) ask)
+
+let replace c ~set ~hash path =
+  let set = List.map (fun (name, value) -> (name, `String value)) set in
+  let request = [ ("program", `String path); ("set", `Assoc set); ("hash", `String hash) ] in
+  Result.map time_of (ask c (("request", `String "replace") :: request))
 
 let rec copy c out =
   match input_line c.input with

@@ -6,10 +6,12 @@ open Dolphin_runtime
 
 (** The permissions of clients. *)
 type run = {
-  program : Program_file.t;
+  program : unit -> Program_file.t;  (** that runs now *)
   inputs : Inputs.t;
   now : unit -> float;
   stop : unit -> unit;  (** as Ctrl-C does *)
+  replace : ?set:(string * string) list -> ?hash:string -> string -> (float, Replacement.refusal) result Lwt.t;
+  (** {!Replacement.replace} *)
 }
 
 type t
@@ -37,6 +39,10 @@ val ask : connection -> (string * Yojson.Safe.t) list -> (Yojson.Safe.t, string)
 
 val post : connection -> string -> Core.value -> (float, string) result
 (** [post c key x] posts a pair: at which time of the run it was taken. *)
+
+val replace : connection -> set:(string * string) list -> hash:string -> string -> (float, string) result
+(** [replace c ~set ~hash path] makes the run go on with the program [path], an absolute path: at which time of the run
+    it did. *)
 
 val copy : connection -> out_channel -> unit
 (** [copy c out] copies what comes, line by line, until the other end is done. *)

@@ -9,7 +9,7 @@ type show = { quiet : bool; only : string list; colour : bool option; journal : 
 type t = {
   screen : Screen.t;
   interruption : Interruption.t;
-  program : Program_file.t;
+  mutable program : Program_file.t;
   show : show;
   live : bool;
   colour : bool;
@@ -89,6 +89,12 @@ let replayed t (entry : Entry.t) replay =
     t.log <- fst (Log.transition ~stuck:(Replay.was_stuck replay) t.log ~time transition);
     see_transition t ~time transition
   | (Header _ | Partial _ | Label _ | Event _ | Transition _ | Note _ | Act _ | Resumed _ | End _), _ -> ()
+
+let replaced t (program : Program_file.t) replay =
+  t.program <- program;
+  t.configuration <- Replay.configuration replay;
+  remark t ("the run goes on with " ^ program.path);
+  Screen.changed t.screen
 
 (* How far vehicles are with their plans. *)
 let estimate estimates v =
@@ -197,7 +203,7 @@ let front t ~notice : Run.front =
     if Unix.isatty Unix.stdin then t.keyboard <- Some (Keyboard.start ~other:(offer t));
     Screen.show t.screen (board t)
   in
-  { replayed = replayed t; notice; opened; remark = remark t;
+  { replayed = replayed t; notice; opened; remark = remark t; replaced = replaced t;
     observer = { transition = transition t; news = news t; unknown = unknown t };
     person = person t; wants_telemetry = t.live }
 
@@ -218,7 +224,7 @@ let make show program interruption ~on_closed =
     world = World.empty;
     view =
       { now = (fun () -> 0.); estimates = (fun () -> []); post = (fun _ _ -> Lwt.return_false);
-        questions = (fun () -> []); acted = (fun _ -> Ok ()) };
+        questions = (fun () -> []); replace = Replacement.refused; acted = (fun _ -> Ok ()) };
     keyboard = None; answered = false }
 
 let run ~notice ~again show program f =
@@ -244,4 +250,4 @@ let run ~notice ~again show program f =
   let result = Lwt_main.run (Lwt.finalize (fun () -> f (front t ~notice) ~interruption) close) in
   match result, !trouble with
   | Ok _, Some why -> Error why
-  | (Ok _ | Error _), _ -> result
+  | (Ok _ | Error _), _ -> Result.map (fun outcome -> (outcome, t.program)) result

@@ -14,8 +14,9 @@ type show = {
 val run :
   notice:(string -> unit) -> again:(unit -> unit) -> show -> Program_file.t ->
   (Run.front -> interruption:Interruption.t -> (Driver.outcome, Error.t) result Lwt.t) ->
-  (Driver.outcome, Error.t) result
+  (Driver.outcome * Program_file.t, Error.t) result
 (** [run ~notice ~again show program f] is the result of [f], {!Run.start} or {!Run.resume} of [program] with the
-    rest of its arguments, whose front is the terminal. [notice] is that of the front. The first signal interrupts
+    rest of its arguments, whose front is the terminal, and the program that ran last: [program], or one that replaced
+    it. [notice] is that of the front. The first signal interrupts
     the run, the second one calls [again], which is to end the process, straight from its handler. It is an error if
     the log cannot be written, but not if its reader has gone: then the run is interrupted. *)

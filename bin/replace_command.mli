@@ -1,0 +1,3 @@
+(** [dolphin replace]: another program for a run that goes on. *)
+
+val command : Exit_status.t Cmdliner.Cmd.t

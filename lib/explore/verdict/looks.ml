@@ -64,7 +64,7 @@ let of_date program : concerns = function
 let pp_reading ppf (a : World.assumption) =
   match a with
   | Claim (text, true) -> Format.pp_print_string ppf text
-  | Claim (text, false) -> Format.pp_print_string ppf (Comparison.negated text)
+  | Claim (text, false) -> Format.pp_print_string ppf (Sensor_comparison.negated text)
   | Sensed _ | Placed _ | Late _ | Missing _ -> World.pp_assumption ppf a
 
 let pp_readings ppf readings = Fmt.(list ~sep:(any " or ") pp_reading) ppf readings

@@ -98,7 +98,7 @@ let carries devices state =
 
 let contradict a b =
   match a, b with
-  | Claim (text, holds), Claim (text', holds') -> Comparison.contradict (text, holds) (text', holds')
+  | Claim (text, holds), Claim (text', holds') -> Sensor_comparison.contradict (text, holds) (text', holds')
   | Sensed (s, v, x), Sensed (s', v', x') -> s = s' && String.equal v v' && Value.compare x x' <> 0
   | Placed (v, p), Placed (v', p') -> String.equal v v' && Position.compare p p' <> 0
   | (Late _ | Missing _ | Sensed _ | Placed _ | Claim _), _ -> false

@@ -2,7 +2,7 @@ let main = "MC"
 
 type property = { name : string; of_runs : bool }
 
-let check = "Tlc_questions.cfg"
+let check = "Run.cfg"
 let check_states = "RunStates.cfg"
 let graph = "Graph.cfg"
 

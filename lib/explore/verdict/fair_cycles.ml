@@ -116,8 +116,7 @@ let choices_of_task t (p : Space.possible) looks =
     match offer, p.name with
     | Perform c, _ | Guard_either c, _ | Measure c, _ | Make (c, _, _), _ -> code c
     | (Check _ | Guard_values _ | Guard_false _), family :: local :: _ -> [ Guards_of [ family; local ] ]
-    | (Check _ | Guard_values _ | Guard_false _), _ -> []
-    | (Start _ | Allocate _ | End_of _ | Expiry_of _ | Answer_to _ | Recruit_for _), _ -> []
+    | _, _ -> []
 
 let choices_of_script t looks =
   let subject : World.assumption -> choice option = function

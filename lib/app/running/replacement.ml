@@ -80,6 +80,9 @@ let open_journal t =
 
 let differs verdict = Error (Differs (Format.asprintf "@[<v 2>%a@]" Journal_verdict.pp verdict))
 
+(* The run goes on, whatever becomes of the file. *)
+let guarded read = try read () with Sys_error _ -> Error No_journal
+
 let feed replay number entry =
   match Replay.feed replay entry with
   | Ok replay -> Ok replay
@@ -102,18 +105,21 @@ let rec read reader ~size replay =
 let part = 16_384
 
 let rec read_in_parts channel reader replay =
-  let size = in_channel_length channel and now = Journal.whole reader in
-  if size - now <= part then Lwt.return (Ok replay)
-  else
-    match read reader ~size:(now + part) replay with
-    | Ok replay -> Lwt.pause () >>= fun () -> read_in_parts channel reader replay
-    | Error _ as refused -> Lwt.return refused
+  let now = Journal.whole reader in
+  let next () =
+    if in_channel_length channel - now <= part then Ok `All
+    else Result.map (fun replay -> `Part replay) (read reader ~size:(now + part) replay)
+  in
+  match guarded next with
+  | Ok `All -> Lwt.return (Ok replay)
+  | Ok (`Part replay) -> Lwt.pause () >>= fun () -> read_in_parts channel reader replay
+  | Error _ as refused -> Lwt.return refused
 
 (* {1 The change} *)
 
 (* Called by the driver, while the run waits: all lines so far are in the file. *)
 let change t channel reader replay (program : Program_file.t) told () =
-  match read reader ~size:(in_channel_length channel) replay with
+  match guarded (fun () -> read reader ~size:(in_channel_length channel) replay) with
   | Error _ as refused -> Lwt.wakeup_later told refused; None
   | Ok replay ->
     let time = t.run.now () in

@@ -70,34 +70,30 @@ let code_of : Replacement.refusal -> string = function
   | Differs _ -> "differs"
   | Over -> "ended"
 
+let text : Yojson.Safe.t -> string option = function `String text -> Some text | _ -> None
+
 (* The values of parameters, as on the command line. *)
-let settings_of : Yojson.Safe.t -> (string * string) list option = function
+let settings : Yojson.Safe.t -> (string * string) list option = function
   | `Assoc found ->
-    let setting (name, value) = match value with `String text -> Some (name, text) | _ -> None in
+    let setting (name, value) = Option.map (fun text -> (name, text)) (text value) in
     let settings = List.filter_map setting found in
     if List.compare_lengths settings found = 0 then Some settings else None
   | _ -> None
 
 let replace t ?id found =
-  let bad () =
+  let optional name read =
+    match List.assoc_opt name found with
+    | None -> Some None
+    | Some json -> Option.map Option.some (read json)
+  in
+  match optional "program" text, optional "set" settings, optional "hash" text with
+  | Some (Some path), Some set, Some hash when not (Filename.is_relative path) -> (
+      t.run.replace ?set ?hash path >|= function
+      | Ok time -> done_ ?id [ ("time", `Float time) ]
+      | Error refusal -> wrong ?id (code_of refusal) (Replacement.message refusal))
+  | _, _, _ ->
     let why = "replace needs a program, the absolute path of a file; a hash is a text, and set an object of texts" in
     Lwt.return (wrong ?id "bad-request" why)
-  in
-  let with_ ?set ?hash path =
-    t.run.replace ?set ?hash path >|= function
-    | Ok time -> done_ ?id [ ("time", `Float time) ]
-    | Error refusal -> wrong ?id (code_of refusal) (Replacement.message refusal)
-  in
-  let member name = List.assoc_opt name found in
-  match member "program", member "set", member "hash" with
-  | Some (`String path), None, None when not (Filename.is_relative path) -> with_ path
-  | Some (`String path), None, Some (`String hash) when not (Filename.is_relative path) -> with_ ~hash path
-  | Some (`String path), Some set, hash when not (Filename.is_relative path) -> (
-      match settings_of set, hash with
-      | Some set, None -> with_ ~set path
-      | Some set, Some (`String hash) -> with_ ~set ~hash path
-      | _, _ -> bad ())
-  | _, _, _ -> bad ()
 
 let usage = "a request is an object with a request, as in {\"request\": \"status\"}"
 

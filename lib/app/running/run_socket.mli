@@ -1,5 +1,5 @@
-(** The socket of a run, beside its journal: how other programs post to the run, follow and stop it. docs/socket.md
-    has the protocol. Clients and their messages do not change the run, but for the pairs that they post. *)
+(** The socket of a run, beside its journal: how other programs post to the run, follow it, stop it and replace
+    its program. docs/socket.md has the protocol. Nothing else that clients do changes the run. *)
 
 open Dolphin_semantics
 open Dolphin_runtime

@@ -16,11 +16,7 @@ type t = {
 
 (* {1 Writing} *)
 
-let rec write_all bytes start length =
-  if length = 0 then Lwt.return_unit
-  else Lwt_unix.write Lwt_unix.stderr bytes start length >>= fun n -> write_all bytes (start + n) (length - n)
-
-(* If standard error is closed, the errors are for nobody. *)
+(* If standard error is closed, the errors have no reader. *)
 let rec write_waiting e =
   if e.dropped > 0 && Buffer.length e.waiting = 0 then begin
     Buffer.add_string e.waiting (Printf.sprintf "... (%d bytes are left out)\n" e.dropped);
@@ -28,10 +24,10 @@ let rec write_waiting e =
   end;
   if Buffer.length e.waiting = 0 then Lwt.return_unit
   else begin
-    let bytes = Buffer.to_bytes e.waiting in
+    let text = Buffer.contents e.waiting in
     Buffer.clear e.waiting;
     Lwt.catch
-      (fun () -> write_all bytes 0 (Bytes.length bytes))
+      (fun () -> Writer.write Lwt_unix.stderr text)
       (function Unix.Unix_error _ -> Lwt.return_unit | error -> Lwt.fail error)
     >>= fun () -> write_waiting e
   end

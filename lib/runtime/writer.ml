@@ -10,16 +10,13 @@ let write output text =
 type t = {
   output : Lwt_unix.file_descr;
   unwritten : Buffer.t;
-  mutable is_writing : bool;
+  mutable writing : unit Lwt.t;
 }
 
-let make output = { output; unwritten = Buffer.create 4096; is_writing = false }
+let make output = { output; unwritten = Buffer.create 4096; writing = Lwt.return_unit }
 
 let rec flush w =
-  if Buffer.length w.unwritten = 0 then begin
-    w.is_writing <- false;
-    Lwt.return_unit
-  end
+  if Buffer.length w.unwritten = 0 then Lwt.return_unit
   else begin
     let text = Buffer.contents w.unwritten in
     Buffer.clear w.unwritten;
@@ -31,7 +28,10 @@ let rec flush w =
 
 let send w text =
   Buffer.add_string w.unwritten text;
-  if not w.is_writing then begin
-    w.is_writing <- true;
-    Lwt.async (fun () -> flush w)
-  end
+  match Lwt.state w.writing with
+  | Sleep -> ()
+  | Return () | Fail _ ->
+    w.writing <- flush w;
+    Lwt.async (fun () -> w.writing)
+
+let sent w = w.writing

@@ -11,3 +11,6 @@ val make : Lwt_unix.file_descr -> t
 val send : t -> string -> unit
 (** [send w text] has [text] written once all that was sent before is. Text without a reader is dropped: other code
     notices that the other side is gone. *)
+
+val sent : t -> unit Lwt.t
+(** Resolves once all that was sent so far is written, or dropped. *)

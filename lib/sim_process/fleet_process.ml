@@ -13,8 +13,7 @@ type settings = {
 type t = {
   now : unit -> float;  (* of the fleet *)
   memory : Memory.t option;
-  output : Buffer.t;
-  mutable writing : unit Lwt.t;
+  output : Writer.t;
   mutable fleet : Served_fleet.t;
   mutable is_greeted : bool;
   mutable is_over : bool;
@@ -22,26 +21,9 @@ type t = {
 
 (* {1 Writing} *)
 
-let rec write_all bytes start length =
-  if length = 0 then Lwt.return_unit
-  else Lwt_unix.write Lwt_unix.stdout bytes start length >>= fun n -> write_all bytes (start + n) (length - n)
-
-(* A client that does not read any more has gone; its input will end, too. *)
-let rec flush s =
-  if Buffer.length s.output = 0 then Lwt.return_unit
-  else begin
-    let bytes = Buffer.to_bytes s.output in
-    Buffer.clear s.output;
-    Lwt.catch
-      (fun () -> write_all bytes 0 (Bytes.length bytes))
-      (function Unix.Unix_error _ -> Lwt.return_unit | error -> Lwt.fail error)
-    >>= fun () -> flush s
-  end
-
 (* Nothing is sent before the greeting: a client that greets gets all vehicles, and asks about requests. *)
 let tell s reports =
-  if s.is_greeted then List.iter (fun report -> Buffer.add_string s.output (Report.to_line report)) reports;
-  match Lwt.state s.writing with Sleep -> () | Return () | Fail _ -> s.writing <- flush s
+  if s.is_greeted then Writer.send s.output (String.concat "" (List.map Report.to_line reports))
 
 (* {1 Orders and time} *)
 
@@ -84,7 +66,7 @@ let rec serve s speed lines line =
   | `Time -> catch_up s; serve s speed lines line
   | `Line read ->
     read_order s read;
-    if s.is_over then s.writing else serve s speed lines (Lines.next lines)
+    if s.is_over then Writer.sent s.output else serve s speed lines (Lines.next lines)
 
 (* The fleet as it is now, after what it was ordered before this process. *)
 let rebuilt settings ~now orders =
@@ -115,7 +97,7 @@ let run settings =
     let clock = Clock.stopwatch ~at:(at /. settings.speed) Clock.system in
     let fleet = rebuilt settings ~now:at orders in
     let s =
-      { now = (fun () -> clock () *. settings.speed); memory; output = Buffer.create 4096; writing = Lwt.return_unit;
+      { now = (fun () -> clock () *. settings.speed); memory; output = Writer.make Lwt_unix.stdout;
         fleet; is_greeted = false; is_over = false }
     in
     let lines = Lines.make ~limit:Report.longest_line Lwt_unix.stdin in

@@ -15,32 +15,13 @@ let of_vehicle = [ "battery"; "position"; "speed"; "connected"; "reading"; "eta"
 let variable id = Printf.sprintf "vehicle '%s'" id
 
 let rec named found (e : expression) : expression =
-  let go = named found in
-  let argument = function
-    | Positional e -> Positional (go e)
-    | Named (k, e) -> Named (k, go e)
-    | Keyed (k, e) -> Keyed (go k, go e)
-  in
-  let it =
-    match e.it with
-    | Call { callee = { it = Variable f; _ } as callee; arguments = Positional { it = String id; at } :: others }
-      when List.mem f of_vehicle ->
-      found := (id, at) :: !found;
-      Call { callee; arguments = Positional { it = Variable (variable id); at } :: List.map argument others }
-    | Call { callee; arguments } -> Call { callee = go callee; arguments = List.map argument arguments }
-    | List es -> List (List.map go es)
-    | Unary (o, e) -> Unary (o, go e)
-    | Binary (o, a, b) -> Binary (o, go a, go b)
-    | Conditional (a, b, c) -> Conditional (go a, go b, go c)
-    | Elvis (a, b) -> Elvis (go a, go b)
-    | Index (a, b) -> Index (go a, go b)
-    | Member m -> Member { m with subject = go m.subject }
-    | Range r -> Range { r with first = go r.first; last = go r.last }
-    | ( Null | Boolean _ | Integer _ | Number _ | String _ | Template _ | Variable _ | Wildcard | Map _ | Closure _
-      | Increment _ | Builder _ | Pick_else _ | Recruit _ | When _ | Wait_for _ | Until _ | During _ | Watch _
-      | Repeat _ ) as it -> it
-  in
-  { e with it }
+  match e.it with
+  | Call { callee = { it = Variable f; _ } as callee; arguments = Positional { it = String id; at } :: others }
+    when List.mem f of_vehicle ->
+    found := (id, at) :: !found;
+    let others = List.map (Operands.map_argument (named found)) others in
+    { e with it = Call { callee; arguments = Positional { it = Variable (variable id); at } :: others } }
+  | _ -> Operands.map (named found) e
 
 let known vehicles (id, at) =
   let ids = List.map (fun (v : Entry.vehicle) -> v.id) vehicles in

@@ -488,6 +488,7 @@ let place p key = Portable.place p.texts key
 (* {1 Findings} *)
 
 let used_task_symmetry t = Option.fold ~none:false ~some:Task_groups.is_used t.task_groups
+let exchanges t = has_vehicle_symmetry t || used_task_symmetry t
 let used_vehicle_symmetry t = Option.fold ~none:false ~some:Canonical_vehicles.is_used t.vehicles
 
 (* If an error handler has run in some task, so have those of its orbit, in other runs. *)

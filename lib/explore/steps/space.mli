@@ -153,6 +153,9 @@ val place : portable -> int array -> string
 val used_task_symmetry : t -> bool
 (** Whether some states of tasks represent others. *)
 
+val exchanges : t -> bool
+(** Whether states may represent others with other vehicles: {!has_vehicle_symmetry} or {!used_task_symmetry}. *)
+
 val used_vehicle_symmetry : t -> bool
 (** Whether some states represent others in which vehicles have changed places. *)
 

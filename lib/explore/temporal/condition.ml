@@ -36,32 +36,17 @@ let question name arguments =
 
 (* [e] with a variable for each question; [ask q] is the variable's name. *)
 let rec replace ask (e : Ast.expression) : Ast.expression =
-  let go = replace ask in
-  let argument : Ast.argument -> Ast.argument = function
-    | Positional e -> Positional (go e)
-    | Named (k, e) -> Named (k, go e)
-    | Keyed (k, e) -> Keyed (go k, go e)
-  in
-  let it : Ast.expression_node =
-    match e.it with
-    | Call { callee = { it = Variable (("running" | "bound") as name); _ } as callee; arguments } -> (
-        match ask name (fun () -> question name arguments) with
-        | Some variable -> Variable variable
-        | None -> Call { callee; arguments = List.map argument arguments })
-    | Call { callee; arguments } -> Call { callee = go callee; arguments = List.map argument arguments }
-    | List es -> List (List.map go es)
-    | Unary (o, e) -> Unary (o, go e)
-    | Binary (o, a, b) -> Binary (o, go a, go b)
-    | Conditional (a, b, c) -> Conditional (go a, go b, go c)
-    | Elvis (a, b) -> Elvis (go a, go b)
-    | Index (a, b) -> Index (go a, go b)
-    | Member m -> Member { m with subject = go m.subject }
-    | Range r -> Range { r with first = go r.first; last = go r.last }
-    | ( Null | Boolean _ | Integer _ | Number _ | String _ | Template _ | Variable _ | Wildcard | Map _ | Closure _
-      | Increment _ | Builder _ | Pick_else _ | Recruit _ | When _ | Wait_for _ | Until _ | During _ | Watch _
-      | Repeat _ ) as it -> it
-  in
-  { e with it }
+  match e.it with
+  | Call { callee = { it = Variable (("running" | "bound") as name); _ } as callee; arguments } ->
+    let it : Ast.expression_node =
+      match ask name (fun () -> question name arguments) with
+      | Some variable -> Variable variable
+      | None ->
+        let arguments = List.map (Dolphin_syntax.Operands.map_argument (replace ask)) arguments in
+        Call { callee; arguments }
+    in
+    { e with it }
+  | _ -> Dolphin_syntax.Operands.map (replace ask) e
 
 let rec globals (e : Core.expression) =
   let own = match e.node with Global i | Set_global (i, _) -> [ i ] | _ -> [] in

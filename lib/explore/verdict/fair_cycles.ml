@@ -646,9 +646,7 @@ let needed t active found =
   List.fold_left drop active active
 
 (* Symmetry may exchange the vehicles of readings. *)
-let is_symmetric t =
-  let space = State_graph.system t.graph in
-  Space.has_vehicle_symmetry space || Space.used_task_symmetry space
+let is_symmetric t = Space.exchanges (State_graph.system t.graph)
 
 type judgement = { verdict : verdict; needs : World.assumption list list }
 

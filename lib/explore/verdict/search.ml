@@ -135,9 +135,7 @@ let termination_of_script graph ~shortest =
   in
   of_verdict run (State_graph.termination graph ~exact:(State_graph.is_exact graph))
 
-let is_symmetric graph =
-  let space = State_graph.system graph in
-  Space.has_vehicle_symmetry space || Space.used_task_symmetry space
+let is_symmetric graph = Space.exchanges (State_graph.system graph)
 
 (* Assumptions with which it would hold; they are looked for as long as shortest runs are. *)
 let helpful x (options : options) graph =

@@ -5,4 +5,5 @@ if [ -z "${DOLPHIN_MAVLINK:-}" ]; then
   echo "skipped: the tests of platforms/mavlink: no pymavlink (platforms/mavlink/install --test)"
   exit 0
 fi
-exec "$DOLPHIN_MAVLINK" -B "$(dirname "$0")/run.py" "$@"
+folder=$(dirname "$0")/..
+exec "$DOLPHIN_MAVLINK" -B "$folder/../../scripts/unittests" "$folder" "$@"

@@ -336,11 +336,22 @@ let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _
     let is_next_there = waits && changes_later && snd (Links.change (links o) s.changes) <= 1000 * s.now in
     (* Time has passed because something might be lost, and something else was lost: that is not a run. *)
     let is_overdue (_, clock) = match last clock with -1 -> false | most -> clock.since > most in
+    (* A task has failed unheard, and since then another failure was heard of, after which no more may come: that is not
+       a run. *)
+    let is_too_many (v, errand) =
+      let fails (choice : Environment.choice) =
+        match choice.on with Some (Vehicle_failed (w, _)) -> String.equal v w | _ -> false in
+      errand = Ended_badly && not (List.exists fails choices)
+    in
+    let is_not_a_run () =
+      List.exists is_overdue s.clocks
+      || List.exists (fun (v, errand) -> is_too_many (v, errand) && not (is_silent o s v)) s.errands
+    in
     let take ((choice : Environment.choice), _) =
       note_step s choice.transition;
       reach (after o s choice)
     in
-    if not (waits && List.exists is_overdue s.clocks) then begin
+    if not (waits && is_not_a_run ()) then begin
       look s.c;
       List.iter take (List.filter may_be_now possible);
       let end_unheard (v, errand, clock, least, most) =
@@ -351,7 +362,7 @@ let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _
       if is_next_there then reach (after_change o s (fst (Links.change (links o) s.changes)))
     end;
     let reads_date = o.program.reads_now and is_over = match s.c.control with Ended _ -> true | _ -> false in
-    if reads_date && waits && (not is_over) && s.date < s.now && not (List.exists is_overdue s.clocks) then
+    if reads_date && waits && (not is_over) && s.date < s.now && not (is_not_a_run ()) then
       reach { s with date = s.now };
     let is_dated = (not is_over) && List.exists (fun k -> k > s.date) (Result.value o.dates ~default:[]) in
     (* A second passes, if for everything that is awaited something may still happen then. *)
@@ -361,7 +372,8 @@ let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _
       && List.for_all is_under_way (List.filter (fun (_, _, c, _, _) -> c == clock) unheard) in
     let is_up_to_date = ((not reads_date) || s.date = s.now) && not is_next_there in
     let is_something_to_come = changes_later || unheard <> [] || is_dated in
-    if waits && is_up_to_date && (possible <> [] || is_something_to_come) && List.for_all may_wait s.clocks then begin
+    let may_pass = (possible <> [] || is_something_to_come) && List.for_all may_wait s.clocks in
+    if waits && is_up_to_date && may_pass && not (is_not_a_run ()) then begin
       if is_something_to_come
       || List.exists (fun (choice, _) -> not (Environment.is_voluntary choice.Environment.transition)) possible
       || Environment.owes o.environment o.program s.e
@@ -371,13 +383,6 @@ let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _
     | Ended _ -> ()
     | Script _ | Waiting _ | Executing _ ->
       let transitions = List.map (fun ((choice : Environment.choice), _) -> choice.transition) timed in
-      (* A failure of which nothing is heard, and one more than may come since another one was heard of: that is not a
-         run. *)
-      let is_too_many (v, errand) =
-        let fails (choice : Environment.choice) =
-          match choice.on with Some (Vehicle_failed (w, _)) -> String.equal v w | _ -> false in
-        errand = Ended_badly && not (List.exists fails choices)
-      in
       if (not changes_later) && (not (List.exists is_too_many s.errands)) && (not is_dated)
          && Environment.only_recruits o.environment s.e transitions
          && not (Environment.owes o.environment o.program s.e)

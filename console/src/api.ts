@@ -25,7 +25,7 @@ export interface Progress { vehicle: string; plan: string; share: number; remain
 export interface Going { number: number; state: string; progress: string }
 export interface Status {
   instance: string; folder: string; tiles: string | null; simulated: boolean; version: string; run: RunStatus | null;
-  exploration: Going | null; timing: Going | null; graph: Going | null;
+  exploration: Going | null; timing: Going | null; graph: Going | null; replacement: Going | null;
   helm: { holder: string | null; asking: string[]; taken_from: string | null }; watching: number;
 }
 // The vehicles of a network while no run goes on: each as a line of a journal, of the time when it was heard.
@@ -53,7 +53,7 @@ export class Refusal extends Error {
 
 // Requests that only compute are aborted where a command needs a connection: browsers have six to a server.
 let computing = new AbortController();
-const computes = /^(check|complete|hover|signature|definition|format|plans|world|runs|files|layer|exploration|timing|graph)\b/;
+const computes = /^(check|complete|hover|signature|definition|format|plans|world|runs|files|layer|exploration|timing|graph|replacement|run\/differences)\b/;
 
 export function makeWay() {
   computing.abort();

@@ -16,6 +16,7 @@ import { beside, inWords, read as readPlace } from "./place";
 import { outlook } from "./outlook";
 import { type Picked, happenings, timeline } from "./timeline";
 import { Plans } from "./plans";
+import { Replacing } from "./replace";
 import { Alarms } from "./alarms";
 import { Operators, isAsked, mayAnswer } from "./operators";
 import { Dialog } from "./question";
@@ -79,6 +80,7 @@ const verdicts = new Verdicts({ show: showFound, goTo, cancel: (subject) => atte
   graph: () => attempt(() => analyse("graph"))(), enact: (of) => attempt(() => enact(of))() });
 const plans = new Plans((sketch) => map.sketch(sketch));
 const stop = new Stop(tell);
+const replacing = new Replacing((text) => tell(text, false));
 const helm = new HelmView(attempt, tell);
 const operators = new Operators(attempt);
 const alarms = new Alarms((id) => { map.focus(id); $<HTMLSelectElement>("about").value = id; renderLog(true); });
@@ -245,6 +247,15 @@ async function startRun() {
   plans.undraw();
   await post("run", { program: program(), fleet: fleet || null, people: $<HTMLInputElement>("people").checked,
     speed: status?.simulated && speed ? Number(speed) : null, set: Object.fromEntries(settings) });
+}
+
+// The run that goes on gets the program in the editor.
+async function replaceProgram() {
+  const run = status?.run;
+  if (!run || !goesOn() || !(await saved("replace"))) return;
+  const there = [...live.vehicles.values()].filter((v) => live.bound.has(v.id)).map((v) => h("b", {}, `${v.id} `));
+  const real = run.simulated ? null : h("p", { class: "trouble" }, "The run commands REAL vehicles: ", ...(there.length ? there : ["none yet"]));
+  replacing.open({ program: program(), running: run.program ?? "the program", faults: $<HTMLInputElement>("faults-allowed").value.trim(), real });
 }
 
 async function enact(of: "exploration" | "timing") {
@@ -587,6 +598,8 @@ function renderBanner() {
 function renderHead() {
   const run = status?.run, going = run?.state === "running" || run?.state === "stopping";
   $<HTMLButtonElement>("run").disabled = watches || going || !linked || !program();
+  $("replace").hidden = watches || !going || run?.counterexample !== null;
+  $<HTMLButtonElement>("replace").disabled = !linked || !program();
   stop.show(run ?? null, watches);
   $<HTMLButtonElement>("explore").disabled = watches || !linked || status?.exploration?.state === "running" || !program();
   $<HTMLButtonElement>("time").disabled = watches || !linked || status?.timing?.state === "running" || !program();
@@ -656,6 +669,7 @@ listen({
     markTitle("question", open.length > 1 ? `● ${open.length} questions` : open.length ? "● " + open[0].prompt : "");
     renderNow();
     verdicts.status(s);
+    replacing.status(s);
     for (const subject of over) attempt(async () => verdicts.result(subject, await get(subject)))();
     if (first || other) {
       first = false;
@@ -721,6 +735,7 @@ window.addEventListener("hashchange", attempt(async () => {
 }));
 $("fleet").addEventListener("change", attempt(loadWorld));
 $("run").addEventListener("click", attempt(startRun));
+$("replace").addEventListener("click", attempt(replaceProgram));
 $("explore").addEventListener("click", attempt(() => analyse("exploration")));
 $("time").addEventListener("click", attempt(() => analyse("timing")));
 $("save").addEventListener("click", attempt(save));

@@ -18,6 +18,7 @@ import plans from "./plans.mjs";
 import stop from "./stop.mjs";
 import truth from "./truth.mjs";
 import outlook from "./outlook.mjs";
+import replace from "./replace.mjs";
 import workplace from "./workplace.mjs";
 
 const [dolphin, built, examples, pictures] = process.argv.slice(2);
@@ -277,7 +278,7 @@ async function phone(name) {
 
 const all = { folder, page, test, same, text, choose, over, picture, phone };
 const more = { ...all, home, dolphin, environment, browser, complaints, open, pictures, server: () => server };
-for (const f of [helm, truth, outlook, people, analyses, maps, plans, workplace, places, accessibility, stop, listen, imc]) {
+for (const f of [helm, truth, outlook, replace, people, analyses, maps, plans, workplace, places, accessibility, stop, listen, imc]) {
   part = f.name;
   if (wanted(part)) await f(more);
 }

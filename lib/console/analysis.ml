@@ -3,7 +3,7 @@ open Dolphin_json
 open Lwt.Infix
 open Exchange
 
-type subject = Exploration | Timing | Graph
+type subject = Exploration | Timing | Graph | Replacement
 
 type order = {
   subject : subject;
@@ -35,7 +35,7 @@ let shown e = e.found
 
 (* {1 Orders in JSON} *)
 
-let subjects = [ (Exploration, "exploration"); (Timing, "timing"); (Graph, "graph") ]
+let subjects = [ (Exploration, "exploration"); (Timing, "timing"); (Graph, "graph"); (Replacement, "replacement") ]
 let subject_name subject = List.assoc subject subjects
 
 let subject_of json =
@@ -104,6 +104,7 @@ let start ~dolphin ~changed ~conclude:concluding order =
   let limits =
     match order.subject with
     | Exploration | Timing -> [ "--timeout"; string_of_int order.seconds; "--trace"; witness ]
+    | Replacement -> [ "--timeout"; string_of_int order.seconds ]
     | Graph -> []
   in
   let command = (dolphin :: order.arguments) @ limits @ order.inputs in

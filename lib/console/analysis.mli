@@ -5,11 +5,12 @@ open Dolphin_app
 open Dolphin_json
 open Exchange
 
-(** The commands [dolphin explore], [dolphin time], [dolphin lts]. *)
-type subject = Exploration | Timing | Graph
+(** The commands [dolphin explore], [dolphin time], [dolphin lts]; and [dolphin explore --from], of another program for
+    the run that goes on. *)
+type subject = Exploration | Timing | Graph | Replacement
 
 val subject_name : subject -> string
-(** ["exploration"], ["timing"], ["graph"]. *)
+(** ["exploration"], ["timing"], ["graph"], ["replacement"]. *)
 
 (** An analysis that a page has asked for. *)
 type order = {

@@ -19,6 +19,7 @@ let within what least most n =
 let of_subject subject found =
   match (subject : Analysis.subject) with
   | Exploration -> Ok [ "explore"; "--json"; "--progress"; "1" ]
+  | Replacement -> Ok [ "explore"; "--json"; "--progress"; "1" ]
   | Timing ->
     let* deadline = optional Field.text "deadline" found in
     Ok ([ "time"; "--json" ] @ Option.fold deadline ~none:[] ~some:(fun time -> [ "--deadline=" ^ time ]))
@@ -28,23 +29,37 @@ let of_subject subject found =
     let* () = within "a graph has states" 1 most_states states in
     Ok [ "lts"; "--format"; "json"; "--max-states"; string_of_int states ]
 
-let hash_of path = Result.fold (Text_file.read path) ~ok:Files.hash ~error:(fun _ -> "")
+(* The program with its fleet; the former for a run that goes on has that of the run. *)
+let loaded subject (w : Workspace.t) found ~set path =
+  match (subject : Analysis.subject) with
+  | Replacement ->
+    let* { Replacement_work.journal; program } = Replacement_work.program w ~set path in
+    Ok ([ "--from"; journal ], Analysis.inputs program Fleet_file.nobody, program, None)
+  | Exploration | Timing | Graph ->
+    let* named = optional Field.text "fleet" found in
+    let* program, fleet = Workspace.program_in_fleet w ~set ~fleet:named path in
+    Ok ([], Analysis.inputs program fleet, program, fleet.path)
+
+(* A run goes on with the program as it was checked, with its included files. *)
+let hash_of subject (program : Program_file.t) =
+  match (subject : Analysis.subject) with
+  | Replacement -> (Program_file.header program).hash
+  | Exploration | Timing | Graph -> Result.fold (Text_file.read program.path) ~ok:Files.hash ~error:(fun _ -> "")
 
 let prepare subject (w : Workspace.t) found =
   let* path = get Field.text "program" found in
-  let* named = optional Field.text "fleet" found in
   let* seconds = optional whole "seconds" found in
   let* faults = optional Field.text "faults" found in
   let* set = set found in
   let* arguments = of_subject subject found in
   let seconds = Option.value seconds ~default:60 in
   let* () = within "it takes seconds" 1 longest seconds in
-  let* program, fleet = Workspace.program_in_fleet w ~set ~fleet:named path in
+  let* from, inputs, program, fleet = loaded subject w found ~set path in
   let faults = Option.fold faults ~none:[] ~some:(fun faults -> [ "--faults=" ^ faults ]) in
   Ok
     (Analysis.json_of_order
-       { subject; seconds; arguments = arguments @ faults; inputs = Analysis.inputs program fleet; program = path;
-         fleet = fleet.path; set; hash = hash_of program.path })
+       { subject; seconds; arguments = arguments @ from @ faults; inputs; program = path; fleet; set;
+         hash = hash_of subject program })
 
 (* {1 The counterexample} *)
 
@@ -94,7 +109,11 @@ let last_line text =
   match List.rev (List.filter (( <> ) "") (String.split_on_char '\n' text)) with line :: _ -> line | [] -> ""
 
 let result subject text =
-  let printed = match (subject : Analysis.subject) with Graph -> text | Exploration | Timing -> last_line text in
+  let printed =
+    match (subject : Analysis.subject) with
+    | Graph -> text
+    | Exploration | Timing | Replacement -> last_line text
+  in
   match Yojson.Safe.from_string printed with
   | json -> Ok json
   | exception Yojson.Json_error _ -> refuse 422 "no-result" "there is no result"
@@ -118,6 +137,11 @@ let conclude w (r : Request.t) =
   let* text = parameter r "order" in
   let* order = Result.bind (needed (Host_value.parse text)) Analysis.order_of_json in
   let* result = result order.subject r.body in
+  let outcome : Field.members =
+    match order.subject with
+    | Replacement -> [ ("outcome", `String (Replacement_work.outcome result)) ]
+    | Exploration | Timing | Graph -> []
+  in
   let shown =
     match Option.map Witness_file.read (Request.parameter r "witness") with
     | Some (Ok witness) -> (
@@ -126,4 +150,4 @@ let conclude w (r : Request.t) =
         | Error _ -> `Null)
     | Some (Error _) | None -> `Null
   in
-  Ok (`Assoc [ ("result", result); ("counterexample", shown) ])
+  Ok (`Assoc (outcome @ [ ("result", result); ("counterexample", shown) ]))

@@ -135,6 +135,16 @@ let replay h role (r : Request.t) =
         Ok (Response.stream ~kind:"text/event-stream" write_all)
       | Ok response -> Ok response
 
+let differences h role (r : Request.t) =
+  match
+    let* client = client h role r in
+    Result.map (fun found -> (client, found)) (body r)
+  with
+  | Error r -> Lwt.return (Error r)
+  | Ok (client, found) ->
+    Run_commands.differences h role ~client found
+    >|= (function Ok found -> Ok (json (`Assoc found)) | Error response -> Ok response)
+
 let plans h role (r : Request.t) =
   match client h role r with
   | Error r -> Lwt.return (Error r)
@@ -170,9 +180,11 @@ let table =
     (("POST", "run/answer"), Answer (fun h client found -> Lwt.return (Run_commands.answer h client found)));
     (("POST", "run/post"), Answer Run_commands.post);
     (("POST", "run/resume"), Later Run_commands.resume);
+    (("POST", "run/differences"), Told differences); (("POST", "run/replace"), Later Run_commands.replace);
     (("GET", "runs"), Beside "runs"); (("GET", "replay"), Told replay); (("POST", "helm"), Steer helm);
     (("GET", "operators"), Told operators); (("POST", "operators"), Steer shut_out) ]
   @ of_subject "exploration" Exploration @ of_subject "timing" Timing @ of_subject "graph" Graph
+  @ of_subject "replacement" Replacement
 
 let routes = List.map (fun ((verb, path), _) -> (verb, "/api/" ^ path)) table
 

@@ -41,7 +41,10 @@ let broken_off w found =
   let* name = get Field.text "run" found in
   let* path, run = find w name in
   let* () = if run.state = Broken_off then Ok () else refuse 409 "not-broken-off" "this run has not broken off" in
-  let set = List.map (fun (name, text) -> (name, `String text)) run.header.program.set in
+  (* Another one may have come in the place of the first. *)
+  let source = Option.value (Journal_file.program run.path) ~default:run.header.program in
+  let path = Option.value (Folder.inside w.folder source.path) ~default:path in
+  let set = List.map (fun (name, text) -> (name, `String text)) source.set in
   Ok
     (`Assoc
        [ ("path", `String path); ("journal", `String run.path); ("set", `Assoc set);

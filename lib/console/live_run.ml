@@ -30,7 +30,7 @@ type t = {
   open_ : unit Lwt.u;
   mutable view : Run.view;
   mutable last : float;  (* the time of the latest news *)
-  mutable transitions : int;
+  mutable steps : int;  (* transitions, and changes of the program *)
   stepped : unit Lwt_condition.t;
   mutable question : question option;
   mutable questions : int;
@@ -48,10 +48,10 @@ let program r = r.order.program
 let goes_on r = match r.state with Running | Stopping -> true | Over _ -> false
 let now r = if goes_on r then Float.max r.last (r.view.now ()) else r.last
 let finished r = Lwt.protected r.finished
-let transitions r = r.transitions
+let steps r = r.steps
 
 let rec after r n =
-  if r.transitions > n || not (goes_on r) then Lwt.return_unit
+  if r.steps > n || not (goes_on r) then Lwt.return_unit
   else Lwt.pick [ Lwt_condition.wait r.stepped; finished r ] >>= fun () -> after r n
 
 (* {1 Messages} *)
@@ -76,11 +76,14 @@ let note_timers r ~time (t : Dolphin_semantics.Transition.t) =
   in
   List.iter note t.effects
 
+let step r =
+  r.steps <- r.steps + 1;
+  Lwt_condition.broadcast r.stepped ()
+
 let observer r : Observer.t =
   let transition ~time ~cause:_ t =
     r.last <- time;
-    r.transitions <- r.transitions + 1;
-    Lwt_condition.broadcast r.stepped ();
+    step r;
     note_timers r ~time t;
     let stuck = Interruption.is_unasked r.interruption (Narrator.configuration r.narrator) in
     Narrator.transition r.narrator ~stuck ~time t;
@@ -166,6 +169,7 @@ let replaced r program replay =
   r.order <- { r.order with program };
   Narrator.replaced r.narrator program (Dolphin_trace.Replay.configuration replay);
   remark r ("the run goes on with " ^ program.path);
+  step r;
   will_tell_waiting r
 
 let front r : Run.front =
@@ -201,7 +205,7 @@ let begin_ ~id ~changed ?journal ?enacts order go =
     { id; order; journal; enacts; feed;
       narrator = Narrator.make order.program (fun ~event data -> Feed.add feed ~event data);
       interruption = Interruption.make (); changed; finished; finish; opened; open_; view; last = 0.;
-      transitions = 0; stepped = Lwt_condition.create (); question = None;
+      steps = 0; stepped = Lwt_condition.create (); question = None;
       questions = 0; refused = None; state = Running; stale = false; early = []; expiries = Hashtbl.create 8 }
   in
   let whole () =
@@ -274,6 +278,14 @@ let post ?by r pairs =
   | Some why -> Lwt.return (Error why)
   | None when not (goes_on r) -> Lwt.return (Error "the run has ended")
   | None -> Lwt.choose [ r.opened; finished r ] >>= fun () -> each pairs
+
+let replace ?by r ~set ~hash path =
+  Lwt.choose [ r.opened; finished r ] >>= fun () ->
+  acted r by (Replace path);
+  r.view.replace ~set ~hash path >|= fun result ->
+  let refused why = remark r ("the run goes on with the program that it has: " ^ Replacement.message why) in
+  Result.iter_error refused result;
+  result
 
 (* {1 In JSON} *)
 

@@ -44,11 +44,11 @@ val now : t -> float
 val finished : t -> unit Lwt.t
 (** Resolves when it is over, and its vehicles are released. *)
 
-val transitions : t -> int
-(** How many this console has taken: a resumed run begins with 0. *)
+val steps : t -> int
+(** The number of transitions and of changes of the program since this console began or resumed the run. *)
 
 val after : t -> int -> unit Lwt.t
-(** [after r n] resolves when [r] has taken more than [n] {!transitions}, or is over. *)
+(** [after r n] resolves when [r] has taken more than [n] {!steps}, or is over. *)
 
 (** The extent of a Stop. *)
 type stopping =
@@ -71,6 +71,12 @@ val answer : ?by:operator -> t -> int -> string -> (unit, string) result
 val post : ?by:operator -> t -> (string * Dolphin_semantics.Core.value) list -> (float, string) result Lwt.t
 (** [post r pairs] posts them, one after the other. It resolves when the run has taken them, and the journal has them:
     to the time then. *)
+
+val replace :
+  ?by:operator -> t -> set:(string * string) list -> hash:string -> string ->
+  (float, Replacement.refusal) result Lwt.t
+(** [replace r ~set ~hash path] is {!Replacement.replace}: [r] goes on with the program in the file [path]. The log has
+    the reason of a refusal. *)
 
 val prompt_of : t -> int -> string option
 (** [prompt_of r n] is the prompt of the open question with the number [n]. *)

@@ -52,7 +52,7 @@ let follow ~dolphin ~changed ~workspace run =
     Lwt.pick [ Lwt_unix.sleep collected; Live_run.finished run ] >>= fun () ->
     if not (goes_on ()) then Lwt.return_unit
     else begin
-      let next = Live_run.transitions run and began = Unix.gettimeofday () in
+      let next = Live_run.steps run and began = Unix.gettimeofday () in
       let body = Canonical.to_string (Outlook_work.order ~program:(Live_run.program run) ~journal) in
       Lwt.pick [ (ask o ~workspace:(workspace ()) ~body >|= set); Live_run.finished run ] >>= fun () ->
       Lwt.pick [ Lwt_unix.sleep (rest_of (Unix.gettimeofday () -. began)); Live_run.finished run ] >>= fun () ->

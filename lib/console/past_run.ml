@@ -9,8 +9,7 @@ let places folder ~journal path =
   (path :: relative) @ [ Filename.concat (Filename.dirname journal) name; Filename.concat root name ]
 
 (* The program of a journal, as it was when it ran. *)
-let program_of folder ~journal (header : Header.t) =
-  let { Header.path; hash; set } = header.program in
+let program_of folder ~journal { Header.path; hash; set } =
   let unchanged path =
     match Program_file.load ~set ~may_read:(Folder.may_read folder) path with
     | Ok program when (Program_file.header program).hash = hash -> Some program
@@ -30,19 +29,21 @@ let tell_program folder (tell : Narrator.tell) program =
   tell ~event:"program" (Dolphin_json.Canonical.to_string json)
 
 (* The reason why the log is missing. *)
-let lacks_program tell (header : Header.t) =
-  let what = Printf.sprintf "%s is not in this folder, or has changed: no log" header.program.path in
+let lacks_program tell ({ path; _ } : Header.source) =
+  let what = Printf.sprintf "%s is not in this folder, or has changed: no log" path in
   Narrator.remark_on tell ~time:0. what
 
 let rec tell_entry folder tell ~journal teller (entry : Entry.t) =
   match teller, entry with
   | Unknown, Header header -> (
-      let program = program_of folder ~journal header in
+      (* The whole journal is one of a run of this program. *)
+      let source = Option.value (Journal_file.program journal) ~default:header.program in
+      let program = program_of folder ~journal source in
       tell_program folder tell program;
       match program with
-      | None -> plain tell entry; lacks_program tell header; Plain
+      | None -> plain tell entry; lacks_program tell source; Plain
       | Some program ->
-        let replay = Replay.start ~hash:header.program.hash program.program in
+        let replay = Replay.start ~hash:source.hash program.program in
         tell_entry folder tell ~journal (Whole (Narrator.make program tell, replay)) entry)
   | Whole (narrator, replay), entry -> (
       match Replay.feed replay entry with

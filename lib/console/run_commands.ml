@@ -137,6 +137,49 @@ let stop h client found =
   without_helm h run client "stops it";
   Ok (`Assoc [])
 
+(* {2 Another program} *)
+
+let differences h role ~client found =
+  match going_on h with
+  | Error r -> Lwt.return (Error (of_refusal r))
+  | Ok run ->
+    let found = ("before", `String (Live_run.program run).source) :: List.remove_assoc "before" found in
+    prepared h role ~client "differences" (Canonical.to_string (`Assoc found))
+
+let of_replacement : Replacement.refusal -> refusal = fun refused ->
+  let status, code =
+    match refused with
+    | Busy -> (409, "busy")
+    | No_journal -> (409, "no-journal")
+    | Wrong_program _ -> (422, "bad-program")
+    | Differs _ -> (422, "differs")
+    | Over -> (409, "no-run")
+  in
+  refusal status code (Replacement.message refused)
+
+(* The program is read here, too, but only once a worker has read it within its limits. *)
+let replace h ~client (r : Request.t) _ =
+  match going_on h with
+  | Error r -> Lwt.return (Error (of_refusal r))
+  | Ok run ->
+    prepared h Steers ~client "replace" r.body >>= function
+    | Error response -> Lwt.return (Error response)
+    | Ok ready -> (
+        let order =
+          let* path = get Field.text "path" ready in
+          let* hash = get Field.text "hash" ready in
+          let* set = set ready in
+          Ok (path, hash, set)
+        in
+        match order with
+        | Error r -> Lwt.return (Error (of_refusal r))
+        | Ok (path, hash, set) ->
+          Live_run.replace ?by:(Session.operator h client) run ~set ~hash path >|= function
+          | Ok time -> Ok (`Assoc [ ("time", Canonical.number time) ])
+          | Error refused -> Error (of_refusal (of_replacement refused)))
+
+(* {2 Answers} *)
+
 let not_yours h prompt =
   let whom = Option.value (Session.addressee h prompt) ~default:"another operator" in
   refusal 403 "addressed" ("this question is for " ^ whom)

@@ -26,6 +26,13 @@ val enact : Session.t -> Field.members -> (json, refusal) result
 val stop : Session.t -> string -> Field.members -> (json, refusal) result
 (** [stop h client found]: [POST run/stop]. *)
 
+val differences :
+  Session.t -> Access.role -> client:string -> Field.members -> (Field.members, Response.t) result Lwt.t
+(** [POST run/differences]. *)
+
+val replace : Session.t -> client:string -> Request.t -> Field.members -> (json, Response.t) result Lwt.t
+(** [POST run/replace]. *)
+
 val is_addressed : Session.t -> string -> Field.members -> bool
 (** [is_addressed h client found] is whether the question that a request answers is addressed to the operator of
     [client], who needs no helm for it then. *)

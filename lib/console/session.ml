@@ -45,7 +45,8 @@ type t = {
   heard : Heard.t option;  (* [None]: vehicles are simulated *)
   mutable starting : int;  (* requests that are about to begin a run *)
   mutable outlook : Outlook.t option;  (* of the run *)
-  mutable run_path : string option;  (* of its program, in the folder *)
+  mutable run_file : string;  (* of its program *)
+  mutable run_path : string option;  (* the same, in the folder *)
   pools : pools;
   mutable runs : int;
   mutable analyses : (Analysis.subject * numbered) list;  (* one of each at most *)
@@ -67,7 +68,7 @@ let make settings =
   { settings; instance = String.sub instance 0 8; grown; heard; starting = 0;
     access = { port = 0; tls = settings.certificate <> None; operators; proxy_header = settings.proxy_header };
     run = None;
-    outlook = None; run_path = None; pools = pools settings; runs = 0;
+    outlook = None; run_file = ""; run_path = None; pools = pools settings; runs = 0;
     analyses = []; begun = 0; visitors = Visitors.make (); helm = Helm.free; alive = []; watching = [] }
 
 let settings h = h.settings
@@ -150,16 +151,25 @@ let workspace h : Workspace.t =
   let own = match h.run with Some run when Live_run.goes_on run -> Live_run.journal run | Some _ | None -> None in
   { folder = h.settings.folder; fleet = h.settings.fleet; own }
 
+(* Another program may have come in its place. *)
+let note_program h run =
+  let { Program_file.path; _ } = Live_run.program run in
+  if path <> h.run_file then begin
+    h.run_file <- path;
+    h.run_path <- Folder.inside h.settings.folder path
+  end
+
 let begin_run h start =
   let before = h.run in
   h.runs <- h.runs + 1;
-  let run = start ~id:(Printf.sprintf "%s-%d" h.instance h.runs) ~changed:(fun () -> changed h) in
+  let changed_run () = Option.iter (note_program h) h.run; changed h in
+  let run = start ~id:(Printf.sprintf "%s-%d" h.instance h.runs) ~changed:changed_run in
   h.run <- Some run;
   Option.iter Outlook.close h.outlook;
   let workspace () = workspace h in
   let follow = Outlook.follow ~dolphin:h.settings.dolphin ~changed:(fun () -> changed h) ~workspace in
   h.outlook <- Some (follow run);
-  h.run_path <- Folder.inside h.settings.folder (Live_run.program run).path;
+  note_program h run;
   Option.iter (fun run -> Feed.close (Live_run.feed run)) before;
   changed h;
   run
@@ -233,6 +243,7 @@ let status h : Yojson.Safe.t =
       ("exploration", Field.of_option of_analysis (List.assoc_opt Analysis.Exploration h.analyses));
       ("timing", Field.of_option of_analysis (List.assoc_opt Analysis.Timing h.analyses));
       ("graph", Field.of_option of_analysis (List.assoc_opt Analysis.Graph h.analyses));
+      ("replacement", Field.of_option of_analysis (List.assoc_opt Analysis.Replacement h.analyses));
       ("helm",
        `Assoc
          [ ("holder", Field.of_option (fun client -> `String client) (Helm.holder h.helm));

@@ -33,7 +33,9 @@ let tasks =
     ("definition", compute Texts.definition); ("format", compute Texts.format);
     ("world", look Worlds.get); ("plans", compute Plans.prepare);
     ("exploration", compute (Analysis_work.prepare Exploration)); ("timing", compute (Analysis_work.prepare Timing));
-    ("graph", compute (Analysis_work.prepare Graph)); ("conclude", look Analysis_work.conclude);
+    ("graph", compute (Analysis_work.prepare Graph)); ("replacement", compute (Analysis_work.prepare Replacement));
+    ("differences", compute Replacement_work.differences); ("replace", compute Replacement_work.check);
+    ("conclude", look Analysis_work.conclude);
     ("outlook", compute Outlook_work.compute);
     ("start", look check_start); ("broken-off", compute Kept_runs.broken_off);
     ("runs", look Kept_runs.list); ("journal", look Kept_runs.check); ("replay", Pieces Kept_runs.replay) ]

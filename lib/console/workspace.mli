@@ -16,6 +16,9 @@ val file : t -> string -> (string, refusal) result
 val text : string -> (string, refusal) result
 (** [text path] is the contents of the file [path]. *)
 
+val of_error : file:string -> source:string -> Error.t -> refusal
+(** [of_error ~file ~source e] is ["faults"], with the diagnostics of [e], which concern the text [source] of [file]. *)
+
 val program : t -> ?set:(string * string) list -> string -> (Program_file.t, refusal) result
 (** [program w ~set path] is the program in a file of the folder; the refusal has its diagnostics. *)
 

@@ -6,6 +6,7 @@ type deed =
   | Resume
   | Answer of { question : string; text : string }
   | Post of string
+  | Replace of string
   | Stop of { all : bool }
   | Take_helm of string option
   | Leave_helm
@@ -20,6 +21,7 @@ let of_deed deed : members =
   | Resume -> did "resume" []
   | Answer { question; text } -> did "answer" [ ("question", `String question); ("text", `String text) ]
   | Post pair -> did "post" [ ("pair", `String pair) ]
+  | Replace program -> did "replace" [ ("program", `String program) ]
   | Stop { all } -> did "stop" (if all then [ ("all", `Bool true) ] else [])
   | Take_helm from -> did "take-helm" (Option.fold from ~none:[] ~some:(fun name -> [ ("from", `String name) ]))
   | Leave_helm -> did "leave-helm" []
@@ -37,6 +39,7 @@ let to_deed found =
     let* question = get text "question" found in
     Result.map (fun text -> Answer { question; text }) (get text "text" found)
   | "post" -> Result.map (fun pair -> Post pair) (get text "pair" found)
+  | "replace" -> Result.map (fun program -> Replace program) (get text "program" found)
   | "stop" -> Result.map (fun all -> Stop { all }) (optional truth ~default:false "all" found)
   | "take-helm" ->
     let name json = Result.map Option.some (text json) in
@@ -55,6 +58,7 @@ let words_of_deed = function
   | Resume -> "resumes the run"
   | Answer { question; text } -> Printf.sprintf "answers '%s': %s" question text
   | Post pair -> "posts " ^ pair
+  | Replace program -> "replaces the program by " ^ program
   | Stop { all = false } -> "stops the run"
   | Stop { all = true } -> "stops the run, and its task of onInterrupt"
   | Take_helm None -> "has the helm"

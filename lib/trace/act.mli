@@ -6,6 +6,7 @@ type deed =
   | Resume
   | Answer of { question : string;  (** its prompt *) text : string }
   | Post of string  (** the pair, ["ready:1"] *)
+  | Replace of string  (** the run is to go on with the program in this file *)
   | Stop of { all : bool }  (** [all]: the task of [onInterrupt], too *)
   | Take_helm of string option  (** from the operator who had it *)
   | Leave_helm  (** to no other operator *)

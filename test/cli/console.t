@@ -11,6 +11,9 @@ The console of a folder, on a port of its own, and all that docs/openapi.json de
   $ echo "answer 'How many?', 2" > mission.fleet
   $ echo 'message askk' > wrong.dol
   $ printf 'pause 1.minute\npause 2.seconds\n' > short.dol
+  $ echo 'message "the end"' > end.dol
+  $ { cat mission.dol; echo "include 'end.dol'"; } > longer.dol
+  $ sed "s/How many/How often/" mission.dol > others.dol
   $ cat > plans.dol << 'END'
   > parameter n = 1, 'loiters'
   > both = pick { count 2 }
@@ -49,6 +52,8 @@ The console of a folder, on a port of its own, and all that docs/openapi.json de
   $ console=$!
   $ port=$(sed -n 's/.*:\([0-9]*\)\/$/\1/p' served)
   $ python3 console_api.py ../../docs/openapi.json $port
+  no run: no-run
+  no run: no-run
   layers: ['broken.mbtiles', 'chart.mbtiles', 'zones.kml']
   shapes: ['quay']
   tiles: {'minimum': 1, 'maximum': 1, 'bounds': [-9, 41, -8, 42], 'attribution': ''}
@@ -67,6 +72,16 @@ The console of a folder, on a port of its own, and all that docs/openapi.json de
   too large: failed
   another number: True
   graph: 8 states, 9 transitions
+  wrong.dol: faults
+  none.dol: not-found
+  others.dol: differs
+  added: include 'end.dol'
+  
+  message "the end"
+  may follow: mission.dol violated ['no deadlock']
+  may follow: longer.dol violated ['no deadlock']
+  another text: changed
+  replaced: 200 longer.dol
   kept: mission.dol interrupted
   replayed to its end: True
   not asked for: []
@@ -169,9 +184,22 @@ The server is killed during a run, and the next one resumes it:
   mission.dol broken off
   How many?
   completed
+
+Likewise after its program was replaced: the run goes on with the new one.
+
+  $ python3 resume.py replace $port
+  longer.dol
+  $ kill -9 $console
+  $ wait $console 2> wait; rm served
+  $ serve $port served
+  $ console=$!
+  $ python3 resume.py onwards $port
+  completed
+  says: the end
   $ kill -INT $console
   $ wait $console
   $ dolphin runs | grep -o 'sim .*[a-z]' | sort
+  sim       completed
   sim       completed
   sim       completed
   sim       interrupted

@@ -55,11 +55,31 @@ def until(path, holds):
     raise SystemExit(f"{path} stays as it is: {found}")
 
 
+def replacing():
+    """Another program for the run of mission.dol, which waits for its input, with n = 3."""
+    for path in ["wrong.dol", "none.dol", "others.dol"]:
+        print(f"{path}:", ask("POST", "replacement", {"program": path})[1]["error"]["code"])
+    found = ask("POST", "run/differences", {"program": "longer.dol"})[1]
+    print("added:", found["after"].removeprefix(found["before"]).strip())
+    found = {}
+    for path in ["mission.dol", "longer.dol"]:
+        ask("POST", "replacement", {"program": path, "seconds": 20})
+        found = until("replacement", lambda found: found["state"] != "running")
+        violated = [v["property"] for v in found["result"]["verdicts"] if v["verdict"] == "violated"]
+        print("may follow:", path, found["outcome"], violated)
+    print("another text:", ask("POST", "run/replace", {"program": "longer.dol", "hash": "0" * 32})[1]["error"]["code"])
+    print("replaced:", ask("POST", "run/replace", {"program": "longer.dol", "hash": found["hash"]})[0],
+          ask("GET", "status")[1]["run"]["program"])
+
+
 def main():
     ask("GET", "operators")
     ask("POST", "operators", {"shut_out": "ana"})  # this console has no admin
-    for path in ["status", "files", "runs", "exploration", "timing", "graph"]:
+    for path in ["status", "files", "runs", "exploration", "timing", "graph", "replacement"]:
         ask("GET", path)
+    ask("DELETE", "replacement", {})
+    for path in ["replacement", "run/differences"]:
+        print("no run:", ask("POST", path, {"program": "mission.dol"})[1]["error"]["code"])
     ask("GET", "events", query="?client=api")
     text = ask("GET", "file", query="?path=mission.dol")[1]
     ask("PUT", "file", {"path": "mission.dol", "text": text["text"], "hash": text["hash"]})
@@ -133,6 +153,7 @@ def main():
     until("status", lambda found: found["run"]["question"] and found["run"]["question"]["number"] == 2)
     ask("POST", "run/answer", {"question": 2, "text": "3"})
     ask("POST", "run/answer", {"question": 2, "text": "3"})
+    replacing()
     ask("POST", "run/post", {"key": "none", "value": 1})
     ask("POST", "run/post", {"key": "go", "value": {"latitude": 41, "longitude": -8}})
     ask("POST", "run/post", {"pairs": "go: 'north'"})

@@ -100,3 +100,26 @@ A console that dies is resumed with the program that replaced its own:
   program     says: the new way
   program     releases noptilus-1
   program     ends
+
+Its parameters are those of the replacement, too:
+
+  $ cat > p.dol << 'END'
+  > parameter n = 1
+  > input 'go'
+  > execute condition { consume go: true }
+  > message n
+  > END
+  $ dolphin exec p.dol --sim=f.fleet --speed 100 --journal p.run > log 2>&1 & echo $! > pid
+  $ started p.run
+  $ dolphin replace ./p.run p.dol --set n=2 | sed 's/at .*:/at TIME:/'
+  replaced at TIME: the run goes on with p.dol
+  $ kill -9 $(cat pid)
+  $ dolphin exec --resume p.run p.dol --speed 1000 2>/dev/null > log &
+  $ started p.run
+  $ while ! dolphin post ./p.run go 2>/dev/null; do sleep 0.05; done
+  $ wait
+  $ cut -c 10- log
+  program     gets go:true
+  program     consumes go:true
+  program     says: 2
+  program     ends

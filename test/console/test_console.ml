@@ -504,6 +504,51 @@ let named_operators _ console =
   Alcotest.(check (list string)) "the journal has who did it"
     [ "ana (steer) starts the run"; "rui (answer) answers 'How many?': 3"; "rui (answer) posts go:1" ] acts
 
+(* Another program for the run: of the client that has the helm alone, and the journal has whose it was. *)
+let replaced folder console =
+  let port = Console.port console in
+  let by name =
+    let operator = List.find (fun (o : Operators.operator) -> o.name = Some name) crew in
+    [ ("Authorization", "Bearer " ^ operator.token); ("X-Dolphin-Client", name) ] in
+  let ask name ?body path = Client.ask ?body ~headers:(by name) ~port ("/api/" ^ path) in
+  let program text = write (Filename.concat folder "changed.dol") text; Digest.to_hex (Digest.string text) in
+  let replace name ?(path = "changed.dol") hash =
+    ask name ~body:(Printf.sprintf {|{"program": %S, "hash": %S}|} path hash) "run/replace" in
+  let hash = program (mission ^ "message 'more'\n") in
+  replace "ana" hash >>= fun r ->
+  refused "without a run" (409, "no-run") r;
+  Client.events ~headers:(by "ana") ~port "/api/events?client=ana" >>= fun ana ->
+  ask "ana" ~body:{|{"program": "mission.dol", "speed": 10}|} "run" >>= fun _ ->
+  Client.until ana question >>= fun _ ->
+  ask "ana" ~body:{|{"question": 1, "text": "3"}|} "run/answer" >>= fun _ ->
+  Client.until ana (fun m -> m.event = "waiting") >>= fun _ ->
+  replace "rui" hash >>= fun r ->
+  refused "by one who answers" (403, "answers") r;
+  replace "eva" hash >>= fun r ->
+  refused "by one who watches" (403, "watches") r;
+  replace "ana" ~path:"wrong.dol" hash >>= fun r ->
+  refused "with faults" (422, "faults") r;
+  replace "ana" ~path:"../outside.dol" hash >>= fun r ->
+  refused "from elsewhere" (404, "not-found") r;
+  let differs = program "input 'go'\nmessage 'begins'\nx = ask 'How often?'\nexecute condition { consume go: _ }\n" in
+  replace "ana" hash >>= fun r ->
+  refused "another text than was checked" (409, "changed") r;
+  replace "ana" differs >>= fun r ->
+  refused "one that the run does not begin" (422, "differs") r;
+  holds "with the step that differs" true (has_text "How many?" r.body);
+  let hash = program (mission ^ "message 'more'\n") in
+  replace "ana" hash >>= fun r ->
+  status "replaced" 200 r.status;
+  ask "ana" "status" >>= fun r ->
+  text "the program" "\"changed.dol\"" (Yojson.Safe.to_string (member [ "run"; "program" ] (Client.json r)));
+  ask "rui" ~body:{|{"pairs": "go: 1"}|} "run/post" >>= fun _ ->
+  Client.until ana (fun m -> m.event = "log" && has_text "says: more" m.data) >>= fun _ ->
+  Client.until ana is_over >>= fun _ ->
+  Client.leave ana >>= fun () -> acts_of_latest_run ~headers:(by "eva") port >|= fun acts ->
+  let replaces = List.filter (has_text "replaces") acts in
+  holds "whose it was" true
+    (replaces <> [] && List.for_all (fun act -> has_text "ana (steer) replaces the program by " act) replaces)
+
 (* {2 Questions for some of them} *)
 
 let bridge = Result.get_ok (Operators.read "ana steer\nrui answer,pilot\nleo answer\nzoe admin\n")
@@ -1404,6 +1449,9 @@ let () =
          slow "named operators"
            (served (fun folder ->
                 { (settings folder) with listen = Some Unix.inet_addr_loopback; operators = crew }) named_operators);
+         slow "another program"
+           (served (fun folder ->
+                { (settings folder) with listen = Some Unix.inet_addr_loopback; operators = crew }) replaced);
          slow "questions for some operators" addressed; slow "headers of proxies" proxy_header;
          slow "questions for the pilot" (served manned questions_for_some); slow "shut out" (served manned shut_out);
          slow "behind a proxy"

@@ -9,7 +9,7 @@ Acts of operators stand in journals, and mean nothing to the run.
   $ echo 3 | dolphin exec two.dol --quiet --journal two.run > /dev/null
 
   $ awk '{ print } /"ask":"How/ { print "{\"kind\":\"operator\",\"time\":0,\"operator\":\"rui\",\"role\":\"answer\",\"did\":\"answer\",\"question\":\"How many?\",\"text\":\"3\"}" }
-  >   /"label":"pause/ { print "{\"kind\":\"operator\",\"time\":0,\"operator\":\"ana\",\"role\":\"steer\",\"did\":\"take-helm\",\"from\":\"rui\"}\n{\"kind\":\"operator\",\"time\":0,\"operator\":\"ana\",\"role\":\"admin\",\"did\":\"shut-out\",\"name\":\"rui\"}" }' two.run > known.run
+  >   /"label":"pause/ { print "{\"kind\":\"operator\",\"time\":0,\"operator\":\"ana\",\"role\":\"steer\",\"did\":\"take-helm\",\"from\":\"rui\"}\n{\"kind\":\"operator\",\"time\":0,\"operator\":\"ana\",\"role\":\"steer\",\"did\":\"replace\",\"program\":\"new.dol\"}\n{\"kind\":\"operator\",\"time\":0,\"operator\":\"ana\",\"role\":\"admin\",\"did\":\"shut-out\",\"name\":\"rui\"}" }' two.run > known.run
   $ dolphin trace check two.dol known.run
   known.run: a run, of 7 transitions in 0:02; completed
   $ dolphin trace show known.run
@@ -21,6 +21,7 @@ Acts of operators stand in journals, and mean nothing to the run.
             says: 3
             pause(2)
             ana (steer) has the helm, which was rui's
+            ana (steer) replaces the program by new.dol
             ana (admin) shuts out rui
       0:02  completed
 

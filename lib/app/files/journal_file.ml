@@ -24,6 +24,35 @@ let settings_of reader =
   | Line { entry = Header { program; _ }; _ } -> Some program.set
   | Line _ | Torn _ | End_of_file | Wrong _ -> None
 
-let settings path =
-  let of_channel channel = Ok (settings_of (Journal.of_channel channel)) in
+(* Whether the line may be a resumption: most lines are not parsed. *)
+let may_resume line =
+  let word = {|"resumed"|} in
+  let length = String.length word and last = String.length line in
+  let rec from i =
+    match String.index_from_opt line i '"' with
+    | Some at when at + length <= last -> String.sub line at length = word || from (at + 1)
+    | Some _ | None -> false
+  in
+  from 0
+
+let resumed_with line =
+  match if may_resume line then Entry.of_string line else Error "" with
+  | Ok (Resumed { program; _ }) -> Some program
+  | Ok _ | Error _ -> None
+
+let rec latest channel found =
+  match input_line channel with
+  | exception End_of_file -> found
+  | line -> latest channel (match resumed_with line with Some program -> program | None -> found)
+
+let program path =
+  let of_channel channel =
+    match Journal.peek (Journal.of_channel channel) with
+    | Line { entry = Header { program; _ }; _ } ->
+      seek_in channel 0;
+      Ok (Some (latest channel program))
+    | Line _ | Torn _ | End_of_file | Wrong _ -> Ok None
+  in
   Option.join (Result.to_option (Text_file.with_channel path of_channel))
+
+let settings path = Option.map (fun (source : Header.source) -> source.set) (program path)

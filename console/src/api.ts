@@ -18,6 +18,7 @@ export interface RunStatus {
 // Of the run from its present on, or why that is unknown.
 export type Outlook = { error: string } | {
   from: { time: number; transitions: number }; over: { earliest: number; latest: number | null } | null;
+  running: { vehicle: string; plan: string; earliest: number; latest: number }[];
   violated: string[]; by_faults: string[]; complete: boolean;
 };
 // How far a vehicle is with its plan, by its own estimate; [remaining] in seconds.

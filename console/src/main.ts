@@ -13,7 +13,7 @@ import { Layout } from "./layout";
 import { VehiclePanel } from "./vehicle";
 import { VehicleTable } from "./vehicles";
 import { beside, inWords, read as readPlace } from "./place";
-import { outlook } from "./outlook";
+import { Wall, outlook, windows } from "./outlook";
 import { type Picked, happenings, timeline } from "./timeline";
 import { Plans } from "./plans";
 import { Replacing } from "./replace";
@@ -595,6 +595,10 @@ function renderBanner() {
   if (past) banner.replaceChildren(past.title + (past.reading ? " (is being read) " : " "), h("button", { click: leavePast }, "Back to now"));
 }
 
+// What may still happen, while a run goes on.
+const wall = new Wall();
+const ahead = () => (goesOn() && linked && !past ? status!.run!.outlook : null);
+
 function renderHead() {
   const run = status?.run, going = run?.state === "running" || run?.state === "stopping";
   $<HTMLButtonElement>("run").disabled = watches || going || !linked || !program();
@@ -612,7 +616,7 @@ function renderHead() {
   setTitle(world ? `${world} – ${going ? run.program ?? "a program" : "Dolphin console"}` : "Dolphin console");
   $("link").textContent = !linked ? "no server: this is what was known last" : going ? `${run.counterexample !== null ? "counterexample of " : ""}${run.program ?? "a program"} ${clock(live.time)}` : "";
   $("link").className = linked ? "" : "trouble";
-  outlook($("outlook"), going && linked && !past ? run.outlook : null, live.time);
+  outlook($("outlook"), ahead(), live.time, run ? wall.at(run) : null);
   helm.show(linked ? status?.helm ?? null : null, me, answers ? "answers" : watches ? "watches" : "steers");
 }
 
@@ -632,7 +636,7 @@ function changed() {
     renderLog();
     renderHead();
     alarms.show(status?.run?.id ?? "", live);
-    timeline($("timeline"), shown, past?.steps ?? false, picked?.key ?? null, pick);
+    timeline($("timeline"), shown, past?.steps ?? false, picked?.key ?? null, pick, windows(ahead()));
   }), 100);
 }
 
@@ -690,7 +694,7 @@ listen({
   waiting(waiting) { live.add({ kind: "waiting", waiting }); if (!past) changed(); },
   places({ places }) { live.add({ kind: "places", places }); if (!past) changed(); },
   way({ way }) { live.add({ kind: "way", way }); if (!past) changed(); },
-  clock(time) { live.time = Math.max(live.time, time); if (!past) changed(); },
+  clock(time) { wall.heard(status?.run ?? null, time); live.time = Math.max(live.time, time); if (!past) changed(); },
   heard(h) { heard = h; showHeard(); renderReal(); },
   role(is, name, as_) {
     operator = as_;

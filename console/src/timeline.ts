@@ -1,6 +1,7 @@
 // Tasks over time: a row for each vehicle, and one for the program. Events can be picked, by pressing
 // it or by the arrow keys: then it is told in words, with its place in the program and on the map.
 
+import type { Window } from "./outlook";
 import { type Mark, type Run, type Task, type Vehicle, clock } from "./model";
 import { h, svg } from "./dom";
 
@@ -14,9 +15,16 @@ const nice = [1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 144
 const letter: Record<Mark["kind"], string> =
   { posted: "+", consumed: "−", said: "“", asked: "?", failed: "!", input: "»" };
 
-const ofTask = (v: Vehicle, t: Task, i: number, steps: boolean): Picked => ({ key: `${v.id} ${i}`, time: t.from, vehicle: v.id, at: t.at, step: t.step,
+// Of a task that runs, with the time that the fleet gives it.
+function runs(window: Window | undefined, now: number): string {
+  if (!window) return ", runs";
+  const due = window.earliest === window.latest ? `at ${clock(window.latest)}` : `between ${clock(window.earliest)} and ${clock(window.latest)}`;
+  return now > window.latest ? `, is late by ${clock(now - window.latest)}: due ${due}` : `, runs, due ${due}`;
+}
+
+const ofTask = (v: Vehicle, t: Task, i: number, steps: boolean, window?: Window, now = 0): Picked => ({ key: `${v.id} ${i}`, time: t.from, vehicle: v.id, at: t.at, step: t.step,
   text: `${v.id}: ${t.plan}, ${steps ? "step " + t.from : clock(t.from)}` +
-    (t.until === null ? ", runs" : ` to ${steps ? t.until : clock(t.until)}, ${t.how}`) + (t.why ? `: ${t.why}` : "") });
+    (t.until === null ? runs(window, now) : ` to ${steps ? t.until : clock(t.until)}, ${t.how}`) + (t.why ? `: ${t.why}` : "") });
 
 const ofMark = (m: Mark, i: number, steps: boolean): Picked => ({ key: `program ${i}`, time: m.time, vehicle: null, at: m.at, step: m.step,
   text: `${steps ? "step " + m.time : clock(m.time)} ${m.kind}: ${m.text}` });
@@ -27,9 +35,12 @@ export function happenings(run: Run, steps: boolean): Picked[] {
   return [...tasks, ...run.marks.map((m, i) => ofMark(m, i, steps))].sort((a, b) => a.time - b.time || a.step - b.step);
 }
 
-export function timeline(el: HTMLElement, run: Run, steps: boolean, picked: string | null, pick: (p: Picked) => void) {
+export function timeline(el: HTMLElement, run: Run, steps: boolean, picked: string | null, pick: (p: Picked) => void, windows: Map<string, Window>) {
   const vehicles = [...run.vehicles.values()].filter((v) => v.tasks.length > 0 || run.bound.has(v.id));
-  const width = Math.max(320, el.clientWidth - 4), length = Math.max(run.time, 1);
+  const windowOf = (v: Vehicle, t: Task) => (t.until === null && windows.get(v.id)?.plan === t.plan ? windows.get(v.id) : undefined);
+  const due = vehicles.flatMap((v) => v.tasks.map((t) => windowOf(v, t)?.latest ?? 0));
+  // What is due has at most as much room as what has been.
+  const width = Math.max(320, el.clientWidth - 4), length = Math.max(run.time, 1, Math.min(2 * run.time, ...[Math.max(0, ...due)]));
   const x = (time: number) => left + 9 + (time / length) * (width - left - 24);
   const height = top + row * (vehicles.length + 1) + 6;
   const parts: Node[] = [];
@@ -47,14 +58,20 @@ export function timeline(el: HTMLElement, run: Run, steps: boolean, picked: stri
       parts.push(svg("rect", { x: x(gap.from), y: y + 1, width: Math.max(2, x(gap.until ?? run.time) - x(gap.from)), height: row - 3, class: "gap" },
         svg("title", {}, `${v.id}: no link`)));
     v.tasks.forEach((t, n) => {
-      const from = x(t.from), to = x(t.until ?? run.time), wide = Math.max(3, to - from), one = ofTask(v, t, n, steps);
-      parts.push(svg("rect", { x: from, y: y + 4, width: wide, height: row - 9, rx: 3, class: "task " + t.how + (one.key === picked ? " picked" : ""),
+      const window = windowOf(v, t), isLate = window !== undefined && run.time > window.latest;
+      const from = x(t.from), to = x(t.until ?? run.time), wide = Math.max(3, to - from), one = ofTask(v, t, n, steps, window, run.time);
+      // Dark until it may be over, light until it has to be.
+      if (window && !isLate) for (const [kind, start, end] of [["ahead", run.time, window.earliest], ["ahead maybe", Math.max(run.time, window.earliest), window.latest]] as const)
+        if (Math.min(end, length) > start)
+          parts.push(svg("rect", { x: x(start), y: y + 4, width: x(Math.min(end, length)) - x(start), height: row - 9, class: kind }));
+      parts.push(svg("rect", { x: from, y: y + 4, width: wide, height: row - 9, rx: 3, class: "task " + t.how + (isLate ? " late" : "") + (one.key === picked ? " picked" : ""),
         // Pressing, and not clicking: the picture may be drawn anew in between.
         pointerdown: () => pick(one) }, svg("title", {}, one.text)));
       if (wide > 30) parts.push(svg("text", { x: from + 5, y: y + 17, class: "plan " + t.how }, short(t.plan, Math.floor((wide - 8) / 6.4))));
     });
   });
 
+  if (length > run.time) parts.push(svg("line", { x1: x(run.time), x2: x(run.time), y1: top - 4, y2: height, class: "now" }));
   const y = top + row * vehicles.length;
   parts.push(svg("text", { x: left - 8, y: y + 17, class: "who" }, "program"));
   let last = -99;

@@ -22,12 +22,11 @@ let most_memory = 512 * 1024 * 1024
 let never () = false
 let unseen _ = ()
 
-let over from program fleet =
-  let settings =
-    { Time_analysis.answers = []; faults = Faults.none; deadline = None; workers = 1; max_states = None;
-      max_depth = None; max_memory = Some most_memory; timeout = Some seconds }
-  in
-  Time_analysis.run ~from ~interrupted:never ~progress:unseen settings program fleet
+let in_time =
+  { Time_analysis.answers = []; faults = Faults.none; deadline = None; workers = 1; max_states = None;
+    max_depth = None; max_memory = Some most_memory; timeout = Some seconds }
+
+let over from program fleet = Time_analysis.run ~from ~interrupted:never ~progress:unseen in_time program fleet
 
 let violations from faults program fleet =
   let settings = { Exploration.plain with faults; max_memory = Some most_memory; timeout = Some seconds } in
@@ -41,6 +40,17 @@ let violations from faults program fleet =
 
 (* {1 The reply} *)
 
+let seconds_of ms = Canonical.number (float_of_int ms /. 1000.)
+
+(* Tasks whose durations are not known have no windows. *)
+let json_of_running (r : Time_analysis.running) : json option =
+  match r.ends with
+  | Within { least; most } ->
+    Some
+      (`Assoc [ ("vehicle", `String r.vehicle); ("plan", `String r.plan); ("earliest", seconds_of least);
+                ("latest", seconds_of most) ])
+  | Some_time | Never -> None
+
 let json_of_over (o : Timed_analysis.outcome) : json =
   let windows = List.map snd o.endings in
   let latest found (w : Timed_analysis.window) =
@@ -48,15 +58,14 @@ let json_of_over (o : Timed_analysis.outcome) : json =
     | Timed_analysis.At n, At m -> Timed_analysis.At (max n m)
     | (At _ | Unbounded), _ -> Unbounded
   in
-  let seconds ms = Canonical.number (float_of_int ms /. 1000.) in
   match windows with
   | [] -> `Null
   | first :: rest ->
     let earliest = List.fold_left (fun least (w : Timed_analysis.window) -> min least w.earliest) first.earliest rest in
     let latest = if o.stopped = None then List.fold_left latest first.latest rest else Unbounded in
     `Assoc
-      [ ("earliest", seconds earliest);
-        ("latest", (match latest with At n -> seconds n | Unbounded -> `Null)) ]
+      [ ("earliest", seconds_of earliest);
+        ("latest", (match latest with At n -> seconds_of n | Unbounded -> `Null)) ]
 
 (* The page does not need the path of the journal. *)
 let from_json from : json =
@@ -77,6 +86,7 @@ let compute (_ : Workspace.t) found =
     else refuse 409 "changed" "the program has changed since the run began"
   in
   let over = over from program fleet in
+  let running = Time_analysis.running ~from in_time program fleet in
   (* Twice: the search with faults may be cut short before it comes to a violation without any. *)
   let* violated, whole = of_error (violations from Faults.none program fleet) in
   let* with_faults, whole_with_faults = of_error (violations from Faults.all program fleet) in
@@ -84,5 +94,6 @@ let compute (_ : Workspace.t) found =
   let names found = Field.texts (List.map Property.name found) in
   Ok
     (`Assoc
-       [ ("from", from_json from); ("over", json_of_over over); ("violated", names violated);
+       [ ("from", from_json from); ("over", json_of_over over);
+         ("running", `List (List.filter_map json_of_running running)); ("violated", names violated);
          ("by_faults", names by_faults); ("complete", `Bool (whole && whole_with_faults && over.stopped = None)) ])

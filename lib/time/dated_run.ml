@@ -24,6 +24,14 @@ let onwards (r : t) ~outside ~date ~seen =
   let began item = Option.value (List.assoc_opt item r.began) ~default:0 in
   (r.options, Clocked.onwards r.options r.state ~outside ~now:date ~began ~seen)
 
+let running (r : t) =
+  let of_pending (p : Clocked.pending) =
+    match p.item, p.progress with
+    | Task v, Under_way when not (List.mem v r.ordered) -> Some (p, List.assoc p.item r.began)
+    | _, _ -> None
+  in
+  List.filter_map of_pending r.state.pending
+
 let with_tolerance tolerance r = { r with tolerance }
 
 (* {1 Links} *)

@@ -24,6 +24,10 @@ val onwards :
 (** [onwards r ~outside ~date ~seen] is {!Clocked.onwards} from [date] after [r], and the options of [r]: vehicles
     neither join nor leave by the fleet any more. *)
 
+val running : t -> (Clocked.pending * int) list
+(** [running r] is the tasks that vehicles carry out after [r], each with when it began, in milliseconds since the
+    start. *)
+
 val with_tolerance : int -> t -> t
 (** [with_tolerance ms r] is [r], with this one from now on. *)
 

@@ -840,6 +840,15 @@ let outlook folder port =
   holds "over by three hours" true (within 10800. 10900. (seconds [ "over"; "latest" ] found));
   text "nothing goes wrong" "[]" (Yojson.Safe.to_string (member [ "violated" ] found));
   text "but by faults" {|["no unhandled error"]|} (Yojson.Safe.to_string (member [ "by_faults" ] found));
+  let task =
+    match member [ "running" ] found with
+    | `List [ `Assoc task ] -> task
+    | _ -> Alcotest.fail "one task runs"
+  in
+  let due name = match List.assoc name task with `Int n -> float_of_int n | `Float x -> x | _ -> Float.nan in
+  holds "whose task it is" true (List.assoc "vehicle" task = `String "a" && List.assoc "plan" task = `String "survey");
+  holds "due after an hour" true (within 3600. 3700. (due "earliest"));
+  holds "due by an hour and a half" true (within 5400. 5500. (due "latest"));
   text "all was looked at" "true" (Yojson.Safe.to_string (member [ "complete" ] found));
   stop () >>= fun _ ->
   Client.until first is_over >>= fun seen ->

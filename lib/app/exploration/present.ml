@@ -84,7 +84,7 @@ let world p scenario = Scenario_world.seen scenario (Replay.world p.past.replay)
 
 let milliseconds time = Option.value (Dolphin_time.Bounds.milliseconds time) ~default:0
 
-let timed p (options : Dolphin_time.Clocked.options) =
+let recorded p (options : Dolphin_time.Clocked.options) =
   let open Dolphin_time in
   let take r (time, line) =
     let date = milliseconds time in
@@ -92,7 +92,13 @@ let timed p (options : Dolphin_time.Clocked.options) =
     | Heard (v, connected) -> Dated_run.heard r ~date v connected
     | Took (on, t) -> fst (Dated_run.transition r ~date ~on t)
   in
-  let recorded = List.fold_left take (Dated_run.start ~tolerance:0 options) p.lines in
+  List.fold_left take (Dated_run.start ~tolerance:0 options) p.lines
+
+let running p options = Dolphin_time.Dated_run.running (recorded p options)
+
+let timed p (options : Dolphin_time.Clocked.options) =
+  let open Dolphin_time in
+  let recorded = recorded p options in
   let environment, (_, outside) = start p options.environment options.program in
   let seen = List.map (fun (s : World.vehicle_state) -> (s.id, s.position)) (known p) in
   let date = milliseconds p.time in

@@ -26,6 +26,9 @@ val timed : t -> Dolphin_time.Clocked.options -> Dolphin_time.Clocked.options * 
 (** [timed p options] is the same for {!Dolphin_time.Timed_analysis.run}: tasks and timers have gone on since they
     began, and vehicles at rest stand where they were seen last. *)
 
+val running : t -> Dolphin_time.Clocked.options -> (Dolphin_time.Clocked.pending * int) list
+(** {!Dolphin_time.Dated_run.running}, at [p]. *)
+
 val remarks : t -> Program_file.t -> Fleet_file.t -> string list
 (** Sentences on the differences from the run: a program or a fleet that has changed since, vehicles out of contact. *)
 

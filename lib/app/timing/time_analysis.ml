@@ -31,6 +31,23 @@ let run ?from ~interrupted ~progress s program fleet =
     let options, start = Present.timed present { options with world = Present.world present scenario } in
     Timed_analysis.run ~start ?deadline:s.deadline limits options
 
+type running = { vehicle : Dolphin_semantics.Core.vehicle; plan : string; ends : Dolphin_time.Bounds.t }
+
+let running ~from s program fleet =
+  let options = options s program fleet in
+  let later by (bounds : Dolphin_time.Bounds.t) : Dolphin_time.Bounds.t =
+    match bounds with
+    | Within { least; most } -> Within { least = by + least; most = by + most }
+    | (Some_time | Never) as bounds -> bounds
+  in
+  let of_pending ((p : Dolphin_time.Clocked.pending), began) =
+    match p.item, p.task with
+    | Task vehicle, Some task ->
+      Some { vehicle; plan = task.name; ends = later began p.bounds }
+    | _, _ -> None
+  in
+  List.filter_map of_pending (Present.running from { options with world = Present.world from fleet.scenario })
+
 let slacks ~interrupted ~progress s program fleet =
   Timed_analysis.slacks ~workers:s.workers (limits ~interrupted ~progress s) (options s program fleet)
 

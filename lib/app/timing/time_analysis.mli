@@ -20,6 +20,17 @@ val run :
 (** How a program's runs may go, by default from the beginning, or from the present [from] of one. [interrupted] and
     [progress] are as in {!Dolphin_checker.Limits}. *)
 
+(** A task that a vehicle carries out. *)
+type running = {
+  vehicle : Dolphin_semantics.Core.vehicle;
+  plan : string;
+  ends : Dolphin_time.Bounds.t;  (** since the start of the run, by the durations of the fleet *)
+}
+
+val running : from:Present.t -> settings -> Program_file.t -> Fleet_file.t -> running list
+(** [running ~from s program fleet] is the tasks that run at [from]. One may have run for longer than the fleet has
+    it. *)
+
 val slacks :
   interrupted:(unit -> bool) -> progress:(Dolphin_checker.Limits.progress -> unit) -> settings -> Program_file.t ->
   Fleet_file.t -> Timed_analysis.outcome -> Timed_analysis.slacks

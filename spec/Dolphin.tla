@@ -1244,11 +1244,15 @@ EXECUTE_DONE(M, s) == LET t == ForgettingAll(By(s, "EXECUTE-DONE", Done_)) IN Be
 (* The failure has cut off all that ran. *)
 EXECUTE_ERR(s) == EndedBy(By(s, "EXECUTE-ERR", Ends(Failed(s.out[2]))), << >>, << >>)
 
+(* Those of the timers that run after the event: the others but the one that expired, or was answered. *)
+RunningAfter(event, timers) ==
+  SelectSeq(timers, LAMBDA timer : ~ (event[1] \in { "expired", "confirmed" } /\ event[2] = timer.i))
+
 InExecute(M, r, s) ==
   CASE GoesOn(s) -> Becoming(s, Executing(M, s.out[2]))
     [] IsDone(s) -> EXECUTE_DONE(M, s)
     [] IsErr(s) -> EXECUTE_ERR(s)
-    [] OTHER -> EndedBy(s, Timers(r), Recruits(r))
+    [] OTHER -> EndedBy(s, RunningAfter(s.event, Timers(r)), Recruits(r))
 
 (* Those that need no event, and those on the events E. *)
 ExecutingSteps(M, r, E) ==

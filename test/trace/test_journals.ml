@@ -190,6 +190,39 @@ let orders () =
     Alcotest.(check string) "not by id" "bind(b, a)" label
   | verdict -> Alcotest.failf "by id: %s" (show verdict)
 
+(* Earlier versions cancelled the timer that had just expired, where a handler ended the program in that step. *)
+let earlier_ends () =
+  let r = Runs.of_text "execute (watch (idle(100) within 5) onError { halt 'too late' }) | idle(30)" in
+  is_run "as it is" (Runs.check r);
+  let cancels = ref 0 in
+  let earlier line =
+    match Entry.of_string line with
+    | Ok (Transition ({ step = { label = "timeout"; requests; _ } as step; _ } as t)) ->
+      incr cancels;
+      Entry.to_string (Transition { t with step = { step with requests = Request.Cancel_timer 1 :: requests } })
+    | Ok _ | Error _ -> line
+  in
+  let before = Runs.text (List.map earlier (Runs.lines r.journal)) in
+  Alcotest.(check int) "one end" 1 !cancels;
+  is_run "as it was" (Runs.check_text r before);
+  let lines = List.filter (fun line -> line <> "") (Runs.lines before) in
+  let resumed_without n =
+    match Runs.resume r (Runs.text (List.filteri (fun i _ -> i < List.length lines - n) lines)) with
+    | Ok joined -> is_run "resumed" (Runs.check_text r joined)
+    | Error why -> Alcotest.failf "resumed without its last %d lines: %s" n why
+  in
+  List.iter resumed_without [ 1; 2; 3 ];
+  (* Other timers still have to be as the semantics has them. *)
+  let wrong line =
+    match Entry.of_string line with
+    | Ok (Transition ({ step = { label = "timeout"; requests; _ } as step; _ } as t)) ->
+      Entry.to_string (Transition { t with step = { step with requests = Request.Cancel_timer 7 :: requests } })
+    | Ok _ | Error _ -> line
+  in
+  match Runs.check_text r (Runs.text (List.map wrong (Runs.lines r.journal))) with
+  | No_run _ -> ()
+  | verdict -> Alcotest.failf "a timer that never ran: %s" (show verdict)
+
 let () =
   Alcotest.run "journals"
     [ ( "journals",
@@ -199,6 +232,7 @@ let () =
           case "what allocation reads is there" allocation_sees;
           case "the changes of A are A" allocations;
           case "all endings" endings;
+          case "ends in journals of earlier versions" earlier_ends;
           case "all kinds of tuples" tuples;
           case "a pick of 30 among 60" many_choices;
           case "vehicles by hearing and by id" orders;

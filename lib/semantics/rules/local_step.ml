@@ -305,7 +305,16 @@ let next m outcome shared : Configuration.t =
   | Over -> { control = Script (Machine.give Null m); shared = Shared.without_fresh shared }
   | Ends ending -> Conclusion.ended shared ending
 
-let conclude m r { after; outcome; derivation; named; asked; rounds = _ } : Conclusion.t =
+(* An expired timer does not run any more, and an answered question is not open. *)
+let without_spent on waits =
+  match on with
+  | Some (Timer_expired spent | Confirmed (spent, _)) -> List.filter (fun (number, _) -> number <> spent) waits
+  | Some
+      ( Vehicle_done _ | Vehicle_failed _ | Recruited _ | Answered _ | Nobody_answers _ | Replied _ | Host_failed _
+      | Input _ | Interruption )
+  | None -> waits
+
+let conclude ?on m r { after; outcome; derivation; named; asked; rounds = _ } : Conclusion.t =
   let go_on rules : Conclusion.t =
     { rules; label = named; next = next m outcome after; effects = asked; assumed = [];
       otherwise = [] }
@@ -317,5 +326,5 @@ let conclude m r { after; outcome; derivation; named; asked; rounds = _ } : Conc
     (* The failure has cut off all that ran. *)
     Conclusion.ending ~before:asked (derivation @ [ Rule.Execute_err ]) named after ending
   | Ends ((Completed | Halted _ | Failed _ | Interrupted) as ending) ->
-    Conclusion.ending ~waits:(Residual.waits r) ~recruits:(Residual.recruits r) ~before:asked derivation named after
-      ending
+    let waits = without_spent on (Residual.waits r) in
+    Conclusion.ending ~waits ~recruits:(Residual.recruits r) ~before:asked derivation named after ending

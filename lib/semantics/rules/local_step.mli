@@ -54,6 +54,7 @@ val next : Machine.t -> outcome -> Shared.t -> Configuration.t
 (** [next m o s] is the configuration after a step with outcome [o] of the residual that [m] waits for; [s] is the
     shared part then. *)
 
-val conclude : Machine.t -> Residual.t -> t -> Conclusion.t
-(** [conclude m r l] is the transition of a configuration in which [m] waits for [r], by a step of [r] that does [l]:
-    EXECUTE-DONE, EXECUTE-ERR, or no further rule. *)
+val conclude : ?on:event -> Machine.t -> Residual.t -> t -> Conclusion.t
+(** [conclude ~on m r l] is the transition of a configuration in which [m] waits for [r], by a step of [r] that does
+    [l]: EXECUTE-DONE, EXECUTE-ERR, or no further rule. [on] is the event of the step, if it needs one: at the end of
+    the program, the timer that expired is not cancelled, and the question that was answered is not withdrawn. *)

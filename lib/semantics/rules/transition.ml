@@ -51,7 +51,10 @@ let executing_event program world s m r event =
         match Local_step.on_event program world s step event with
         | Decided None -> first rest
         | (Decided (Some _) | Open _ | Unclear _) as taken ->
-          let conclude = function Some local -> Ok (Local_step.conclude m r local) | None -> Error Not_awaited in
+          let conclude = function
+            | Some local -> Ok (Local_step.conclude ~on:event m r local)
+            | None -> Error Not_awaited
+          in
           Decision.map conclude taken)
   in
   match event with

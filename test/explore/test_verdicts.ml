@@ -193,6 +193,48 @@ let bounds_within =
        Interruption);
   ]
 
+(* {1 Bounds after a search}
+
+   The search looks at the clock at each of 70 states, and to show its run does so at each transition. *)
+
+let long_run = "i = 0\nwhile (i < 100000) { i = i + 1 }\nx = [1][2]"
+let is_unshown why = String.starts_with ~prefix:"a violation was found, but " why
+
+let shows_after_search name limits ~shows () =
+  let _, o = run ~options:{ (limited limits) with reduction = Partial_order } long_run in
+  Alcotest.(check bool) (name ^ " leaves the search alone") true (o.stopped = None);
+  match List.assoc Property.No_error o.verdicts with
+  | Violated _ -> Alcotest.(check bool) (name ^ ": the run is shown") true shows
+  | Inconclusive (Unsettled why) when is_unshown why -> Alcotest.(check bool) (name ^ ": it is not shown") false shows
+  | _ -> Alcotest.failf "%s: neither a run, nor the reason why there is none" name
+
+let after_search =
+  let timed timeout = { Limits.none with clock = ticking (); timeout = Some timeout } in
+  let interrupted = { Limits.none with interrupted = interrupted_after 100 } in
+  [ ("enough time", shows_after_search "enough time" (timed 1_000.) ~shows:true);
+    ("too little time", shows_after_search "too little time" (timed 50.) ~shows:false);
+    ("an interruption", shows_after_search "an interruption" interrupted ~shows:false) ]
+
+(* A run that was found in time is shown, though the search was stopped. *)
+let follow_up_after_stop () =
+  let now = ref 0. in
+  let limits = { Limits.none with timeout = Some 5.; clock = (fun () -> !now) } in
+  now := 6.;
+  let tick = Limits.follow_up ~stopped:Time ~started:0. limits in
+  let stops at =
+    now := at;
+    match tick () with () -> None | exception Limits.Stop bound -> Some bound
+  in
+  Alcotest.(check bool) "a second more" true (List.map stops [ 6.; 6.9 ] = [ None; None ]);
+  Alcotest.(check bool) "and no longer" true (stops 7.1 = Some Time);
+  now := 1.;
+  let interrupted = ref true in
+  let tick = Limits.follow_up ~started:0. { limits with interrupted = (fun () -> !interrupted) } in
+  tick ();
+  now := 2.1;
+  Alcotest.(check bool) "after an interruption too" true
+    (match tick () with () -> false | exception Limits.Stop _ -> true)
+
 (* A hundred parallel parts: the work for one state takes long, and so does the search for alike parts. *)
 let parts n task = "execute " ^ String.concat " | " (List.init n task)
 let stops_among name reduction task () =
@@ -254,6 +296,7 @@ let () =
       ("bounds", List.map case bounds);
       ("bounds within an expansion", List.map case bounds_within);
       ("bounds among many parts", List.map case among);
+      ("bounds after a search", List.map case (after_search @ [ ("a search that was stopped", follow_up_after_stop) ]));
       ( "shortest runs",
         List.map case [ ("of few parts", shows_shortest 8 true); ("of many parts", shows_shortest 64 false) ] );
       ( "around bounds",

@@ -204,6 +204,9 @@ module Make (S : System.S) : sig
       reports progress in [phase].
       @raise Limits.Stop *)
 
+  val follow_up : t -> unit -> unit
+  (** {!Limits.follow_up} of this search: for code that shows what was found. *)
+
   (** {1:states States} *)
 
   val load : t -> int -> int array

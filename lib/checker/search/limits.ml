@@ -122,3 +122,22 @@ let look g phase measures =
     g.reported <- now;
     report g phase elapsed measures
   end
+
+(* {1 After a search} *)
+
+let least_time = 1.
+
+let follow_up ?stopped ?(used = fun () -> 8 * (Gc.quick_stat ()).heap_words) ~started limits =
+  let began = limits.clock () and first = used () in
+  let is_interrupted = stopped = Some Interruption || limits.interrupted () in
+  let until most = Float.max (started +. most) (began +. Float.max least_time (most /. 10.)) -. began in
+  let limits =
+    { limits with
+      timeout = if is_interrupted then Some least_time else Option.map until limits.timeout;
+      interrupted = if is_interrupted then (fun () -> false) else limits.interrupted;
+      max_memory = Option.map (fun most -> max most (first + (most / 8))) limits.max_memory;
+      memory_left = if stopped = Some No_memory then (fun () -> None) else limits.memory_left;
+      progress = ignore }
+  in
+  let g = guard ~started:began limits in
+  fun () -> look g "" { states = 0; expanded = 0; depth = 0; used = used (); growth = 0 }

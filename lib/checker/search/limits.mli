@@ -79,3 +79,14 @@ val look : guard -> string -> measures -> unit
 (** [look g phase m] looks at all limits but those on states and depth, and reports progress in [phase] if it is time
     to. It takes about a microsecond.
     @raise Stop *)
+
+(** {1:after After a search} *)
+
+val follow_up : ?stopped:bound -> ?used:(unit -> int) -> started:float -> t -> unit -> unit
+(** [follow_up ~stopped ~used ~started limits] is a function to be called again and again in the work after a search
+    that began at [started], such as the reconstruction of the runs that it found. [stopped] is the bound that ended
+    the search, if one did; [used ()] is the bytes in use: by default, those of OCaml's heap. The work has the rest of
+    the search's time, or if that is more, a second and a tenth of [limits.timeout], whichever is more; and the rest of
+    its memory, or an eighth of [limits.max_memory] more than is in use at the beginning. If the search was
+    interrupted, the work has one second.
+    @raise Stop when that is over, or if the work is interrupted *)

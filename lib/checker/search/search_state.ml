@@ -145,6 +145,9 @@ module Make (S : System.S) = struct
       incr ticks;
       if !ticks land 0xFF = 0 then look_around t phase
 
+  let follow_up t =
+    Limits.follow_up ?stopped:t.stopped ~used:(fun () -> memory t) ~started:(Limits.started t.guard) t.limits
+
   (* Pushed states are added in batches: close to the bound, one by one. The initial state is always there. *)
   let batch = 256
 

@@ -130,6 +130,9 @@ module Make (S : System.S) : sig
   val ticker : t -> string -> unit -> unit
   (** As {!Breadth_first.Make.ticker}. *)
 
+  val follow_up : t -> unit -> unit
+  (** As {!Breadth_first.Make.follow_up}. *)
+
   val worked : t -> unit
   (** Is called at each visit and each expansion: now and then it looks around. *)
 

@@ -11,6 +11,7 @@ type t = {
   world : World.t;
   graph : State_graph.t;
   labelling : Labelling.t;
+  tick : unit -> unit;
 }
 
 (* {1 Transitions}
@@ -26,6 +27,7 @@ let valuation x (t : Transition.t) =
 let step x i j is_right =
   let c, outside = State_graph.state x.graph j in
   let leads ((t : Transition.t), e) =
+    x.tick ();
     Environment.compare e outside = 0 && Configuration.equal t.next c && is_right (valuation x t)
   in
   match Environment.find leads (choices x (State_graph.state x.graph i)) with
@@ -57,10 +59,10 @@ module States = Hashtbl.Make (struct
   end)
 
 (* The run continues with the first of the choices, to its end, or to a visited state. *)
-let onwards tick x states =
+let onwards x states =
   let seen = States.create 100 in
   let rec go state taken =
-    tick ();
+    x.tick ();
     match States.find_opt seen state with
     | Some n -> (n, List.rev taken)
     | None -> (
@@ -76,8 +78,8 @@ let onwards tick x states =
   let before = List.filteri (fun k _ -> k < back) taken and cycle = List.filteri (fun k _ -> k >= back) taken in
   { steps = through x states @ before; cycle; decided = Some (List.length states - 1) }
 
-let of_violation ?(tick = ignore) options program world graph labelling (violation : Breadth_first.violation) =
-  let x = { options; program; world; graph; labelling } in
+let of_violation ~tick options program world graph labelling (violation : Breadth_first.violation) =
+  let x = { options; program; world; graph; labelling; tick } in
   match violation with
-  | Whatever_follows states -> onwards tick x states
+  | Whatever_follows states -> onwards x states
   | Around { stem; cycle } -> { steps = through x stem; cycle = around x (last stem) cycle; decided = None }

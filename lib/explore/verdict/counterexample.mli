@@ -8,7 +8,7 @@ open Dolphin_environment
 type run = { steps : Transition.t list; cycle : Transition.t list; decided : int option }
 
 val of_violation :
-  ?tick:(unit -> unit) -> Environment.options -> Core.program -> World.t -> State_graph.t -> Labelling.t ->
+  tick:(unit -> unit) -> Environment.options -> Core.program -> World.t -> State_graph.t -> Labelling.t ->
   Dolphin_checker.Breadth_first.violation -> run
-(** [of_violation o p w g l v] is a run through the states of [v], found in [g] under the monitor of [l]. [tick] is
-    called often. *)
+(** [of_violation ~tick o p w g l v] is a run through the states of [v], found in [g] under the monitor of [l]. It calls
+    [tick] at each choice that it looks at, and raises what that raises. *)

@@ -3,9 +3,10 @@ open Dolphin_environment
 
 (* Of several ways to take a step, [Environment.choices] has one with the fewest late vehicles first. Of the ways in
    which a pick fails it has one; they differ in the text of the error. *)
-let after_run (options : Environment.options) program world (c, outside) steps =
+let after_run ~tick (options : Environment.options) program world (c, outside) steps =
   let options = { options with most_faults = Some max_int } in
   let take (c, outside) (t : Transition.t) =
+    tick ();
     let broken (t : Transition.t) = Property.broken_by_end program t.rules t.next in
     let is_same ((t' : Transition.t), _) = Label.equal t'.label t.label && Configuration.equal t'.next t.next in
     let ends_alike (t', _) = broken t <> None && broken t' = broken t in
@@ -19,13 +20,13 @@ let after_run (options : Environment.options) program world (c, outside) steps =
   in
   List.fold_left take (c, outside) steps
 
-let of_run options program world start steps =
-  let _, outside = after_run options program world start steps in
+let of_run ~tick options program world start steps =
+  let _, outside = after_run ~tick options program world start steps in
   Environment.spent outside - Environment.spent (snd start)
 
 (* Vehicles that could be recruited there, and are not. *)
-let of_deadlock options program world start steps =
-  let c, outside = after_run options program world start steps in
+let of_deadlock ~tick options program world start steps =
+  let c, outside = after_run ~tick options program world start steps in
   let awaited ((t : Transition.t), _) = match t.label with Recruit v -> Some v | _ -> None in
   let choices = List.of_seq (Environment.choices options program world outside c) in
   let counts v = not (List.mem v (Environment.lost outside) || List.mem v (Environment.late outside)) in

@@ -1,5 +1,6 @@
 open Dolphin_semantics
 open Dolphin_environment
+module Limits = Dolphin_checker.Limits
 
 let violated (found : Search.outcome) =
   let run (property, (verdict : Search.verdict)) =
@@ -18,16 +19,20 @@ let asking properties (options : Search.options) =
 
 (* {1 Counting} *)
 
-(* [None] where vehicles may stay away from a [recruit] all the time, which no step shows. *)
-let count (options : Search.options) program world start (property, (run : Search.run)) =
-  let { Search.environment; _ } = options in
-  let shown () = Fault_count.of_run environment program world start (run.steps @ run.cycle) in
+(* [None] where vehicles may stay away from a [recruit] all the time, which no step shows, and where there is no time
+   to count. *)
+let count ~started (options : Search.options) program world start (property, (run : Search.run)) =
+  let { Search.environment; limits; _ } = options in
+  let tick = Limits.follow_up ~started limits in
+  let shown () = Fault_count.of_run ~tick environment program world start (run.steps @ run.cycle) in
   let may_be_absent = program.Core.recruits && Faults.is_possible environment.faults.join in
-  match (property : Property.t) with
-  | No_deadlock -> Some (Fault_count.of_deadlock environment program world start run.steps)
-  | (Termination | Formula _) when may_be_absent -> None
-  | Termination | Formula _ | No_error | Assertions | Vehicles | Allocation | No_halt | No_leftover | All_reached
-  | Invariant _ | Apart _ -> Some (shown ())
+  try
+    match (property : Property.t) with
+    | No_deadlock -> Some (Fault_count.of_deadlock ~tick environment program world start run.steps)
+    | (Termination | Formula _) when may_be_absent -> None
+    | Termination | Formula _ | No_error | Assertions | Vehicles | Allocation | No_halt | No_leftover | All_reached
+    | Invariant _ | Apart _ -> Some (shown ())
+  with Limits.Stop _ -> None
 
 (* {1 Searching} *)
 
@@ -79,7 +84,7 @@ let rec from n ~most search p = if n >= most then p else from (n + 1) ~most sear
 
 let improved ?start ~started options program world (found : Search.outcome) =
   let beginning = Option.value start ~default:(Configuration.initial program, Environment.initial) in
-  let count = count options program world beginning in
+  let count = count ~started options program world beginning in
   let first (property, run) =
     let counted number = { Search.number; fewest = true } in
     { property; run; faults = Option.map counted (count (property, run)) }

@@ -10,11 +10,12 @@ exception Out_of_step
 let equal (c, e) (c', e') = Environment.compare e e' = 0 && Configuration.equal c c'
 
 (* Transitions may differ only in the environment's memory, so there may be several ways; almost always there is one. *)
-let step options world program ~image (t : Transition.t) pair =
+let step ~tick options world program ~image (t : Transition.t) pair =
   let choices program (c, e) = List.of_seq (Environment.choices options program world e c) in
   let images = choices image pair.image and reals = choices program pair.real in
   if List.compare_lengths images reals <> 0 then raise_notrace Out_of_step;
   let follow ((t' : Transition.t), e) ((real : Transition.t), real_e) =
+    tick ();
     if t'.rules = t.rules && Label.equal t'.label t.label && Configuration.equal t'.next t.next then begin
       if real.rules <> t.rules then raise_notrace Out_of_step;
       Some { image = (t'.next, e); real = (real.next, real_e); taken = real :: pair.taken }
@@ -28,8 +29,8 @@ let distinct pairs =
   let is_new kept p = not (List.exists (fun q -> equal p.image q.image) kept) in
   List.rev (List.fold_left (fun kept p -> if is_new kept p then p :: kept else kept) [] pairs)
 
-let through options world program ~image steps pairs =
-  let next pairs t = distinct (List.concat_map (step options world program ~image t) pairs) in
+let through ~tick options world program ~image steps pairs =
+  let next pairs t = distinct (List.concat_map (step ~tick options world program ~image t) pairs) in
   List.fold_left next pairs steps
 
 let start program image =
@@ -38,18 +39,18 @@ let start program image =
 
 let most_rounds = 2_000
 
-let around options world program ~image cycle pair =
+let around ~tick options world program ~image cycle pair =
   let back p = equal p.image pair.image in
   let round p =
-    let ends = through options world program ~image cycle [ { p with taken = [] } ] in
+    let ends = through ~tick options world program ~image cycle [ { p with taken = [] } ] in
     Option.map (fun next -> (next, List.rev next.taken)) (List.find_opt back ends)
   in
   let same p q = equal p.real q.real in
   let found (before, cycle) = { steps = List.rev_append pair.taken before; cycle } in
   Option.map found (Rounds.closed ~most:most_rounds ~equal:same round pair)
 
-let follow options world program ~image ~ends_alike run =
-  match through options world program ~image run.steps [ start program image ], run.cycle with
+let follow ~tick options world program ~image ~ends_alike run =
+  match through ~tick options world program ~image run.steps [ start program image ], run.cycle with
   | exception Out_of_step -> None
   | [], _ -> None
   | pair :: _, [] -> (
@@ -58,6 +59,6 @@ let follow options world program ~image ~ends_alike run =
       | image :: _, real :: _ -> if ends_alike image real then Some found else None
       | [], _ | _, [] -> Some found)
   | pairs, cycle -> (
-      match List.find_map (around options world program ~image cycle) pairs with
+      match List.find_map (around ~tick options world program ~image cycle) pairs with
       | found -> found
       | exception Out_of_step -> None)

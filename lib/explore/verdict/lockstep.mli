@@ -8,7 +8,8 @@ open Dolphin_environment
 type run = { steps : Transition.t list; cycle : Transition.t list }
 
 val follow :
-  Environment.options -> World.t -> Core.program -> image:Core.program ->
+  tick:(unit -> unit) -> Environment.options -> World.t -> Core.program -> image:Core.program ->
   ends_alike:(Transition.t -> Transition.t -> bool) -> run -> run option
-(** [follow o w p ~image ~ends_alike run] is the run of [p] that goes in step with [run], one of [image], and ends
-    alike. A cycle is followed around until it returns to the same place in [p]. [None]: they do not go in step. *)
+(** [follow ~tick o w p ~image ~ends_alike run] is the run of [p] that goes in step with [run], one of [image], and ends
+    alike. A cycle is followed around until it returns to the same place in [p]. [None]: they do not go in step. It
+    calls [tick] at each choice, and raises what that raises. *)

@@ -1,10 +1,20 @@
 open Dolphin_semantics
 open Dolphin_environment
 
-let choices graph (c, outside) = Space.choices (State_graph.system graph) outside c
+(* A graph, and the call at each choice that is looked at. *)
+type again = { graph : State_graph.t; tick : unit -> unit }
 
-let take graph state leads ~from ~into =
-  match Environment.find leads (choices graph state) with
+let choices { graph; _ } (c, outside) = Space.choices (State_graph.system graph) outside c
+
+let find { tick; _ } is_it found =
+  let look choice =
+    tick ();
+    is_it choice
+  in
+  Environment.find look found
+
+let take x state leads ~from ~into =
+  match find x leads (choices x state) with
   | Some choice -> choice
   | None -> Fmt.invalid_arg "Replay: no transition from state %d to state %d" from into
 
@@ -40,7 +50,7 @@ let rec task graph = function
       | Exact _ -> ([], None, i :: rest))
   | [] -> ([], None, [])
 
-let follow graph g start ~from states after =
+let follow ({ graph; _ } as x) g start ~from states after =
   let space = State_graph.system graph in
   let numbers = List.map fst states in
   let final = List.nth numbers (List.length numbers - 1) in
@@ -57,7 +67,7 @@ let follow graph g start ~from states after =
       let c, e = reached choice in
       Space.is_in_class space g wanted c e
     in
-    let choice = take graph state leads ~from ~into:i in
+    let choice = take x state leads ~from ~into:i in
     (reached choice, i, choice :: found)
   in
   let state, last, found =
@@ -76,30 +86,30 @@ let broken_by_end graph = Property.broken_by_end (Space.program (State_graph.sys
 let ends_in_same_way graph property ((t : Transition.t), _) =
   broken_by_end graph t.rules t.next = property && is_end t.next
 
-let leads_to graph i state =
+let leads_to ({ graph; _ } as x) i state =
   let is_it ((t : Transition.t), e) =
     equal (t.next, e) state || equal (Space.canonical (State_graph.system graph) t.next e) state
   in
   fun found ->
-    match Environment.find is_it found with
+    match find x is_it found with
     | Some choice -> Some choice
-    | None -> Environment.find (ends_in_same_way graph (State_graph.broken_by graph i)) found
+    | None -> find x (ends_in_same_way graph (State_graph.broken_by graph i)) found
 
 (* Transitions from state to state, each from the target of the one before, or from its representative. The result is
    latest first. *)
-let in_names_of graph states =
+let in_names_of ({ graph; _ } as x) states =
   let rec go state from found = function
     | [] -> found
     | i :: rest as states -> (
         match State_graph.view graph i with
         | Exact (c, outside) -> (
-            match leads_to graph i (c, outside) (choices graph state) with
+            match leads_to x i (c, outside) (choices x state) with
             | Some choice -> go (c, outside) i (choice :: found) rest
             | None -> Fmt.invalid_arg "Replay: no transition from state %d to state %d" from i)
         | Up_to _ -> (
             match task graph states with
             | inside, Some g, after ->
-              let state, last, inside = follow graph g state ~from inside after in
+              let state, last, inside = follow x g state ~from inside after in
               go state last (List.rev_append inside found) after
             | _, None, _ -> invalid_arg "Rebuilt_run.in_names_of"))
   in
@@ -114,18 +124,18 @@ let in_names_of graph states =
 
 (* The transitions from [state] on whose targets are in the orbits of those of [images], one after the other, and the
    state that they lead to. *)
-let real graph state images =
+let real ({ graph; _ } as x) state images =
   let step (state, found) (((image : Transition.t), e) as choice) =
     let t, e =
       if not (Space.has_vehicle_symmetry (State_graph.system graph)) then choice
       else
         let wanted = Space.canonical (State_graph.system graph) image.next e in
         let is_it ((t : Transition.t), e) = equal (Space.canonical (State_graph.system graph) t.next e) wanted in
-        let offered = choices graph state in
-        match Environment.find is_it offered with
+        let offered = choices x state in
+        match find x is_it offered with
         | Some choice -> choice
         | None -> (
-            match Environment.find (ends_in_same_way graph (broken_by_end graph image.rules image.next)) offered with
+            match find x (ends_in_same_way graph (broken_by_end graph image.rules image.next)) offered with
             | Some choice when is_end image.next -> choice
             | Some _ | None -> invalid_arg "Replay: a configuration of the orbit has no such transition")
     in
@@ -134,16 +144,17 @@ let real graph state images =
   let state, found = List.fold_left step (state, []) images in
   (state, List.rev found)
 
-let from_start graph states =
-  match State_graph.view graph 0 with
-  | Exact (c, outside) -> real graph (c, outside) (in_names_of graph states)
+let from_start x states =
+  match State_graph.view x.graph 0 with
+  | Exact (c, outside) -> real x (c, outside) (in_names_of x states)
   | Up_to _ -> invalid_arg "Replay: a run that starts inside of a task"
 
-let through graph states = snd (from_start graph states)
+let through ~tick graph states = snd (from_start { graph; tick } states)
 
-let around graph ~stem states =
-  let state, stem = from_start graph stem in
-  let images = in_names_of graph states in
-  match Rounds.closed ~equal (fun state -> Some (real graph state images)) state with
+let around ~tick graph ~stem states =
+  let x = { graph; tick } in
+  let state, stem = from_start x stem in
+  let images = in_names_of x states in
+  match Rounds.closed ~equal (fun state -> Some (real x state images)) state with
   | Some (before, cycle) -> (stem @ before, cycle)
   | None -> invalid_arg "Rebuilt_run.around"

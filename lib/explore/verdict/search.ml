@@ -109,9 +109,15 @@ let with_graph ?labelling ?phase x (options : options) f =
 
 let broken_condition why : Limits.bound = Unsettled ("the condition cannot be evaluated: " ^ why)
 
+let not_shown bound : Limits.bound =
+  Unsettled (Format.asprintf "a violation was found, but %a before its run could be shown" Limits.pp_bound bound)
+
+let showing run : verdict =
+  match run () with run -> Violated run | exception Limits.Stop bound -> Inconclusive (not_shown bound)
+
 let of_verdict run : _ Breadth_first.verdict -> verdict = function
   | Holds -> Holds
-  | Violated found -> Violated (run found)
+  | Violated found -> showing (fun () -> run found)
   | Inconclusive bound -> Inconclusive bound
 
 (* A run that cannot be shown, because a bound is met or the disk fails, is not reported. *)
@@ -127,9 +133,9 @@ let told verdict =
 let run_of ?decided ?(shortest = false) ~steps ~cycle () =
   { steps; cycle; shortest; decided; faults = None; helpful = [] }
 
-let termination_of_script graph ~shortest =
+let termination_of_script ~tick graph ~shortest =
   let run ({ stem; around } : Breadth_first.lasso) =
-    let steps, cycle = Rebuilt_run.around graph ~stem around in
+    let steps, cycle = Rebuilt_run.around ~tick graph ~stem around in
     let is_as_short = List.compare_lengths stem steps > 0 && List.compare_lengths around cycle > 0 in
     run_of ~shortest:(shortest && is_as_short) ~steps ~cycle ()
   in
@@ -164,8 +170,10 @@ let helpful x (options : options) graph =
 let rec termination_of_rounds x (options : options) graph =
   let all = not (Reduction.by_order options.reduction) in
   let violated ({ stem; around } : Fair_cycles.lasso) ~helpful =
-    let steps, cycle = Rebuilt_run.around graph ~stem around in
-    Violated { (run_of ~steps ~cycle ()) with helpful }
+    let rebuilt () = Rebuilt_run.around ~tick:(State_graph.follow_up graph) graph ~stem around in
+    showing (fun () ->
+        let steps, cycle = rebuilt () in
+        { (run_of ~steps ~cycle ()) with helpful })
   in
   match State_graph.stopped graph with
   | Some bound -> Inconclusive bound
@@ -201,9 +209,9 @@ let of_some_states x (options : options) graph found =
       (Unsettled "the readings on the cycle that was met contradict each other or an assumption of the fleet")
   | found -> found
 
-let termination x (options : options) graph ~shortest =
+let termination ~tick x (options : options) graph ~shortest =
   let is_kept = options.walks = None && options.bitstate = None in
-  let by_script () = termination_of_script graph ~shortest in
+  let by_script () = termination_of_script ~tick graph ~shortest in
   if Space.goes_round (State_graph.system graph) then termination_of_rounds x options graph
   else if not is_kept then of_some_states x options graph (by_script ())
   else
@@ -217,12 +225,12 @@ let termination x (options : options) graph ~shortest =
         | Violated run -> Violated { run with helpful = helpful x options graph }
         | (Holds | Holds_if _ | By_design _ | Unreached _ | Inconclusive _) as verdict -> verdict
 
-let run_through graph ~shortest states =
-  run_of ~shortest ~steps:(Rebuilt_run.through graph states) ~cycle:[] ()
+let run_through ~tick graph ~shortest states =
+  run_of ~shortest ~steps:(Rebuilt_run.through ~tick graph states) ~cycle:[] ()
 
-let invariant graph ~shortest i : verdict =
+let invariant ~tick graph ~shortest i : verdict =
   match Invariant.broken i, Invariant.trouble i, State_graph.stopped graph with
-  | Some state, _, _ -> Violated (run_through graph ~shortest (State_graph.path graph state))
+  | Some state, _, _ -> showing (fun () -> run_through ~tick graph ~shortest (State_graph.path graph state))
   | None, Some why, _ -> Inconclusive (broken_condition why)
   | None, None, Some bound -> Inconclusive bound
   | None, None, None -> Holds
@@ -235,17 +243,18 @@ let unreached graph program : verdict =
 
 let verdicts x (options : options) graph invariants =
   let shortest = options.walks = None && options.bitstate = None && not (Reduction.by_order options.reduction) in
-  let run = run_through graph ~shortest in
+  let tick = State_graph.follow_up graph in
+  let run = run_through ~tick graph ~shortest in
   let verdict = function
     | Property.No_deadlock -> of_verdict run (State_graph.no_deadlock graph)
     | (No_error | Assertions | Vehicles | Allocation | No_halt | No_leftover) as property ->
       of_verdict run (State_graph.never graph property)
-    | Termination -> termination x options graph ~shortest
+    | Termination -> termination ~tick x options graph ~shortest
     | All_reached -> unreached graph x.program
     | Invariant _ | Formula _ | Apart _ -> invalid_arg "Search.verdicts"
   in
   let given i =
-    let verdict () = invariant graph ~shortest i in
+    let verdict () = invariant ~tick graph ~shortest i in
     (Property.Invariant (Condition.to_string (Invariant.condition i)), told verdict)
   in
   (* Code that a run has behind it is reached by none of those from there on. *)
@@ -281,7 +290,8 @@ let with_shortest_runs x (options : options) verdicts =
         let look i = effort := !effort + effort_of_state (State_graph.breadth graph i) in
         let enough () = !effort >= most || List.for_all (fun property -> shown graph property <> None) sought in
         State_graph.run ~look ~enough graph;
-        let shortest i = told (fun () -> Violated (run_through graph ~shortest:true (State_graph.path graph i))) in
+        let tick = State_graph.follow_up graph in
+        let shortest i = told (fun () -> Violated (run_through ~tick graph ~shortest:true (State_graph.path graph i))) in
         let shorter (property, verdict) =
           match Option.map shortest (if List.mem property sought then shown graph property else None) with
           | Some (Violated _ as shorter) -> (property, shorter)
@@ -295,8 +305,8 @@ let with_shortest_runs x (options : options) verdicts =
 let formula x (options : options) f : verdict * int * int =
   let labelling = Labelling.create x.program x.world f in
   let judge graph =
-    let tick = State_graph.ticker graph "checking formulas" in
     let run violation =
+      let tick = State_graph.follow_up graph in
       let found = Counterexample.of_violation ~tick options.environment x.program x.world graph labelling violation in
       run_of ?decided:found.decided ~shortest:(found.decided <> None) ~steps:found.steps ~cycle:found.cycle ()
     in
@@ -310,7 +320,7 @@ let formula x (options : options) f : verdict * int * int =
       match verdict with
       | Violated (Breadth_first.Around { stem; cycle }) when not (is_kept stem cycle) -> (
           match Fair_cycles.violation x.program graph (Labelling.monitor labelling) ~fair ~assumed with
-          | Some violation, _ -> Violated (run violation)
+          | Some violation, _ -> showing (fun () -> run violation)
           | None, [] -> Holds
           | None, needs -> Holds_if needs)
       | Holds | Violated _ | Inconclusive _ -> of_verdict run verdict
@@ -367,7 +377,8 @@ let rec seen x (options : options) ~enough =
       if !first = None && Side_by_side.first_near beside then first := Some i
     in
     State_graph.run ~look ~enough:(fun () -> enough beside) graph;
-    let run i = told (fun () -> Violated (run_through graph ~shortest:true (State_graph.path graph i))) in
+    let tick = State_graph.follow_up graph in
+    let run i = told (fun () -> showing (fun () -> run_through ~tick graph ~shortest:true (State_graph.path graph i))) in
     { beside; near = Option.map run !first; stopped = State_graph.stopped graph; count = State_graph.count graph;
       memory = State_graph.memory graph }
   in
@@ -505,7 +516,8 @@ let space { environment; reduction; _ } program world = Space.create ~reduction 
 (* {1 Values that are alike} *)
 
 (* The runs of [program], which go in step with those of [image]. *)
-let in_step options program world ~image found =
+let in_step ~started options program world ~image (found : outcome) =
+  let tick = Limits.follow_up ?stopped:found.stopped ~started options.limits in
   let ends_alike (t : Transition.t) (real : Transition.t) =
     Property.broken_by_end program t.rules t.next = Property.broken_by_end program real.rules real.next
   in
@@ -517,7 +529,10 @@ let in_step options program world ~image found =
         (property,
          Violated { run with steps; cycle; shortest = run.shortest && List.compare_lengths steps run.steps = 0 })
       in
-      Option.map real (Lockstep.follow options.environment world program ~image ~ends_alike { steps; cycle })
+      let follow () = Lockstep.follow ~tick options.environment world program ~image ~ends_alike { steps; cycle } in
+      match follow () with
+      | found -> Option.map real found
+      | exception Limits.Stop bound -> Some (property, Inconclusive (not_shown bound))
   in
   let verdicts = List.map of_verdict found.verdicts in
   if List.exists Option.is_none verdicts then None
@@ -532,7 +547,7 @@ let judged_with_alike_values ?start ?phase ~started (options : options) program 
   match unified with
   | None -> judged ?start ?phase ~started options program world
   | Some image -> (
-      match in_step options program world ~image (judged ?phase ~started options image world) with
+      match in_step ~started options program world ~image (judged ?phase ~started options image world) with
       | Some found -> found
       | None -> judged ?phase ~started options program world)
 

@@ -291,7 +291,8 @@ let with_shortest_runs x (options : options) verdicts =
         let enough () = !effort >= most || List.for_all (fun property -> shown graph property <> None) sought in
         State_graph.run ~look ~enough graph;
         let tick = State_graph.follow_up graph in
-        let shortest i = told (fun () -> Violated (run_through ~tick graph ~shortest:true (State_graph.path graph i))) in
+        let through i = run_through ~tick graph ~shortest:true (State_graph.path graph i) in
+        let shortest i = told (fun () -> Violated (through i)) in
         let shorter (property, verdict) =
           match Option.map shortest (if List.mem property sought then shown graph property else None) with
           | Some (Violated _ as shorter) -> (property, shorter)
@@ -378,7 +379,8 @@ let rec seen x (options : options) ~enough =
     in
     State_graph.run ~look ~enough:(fun () -> enough beside) graph;
     let tick = State_graph.follow_up graph in
-    let run i = told (fun () -> showing (fun () -> run_through ~tick graph ~shortest:true (State_graph.path graph i))) in
+    let through i = run_through ~tick graph ~shortest:true (State_graph.path graph i) in
+    let run i = told (fun () -> showing (fun () -> through i)) in
     { beside; near = Option.map run !first; stopped = State_graph.stopped graph; count = State_graph.count graph;
       memory = State_graph.memory graph }
   in

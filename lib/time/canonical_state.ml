@@ -64,6 +64,7 @@ type t = {
   skeletons : Skeleton.context;
   heads : Heads.t;
   numbers : Form.numbers;
+  unread : string list;  (* keys *)
   constants : int Constants.t;
   executions : execution option Clocked.Table.t;
   apart : Core.vehicle option;  (* it is like no other vehicle *)
@@ -73,7 +74,8 @@ type t = {
 let create ?apart (options : Clocked.options) =
   let numbering = Dolphin_checker.Numbering.create () in
   { options; apart; skeletons = Skeleton.context numbering options.program; heads = Heads.create numbering;
-    numbers = Form.numbers numbering; constants = Constants.create 64; executions = Clocked.Table.create 8;
+    numbers = Form.numbers numbering; unread = Unread_pairs.keys options.program;
+    constants = Constants.create 64; executions = Clocked.Table.create 8;
     possible = Inert.names_are_free options }
 
 let orbit e label =
@@ -101,9 +103,13 @@ let waiting s item head =
   end
   else tree s head []
 
+let is_read t n = not (List.mem (Skeleton.key_of t.skeletons n) t.unread)
+
+(* It does not matter which pair code posts that no code reads. *)
 let code s ?(handler = false) kind c =
   let skeleton = Skeleton.of_code s.t.skeletons ~handler c in
-  tree s ~names:(List.map (place s.pairs) (Array.to_list skeleton.pairs)) (kind skeleton.number) []
+  let named = List.filter (is_read s.t) (Array.to_list skeleton.pairs) in
+  tree s ~names:(List.map (place s.pairs) named) (kind skeleton.number) []
 
 let part n = Part n
 
@@ -249,7 +255,7 @@ let find_execution t (s : Clocked.state) m r =
       let pair = (Skeleton.key_of t.skeletons n, Some (Skeleton.value_of t.skeletons n)) in
       not (Pairs.meet (Pairs.singleton pair) fixed)
     in
-    let named = List.concat_map (fun (k : Skeleton.t) -> Array.to_list k.pairs) skeletons in
+    let named = List.filter (is_read t) (List.concat_map (fun (k : Skeleton.t) -> Array.to_list k.pairs) skeletons) in
     let numbers = List.filter is_movable (List.sort_uniq Int.compare named) in
     let pairs = { numbers = Array.of_list numbers; places = Hashtbl.create 16 } in
     Array.iteri (fun place n -> Hashtbl.replace pairs.places n place) pairs.numbers;

@@ -130,6 +130,13 @@ let may_join_during_tasks o =
 let may_change_during_tasks o =
   may_join_during_tasks o || Links.count (links o) > Links.count (Links.only_first (links o))
 
+let without_pairs keys s =
+  let c = s.configuration in
+  let is_there key = Tuples.poll_any key c.shared.tuples in
+  if List.exists is_there keys then
+    { s with configuration = { c with shared = Shared.without_keys keys c.shared } }
+  else s
+
 let is_silent o s v = Links.is_silent (links o) s.changes v
 
 let at_rest o v : Dolphin_scenario.Battery.doing list =

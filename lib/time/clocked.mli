@@ -69,6 +69,9 @@ val onwards :
     it. It may take any time if it should be over; a timer expires at once. Vehicles at rest are where they were [seen];
     [outside] is the environment's memory. *)
 
+val without_pairs : string list -> state -> state
+(** [without_pairs ks s] is [s] without the pairs of N with one of the keys [ks]. *)
+
 val doing : options -> state -> Core.vehicle -> Dolphin_scenario.Battery.doing
 (** [doing o s v] is whether [v] carries a task out, and whether that charges its battery. It rests while its order
     waits for the link, and once its task is over; away from its chargers if it has some. *)

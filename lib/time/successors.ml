@@ -11,12 +11,14 @@ type t = {
   course : Course.t option;
   ends : Inert.t option;
   likeness : Canonical_state.t option;
+  unread : string list;  (* keys *)
   known : successor list Clocked.Table.t;
 }
 
 let create ?course reduction (options : Clocked.options) =
   let apart = Option.map Course.vehicle course in
   { options; course; known = Clocked.Table.create 1_000;
+    unread = Unread_pairs.keys options.program;
     ends = (if reduction = Nothing then None else Some (Inert.create options));
     likeness =
       (if reduction = Inert_ends_and_canonical_states && not options.program.reads_now then
@@ -36,6 +38,7 @@ let inert t state =
   | None -> []
 
 let successor t (step : Clocked.step) =
+  let step = { step with next = Clocked.without_pairs t.unread step.next } in
   let inert = lazy (inert t step.next) and known = ref [] in
   let spelled e =
     match List.assq_opt e !known with

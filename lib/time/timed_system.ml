@@ -45,7 +45,10 @@ type passage = {
 }
 type edge = { source : int; target : int; by : move; working : Working.t; passage : passage option }
 
-type node = { place : Zone_node.t; zone : Zone.t; parent : int; move : move option }
+(* The states that follow a state are looked for in its turn, or never if a later state includes it. *)
+type turn = To_come | Taken | Included_in of int
+
+type node = { place : Zone_node.t; zone : Zone.t; parent : int; move : move option; mutable turn : turn }
 
 type t = {
   numbering : Numbering.t;
@@ -198,26 +201,49 @@ let find_cycle t n move (place : Zone_node.t) zone =
     Option.iter (fun cycle -> if is_possible cycle then note cycle) found;
     found
 
+(* A state that includes [zone] of [place]: there, or where fewer waits share clocks. *)
+let including t (place : Zone_node.t) zone =
+  let find (place : Zone_node.t) zone = List.find_opt (fun m -> Zone.subset zone t.nodes.(m).zone) place.here in
+  let find_wider ((wider : Zone_node.t), seen) = if wider.here = [] then None else find wider (seen zone) in
+  match find place zone with
+  | Some _ as found -> found
+  | None -> List.find_map find_wider place.wider
+
+(* States that state [n] includes, and whose turn is to come, need no turn. *)
+let stand_for_included t n =
+  let { place; zone; _ } = t.nodes.(n) in
+  let among (place : Zone_node.t) seen =
+    let stand_for m =
+      let other = t.nodes.(m) in
+      if m <> n && other.turn = To_come && Zone.subset (seen other.zone) zone then begin
+        other.turn <- Included_in n;
+        Zone_node.remove place m
+      end
+    in
+    List.iter stand_for place.here
+  in
+  among place Fun.id;
+  List.iter (fun (place, seen) -> among place seen) place.narrower
+
 (* The number of the state that stands for [place] with [zone], to which [move] leads from state [n]. *)
 let arrive t n move (place : Zone_node.t) zone =
-  let including () =
-    let found = List.find_opt (fun m -> Zone.subset zone t.nodes.(m).zone) place.here in
-    let return m =
-      if t.goal = Latest && Zone.equal zone t.nodes.(m).zone then t.returns <- (n, m, move) :: t.returns in
-    Option.iter return found;
-    found
+  let new_state zone =
+    let number = add t { place; zone; parent = n; move = Some move; turn = To_come } in
+    stand_for_included t number;
+    number
   in
   match find_cycle t n move place zone with
   | Some (m, by) when by > 0 && Zone.latest_date t.nodes.(m).zone <> None ->
     (* Once more and once more: at any later date. *)
     let zone = Zone.at_any_date t.nodes.(m).zone in
-    (match List.find_opt (fun k -> Zone.subset zone t.nodes.(k).zone) place.here with
-     | Some k -> k
-     | None -> add t { place; zone; parent = n; move = Some move })
+    (match including t place zone with Some m -> m | None -> new_state zone)
   | Some _ | None -> (
-      match including () with
-      | Some m -> m
-      | None -> add t { place; zone; parent = n; move = Some move })
+      match including t place zone with
+      | Some m ->
+        let { place = known; zone = other; _ } = t.nodes.(m) in
+        if t.goal = Latest && known == place && Zone.equal zone other then t.returns <- (n, m, move) :: t.returns;
+        m
+      | None -> new_state zone)
 
 let ( let* ) = Option.bind
 
@@ -261,7 +287,7 @@ let initial t v =
       Zone_node.reached t.places ~clocks:[] ~rest_clock:None ~fresh ~has_rest:false None state [] Zone.start No_rest
     in
     match Zone_node.settled t.places place zone with
-    | Some zone -> ignore (add t { place; zone; parent = -1; move = None })
+    | Some zone -> ignore (add t { place; zone; parent = -1; move = None; turn = To_come })
     | None -> assert false  (* nothing is over at the start *)
   end;
   visit t v 0
@@ -364,7 +390,9 @@ let expand t key (v : via System.visitor) =
   let { place = before; zone; _ } = t.nodes.(n) in
   let visited ns = List.iter (visit t v) ns; List.length ns in
   note_unknown t before.state;
-  if Inert.is_rest before.state before.inert then visited (end_rest t n before zone)
+  if t.nodes.(n).turn = To_come then t.nodes.(n).turn <- Taken;
+  if t.nodes.(n).turn <> Taken then 0
+  else if Inert.is_rest before.state before.inert then visited (end_rest t n before zone)
   else begin
     let arrows = Zone_node.arrows t.places before in
     if Clocked.is_stuck t.options before.state (Zone_node.steps t.places before) then begin
@@ -489,7 +517,10 @@ let arrival_by t e =
   let { state; items; execution; _ } : Zone_node.t = t.nodes.(e.target).place in
   { move = e.by; into = state; items; execution }
 
-let edges t = t.edges
+(* The state that is followed instead of state [n], if another one is. *)
+let rec followed t n = match t.nodes.(n).turn with Included_in m -> followed t m | To_come | Taken -> n
+
+let edges t = Option.map (List.map (fun e -> { e with target = followed t e.target })) t.edges
 let along t edges = List.map (arrival_by t) edges
 
 let ends t =

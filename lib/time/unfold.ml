@@ -83,7 +83,7 @@ let as_followed successors state ended (step : Clocked.step) =
   let is_it (s : Clocked.step) =
     same_event s step
     && match Inert.without ended step.next.configuration with
-    | Some c -> Configuration.equal c s.transition.next
+    | Some c -> Configuration.equal c s.next.configuration
     | None -> true
   in
   List.find_opt is_it (List.map (fun (s : Successors.successor) -> s.step) (Successors.all successors state))

@@ -25,12 +25,21 @@ let equal z z' =
   let rec go k = k < 0 || (Array.unsafe_get z.m k = Array.unsafe_get z'.m k && go (k - 1)) in
   z.n = z'.n && go (Array.length z.m - 1)
 
-let role i z =
-  let i = i + 1 in
-  let with_ j = (get z i j, get z j i) in
-  let others = List.filter (( <> ) i) (List.init (z.n - 2) (( + ) 2)) in
-  let others = List.sort Stdlib.compare (List.map with_ others) in
-  List.fold_left (fun h x -> (h * 65599) + Hashtbl.hash x) (Hashtbl.hash (with_ zero, with_ date)) others land max_int
+(* Older clocks come last: zones that differ a little have their clocks in one order mostly, and may include each
+   other. *)
+let ranks z =
+  let key k =
+    let i = k + 2 in
+    let with_ j = (get z i j, get z j i) in
+    let others = List.map with_ (List.filter (( <> ) i) (List.init (z.n - 2) (( + ) 2))) in
+    let younger = List.length (List.filter (fun (_, least) -> least <= 0) others) in
+    (younger, with_ zero, with_ date, List.sort Stdlib.compare others)
+  in
+  let keys = Array.init (z.n - 2) key in
+  let order = List.sort_uniq Stdlib.compare (Array.to_list keys) in
+  let rank = Hashtbl.create 16 in
+  List.iteri (fun i key -> Hashtbl.add rank key i) order;
+  Array.map (Hashtbl.find rank) keys
 
 let are_equal i j z = get z (i + 1) (j + 1) = 0 && get z (j + 1) (i + 1) = 0
 

@@ -16,8 +16,10 @@ val contains : t -> int array -> bool
 val subset : t -> t -> bool
 (** [subset z z'] is whether each valuation of [z] is in [z'], which has as many clocks. *)
 
-val role : int -> t -> int
-(** [role i z] is a number for how clock [i] is bounded, which does not depend on the order of the clocks from 1 on. *)
+val ranks : t -> int array
+(** [ranks z] is for clock [i + 1] of [z], at place [i], its rank by age: a clock that is nowhere in [z] less than
+    another one has a higher rank. Ranks follow from the bounds alone: they do not depend on the order of the clocks
+    from 1 on. Clocks with equal bounds have one rank. *)
 
 val are_equal : int -> int -> t -> bool
 (** [are_equal i j z] is whether clocks [i] and [j] are equal in all of [z]. *)

@@ -23,29 +23,31 @@ type t = {
   clocks : (Clocked.item * int) list;  (* waits that began at one time share one clock *)
   rest_clock : int option;  (* how long ago the last of the inert ends was: less than 0 as it is to come *)
   mutable here : int list;
+  mutable wider : (t * (Zone.t -> Zone.t)) list;
+  mutable narrower : (t * (Zone.t -> Zone.t)) list;
 }
 
 type key = Exactly of Clocked.state | Alike of int
 
 module Table = Hashtbl.Make (struct
-    type t = key * (rest * int list)
+    type t = key * rest
 
-    let equal (key, more) (key', more') =
-      more = more'
+    let equal (key, rest) (key', rest') =
+      rest = rest'
       && match key, key' with
       | Exactly s, Exactly s' -> Clocked.equal s s'
       | Alike form, Alike form' -> Int.equal form form'
       | (Exactly _ | Alike _), _ -> false
 
-    let hash (key, more) =
-      Hashtbl.hash more + match key with Exactly s -> Clocked.hash s | Alike form -> form
+    let hash (key, rest) =
+      Hashtbl.hash rest + match key with Exactly s -> Clocked.hash s | Alike form -> form
   end)
 
 type places = {
   successors : Successors.t;
   filled : Zone.t -> Zone.t;
   note : Clocked.state -> unit;
-  table : t Table.t;
+  table : t list Table.t;  (* those of one state differ in the waits that share a clock *)
 }
 
 exception Broken
@@ -55,6 +57,7 @@ let options t = Successors.options t.successors
 let likeness t = Successors.likeness t.successors
 let successors t = t.successors
 let add place number = place.here <- number :: place.here
+let remove place number = place.here <- List.filter (( <> ) number) place.here
 
 let with_clocks (s : Clocked.state) inert =
   let is_inert (p : Clocked.pending) = List.exists (fun (i : Inert.item) -> i.awaited = p.item) inert in
@@ -117,18 +120,42 @@ let find_arrows t state execution inert clocks =
 
 let followed t s = List.map (fun arrow -> arrow.step) (arrows_of t s (Successors.inert t.successors s))
 
+(* The zones of [p] as those of [q], a place of the same state, if waits that share a clock in [q] do so in [p]. *)
+let seen_from p q =
+  let from = Array.make (List.fold_left (fun last (_, clock) -> max last clock) 0 q.clocks) None in
+  let note is_function (_, mine) (_, clock) =
+    match from.(clock - 1) with
+    | Some other -> is_function && Int.equal mine other
+    | None -> from.(clock - 1) <- Some mine; is_function
+  in
+  if List.fold_left2 note true p.clocks q.clocks then
+    let rest = match p.rest_clock with Some _ as rest -> [| rest |] | None -> [||] in
+    Some (Zone.rearranged (Array.append from rest))
+  else None
+
+let relate p q =
+  let narrow p q seen =
+    p.wider <- (q, seen) :: p.wider;
+    q.narrower <- (p, seen) :: q.narrower
+  in
+  Option.iter (narrow p q) (seen_from p q);
+  Option.iter (narrow q p) (seen_from q p)
+
 (* [clocks] is in an order that depends on [key]. *)
 let find t key state execution items inert rest clocks =
-  let key = (key, (rest, List.map snd clocks)) in
-  match Table.find_opt t.table key with
+  let key = (key, rest) and numbers = List.map snd clocks in
+  let others = Option.value (Table.find_opt t.table key) ~default:[] in
+  match List.find_opt (fun p -> List.map snd p.clocks = numbers) others with
   | Some place -> place
   | None ->
     t.note state;
-    let last = List.fold_left (fun last (_, clock) -> max last clock) 0 clocks in
+    let last = List.fold_left max 0 numbers in
     let rest_clock = if rest = No_rest then None else Some (last + 1) in
     let follows = lazy (find_arrows t state execution inert clocks) in
-    let place = { state; execution; items; rest; inert; follows; clocks; rest_clock; here = [] } in
-    Table.add t.table key place;
+    let place =
+      { state; execution; items; rest; inert; follows; clocks; rest_clock; here = []; wider = []; narrower = [] } in
+    Table.replace t.table key (place :: others);
+    List.iter (relate place) others;
     place
 
 let unsettled t (fault : Fault.t) =
@@ -200,7 +227,8 @@ let reached t ~clocks ~rest_clock ~fresh ~has_rest spelled state inert zone =
   let key, items =
     match spelled with
     | Some spelled ->
-      let color item = match List.assoc_opt item clocks with Some clock -> Zone.role clock zone | None -> 0 in
+      let ranks = Zone.ranks zone in
+      let color item = match List.assoc_opt item clocks with Some clock -> 1 + ranks.(clock - 1) | None -> 0 in
       let { Canonical_state.number; items } = Canonical_state.form ~color ~colored:false spelled in
       (Alike number, items)
     | None -> (Exactly state, awaited)

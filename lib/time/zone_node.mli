@@ -23,6 +23,10 @@ type t = private {
   clocks : (Clocked.item * int) list;  (** waits that began at one time share one clock *)
   rest_clock : int option;  (** since when the last of the rest is over: less than 0 as it is to come *)
   mutable here : int list;  (** the numbers of the states of a search that are here *)
+  mutable wider : (t * (Zone.t -> Zone.t)) list;
+  (** the places of the same state in which fewer waits share clocks, each with what makes zones of this one those of
+      it *)
+  mutable narrower : (t * (Zone.t -> Zone.t)) list;  (** those of which it is a wider one *)
 }
 
 type places
@@ -46,6 +50,9 @@ val successors : places -> Successors.t
 
 val add : t -> int -> unit
 (** [add p n] notes that the state number [n] of a search is in [p]. *)
+
+val remove : t -> int -> unit
+(** [remove p n] undoes [add p n]. *)
 
 val check_dates : places -> unit
 (** Whether code does no more with the date than is known here.

@@ -454,7 +454,18 @@ let all =
           ( "states include those that they do not",
             {|List.find_opt (fun m -> Zone.subset zone t.nodes.(m).zone) place.here in|},
             {|List.find_opt (fun _ -> true) place.here in|} );
+          ( "states stand for others that they do not include",
+            {|Zone.subset (seen other.zone) zone then begin|},
+            {|(ignore (Zone.subset (seen other.zone) zone); true) then begin|} );
+          ( "moves to included states lead no further",
+            {|Included_in m -> followed t m ||},
+            {|Included_in m when m < 0 -> followed t m | Included_in _ ||} );
           ("dates are forgotten", {|Latest -> Zone.reaching_down|}, {|Latest -> Zone.at_any_date|});
+        ];
+      in_file "lib/time/unread_pairs.ml" ~noticed_by:"time/test_exact"
+        [
+          ("what is polled is not read", {|(Poll keys | Consume keys)|}, {|(Consume keys)|});
+          ("what is counted is not read", {|(Poll [] | Values_of), [|}, {|(Poll []), [|});
         ];
       in_file "lib/time/working.ml" ~noticed_by:"time/test_exact"
         [
@@ -481,6 +492,8 @@ let all =
           ( "steps are taken too early",
             {|Zone.at_least clock least zone in|},
             {|Zone.at_least clock (min 0 least) zone in|} );
+          ("waits share clocks that began apart", {|Some other -> is_function && Int.equal mine other|},
+           {|Some _ -> is_function|});
         ];
       in_file "lib/time/zone_node.ml" ~noticed_by:"time/test_reductions"
         [

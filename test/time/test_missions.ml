@@ -372,6 +372,31 @@ let test_places () =
   let o = outcome (both ^ "p = " ^ go ^ "\nexecute (p[va] during 1) >> p[va]\n") (fleet (two ^ "plan 'x'")) in
   Alcotest.(check int) "from an unknown one" 1 (List.length o.unknown)
 
+(* {1 Growth} *)
+
+(* Vehicles that do one thing side by side, and meet. Zones that differ in the order of vehicles, or in the waits that
+   began at one time, include each other: without that, ten vehicles have some three million states. *)
+let test_meeting () =
+  let meeting ~post n =
+    let work i = Printf.sprintf "work(%d)" (i + 1) in
+    let program =
+      Printf.sprintf
+        "vs = pick { count %d }\nmet = 0\n\
+         def work(i) {\n\
+        \  task('a') >> task('b') >> action { met++%s } >> condition { met == %d } >> task('c') >> task('a')\n\
+         }\n\
+         execute vs: %s\n" n post n (String.concat " | " (List.init n work)) in
+    let vehicle i = Printf.sprintf "vehicle 'v%d', { type 'UUV'; at 41.18, -8.70 }\n" i in
+    let plan name = Printf.sprintf "plan '%s', { duration 10, 20 }\n" name in
+    outcome program (fleet (String.concat "" (List.init n vehicle @ List.map plan [ "a"; "b"; "c" ])))
+  in
+  let o = meeting ~post:"" 10 in
+  Alcotest.check window "ends" (40., 80.) (ends o);
+  Alcotest.check window "c begins" (20., 40.) (of_task o "c" Starts);
+  Alcotest.(check bool) (Printf.sprintf "%d states" o.states) true (o.states < 1_500);
+  let posting = meeting ~post:"; post here: i" 10 in
+  Alcotest.(check int) "pairs that no code reads cost nothing" o.states posting.states
+
 let () =
   let case name f = Alcotest.test_case name `Quick f in
   Alcotest.run "missions"
@@ -381,4 +406,4 @@ let () =
          case "faults" test_faults; case "runs without end" test_endless; case "unknown durations" test_unknown;
          case "deadlines" test_deadline; case "slack" test_slack; case "batteries" test_batteries;
          case "batteries without a link" test_batteries_without_link; case "picks" test_picks; case "joins" test_joins;
-         case "places" test_places ]) ]
+         case "places" test_places; case "growth of a meeting" test_meeting ]) ]

@@ -197,6 +197,26 @@ let test_variety () =
   Alcotest.(check bool) "some have other states" true (!with_inert * 20 > programs && !with_likeness * 20 > programs);
   Alcotest.(check bool) "most bounds of batteries are exact" true (!close > 2 * !loose)
 
+(* {1 Pairs that no code reads} *)
+
+let unread =
+  let case name text keys =
+    let check () =
+      let program = Test_support.Pure_run.compile_exn text in
+      Alcotest.(check (list string)) "keys" keys (Unread_pairs.keys program)
+    in
+    Alcotest.test_case name `Quick check
+  in
+  [ case "posted, and never read" "post a: 1\npost b: 2, c: 3\nconsume c: _" [ "a"; "b" ];
+    case "polled, consumed, counted"
+      "post a: 1, b: 2, c: 3, d: 4, e: 5\nx = poll a: 1\ny = count(b: _)\nz = poll 'c'\n\
+       execute waitFor { consume d: _ } then idle(1)" [ "e" ];
+    case "posted by the outside" "input 'abort', 'go'\nexecute until { poll go: true } run idle(5)" [ "abort" ];
+    case "read by the task of onInterrupt" "onInterrupt condition { poll a: 1 }\npost a: 1, b: 2" [ "b" ];
+    case "read by a function that is not called" "def f() { poll a: 1 }\npost a: 1, b: 2" [ "b" ];
+    case "a computed key is read" "k = 'a'\npost a: 1\nconsume((k): _)" [];
+    case "a computed key is posted" "k = 'a'\npost((k): 1)\npost b: 2" [ "b" ] ]
+
 let () =
   Alcotest.run "reductions of time"
     [ ("random programs", [ Alcotest.test_case "what is left out makes no difference" `Quick test_agreement;
@@ -205,4 +225,5 @@ let () =
        [ Alcotest.test_case "what is left in N" `Quick test_left;
          Alcotest.test_case "how times are written" `Quick test_spellings;
          Alcotest.test_case "who asks" `Quick test_asks ]);
+      ("pairs that no code reads", unread);
       ("code that looks", List.map test_look looks) ]

@@ -103,6 +103,25 @@ let compared (operations, operations') =
   in
   List.for_all (fun a -> List.for_all (pair a) (zones operations')) (zones operations)
 
+(* Ranks do not depend on the order of clocks, and a clock that is never younger than another one has a higher rank,
+   or the same one if they are equal. *)
+let ranked (operations, seed) =
+  let check zone points =
+    let count = Zone.clocks zone - 1 in
+    let order =
+      QCheck2.Gen.(generate1 ~rand:(Random.State.make [| seed |]) (shuffle_a (Array.init count Fun.id))) in
+    let ranks = Zone.ranks zone in
+    let others = Zone.ranks (Zone.rearranged (Array.map (fun i -> Some (i + 1)) order) zone) in
+    let is_as_old i j = List.for_all (fun xs -> List.nth xs (i + 1) >= List.nth xs (j + 1)) points in
+    let are_ranked i j =
+      (not (is_as_old i j)) || if is_as_old j i then ranks.(i) = ranks.(j) else ranks.(i) > ranks.(j) in
+    let clocks = List.init count Fun.id in
+    List.for_all (fun k -> others.(k) = ranks.(order.(k))) clocks
+    && List.for_all (fun i -> List.for_all (are_ranked i) clocks) clocks
+  in
+  List.for_all (fun (zone, points) -> Option.fold ~none:true ~some:(fun z -> check z points) (until_last zone))
+    (after operations)
+
 let print operations = String.concat ", " (List.map print_operation operations)
 let print_both (a, b) = print a ^ " and " ^ print b
 
@@ -142,5 +161,7 @@ let () =
        [ case "operations" ~print operations (fun ops -> List.for_all same_points (after ops));
          case "dates" ~print operations (fun ops -> List.for_all same_dates (after ops));
          case "subset and delayed" ~print:print_both (QCheck2.Gen.pair operations operations) compared;
+         case "ranks of clocks" ~print:(fun (ops, seed) -> Printf.sprintf "%s, %d" (print ops) seed)
+           QCheck2.Gen.(pair operations (int_bound 1_000_000)) ranked;
          case "other dates" ~print operations reaches;
          Alcotest.test_case "a bound is carried over" `Quick test_carried_over ]) ]

@@ -17,7 +17,7 @@ const usual: Record<Name, Row[]> = {
 };
 const least = 0.12;  // of the two panels that a bar is between
 
-interface Kept { layout?: Name; sizes?: Record<string, number>; hidden?: Record<string, string[]> }
+interface Kept { layout?: Name; sizes?: Record<string, number>; hidden?: Record<string, string[]>; order?: Record<string, string[]> }
 
 function read(): Kept {
   try { const found = JSON.parse(localStorage.getItem("layout") ?? "{}"); return found && typeof found === "object" ? found : {}; } catch { return {}; }
@@ -32,6 +32,7 @@ export class Layout {
     this.main.append(this.bars);
     $("layout").addEventListener("change", () => this.choose($<HTMLSelectElement>("layout").value as Name));
     $("layout-usual").addEventListener("click", () => { this.kept = { layout: this.name }; this.save(); });
+    for (const panel of Object.keys(panels)) $(panel + "-panel").prepend(this.handle(panel));
     this.apply();
   }
 
@@ -53,19 +54,78 @@ export class Layout {
     return typeof kept === "number" && kept > 0 && kept < 1000 ? kept : otherwise;
   }
 
+  // The rows, with their panels where they were moved to.
+  private placed(): Row[] {
+    const cells = usual[this.name].flatMap((r) => r.cells), kept = this.kept.order?.[this.name];
+    const isOrder = Array.isArray(kept) && kept.length === cells.length && new Set(kept).size === kept.length && kept.every((p) => p in panels);
+    const order = isOrder ? kept : cells.map((c) => c.panel);
+    let i = 0;
+    return usual[this.name].map((r) => ({ ...r, cells: r.cells.map((c) => ({ ...c, panel: order[i++] })) }));
+  }
+
+  // Two panels exchange their places.
+  private exchange(a: string, b: string) {
+    const order = this.placed().flatMap((r) => r.cells.map((c) => c.panel));
+    const other = (p: string) => (p === a ? b : p === b ? a : p);
+    this.kept.order = { ...this.kept.order, [this.name]: order.map(other) };
+    this.save();
+  }
+
+  // The nearest panel in this direction.
+  private beside(panel: string, key: string): string | null {
+    const middle = (p: string) => { const b = $(p + "-panel").getBoundingClientRect(); return { x: b.x + b.width / 2, y: b.y + b.height / 2 }; };
+    const from = middle(panel);
+    const [x, y] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[key]!;
+    const others = Object.keys(panels).filter((p) => p !== panel && !$(p + "-panel").hidden).map((p) => {
+      const to = middle(p), dx = to.x - from.x, dy = to.y - from.y, along = dx * x + dy * y, across = Math.abs(dx * y) + Math.abs(dy * x);
+      return { p, along, far: along + 2 * across };
+    }).filter((o) => o.along > 20).sort((o, q) => o.far - q.far);
+    return others[0]?.p ?? null;
+  }
+
+  // At the head of each panel: dragged onto another one, or by the arrow keys, the two exchange their places.
+  private handle(panel: string): HTMLElement {
+    const under = (e: PointerEvent) => Object.keys(panels).find((p) => p !== panel && !$(p + "-panel").hidden
+      && $(p + "-panel").contains(document.elementFromPoint(e.clientX, e.clientY))) ?? null;
+    const mark = (target: string | null) => { for (const p of Object.keys(panels)) $(p + "-panel").classList.toggle("target", p === target); };
+    return h("button", { class: "move", type: "button", title: "Drag it onto another panel, or press an arrow key: they exchange their places", "aria-label": `Move ${panels[panel]}`,
+      keydown: (e: KeyboardEvent) => {
+        if (!/^Arrow/.test(e.key)) return;
+        e.preventDefault();
+        const other = this.beside(panel, e.key);
+        if (other) this.exchange(panel, other);
+      },
+      pointerdown: (e: PointerEvent) => {
+        const el = e.currentTarget as HTMLElement;
+        el.setPointerCapture(e.pointerId);
+        const move = (at: PointerEvent) => mark(under(at));
+        const end = (at: PointerEvent) => {
+          el.removeEventListener("pointermove", move);
+          el.removeEventListener("pointerup", end);
+          el.removeEventListener("pointercancel", end);
+          mark(null);
+          const other = at.type === "pointerup" ? under(at) : null;
+          if (other) this.exchange(panel, other);
+        };
+        el.addEventListener("pointermove", move);
+        el.addEventListener("pointerup", end);
+        el.addEventListener("pointercancel", end);
+      } }, "⠿");
+  }
+
   // A panel that this layout does not have can be shown in place of none: it gets a row of its own.
   private rows(): Row[] {
-    const known = usual[this.name].flatMap((r) => r.cells.map((c) => c.panel));
+    const known = this.placed().flatMap((r) => r.cells.map((c) => c.panel));
     const isHidden = (panel: string) => this.hidden().includes(panel);
     const added = Object.keys(panels).filter((p) => !known.includes(p));
-    return [...usual[this.name], row(5, ...added.map((p): [string, number] => [p, 10]))]
+    return [...this.placed(), row(5, ...added.map((p): [string, number] => [p, 10]))]
       .map((r, i) => ({ height: this.weight(`row ${i}`, r.height),
         cells: r.cells.filter((c) => !isHidden(c.panel)).map((c) => ({ ...c, width: this.weight(c.panel, c.width) })), i }))
       .filter((r) => r.cells.length > 0);
   }
 
   private hidden(): string[] {
-    const known = usual[this.name].flatMap((r) => r.cells.map((c) => c.panel));
+    const known = this.placed().flatMap((r) => r.cells.map((c) => c.panel));
     return this.kept.hidden?.[this.name] ?? Object.keys(panels).filter((p) => !known.includes(p));
   }
 

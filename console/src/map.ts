@@ -6,6 +6,7 @@ import type { Fence, Place, Way } from "./api";
 import type { Sketch } from "./plans";
 import { type Run, type Vehicle, clock, trouble, whereabouts } from "./model";
 import { h } from "./dom";
+import { Clusters, pressed } from "./clusters";
 import { Measure } from "./measure";
 
 export interface PlanPlace { plan: string; latitude: number; longitude: number }
@@ -37,6 +38,8 @@ export class ChartMap {
   private fitted = false;  // all that is known now is in view, or somebody has chosen the view
   private chosen = false;
   private follow: string | null = null;
+  private clusters: Clusters;
+  private latest: Run | null = null;
   private arrows = h("div", { class: "map-arrows" });  // to vehicles that are out of view
 
   constructor(el: HTMLElement, private select: (id: string) => void) {
@@ -44,7 +47,8 @@ export class ChartMap {
       zoomAnimation: false, fadeAnimation: false, preferCanvas: true });
     L.control.scale({ imperial: false }).addTo(this.map);
     for (const layer of [this.net, this.fences, this.program, this.ways, this.sketched, this.then, this.places]) layer.addTo(this.map);
-    this.map.on("moveend resize", () => this.draw());
+    this.clusters = new Clusters(this.map, (id) => { this.focus(id); this.select(id); }, () => { this.chosen = true; this.unfollow(); });
+    this.map.on("moveend resize", () => { this.draw(); if (this.latest) this.arrange(this.latest); });
     this.map.on("dragstart", () => this.unfollow());
     for (const event of ["pointerdown", "wheel", "keydown"]) el.addEventListener(event, () => { this.chosen = true; });
     const Fit = L.Control.extend({ onAdd: () => {
@@ -158,8 +162,18 @@ export class ChartMap {
     // Vehicles move out of a view that nobody has chosen: it grows.
     if (!this.chosen && !this.follow && this.sketched.getLayers().length === 0 && this.isOut()) this.fit();
     if (this.follow) this.focus(this.follow);
-    this.labels(run);
+    this.arrange(run);
     this.point();
+  }
+
+  // Where there is little room: groups, and names beside the others.
+  private arrange(run: Run) {
+    this.latest = run;
+    this.clusters.show([...this.shown.entries()].filter(([id]) => id !== this.follow && run.vehicles.has(id)).map(([id, s]) =>
+      ({ id, at: s.marker.getLatLng(), bad: trouble(run, run.vehicles.get(id)!).rank > 0, element: s.marker.getElement() })));
+    const followed = this.follow && this.shown.get(this.follow)?.marker.getElement();
+    if (followed) followed.style.display = "";
+    this.labels(run);
   }
 
   private vehicle(run: Run, v: Vehicle, tint: string) {
@@ -168,7 +182,7 @@ export class ChartMap {
     let s = this.shown.get(v.id);
     if (!s) {
       const marker = L.marker(at, { title: v.id, alt: v.id, icon: L.divIcon({ className: "vehicle", iconSize: [0, 0], html: "" }) });
-      marker.on("click", () => this.select(v.id));
+      pressed(marker, () => this.select(v.id));
       s = { marker: marker.addTo(this.map), track: L.polyline([], { color: tint, weight: 2, opacity: 0.75 }).addTo(this.map), key: "", size: null };
       this.shown.set(v.id, s);
     }
@@ -196,8 +210,14 @@ export class ChartMap {
       const { x, y } = this.map.latLngToContainerPoint(s.marker.getLatLng());
       return { left: x - 8, right: x + 8, top: y - 8, bottom: y + 8 };
     });
+    // Nor below the buttons.
+    const map = this.map.getContainer().getBoundingClientRect();
+    for (const el of this.map.getContainer().querySelectorAll(".map-button:not([hidden])")) {
+      const { left, right, top, bottom } = el.getBoundingClientRect();
+      kept.push({ left: left - map.left, right: right - map.left, top: top - map.top, bottom: bottom - map.top });
+    }
     const frame = this.map.getSize();
-    const order = [...this.shown.entries()].sort(([a], [b]) =>
+    const order = [...this.shown.entries()].filter(([id]) => run.vehicles.has(id) && !this.clusters.has(id)).sort(([a], [b]) =>
       trouble(run, run.vehicles.get(b)!).rank - trouble(run, run.vehicles.get(a)!).rank);
     for (const [, s] of order) {
       const name = s.marker.getElement()?.querySelector<HTMLElement>(".name");

@@ -107,6 +107,34 @@ plan 'survey', { duration 3.hours; at 41.25, -8.60 }
     await page.selectOption("#layout", "plan");
   });
 
+  await test("panels exchange their places by the arrow keys and by dragging, kept by the browser", async () => {
+    const place = async (id) => { const { x, y } = await page.locator(id).boundingBox(); return `${Math.round(x)} ${Math.round(y)}`; };
+    const [map, now, log] = [await place("#map-panel"), await place("#now-panel"), await place("#log-panel")];
+    await page.focus("[aria-label='Move Map']");
+    await page.keyboard.press("ArrowRight");
+    same((await place("#now-panel")).split(" ")[1], map.split(" ")[1], "the row");
+    same(await page.evaluate(() => document.activeElement.getAttribute("aria-label")), "Move Map", "the focus stays");
+    same(parseInt(await place("#map-panel")) > parseInt(await place("#now-panel")), true, "the map is on the right");
+    await page.keyboard.press("ArrowDown");
+    same(await place("#log-panel") === now || parseInt((await place("#map-panel")).split(" ")[1]) > parseInt(now.split(" ")[1]), true, "and below");
+    await page.reload();
+    await page.waitForSelector("#timeline .task");
+    same(parseInt((await place("#map-panel")).split(" ")[1]), parseInt(log.split(" ")[1]), "also after a reload");
+    const middle = async (id) => { const b = await page.locator(id).boundingBox(); return [b.x + b.width / 2, b.y + b.height / 2]; };
+    const before = await place("#vehicles-panel");
+    await page.mouse.move(...await middle("[aria-label='Move Map']"));
+    await page.mouse.down();
+    await page.mouse.move(...await middle("#vehicles-panel"), { steps: 3 });
+    same(await page.locator("#vehicles-panel.target").count(), 1, "it is marked");
+    await page.mouse.up();
+    same(await place("#map-panel"), before, "dragged");
+    await picture(page, "moved");
+    await page.click("#panels-menu summary");
+    await page.click("#layout-usual");
+    await page.click("#panels-menu summary");
+    same(await place("#map-panel"), map, "as usual");
+  });
+
   for (const colorScheme of ["light", "dark"]) await test(`on a phone the layout is that of a run, and all that one presses has 44 pixels, ${colorScheme}`, async () => {
     const phone = await open({ ...small, colorScheme });
     await phone.waitForSelector("#timeline .task");
@@ -152,5 +180,27 @@ plan 'survey', { duration 3.hours; at 41.25, -8.60 }
     await phone.tap("#stop");
     await page.waitForSelector(".outcome.interrupted");
     await phone.context().close();
+  });
+
+  await test("vehicles near each other are one marker, which leads to them", async () => {
+    const spots = Array.from({ length: 6 }, (_, i) => `vehicle 'near-${i}', { type 'UUV'; at ${41.185 + i * 2e-5}, -8.706${i % 2 ? "; battery 5.percent" : ""} }`);
+    const same_ = Array.from({ length: 4 }, (_, i) => `vehicle 'same-${i}', { type 'UUV'; at 41.2, -8.7 }`);
+    writeFileSync(join(folder, "crowd.fleet"), [...spots, ...same_, "vehicle 'far', { type 'UUV'; at 41.25, -8.6 }", "plan 'survey'"].join("\n") + "\n");
+    writeFileSync(join(folder, "crowd.dol"), "v = pick { type 'UUV' }\nexecute task('survey')[v]\n");
+    await page.reload();
+    await choose(page, "crowd.dol");
+    await page.waitForFunction(() => [...document.querySelectorAll("#map .cluster")].map((c) => c.innerText).sort().join() === "4,6");
+    same(await page.evaluate(() => [...document.querySelectorAll("#map .vehicle")].filter((v) => v.style.display !== "none").map((v) => v.title.split(",")[0]).join()), "far", "another one stands alone");
+    await page.waitForSelector("#map .cluster.bad >> text=6");
+    await picture(page, "clusters");
+    await page.locator("#map .cluster", { hasText: "6" }).press("Enter");
+    await page.waitForFunction(() => [...document.querySelectorAll("#map .vehicle")].filter((v) => v.title.startsWith("near-") && v.style.display !== "none").length === 6);
+    await page.click(".map-button >> text=All");
+    // Those at one place cannot be taken apart: they are listed.
+    for (let i = 0; i < 12 && !await page.locator(".cluster-list").count(); i++) await page.locator("#map .cluster", { hasText: "4" }).press("Enter");
+    await page.click(".cluster-list >> text=same-2");
+    await page.waitForSelector("#vehicle:not([hidden]) >> text=same-2");
+    await page.waitForSelector(".map-button >> text=Follows same-2");
+    await page.click("[aria-label='close same-2']");
   });
 }

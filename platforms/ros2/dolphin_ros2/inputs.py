@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import collections
+import importlib
 import sys
 from typing import Any, Callable, Deque, Mapping, Protocol, Set, Tuple
 
@@ -26,7 +27,7 @@ class Inputs:
     """The inputs of a configuration, for the run `run`."""
 
     def __init__(self, topics: Mapping[str, Topic], run: dolphin.Run, links: Links,
-                 load: interfaces.Load = interfaces.importlib.import_module) -> None:
+                 load: interfaces.Load = importlib.import_module) -> None:
         self._run = run
         self._waiting: Deque[Tuple[str, Any]] = collections.deque(maxlen=MOST)
         self._there = asyncio.Event()

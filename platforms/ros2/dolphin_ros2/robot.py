@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import importlib
 import math
 import sys
 import time
@@ -25,9 +26,11 @@ SETTLE = 1.0
 """Seconds from the first message of a robot until it has a link: its goals are discovered meanwhile."""
 PRESENT = 3.0
 """Seconds within which an action or service is to be discovered before it counts as missing."""
-ASK_AGAIN = (2.0, 30.0)
+ASK_AGAIN = (2.0, 60.0)
 """Seconds until a result is asked for the second time, and from then on. Each request stays with the server until the
 goal is over, so they are few."""
+MOST_ASKED = 3
+"""Requests for one result that are waited for at once at most."""
 ASK_AT_MOST = 0.5
 """Seconds between two requests for a result at least."""
 CANCEL_WAIT = 2.0
@@ -97,7 +100,9 @@ class Goal:
 
     def is_owed(self) -> bool:
         """Whether a server that got the goal has not answered yet, so that it may still accept it."""
-        return self.reply is not None and not self.reply.done() and bool(self.sent_to & self.action.servers())
+        if self.reply is None or self.reply.done():
+            return False
+        return not self.sent_to or bool(self.sent_to & self.action.servers())
 
     async def end(self, seconds: float) -> Optional[Tuple[int, Any]]:
         """The status and the result if the goal is over within these seconds; status UNKNOWN if its server does not
@@ -114,7 +119,8 @@ class Goal:
             answers.append(future.result())
         over = [answer for answer in answers if answer[0] in goals.OVER]
         unknown = [answer for answer in answers if answer[0] == goals.UNKNOWN]
-        return (over or unknown or [None])[0]
+        found = over or unknown
+        return found[0] if found else None
 
     def _ask(self) -> None:
         """Asks for the result if that is not asked yet, if a new server is there, and now and then once more."""
@@ -125,12 +131,18 @@ class Goal:
         again = ASK_AGAIN[0] if len(self._times) == 1 else ASK_AGAIN[1]
         if self._asked and servers <= known and since < again:
             return
+        if len(self._asked) == MOST_ASKED:
+            oldest = next(iter(self._asked))
+            oldest.cancel()
+            del self._asked[oldest]
         self._asked[asyncio.ensure_future(self.action.result(self.id))] = servers
         self._times.append(time.monotonic())
 
     def forget(self) -> None:
-        for future in (*self._asked, *([] if self.reply is None else [self.reply])):
-            future.cancel()
+        for asked in self._asked:
+            asked.cancel()
+        if self.reply is not None:
+            self.reply.cancel()
         self._asked.clear()
 
 
@@ -141,10 +153,13 @@ class Robot(dolphin.Vehicle):
                  load: Optional[interfaces.Load] = None, clock: Callable[[], float] = time.monotonic) -> None:
         super().__init__(entry.name, type=entry.kind.type, payload=entry.payload, link=False)
         self.entry, self.kind, self.configuration, self._clock = entry, entry.kind, configuration, clock
-        self._load = load or interfaces.importlib.import_module
+        self._load = load or importlib.import_module
         self._goals: Dict[str, Goal] = {}
+        self._started: Set[str] = set()
+        """The requests that this adapter was ordered to start: without a goal or a call nothing was sent for them."""
         self._calls: "Dict[str, asyncio.Future[Any]]" = {}
         self._actions: Dict[str, Action] = {}
+        self._by_interface: Dict[str, Action] = {}
         self._services: Dict[str, Service] = {}
         self._topics: "List[Tuple[Callable[[], Any], Callable[[Any], None]]]" = []
         self._heard, self._since = -math.inf, math.inf
@@ -163,7 +178,7 @@ class Robot(dolphin.Vehicle):
             if rule.is_service:
                 self._services[rule.name] = links.service(name, class_)
             else:
-                self._actions[rule.name] = links.action(name, class_)
+                self._actions[rule.name] = self._by_interface[rule.interface] = links.action(name, class_)
         position = self.kind.position
         if isinstance(position, Fixed):
             self.report(latitude=position.latitude, longitude=position.longitude, height=position.height)
@@ -201,7 +216,8 @@ class Robot(dolphin.Vehicle):
         if self._topics:
             is_heard = self._clock() - self._heard <= self.kind.silence
         else:
-            is_heard = any(each.is_there() for each in (*self._actions.values(), *self._services.values()))
+            is_heard = (any(action.is_there() for action in self._by_interface.values())
+                        or any(service.is_there() for service in self._services.values()))
         if not is_heard:
             self._since = math.inf
         elif self._since == math.inf:
@@ -214,19 +230,18 @@ class Robot(dolphin.Vehicle):
         """Whether the robot has been heard for long enough to know its goals."""
         return self._clock() >= self._since + SETTLE
 
-    def _running(self) -> Iterator[Tuple[uuid.UUID, PlanRule]]:
-        """The goals that run, of any client."""
-        for rule in self.kind.plans:
-            if not rule.is_service:
-                for id_, status in self._actions[rule.name].statuses().items():
-                    if status in goals.ACTIVE:
-                        yield id_, rule
+    def _running(self) -> Iterator[Tuple[uuid.UUID, str]]:
+        """The goals that run, of any client, with the names of their actions."""
+        for interface, action in self._by_interface.items():
+            for id_, status in action.statuses().items():
+                if status in goals.ACTIVE:
+                    yield id_, interface
 
     def _foreign(self, but: AbstractSet[uuid.UUID] = frozenset()) -> Optional[str]:
         """The reason why the robot is not ready if it runs a goal of another client."""
-        for id_, rule in self._running():
+        for id_, interface in self._running():
             if id_ not in self._own and id_ not in but:
-                return f"runs a goal of another client on its action {rule.interface}"
+                return f"runs a goal of another client on its action {interface}"
         return None
 
     def _locate(self, message: Any) -> None:
@@ -289,6 +304,7 @@ class Robot(dolphin.Vehicle):
         return found
 
     async def start(self, plan: dolphin.Plan) -> None:
+        self._started.add(plan.request)
         rule, parameters = self._found(plan)
         message = self._message(rule, parameters)
         if rule.is_service:
@@ -369,6 +385,8 @@ class Robot(dolphin.Vehicle):
 
     async def stop(self, plan: dolphin.Plan) -> None:
         rule, parameters = self._found(plan)
+        if plan.request in self._started and plan.request not in self._goals and plan.request not in self._calls:
+            return  # the stop came before anything was sent
         if rule.is_service:
             await self._stop_call(rule, plan)
         else:

@@ -10,7 +10,7 @@ import asyncio
 import os
 import threading
 import uuid
-from typing import Any, Callable, Dict, FrozenSet, List, Mapping, Optional, Tuple
+from typing import Any, Callable, Dict, FrozenSet, Mapping, Optional, Tuple
 
 import rclpy
 from action_msgs.msg import GoalStatusArray
@@ -117,7 +117,7 @@ class Links:
 class Service:
     def __init__(self, links: Links, name: str, class_: Any) -> None:
         self._links = links
-        self._client = links.caller.create_client(class_, name)
+        self._client: Any = links.caller.create_client(class_, name)
 
     def is_there(self) -> bool:
         there: bool = self._client.service_is_ready()
@@ -131,9 +131,9 @@ class Action:
     def __init__(self, links: Links, name: str, class_: Any) -> None:
         self._links, self._name, self._class = links, name, class_
         create = links.caller.create_client
-        self._goal = create(class_.Impl.SendGoalService, f"{name}/_action/send_goal")
-        self._result = create(class_.Impl.GetResultService, f"{name}/_action/get_result")
-        self._cancel = create(CancelGoal, f"{name}/_action/cancel_goal")
+        self._goal: Any = create(class_.Impl.SendGoalService, f"{name}/_action/send_goal")
+        self._result: Any = create(class_.Impl.GetResultService, f"{name}/_action/get_result")
+        self._cancel: Any = create(CancelGoal, f"{name}/_action/cancel_goal")
         self._status_topic = f"{name}/_action/status"
         self._take_status = links.subscribe(self._status_topic, GoalStatusArray, _STATUS)
         self._take_feedback = links.subscribe(f"{name}/_action/feedback", class_.Impl.FeedbackMessage, _FEEDBACK)

@@ -10,7 +10,7 @@ from typing import Optional, Sequence
 
 import dolphin
 
-from . import configuration, interfaces, version
+from . import configuration_file, interfaces, version
 from .configuration import Configuration
 from .document import Faulty
 from .inputs import Inputs
@@ -55,7 +55,7 @@ class Robots(dolphin.Adapter):
 
 def checked(path: str) -> Configuration:
     """The configuration of a file, all types of which are there. Raises `Faulty`."""
-    found = configuration.read(path)
+    found = configuration_file.read(path)
     interfaces.check(found)
     return found
 

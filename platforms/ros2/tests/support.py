@@ -12,7 +12,7 @@ from typing import Any, Awaitable, Callable, Dict, FrozenSet, List, Mapping, Opt
 import dolphin
 from dolphin.channel import Channel
 
-from dolphin_ros2 import configuration, goals
+from dolphin_ros2 import configuration, configuration_file, goals
 from dolphin_ros2.robot import Robot
 
 TEXT = """\
@@ -24,6 +24,7 @@ kinds:
   carrier:
     type: UGV
     payload: [tray]
+    silence: 1000
     position: {topic: odom, type: nav_msgs/msg/Odometry}
     battery: {topic: battery_state}
     ready: {topic: state, type: fake_msgs/msg/Text, field: data, is: idle, otherwise: is charging}
@@ -100,6 +101,7 @@ class FakeServer:
 
     def __init__(self) -> None:
         self.there, self.accepts, self.cancels = True, True, goals.ERROR_NONE
+        self.sent: List[uuid.UUID] = []
         self.begun: List[Tuple[uuid.UUID, Any]] = []
         self.states: Dict[uuid.UUID, int] = {}
         self.results: "Dict[uuid.UUID, Any]" = {}
@@ -131,6 +133,7 @@ class FakeServer:
         return self.news.pop(goal, None)
 
     async def send(self, goal: uuid.UUID, message: Any) -> bool:
+        self.sent.append(goal)
         while self.accepts is None:
             await asyncio.sleep(0.01)
         if self.accepts and goal not in self.states:
@@ -241,7 +244,7 @@ async def until(condition: Callable[[], bool], seconds: float = 20.0) -> None:
 
 
 def found() -> configuration.Configuration:
-    return configuration.of_text(TEXT, "robots.yaml")
+    return configuration_file.of_text(TEXT, "robots.yaml")
 
 
 def converse(links: FakeLinks, script: Callable[[Console, Robot], Awaitable[None]], resumes: bool = False,

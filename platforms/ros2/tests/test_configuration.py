@@ -4,7 +4,7 @@ import os
 import random
 import unittest
 
-from dolphin_ros2 import configuration, interfaces
+from dolphin_ros2 import configuration_file, interfaces
 from dolphin_ros2.document import Faulty
 
 from tests.support import TEXT, load, seeds
@@ -15,7 +15,7 @@ EXAMPLE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "exampl
 def faults(text):
     """The faults of a text, without its path, with those of its types."""
     try:
-        interfaces.check(configuration.of_text(text, "r.yaml"), load)
+        interfaces.check(configuration_file.of_text(text, "r.yaml"), load)
     except Faulty as faulty:
         return [line[len("r.yaml:"):] for line in faulty.lines]
     return []
@@ -33,35 +33,35 @@ FAULTS = [
         "2:20: 'latitude' is a number from -89.9 to 89.9; this is 411.85",
     ]),
     ("origin: {latitude: 41.185, longitude: -8.706}\n", "", [
-        "8:35: an Odometry is in metres from the origin of its map: the configuration needs 'origin', with "
+        "9:35: an Odometry is in metres from the origin of its map: the configuration needs 'origin', with "
         "its 'latitude' and 'longitude'",
     ]),
     ("kind: carrier,", "kind: carier,", [
-        "24:21: unknown kind 'carier'; did you mean 'carrier'?",
+        "25:21: unknown kind 'carier'; did you mean 'carrier'?",
     ]),
     ("namespace: /carrier1", "namespace: carrier 1", [
-        "24:41: 'carrier 1' is not a namespace of ROS, such as /carrier_1",
+        "25:41: 'carrier 1' is not a namespace of ROS, such as /carrier_1",
     ]),
     ("field: done, of", "field: 'done[', of", [
-        "20:27: 'done[' is not a field, such as pose.position.x or cells[2]",
+        "21:27: 'done[' is not a field, such as pose.position.x or cells[2]",
     ]),
     ("goal: {bay: '${bay}'", "goal: {bay: '${bya}'", [
-        "19:21: the plan's name 'drive_${bay}' has no parameter 'bya': call it 'drive_${bay}_${bya}'",
+        "20:21: the plan's name 'drive_${bay}' has no parameter 'bya': call it 'drive_${bay}_${bya}'",
     ]),
     ("done: [0, 1], ", "", [
-        "21:17: 'result' has 'field' and 'done', the values of the field that mean success",
+        "22:17: 'result' has 'field' and 'done', the values of the field that mean success",
     ]),
     ("tare: {service", "tare: {srvice", [
-        "22:7: the plan 'tare' needs one of the members 'action' and 'service'",
+        "23:7: the plan 'tare' needs one of the members 'action' and 'service'",
     ]),
     ("'drive_${bay}':", "'drive_${bay}${':", [
-        "16:7: two parameters of 'drive_${bay}${' have nothing between them: separate them, as by '_'",
+        "17:7: two parameters of 'drive_${bay}${' have nothing between them: separate them, as by '_'",
     ]),
     ("'drive_${bay}':", "'drive_${bay}${bay}':", [
-        "16:7: the name 'drive_${bay}${bay}' has a parameter twice",
+        "17:7: the name 'drive_${bay}${bay}' has a parameter twice",
     ]),
     ("type: nav_msgs/msg/Odometry", "type: nav_msgs/msg/Path", [
-        "9:35: a position is of type sensor_msgs/msg/NavSatFix or nav_msgs/msg/Odometry; this is nav_msgs/msg/Path",
+        "10:35: a position is of type sensor_msgs/msg/NavSatFix or nav_msgs/msg/Odometry; this is nav_msgs/msg/Path",
     ]),
     ("    payload: [tray]", "    payload: tray", [
         "8:14: 'payload' is a list, such as [a, b]; this is the text 'tray'",
@@ -76,38 +76,41 @@ FAULTS = [
         "2:7: is not YAML: expected ',' or ']', but got ':'",
     ]),
     ("of: 4", "of: 0", [
-        "20:37: 'of' is a number of at least 0.001; this is 0",
+        "21:37: 'of' is a number of at least 0.001; this is 0",
     ]),
     ("is: idle, ", "", [
-        "11:12: 'ready' needs the member 'is'",
+        "12:12: 'ready' needs the member 'is'",
     ]),
     ("action: drive, type", "action: drive, service: a, type", [
-        "15:7: the plan 'home' cannot have both the members 'action' and 'service'",
+        "16:7: the plan 'home' cannot have both the members 'action' and 'service'",
     ]),
     ("label: 'bay ${bay}'", "lable: 'bay ${bay}'", [
-        "19:31: Drive_Goal has no field 'lable'; did you mean 'label'?",
+        "20:31: Drive_Goal has no field 'lable'; did you mean 'label'?",
     ]),
     ("pose: {x: 1}", "pose: {y: 1}", [
-        "19:59: Pose has no field 'y'; known are cells, x",
+        "20:59: Pose has no field 'y'; known are cells, x",
     ]),
     ("pose: {x: 1}", "pose: {x: far}", [
-        "19:62: x: 'far' is not a number",
+        "20:62: x: 'far' is not a number",
     ]),
     ("goal: {bay: 0}", "goal: {bay: 0.5}", [
-        "15:71: bay: 0.5 is not a whole number",
+        "16:71: bay: 0.5 is not a whole number",
     ]),
     ("field: code", "field: cod", [
-        "21:17: 'cod': Drive_Result has no field 'cod'; did you mean 'code'?",
+        "22:17: 'cod': Drive_Result has no field 'cod'; did you mean 'code'?",
     ]),
     ("remaining: left", "remaining: left.hours", [
-        "20:19: 'left.hours': fake_msgs/Duration has no field 'hours'; known are nanosec, sec",
+        "21:19: 'left.hours': fake_msgs/Duration has no field 'hours'; known are nanosec, sec",
     ]),
     ("type: fake_msgs/action/Drive\n        goal: {bay: '", "type: fake_msgs/action/Dive\n        goal: {bay: '", [
-        "18:15: fake_msgs has no action 'Dive'; did you mean 'Drive'?",
+        "19:15: the action drive is of type fake_msgs/action/Drive in line 16",
     ]),
     ("type: fake_msgs/srv/Trigger", "type: nav2_msgs/srv/Trigger", [
-        "22:35: there is no package nav2_msgs with a folder srv: source the workspace that has it (No module "
+        "23:35: there is no package nav2_msgs with a folder srv: source the workspace that has it (No module "
         "named 'nav2_msgs.srv')",
+    ]),
+    ("home: {action: drive, type: fake_msgs/action/Drive", "home: {action: drive, type: fake_msgs/action/Dock", [
+        "19:15: the action drive is of type fake_msgs/action/Dock in line 16",
     ]),
 ]
 """Changes of `TEXT`, and the faults that follow."""
@@ -116,18 +119,20 @@ FAULTS = [
 class Reading(unittest.TestCase):
     def test_what_is_right(self):
         self.assertEqual(faults(TEXT), [])
-        found = configuration.of_text(TEXT, "r.yaml")
+        found = configuration_file.of_text(TEXT, "r.yaml")
         self.assertEqual([robot.name for robot in found.robots], ["carrier-1"])
         self.assertEqual(found.robots[0].payload, ("tray",))
         self.assertEqual(found.robots[0].resolve("odom"), "/carrier1/odom")
         self.assertEqual(found.robots[0].resolve("/tf"), "/tf")
-        self.assertEqual(found.kinds[0].silence, 3.0)
+        self.assertEqual(found.kinds[0].silence, 1000)
 
     def test_the_example(self):
-        self.assertEqual([robot.name for robot in configuration.read(EXAMPLE).robots], ["carrier-1", "carrier-2"])
+        found = configuration_file.read(EXAMPLE)
+        self.assertEqual([robot.name for robot in found.robots], ["carrier-1", "carrier-2"])
+        self.assertEqual((found.kinds[0].silence, found.answer), (3.0, 10.0))
 
     def test_plans_by_their_names(self):
-        kind = configuration.of_text(TEXT, "r.yaml").kinds[0]
+        kind = configuration_file.of_text(TEXT, "r.yaml").kinds[0]
         self.assertEqual(kind.plan("home")[1], {})
         rule, parameters = kind.plan("drive_3")
         self.assertEqual(rule.values(parameters), {"bay": "3", "label": "bay 3", "pose": {"x": 1}})
@@ -155,7 +160,7 @@ class Reading(unittest.TestCase):
 
     def test_a_file_that_is_not_there(self):
         with self.assertRaises(Faulty) as raised:
-            configuration.read("/nowhere/robots.yaml")
+            configuration_file.read("/nowhere/robots.yaml")
         self.assertEqual(raised.exception.why, "/nowhere/robots.yaml:1:1: cannot be read: No such file or directory")
 
     def test_any_text(self):

@@ -4,7 +4,7 @@ import unittest
 import uuid
 
 import dolphin
-from dolphin_ros2 import configuration, geo, goals, messages
+from dolphin_ros2 import configuration_file, geo, goals, messages
 from dolphin_ros2.messages import Path, Unfit
 
 from tests.support import TEXT, Drive, find, message
@@ -59,7 +59,7 @@ class Identity(unittest.TestCase):
 
 class Results(unittest.TestCase):
     def setUp(self):
-        self.kind = configuration.of_text(TEXT, "r.yaml").kinds[0]
+        self.kind = configuration_file.of_text(TEXT, "r.yaml").kinds[0]
 
     def test_without_a_rule_the_status_decides(self):
         rule, _ = self.kind.plan("home")

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import dolphin
 import dolphin_ros2.robot as module
-from dolphin_ros2 import configuration, goals, inputs
+from dolphin_ros2 import configuration_file, goals, inputs
 
 from tests.support import TEXT, Drive, FakeLinks, converse, load, odometry, until
 
@@ -127,7 +127,7 @@ class Plans(Case):
         self.server.accepts = None
 
         async def then(console):
-            await until(lambda: console.reports[-1].get("kind") == "note")
+            await until(lambda: any(report["kind"] == "note" for report in console.reports))
             goal = goals.goal_id("carrier-1", "r-1")
             self.server.states[goal] = goals.EXECUTING
             await self.ended(console, "r-1", "taken")
@@ -187,6 +187,18 @@ class Stops(Case):
         self.stop("taken", "stopped")
         self.assertEqual(self.server.states[self.server.last()], goals.CANCELED)
 
+    def test_a_stop_before_anything_was_sent(self):
+        """It is certain that no goal runs, though the server cannot be asked."""
+        self.server.there = False
+
+        async def then(console):
+            await until(lambda: any(report["kind"] == "note" for report in console.reports))
+            console.task("stop", "r-1")
+            await until(lambda: console.words("r-1") in (["stopped"], ["failed"]))
+
+        self.run_one("r-1", then)
+        self.assertEqual(self.server.cancelled, [])
+
     def test_a_cancellation_that_is_rejected_is_not_a_stop(self):
         self.server.cancels = goals.ERROR_REJECTED
         console = self.stop("taken", "unknown")
@@ -211,8 +223,7 @@ class Stops(Case):
             await self.ended(console, "r-1", "taken")
             self.server.there = False
             console.task("stop", "r-1")
-            for _ in range(10):
-                await until(lambda: True)
+            await asyncio.sleep(0.1)
             self.assertEqual(console.words("r-1"), ["taken"])
             self.server.there = True
             await self.ended(console, "r-1", "taken", "stopped")
@@ -305,7 +316,7 @@ class FromTopics(unittest.TestCase):
         self.addCleanup(setattr, inputs, "AGAIN", before)
 
         async def go():
-            bridge = inputs.Inputs(configuration.of_text(text, "r.yaml").inputs, run, links, load)
+            bridge = inputs.Inputs(configuration_file.of_text(text, "r.yaml").inputs, run, links, load)
             work = asyncio.ensure_future(bridge.run())
             for value in ("reef", "wreck", b"no text", ["a", 1, True]):
                 hears["/detections"](SimpleNamespace(data=value))

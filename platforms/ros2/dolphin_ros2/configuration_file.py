@@ -1,0 +1,330 @@
+"""robots.yaml: docs/ros2.md describes it. Reading needs no ROS: it judges all but types. `interfaces.check` judges
+these, with the packages that are there."""
+
+from __future__ import annotations
+
+import re
+from typing import Dict, Mapping, Optional, Sequence, Tuple, Union
+
+from . import messages
+from .configuration import (
+    ANSWER, SILENCE, Configuration, Fixed, Kind, PlanRule, Progress, Ready, RobotEntry, Rule, Topic, Type,
+)
+from .document import Fault, Faulty, Place, Reader, Value, near, parse
+from .geo import Origin
+from .messages import Path, Unfit
+
+
+def read(path: str) -> Configuration:
+    """The configuration of a file. Raises `Faulty`, with all faults."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+    except (OSError, UnicodeDecodeError) as error:
+        why = error.strerror if isinstance(error, OSError) else "is not a text in UTF-8"
+        raise Faulty(path, [Fault(Place(1, 1), f"cannot be read: {why}")]) from None
+    return of_text(text, path)
+
+
+def of_text(text: str, path: str) -> Configuration:
+    """The configuration of a text. Raises `Faulty`."""
+    reader = Reader(path)
+    configuration = _Reading(reader).configuration(parse(text, path))
+    reader.finish()
+    return configuration
+
+
+_NAME = re.compile(r"/?[A-Za-z_]\w*(/[A-Za-z_]\w*)*")
+_INTERFACE = re.compile(r"([A-Za-z]\w*)/(?:(msg|srv|action)/)?([A-Za-z]\w*)")
+_FOLDERS = {"msg": "sensor_msgs/msg/NavSatFix", "srv": "std_srvs/srv/Trigger", "action": "nav2_msgs/action/Spin"}
+
+POSITIONS = ("sensor_msgs/msg/NavSatFix", "nav_msgs/msg/Odometry")
+BATTERY = "sensor_msgs/msg/BatteryState"
+
+
+class _Reading:
+    """From a document to a configuration. Each function reports faults, and gives a value to go on with."""
+
+    def __init__(self, reader: Reader) -> None:
+        self.reader = reader
+
+    def configuration(self, document: Value) -> Configuration:
+        members = self.reader.members(
+            document, "the configuration", ("robots", "kinds", "inputs", "domain", "origin", "answer"),
+            needed=("robots", "kinds"),
+        )
+        origin = self.origin(members.get("origin"))
+        kinds = {
+            name: self.kind(name, value, origin)
+            for name, value in self.reader.entries(members.get("kinds"), "'kinds'").items()
+        }
+        robots = [
+            self.robot(name, value, kinds)
+            for name, value in self.reader.entries(members.get("robots"), "'robots'").items()
+        ]
+        if "robots" in members and isinstance(members["robots"].data, dict) and not robots:
+            self.reader.fault(members["robots"].place, "there is no robot")
+        self.distinct(members.get("robots"), [robot for robot in robots if robot is not None])
+        inputs = {
+            key: self.topic(value, f"the input '{key}'", with_field=True)
+            for key, value in self.reader.entries(members.get("inputs"), "'inputs'").items()
+        }
+        return Configuration(
+            path=self.reader.path, robots=tuple(robot for robot in robots if robot is not None),
+            kinds=tuple(kinds.values()), inputs={key: topic for key, topic in inputs.items() if topic is not None},
+            domain=self.domain(members.get("domain")), origin=origin,
+            answer=self.reader.number(members.get("answer"), "'answer'", ANSWER, 0.1, 600),
+        )
+
+    def domain(self, value: Optional[Value]) -> Optional[int]:
+        if value is None:
+            return None
+        number = self.reader.number(value, "'domain'", 0, 0, 232)
+        if number != int(number):
+            self.reader.fault(value.place, f"'domain' is a whole number; this is {number}")
+        return int(number)
+
+    def origin(self, value: Optional[Value]) -> Optional[Origin]:
+        if value is None:
+            return None
+        known = ("latitude", "longitude", "height", "heading")
+        members = self.reader.members(value, "'origin'", known, needed=known[:2])
+        return Origin(
+            self.reader.number(members.get("latitude"), "'latitude'", 0, -89.9, 89.9),
+            self.reader.number(members.get("longitude"), "'longitude'", 0, -180, 180),
+            self.reader.number(members.get("height"), "'height'"),
+            self.reader.number(members.get("heading"), "'heading'", 90, -360, 360),
+        )
+
+    def robot(self, name: str, value: Value, kinds: Mapping[str, Kind]) -> Optional[RobotEntry]:
+        known = ("kind", "namespace", "payload")
+        members = self.reader.members(value, f"the robot '{name}'", known, needed=known[:2])
+        named = self.reader.text(members.get("kind"), "'kind'")
+        namespace = self.reader.text(members.get("namespace"), "'namespace'", "/")
+        if namespace != "/" and not (namespace.startswith("/") and _NAME.fullmatch(namespace)):
+            self.reader.fault(
+                members["namespace"].place, f"'{namespace}' is not a namespace of ROS, such as /{_tame(name)}"
+            )
+        if named and named not in kinds:
+            self.reader.fault(members["kind"].place, f"unknown kind '{named}'{near(named, kinds)}")
+        kind = kinds.get(named)
+        if kind is None:
+            return None
+        payload = self.payload(members["payload"]) if "payload" in members else kind.payload
+        return RobotEntry(name, namespace, kind, payload)
+
+    def distinct(self, value: Optional[Value], robots: Sequence[RobotEntry]) -> None:
+        """Two robots of one namespace would be one robot with two names, which could get two plans at once."""
+        seen: Dict[str, str] = {}
+        for robot in robots:
+            assert value is not None
+            namespace = robot.namespace.rstrip("/")
+            if namespace in seen:
+                self.reader.fault(
+                    value.keys[robot.name],
+                    f"'{robot.name}' and '{seen[namespace]}' have one namespace, {robot.namespace}: give each its own",
+                )
+            seen.setdefault(namespace, robot.name)
+
+    def payload(self, value: Optional[Value]) -> Tuple[str, ...]:
+        return self.reader.listed(value, "'payload'", lambda item: self.reader.text(item, "a device"))
+
+    def kind(self, name: str, value: Value, origin: Optional[Origin]) -> Kind:
+        what = f"the kind '{name}'"
+        known = ("type", "payload", "position", "battery", "readings", "ready", "silence", "plans")
+        members = self.reader.members(value, what, known, needed=("type", "position", "plans"))
+        readings = {
+            key: self.topic(item, f"the reading '{key}'", with_field=True)
+            for key, item in self.reader.entries(members.get("readings"), "'readings'").items()
+        }
+        plans = [
+            self.plan(key, item, members["plans"].keys[key])
+            for key, item in self.reader.entries(members.get("plans"), "'plans'").items()
+        ]
+        self.one_type_each([plan for plan in plans if plan is not None])
+        return Kind(
+            name=name, type=self.reader.text(members.get("type"), "'type'"),
+            payload=self.payload(members.get("payload")), position=self.position(members.get("position"), origin),
+            battery=self.battery(members.get("battery")),
+            readings={key: topic for key, topic in readings.items() if topic is not None},
+            ready=self.ready(members.get("ready")),
+            silence=self.reader.number(members.get("silence"), "'silence'", SILENCE, 0.5, 3600),
+            plans=tuple(plan for plan in plans if plan is not None),
+        )
+
+    def one_type_each(self, plans: Sequence[PlanRule]) -> None:
+        seen: Dict[Tuple[bool, str], Type] = {}
+        for plan in plans:
+            before = seen.setdefault((plan.is_service, plan.interface), plan.type)
+            if before != plan.type:
+                what = "service" if plan.is_service else "action"
+                self.reader.fault(
+                    plan.type.place, f"the {what} {plan.interface} is of type {before} in line {before.place.line}")
+
+    def position(self, value: Optional[Value], origin: Optional[Origin]) -> Union[Topic, Fixed]:
+        nowhere = Fixed(0.0, 0.0)
+        if value is None:
+            return nowhere
+        if isinstance(value.data, dict) and "topic" not in value.data:
+            members = self.reader.members(
+                value, "'position' without a topic", ("latitude", "longitude", "height"), ("latitude", "longitude"))
+            return Fixed(
+                self.reader.number(members.get("latitude"), "'latitude'", 0, -90, 90),
+                self.reader.number(members.get("longitude"), "'longitude'", 0, -180, 180),
+                self.reader.number(members.get("height"), "'height'"),
+            )
+        topic = self.topic(value, "'position'")
+        if topic is None:
+            return nowhere
+        if str(topic.type) not in POSITIONS:
+            self.reader.fault(topic.type.place, f"a position is of type {' or '.join(POSITIONS)}; this is {topic.type}")
+        elif str(topic.type) == POSITIONS[1] and origin is None:
+            self.reader.fault(
+                topic.type.place,
+                "an Odometry is in metres from the origin of its map: the configuration needs 'origin', with its "
+                "'latitude' and 'longitude'",
+            )
+        return topic
+
+    def battery(self, value: Optional[Value]) -> Optional[Topic]:
+        if value is None:
+            return None
+        topic = self.topic(value, "'battery'", default=BATTERY)
+        if topic is not None and str(topic.type) != BATTERY and topic.path is None:
+            self.reader.fault(topic.type.place, f"a battery is of type {BATTERY}, or gives a 'field' from 0 to 1")
+        return topic
+
+    def ready(self, value: Optional[Value]) -> Optional[Ready]:
+        if value is None:
+            return None
+        members = self.reader.members(
+            value, "'ready'", ("topic", "type", "field", "is", "otherwise"), needed=("topic", "type", "field", "is"))
+        own = {key: item for key, item in members.items() if key in ("topic", "type", "field")}
+        topic = self.topic(Value(value.place, own), "'ready'", with_field=True) if len(own) == 3 else None
+        if topic is None or "is" not in members:
+            return None
+        otherwise = self.reader.text(members.get("otherwise"), "'otherwise'", f"is not ready ({topic.name})")
+        return Ready(topic, members["is"].plain(), otherwise)
+
+    def topic(
+        self, value: Value, what: str, with_field: bool = False, default: Optional[str] = None
+    ) -> Optional[Topic]:
+        needed = ["topic", *([] if default else ["type"]), *(["field"] if with_field else [])]
+        members = self.reader.members(value, what, ("topic", "type", "field"), needed=needed)
+        name = self.name(members.get("topic"), "a topic", "odom")
+        type_ = self.type(members.get("type") or (Value(value.place, default) if default else None), "msg")
+        path = self.path(members.get("field"))
+        if not name or type_ is None or (with_field and path is None):
+            return None
+        return Topic(name, type_, path, members["field"].place if "field" in members else value.place)
+
+    def name(self, value: Optional[Value], what: str, example: str) -> str:
+        name = self.reader.text(value, what)
+        if value is not None and name and not _NAME.fullmatch(name):
+            self.reader.fault(value.place, f"'{name}' is not the name of {what}, such as {example} or /{example}")
+        return name
+
+    def type(self, value: Optional[Value], folder: str) -> Optional[Type]:
+        text = self.reader.text(value, "'type'")
+        if value is None or not text:
+            return None
+        match = _INTERFACE.fullmatch(text)
+        if match is None or match.group(2) not in (None, folder):
+            self.reader.fault(value.place, f"'{text}' is not a type such as {_FOLDERS[folder]}")
+            return None
+        return Type(match.group(1), folder, match.group(3), value.place)
+
+    def path(self, value: Optional[Value]) -> Optional[Path]:
+        text = self.reader.text(value, "'field'")
+        if value is None or not text:
+            return None
+        try:
+            return Path.parse(text)
+        except Unfit as unfit:
+            self.reader.fault(value.place, str(unfit))
+            return None
+
+    # Plans.
+
+    def plan(self, name: str, value: Value, place: Place) -> Optional[PlanRule]:
+        what = f"the plan '{name}'"
+        self.parameters(name, place)
+        is_service = isinstance(value.data, dict) and "service" in value.data
+        if isinstance(value.data, dict) and is_service == ("action" in value.data):
+            both = "cannot have both" if is_service else "needs one of"
+            self.reader.fault(place, f"{what} {both} the members 'action' and 'service'")
+            return None
+        known = ("service", "type", "request", "result") if is_service else (
+            "action", "type", "goal", "result", "progress")
+        members = self.reader.members(value, what, known, needed=known[:1] if is_service else known[:2])
+        interface = self.name(members.get(known[0]), f"{'a service' if is_service else 'an action'}", "dock")
+        trigger = Value(value.place, "std_srvs/srv/Trigger") if is_service else None
+        type_ = self.type(members.get("type") or trigger, "srv" if is_service else "action")
+        template = members.get("request" if is_service else "goal") or Value(value.place, {})
+        self.template(name, template)
+        progress = self.progress(members.get("progress"), name)
+        result = self.rule(members.get("result"))
+        if not interface or type_ is None:
+            return None
+        return PlanRule(name, is_service, interface, type_, template, result, progress, place)
+
+    def parameters(self, name: str, place: Place) -> None:
+        found = messages.PARAMETER.findall(name)
+        if len(set(found)) < len(found):
+            self.reader.fault(place, f"the name '{name}' has a parameter twice")
+        elif re.search(r"\}\$\{", name):
+            self.reader.fault(place, f"two parameters of '{name}' have nothing between them: separate them, as by '_'")
+        elif "${" in messages.PARAMETER.sub("", name):
+            self.reader.fault(place, f"a parameter of '{name}' is not written as ${{bay}}")
+
+    def template(self, name: str, template: Value) -> None:
+        """Reports parameters that the plan's name does not have."""
+        if isinstance(template.data, dict):
+            for item in template.data.values():
+                self.template(name, item)
+        elif isinstance(template.data, tuple):
+            for item in template.data:
+                self.template(name, item)
+        else:
+            known = set(messages.PARAMETER.findall(name))
+            for parameter in sorted(messages.parameters_of(template.data) - known):
+                self.reader.fault(
+                    template.place,
+                    f"the plan's name '{name}' has no parameter '{parameter}': call it '{name}_${{{parameter}}}'",
+                )
+
+    def progress(self, value: Optional[Value], name: str) -> Optional[Progress]:
+        if value is None:
+            return None
+        members = self.reader.members(value, "'progress'", ("field", "of", "remaining"))
+        of = members.get("of")
+        if of is not None and isinstance(of.data, str):
+            self.template(name, of)
+        else:
+            self.reader.number(of, "'of'", 1, 0.001)
+        if not {"field", "remaining"} & set(members) and isinstance(value.data, dict):
+            self.reader.fault(value.place, "'progress' needs the member 'field', 'remaining', or both")
+        return Progress(
+            self.path(members.get("field")), 1 if of is None else of.plain(), self.path(members.get("remaining")),
+            value.place,
+        )
+
+    def rule(self, value: Optional[Value]) -> Rule:
+        if value is None:
+            return Rule()
+        members = self.reader.members(value, "'result'", ("field", "done", "message", "words"))
+        if ("field" in members) != ("done" in members):
+            self.reader.fault(value.place, "'result' has 'field' and 'done', the values of the field that mean success")
+        words = self.reader.entries(members.get("words"), "'words'")
+        return Rule(
+            self.path(members.get("field")),
+            self.reader.listed(members.get("done"), "'done'", lambda item: item.plain()),
+            self.path(members.get("message")),
+            {key: self.reader.text(item, "a reason") for key, item in words.items()}, value.place,
+        )
+
+
+def _tame(name: str) -> str:
+    """A name of ROS that resembles another name."""
+    tame = re.sub(r"\W", "_", name)
+    return tame if re.match(r"[A-Za-z_]", tame) else f"robot_{tame}"

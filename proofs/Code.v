@@ -99,7 +99,7 @@ Class Code {L : Names} := {
   answered_no : site -> prompt -> message;             (* 'x' was answered no *)
   not_answered : site -> prompt -> message -> message; (* no answer to 'x': m *)
   plan_failed : plan -> vehicle -> message -> message;
-  no_task : code -> list value -> nat -> value -> list deed -> message;
+  no_task : code -> list value -> nat -> store -> value -> store -> list deed -> message;  (* the stores before, after *)
   too_deep : code -> message;
   foreign_retry : code -> message;
 

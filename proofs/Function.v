@@ -177,7 +177,7 @@ Section Function.
           (fun x s N ds =>
              match made_task a ys q S x s ds with
              | Some t => [By LMake S (Next (Unallocated t (deeper q))) []]
-             | None => let m := no_task a ys (depth q) x ds in [By (LBroken m) S (Err m) []]
+             | None => let m := no_task a ys (depth q) (variables S) x s ds in [By (LBroken m) S (Err m) []]
              end)
           (breaks S)
     | Unallocated t q =>

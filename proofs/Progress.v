@@ -250,7 +250,7 @@ Section Progress.
           (fun x s N ds =>
              match made_task a ys q S x s ds with
              | Some t => [By LMake S (Next (Unallocated t (deeper q))) []]
-             | None => let m := no_task a ys (depth q) x ds in [By (LBroken m) S (Err m) []]
+             | None => let m := no_task a ys (depth q) (variables S) x s ds in [By (LBroken m) S (Err m) []]
              end) (breaks S) Hc) as [t Ht]; try discriminate.
         + intros x s N ds. destruct (made_task a ys q S x s ds); discriminate.
         + exists t. apply Itself. exact Ht.

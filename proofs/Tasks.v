@@ -306,8 +306,8 @@ Section Tasks.
       step None K S (Made a ys q) (LBroken m) S (Err m) (effects_of (said ds))
   | MAKE_ERR_value : forall K S a ys q x s N ds,
       runs a ys K S = Gives x s N ds -> made_task a ys q S x s ds = None ->
-      step None K S (Made a ys q) (LBroken (no_task a ys (depth q) x ds)) S
-        (Err (no_task a ys (depth q) x ds)) []
+      step None K S (Made a ys q) (LBroken (no_task a ys (depth q) (variables S) x s ds)) S
+        (Err (no_task a ys (depth q) (variables S) x s ds)) []
   | ALLOCATE : forall K S t q vs r,
       alloc_made (world_of K) (free K S) t q (taken_numbers K) = inl (vs, r) ->
       step None K S (Unallocated t q) (LAllocate vs) S (Next (holding vs r)) (begun r)

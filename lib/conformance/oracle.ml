@@ -8,10 +8,16 @@ module Scenario = Dolphin_scenario.Scenario
 
 type json = Yojson.Safe.t
 type given = { program : Core.program; nodes : Nodes.t; world : World.t; scenario : Scenario.t }
-type t = { name : string; given : given option }
+type transitions = {
+  internal : Core.program -> World.t -> Configuration.t -> Transition.t Seq.t;
+  accept : Core.program -> World.t -> Configuration.t -> Transition.event -> (Transition.t, Transition.refusal) result;
+}
+
+type t = { name : string; transitions : transitions; given : given option }
 
 let version = 1
-let start ~name = { name; given = None }
+let start_with transitions ~name = { name; transitions; given = None }
+let start ~name = start_with { internal = Transition.internal; accept = Transition.accept } ~name
 
 (* {1 Errors} *)
 
@@ -134,19 +140,19 @@ let patterns (c : Configuration.t) (awaited : Transition.awaited) : members list
   | Reply, _ -> [ named "reply" []; named "no-reply" [] ]
 
 (* The time-out of a pick that can be met is not awaited. *)
-let is_awaited g world c (awaited : Transition.awaited) =
+let is_awaited ts g world c (awaited : Transition.awaited) =
   match awaited with
-  | Expiry_of timer -> Result.is_ok (Transition.accept g.program world c (Timer_expired timer))
+  | Expiry_of timer -> Result.is_ok (ts.accept g.program world c (Timer_expired timer))
   | End_of _ | Answer_to _ | Recruit_for _ | Answer | Reply -> true
 
 let has_ended (c : Configuration.t) =
   match c.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false
 
-let awaited g world c = List.filter (is_awaited g world c) (Transition.awaited c)
+let awaited ts g world c = List.filter (is_awaited ts g world c) (Transition.awaited c)
 
 (* Those of vehicles that are there. *)
-let recruited g world c =
-  let is_accepted event = Result.is_ok (Transition.accept g.program world c event) in
+let recruited ts g world c =
+  let is_accepted event = Result.is_ok (ts.accept g.program world c event) in
   let recruitable = List.of_seq (Transition.recruitable g.program world c) in
   List.map (fun e -> Event.of_event e) (List.filter is_accepted recruitable)
 
@@ -166,7 +172,7 @@ let plain events : Event.t list =
   in
   List.filter_map of_awaited events
 
-let deliver g world c event =
+let deliver ts g world c event =
   let refused code message =
     let message = match message with None -> [] | Some text -> [ ("message", `String text) ] in
     Ok (Either.Right (`Assoc ([ ("event", `Assoc (Event.members event)); ("code", `String code) ] @ message)))
@@ -179,20 +185,20 @@ let deliver g world c event =
   | Error (No_value why) -> Error (Bad_event why)
   | Error (Refused why) -> of_refusal why
   | Ok e -> (
-      match Transition.accept g.program world c e with
+      match ts.accept g.program world c e with
       | Ok t -> Result.map (fun t -> Either.Left t) (of_transition g c (Some event) t)
       | Error why -> of_refusal why)
 
-let step_of g world c events =
-  let* internal = bounded most_transitions (Transition.internal g.program world c) in
+let step_of ts g world c events =
+  let* internal = bounded most_transitions (ts.internal g.program world c) in
   let* internal = Results.map (of_transition g c None) internal in
-  let there = awaited g world c and recruits = recruited g world c in
-  let* delivered = Results.map (deliver g world c) (Option.value events ~default:(plain there @ recruits)) in
+  let there = awaited ts g world c and recruits = recruited ts g world c in
+  let* delivered = Results.map (deliver ts g world c) (Option.value events ~default:(plain there @ recruits)) in
   let caused, refused = List.partition_map Fun.id delivered in
   let refused = if refused = [] then [] else [ ("refused", `List refused) ] in
   Ok ([ ("transitions", `List (internal @ caused)); ("awaited", of_awaited g c there recruits) ] @ refused)
 
-let step g found =
+let step ts g found =
   let bad result = error (fun why -> Bad_request why) result in
   let* json = bad (get any "configuration" found) in
   let* c = error (fun why -> Bad_configuration why) (Snapshot.of_json g.nodes g.program json) in
@@ -207,7 +213,7 @@ let step g found =
     | Some json -> error (fun why -> Bad_event why) (Result.map Option.some (list to_event json))
   in
   (* A configuration that was tampered with may name variables and places that are not there. *)
-  match step_of g world c events with
+  match step_of ts g world c events with
   | result -> result
   | exception (Invalid_argument _ | Not_found | Failure _ | Stack_overflow) ->
     Error (Bad_configuration "its parts do not belong together")
@@ -249,7 +255,7 @@ let perform o found =
   | "hello", _ -> Ok (o, hello o)
   | "initial", _ -> initial o found
   | ("step" | "times" | "dated"), None -> Error No_program
-  | "step", Some g -> Result.map (fun reply -> (o, reply)) (step g found)
+  | "step", Some g -> Result.map (fun reply -> (o, reply)) (step o.transitions g found)
   | "times", Some g -> Result.map (fun reply -> (o, reply)) (times g found)
   | "dated", Some g -> Result.map (fun reply -> (o, reply)) (dated g found)
   | other, _ -> Error (Unknown_request other)

@@ -14,10 +14,21 @@
         assert (Yojson.Safe.Util.member "error" reply <> `Null)
     ]} *)
 
+open Dolphin_semantics
+
 type t
 
 val start : name:string -> t
 (** [start ~name] knows no program yet. [name] is its name for itself. *)
+
+(** Two functions of {!Dolphin_semantics.Transition}, or others in their place. *)
+type transitions = {
+  internal : Core.program -> World.t -> Configuration.t -> Transition.t Seq.t;
+  accept : Core.program -> World.t -> Configuration.t -> Transition.event -> (Transition.t, Transition.refusal) result;
+}
+
+val start_with : transitions -> name:string -> t
+(** [start_with ts ~name] is [start ~name], with the transitions that [ts] gives. *)
 
 val version : int
 (** Of the protocol. *)

@@ -22,7 +22,7 @@ let read_line channel =
 let too_long = {|{"error":{"code":"bad-request","message":"a request is at most 64 MB long"}}|}
 let is_blank line = String.trim line = ""
 
-let serve ~name input output =
+let serve_as start input output =
   let reply text =
     output_string output text;
     output_char output '\n';
@@ -38,4 +38,6 @@ let serve ~name input output =
       reply answer;
       go oracle
   in
-  go (Oracle.start ~name)
+  go start
+
+let serve ~name input output = serve_as (Oracle.start ~name) input output

@@ -146,7 +146,9 @@ class Robots(Case):
     def test_bad_configurations(self):
         for old, new, why in [
             ("goal: {order: 5}", "goal: {oder: 5}", "Fibonacci_Goal has no field 'oder'; did you mean 'order'?"),
-            ("type: test_msgs/action/Fibonacci", "type: nav2_msgs/action/Spin", "source the workspace that has it"),
+            ("short: {action: work, type: test_msgs/action/Fibonacci",
+             "short: {action: spin, type: nav2_msgs/action/Spin",
+             "source the workspace that has it"),
             ("topic: odom", "topic: 'od om'", "is not the name of a topic"),
         ]:
             with self.subTest(new=new):

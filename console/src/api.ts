@@ -34,6 +34,9 @@ export interface Heard { time: number; vehicles: Json[]; error: string | null }
 export interface LogLine { time: number; severity: string; about: string[]; text: string }
 export interface Waiting { time: number; for: { what: string; at?: string; lacking?: string }[] }
 
+// On a moment of a run that was.
+export interface Note { time: number; text: string; by: string | null; at: string }
+
 export type Pair = [number, number];
 // Values of the program's variables on the map.
 export interface Place { name: string; position?: Pair; centre?: Pair; radius?: number; rings?: Pair[][] }

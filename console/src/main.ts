@@ -1,6 +1,6 @@
 // The page: it shows the messages of the server and sends a person's commands.
 
-import { type Diagnostic, type Heard, type Json, type LogLine, type OpenQuestion, type Operator, type Status, Refusal, ask, get, listen, post, replay } from "./api";
+import { type Diagnostic, type Heard, type Json, type LogLine, type Note, type OpenQuestion, type Operator, type Status, Refusal, ask, get, listen, post, replay } from "./api";
 import { choose } from "./choice";
 import { HelmView } from "./helm";
 import { Stop } from "./stop";
@@ -26,6 +26,7 @@ import { Verdicts } from "./verdicts";
 // A run that was, or one that explore found: gone through by steps.
 interface Past {
   title: string; program: string | null; messages: Message[]; index: number; steps: boolean; found: boolean;
+  of?: { run?: string; path?: string }; notes?: Note[];  // of a journal
   reading?: AbortController;  // its messages are still coming
 }
 
@@ -296,9 +297,10 @@ function showFound(cx: Json, program: string | null) {
 
 const dated = (name: string) => `${name.slice(0, 10)} ${name.slice(11, 13)}:${name.slice(13, 15)} UTC`;
 
-async function openReplay(query: string, title: string) {
+async function openReplay(of: { run?: string; path?: string }, title: string) {
+  const query = new URLSearchParams(of as Record<string, string>).toString();
   const messages: Message[] = [], reading = new AbortController();
-  const p: Past = { title, program: null, messages, index: 0, steps: false, found: false, reading };
+  const p: Past = { title, program: null, messages, index: 0, steps: false, found: false, reading, of };
   const piece = () => { if (past === p) grow(p); else { leavePast(); p.index = messages.length; openPast(p); } };
   try {
     await replay(query, {
@@ -314,12 +316,24 @@ async function openReplay(query: string, title: string) {
     if (!reading.signal.aborted) throw e;
   } finally {
     p.reading = undefined;
-    if (past === p) renderBanner();
+    if (past === p) { renderBanner(); attempt(() => showNotes(p, get("notes?" + query)))(); }
   }
 }
 
-const replayRun = (run: string, what: string) => openReplay("run=" + encodeURIComponent(run), `${what} of ${dated(run)}`);
-const replayJournal = (path: string) => openReplay("path=" + encodeURIComponent(path), path);
+const replayRun = (run: string, what: string) => openReplay({ run }, `${what} of ${dated(run)}`);
+const replayJournal = (path: string) => openReplay({ path }, path);
+
+async function showNotes(p: Past, reply: Promise<{ notes: Note[] }>) {
+  p.notes = (await reply).notes;
+  if (past === p) seek(p.index);
+}
+
+async function writeNote() {
+  const p = past, text = $<HTMLInputElement>("note").value.trim();
+  if (!p?.of || !text) return;
+  await showNotes(p, post("notes", { ...p.of, time: shown.time, text }));
+  $<HTMLInputElement>("note").value = "";
+}
 
 async function renderRuns() {
   const [{ runs }, { journals }] = await Promise.all([get("runs"), get("files")]);
@@ -363,6 +377,7 @@ function openPast(p: Past) {
   slider.max = String(p.messages.length);
   seek(p.index);
   $("slider-row").hidden = false;
+  $("note-form").hidden = !p.of || (watches && !answers);
   renderBanner();
 }
 
@@ -396,6 +411,7 @@ function seek(index: number) {
   shown = new Run();
   shown.moves = !past.found;
   for (let i = 0; i < past.index; i++) shown.add(past.messages[i]);
+  for (const n of past.notes ?? []) if (n.time <= shown.time) shown.note(n.time, n.by ? `${n.by}: ${n.text}` : n.text);
   $<HTMLInputElement>("slider").value = String(past.index);
   $("step").textContent = past.steps ? `step ${shown.transitions}: ${shown.label}` : clock(shown.time);
   showLine(shown.at, past.program);
@@ -752,6 +768,7 @@ $("copy").addEventListener("click", attempt(async () => {
   tell("The log was copied.", false);
 }));
 $("slider").addEventListener("input", (e) => seek(Number((e.target as HTMLInputElement).value)));
+$("note-form").addEventListener("submit", (e) => { e.preventDefault(); attempt(writeNote)(); });
 $("back").addEventListener("click", () => step(-1));
 $("forward").addEventListener("click", () => step(1));
 for (const name of tabs) $("tab-" + name).addEventListener("click", () => showTab(name));

@@ -11,7 +11,7 @@ export interface Vehicle {
   id: string; kind: string; payload: string[]; connected: boolean; unready: string | null;
   heard: number; samples: Sample[]; tasks: Task[]; silent: { from: number; until: number | null }[]; low: boolean;
 }
-export interface Mark { time: number; kind: "posted" | "consumed" | "said" | "asked" | "failed" | "input"; text: string; at?: string; step: number }
+export interface Mark { time: number; kind: "posted" | "consumed" | "said" | "asked" | "failed" | "input" | "note"; text: string; at?: string; step: number }
 // Trouble that needs a look, also when it has passed.
 export interface Alarm { kind: "link" | "battery" | "failed"; time: number; vehicle: string; text: string; until: number | null }
 export const lowBattery = 0.2;
@@ -73,6 +73,12 @@ export class Run {
   }
 
   private mark(kind: Mark["kind"], text: string, at?: string) { this.marks.push({ time: this.time, kind, text, at, step: this.transitions }); }
+
+  // Of a person, later: it is none of the run's own events.
+  note(time: number, text: string) {
+    const at = this.marks.findIndex((m) => m.time > time);
+    this.marks.splice(at < 0 ? this.marks.length : at, 0, { time, kind: "note", text, step: this.transitions });
+  }
 
   private news(line: Json) {
     const v = this.vehicle(line.vehicle);

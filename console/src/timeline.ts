@@ -13,7 +13,7 @@ const row = 26, left = 118, top = 22;
 const nice = [1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 14400, 43200, 86400];
 
 const letter: Record<Mark["kind"], string> =
-  { posted: "+", consumed: "−", said: "“", asked: "?", failed: "!", input: "»" };
+  { posted: "+", consumed: "−", said: "“", asked: "?", failed: "!", input: "»", note: "✎" };
 
 // Of a task that runs, with the time that the fleet gives it.
 function runs(window: Window | undefined, now: number): string {
@@ -77,7 +77,7 @@ export function timeline(el: HTMLElement, run: Run, steps: boolean, picked: stri
   let last = -99;
   run.marks.forEach((mark, i) => {
     const at = x(mark.time), one = ofMark(mark, i, steps);
-    if (at - last < 3 && mark.kind !== "failed" && one.key !== picked) return;
+    if (at - last < 3 && mark.kind !== "failed" && mark.kind !== "note" && one.key !== picked) return;
     last = at;
     parts.push(svg("g", { class: "mark " + mark.kind + (one.key === picked ? " picked" : ""), transform: `translate(${at} ${y + 13})`,
       pointerdown: () => pick(one) },

@@ -174,6 +174,14 @@ await test("and replayed, forwards and back", async () => {
   await page.click("#back");
   await page.locator("#slider").fill("40");
   same(await text(page, "#step"), there, "the place");
+  await page.fill("#note", "look here");
+  await page.keyboard.press("Enter");
+  await page.waitForSelector("#timeline .mark.note title >> text=/note: look here/", { state: "attached" });
+  await picture(page, "note");
+  await page.locator("#slider").fill("0");
+  await page.waitForFunction(() => document.querySelectorAll("#timeline .mark.note").length === 0);
+  await page.locator("#slider").fill("40");
+  await page.waitForFunction(() => document.querySelectorAll("#timeline .mark.note").length === 1);
   await page.click("#banner >> text=Back to now");
 });
 

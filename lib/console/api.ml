@@ -155,6 +155,22 @@ let plans h role (r : Request.t) =
         Plans.list ~dolphin:(Session.settings h).dolphin found
         >|= Result.map (Response.text ~kind:"application/json" 200))
 
+let watcher = refusal 403 "watches" "this link is for watching: it commands nothing"
+
+(* The helm is for the run that goes on; notes are on others. *)
+let note h role (r : Request.t) =
+  match
+    let* () = if role = Access.Watches then Error watcher else Ok () in
+    let* client = client h role r in
+    Result.map (fun found -> (client, found)) (body r)
+  with
+  | Error r -> Lwt.return (Error r)
+  | Ok (client, found) ->
+    let by = of_option (fun (o : Live_run.operator) -> `String o.name) (Session.operator h client) in
+    let found = ("by", by) :: List.remove_assoc "by" found in
+    Run_commands.prepared h role ~client "note" (Canonical.to_string (`Assoc found))
+    >|= (function Ok found -> Ok (json (`Assoc found)) | Error response -> Ok response)
+
 let analyse (subject : Analysis.subject) h ~client (r : Request.t) _ =
   let start found = Result.map_error of_refusal (Analyses.start subject h found) in
   match Analyses.not_busy subject h with
@@ -182,13 +198,12 @@ let table =
     (("POST", "run/resume"), Later Run_commands.resume);
     (("POST", "run/differences"), Told differences); (("POST", "run/replace"), Later Run_commands.replace);
     (("GET", "runs"), Beside "runs"); (("GET", "replay"), Told replay); (("POST", "helm"), Steer helm);
+    (("GET", "notes"), Beside "notes"); (("POST", "notes"), Told note);
     (("GET", "operators"), Told operators); (("POST", "operators"), Steer shut_out) ]
   @ of_subject "exploration" Exploration @ of_subject "timing" Timing @ of_subject "graph" Graph
   @ of_subject "replacement" Replacement
 
 let routes = List.map (fun ((verb, path), _) -> (verb, "/api/" ^ path)) table
-
-let watcher = refusal 403 "watches" "this link is for watching: it commands nothing"
 
 let answerer = refusal 403 "answers" "this link is for answers and inputs: it commands nothing else"
 

@@ -59,19 +59,19 @@ let of_json found =
 
 (* {1 To replay one} *)
 
-let journal w r =
-  match Request.parameter r "run", Request.parameter r "path" with
+let journal w ~run ~path =
+  match run, path with
   | Some name, _ -> Result.map (fun (_, (run : Run_folder.run)) -> run.path) (find w name)
   | None, Some path ->
     let* full = Workspace.file w path in
     if Folder.kind full = Some Journal then Ok full else bad "this is not a journal"
-  | None, None -> bad "the query lacks run, or path"
+  | None, None -> bad "the request lacks run, or path"
 
 let no_journal e = refusal 422 "no-journal" (String.concat "; " (Error.sentences e))
 
 (* The first line alone: the others are read as they are sent. *)
 let check w r =
-  let* path = journal w r in
+  let* path = journal w ~run:(Request.parameter r "run") ~path:(Request.parameter r "path") in
   let first reader =
     match Dolphin_trace.Journal.peek reader with
     | Line _ | Torn _ | End_of_file -> Ok (`Assoc [ ("journal", `String path) ])

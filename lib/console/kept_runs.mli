@@ -21,6 +21,9 @@ val broken_off : Workspace.t -> Field.members -> (json, refusal) result
 val of_json : Field.members -> (broken_off, refusal) result
 (** The result of {!broken_off}. *)
 
+val journal : Workspace.t -> run:string option -> path:string option -> (string, refusal) result
+(** [journal w ~run ~path] is the file of the kept run [run], or of the journal [path] of the folder. *)
+
 val check : Workspace.t -> Request.t -> (json, refusal) result
 (** [check w r] is the file [journal] of the run that [GET replay] names, if its first line is that of a journal. *)
 

@@ -38,7 +38,8 @@ let tasks =
     ("conclude", look Analysis_work.conclude);
     ("outlook", compute Outlook_work.compute);
     ("start", look check_start); ("broken-off", compute Kept_runs.broken_off);
-    ("runs", look Kept_runs.list); ("journal", look Kept_runs.check); ("replay", Pieces Kept_runs.replay) ]
+    ("runs", look Kept_runs.list); ("journal", look Kept_runs.check); ("replay", Pieces Kept_runs.replay);
+    ("notes", look Notes.list); ("note", compute Notes.add) ]
 
 (* {1 Messages} *)
 

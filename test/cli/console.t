@@ -83,6 +83,8 @@ The console of a folder, on a port of its own, and all that docs/openapi.json de
   another text: changed
   replaced: 200 longer.dol
   kept: mission.dol interrupted
+  notes: [(1.5, 'here it waits', None), (0, 'again', None)]
+  of no run: bad-request
   replayed to its end: True
   not asked for: []
   all as described

@@ -164,6 +164,10 @@ def main():
     ask("POST", "run/resume", {"run": "none"})
     run = ask("GET", "runs")[1]["runs"][0]
     print("kept:", run["program"], run["state"])
+    for note in [{"text": "here it waits", "time": 1.5}, {"text": "again", "time": 0}, {"text": " ", "time": 1}]:
+        ask("POST", "notes", {"run": run["run"], **note})
+    print("notes:", [(n["time"], n["text"], n["by"]) for n in ask("GET", "notes", query="?run=" + run["run"])[1]["notes"]])
+    print("of no run:", ask("GET", "notes", query="?path=mission.dol")[1]["error"]["code"])
     told = ask("GET", "replay", query="?run=" + run["run"])[1]
     print("replayed to its end:", told.endswith("event: end\ndata: {}\n\n"))
     described = {(verb.upper(), path) for path, verbs in DOCUMENT["paths"].items() for verb in verbs}

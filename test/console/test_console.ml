@@ -410,6 +410,19 @@ let journals root port =
   replayed () >>= fun plain ->
   status "each line" (List.length lines) (told "journal" plain);
   status "but for a program that is not there: one line that says so" 1 (told "log" plain);
+  (* Notes lie beside the journal, which stays as it is; a link there is not followed. *)
+  let note () = Client.ask ~body:{|{"path": "home.run", "time": 1, "text": "here"}|} ~port "/api/notes" in
+  let notes = Filename.concat root "home.notes" and outside = Filename.concat root "../outside.dol" in
+  note () >>= fun r ->
+  status "noted" 200 r.status;
+  holds "in a file beside it" true (has_text {|"text":"here"|} (Result.get_ok (Dolphin_app.Text_file.read notes)));
+  replayed () >>= fun again ->
+  text "the journal is the same" plain.body again.body;
+  Unix.unlink notes;
+  Unix.symlink outside notes;
+  note () >>= fun r ->
+  refused "through a link" (422, "not-saved") r;
+  text "nothing is written there" "say 'private'\n" (Result.get_ok (Dolphin_app.Text_file.read outside));
   write run "no journal\n";
   replayed () >|= fun r ->
   status "what is no journal" 422 r.status

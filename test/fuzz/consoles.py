@@ -48,6 +48,8 @@ def requests_of(path):
         ("POST", "run/post", {}, {"key": "over", "value": True}), ("POST", "run/post", {}, {"pairs": "over: [1, 2.5]"}),
         ("POST", "run/stop", {}, {"all": True}), ("POST", "run/counterexample", {}, {"of": "exploration", "speed": 2}),
         ("POST", "run/resume", {}, {"run": "j.run"}), ("GET", "replay", {"path": "j.run"}, None),
+        ("GET", "notes", {"path": "j.run"}, None),
+        ("POST", "notes", {}, {"path": "j.run", "time": 1.5, "text": "here"}),
         ("POST", "helm", {}, {"want": "take"})]
 
 

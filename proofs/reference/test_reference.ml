@@ -79,9 +79,15 @@ let print (ast, choices) = Generate.print ast ^ "choices " ^ String.concat ", " 
 
 let most_were_compared () = Alcotest.(check bool) "there were many" true (!compared > 1_000)
 
+let nested = Gen.map (fun t -> Generate.executing t) (Generate.nested ~vehicles:Generate.vehicles ~depth:2)
+
+(* PROGRAMS of each kind; for long comparisons. *)
+let count = Option.value ~default:200 (Option.bind (Sys.getenv_opt "PROGRAMS") int_of_string_opt)
+
 let () =
-  let programs name of_one = Property.case ~count:200 name ~print (Gen.pair of_one Walk.choices) along in
+  let programs name of_one = Property.case ~count name ~print (Gen.pair of_one Walk.choices) along in
   Alcotest.run "reference"
     [ ( "the extracted function is Transition",
         [ programs "scripts and tasks" Generate.program; programs "copies of a task" Generate.replicated;
+          programs "sensors" Generate.sensing_program; programs "nested tasks" nested;
           Alcotest.test_case "and had much to do" `Quick most_were_compared ] ) ]

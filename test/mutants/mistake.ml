@@ -465,6 +465,9 @@ let all =
       in_file "lib/time/unread_pairs.ml" ~noticed_by:"time/test_exact"
         [
           ("what is polled is not read", {|(Poll keys | Consume keys)|}, {|(Consume keys)|});
+        ];
+      in_file "lib/time/unread_pairs.ml" ~noticed_by:"time/test_reductions"
+        [
           ("what is counted is not read", {|(Poll [] | Values_of), [|}, {|(Poll []), [|});
         ];
       in_file "lib/time/working.ml" ~noticed_by:"time/test_exact"

@@ -21,7 +21,7 @@ execute until { poll over: true } run (watch task('survey')[v] onError { ignore(
 `);
   // The console has another fleet file, whose vehicle nobody hears.
   writeFileSync(join(folder, "lost.fleet"), "vehicle 'paper-1', { type 'UUV' }\nplan 'survey'\n");
-  writeFileSync(join(folder, "real.fleet"), "vehicle 'lauv-1', { type 'UUV'; battery 77.percent }\nplan 'survey', { duration 1.hour }\n");
+  writeFileSync(join(folder, "real.fleet"), "vehicle 'lauv-1', { type 'UUV'; battery 77.percent }\nplan 'survey', { duration 10.min }\n");
   const start = (...args) => {
     const child = spawn(dolphin, args, { env: environment, stdio: ["ignore", "pipe", "inherit"] });
     children.push(child);
@@ -54,6 +54,21 @@ execute until { poll over: true } run (watch task('survey')[v] onError { ignore(
     if (pictures) await page.screenshot({ path: join(pictures, "real.png") });
     await page.click("#choice button >> text=Command real vehicles");
     await page.waitForSelector("#log pre >> text=starts survey");
+    // How far it is, by its own estimate.
+    await page.click("#vehicles button >> text=lauv-1");
+    await page.waitForFunction(() => { const bar = document.querySelector("#vehicle progress"); return bar && bar.value >= 0.01 && bar.value < 1; });
+    same(await text(page, "#vehicle .of-vehicle").then((t) => /survey for .* [1-9]\d? %, \d+:\d\d left/.test(t.replace(/\s+/g, " "))), true, "in words, too");
+    if (pictures) await page.screenshot({ path: join(pictures, "progress.png") });
+    // Another program: one question, which names the vehicle.
+    await page.locator(".cm-content").click();
+    await page.keyboard.press("Control+End");
+    await page.keyboard.insertText("message 'more'\n");
+    await page.click("#replace");
+    await page.click("#choice button >> text=Save and replace");
+    await page.waitForSelector("#replacement .trouble >> text=REAL vehicles: lauv-1");
+    await page.click("#replacement-replace >> text=on REAL vehicles");
+    await page.waitForSelector("#log pre >> text=the run goes on with");
+    await page.click("[aria-label='close lauv-1']");
     // Nothing is heard of it.
     vehicles.kill("SIGSTOP");
     await page.waitForSelector("#alarms li:has-text('lauv-1') >> text=no link");

@@ -48,7 +48,8 @@ export function outlook(el: HTMLElement, o: Outlook | null, now: number, wall: (
   const late = o.over && o.over.latest !== null && now >= o.over.latest;
   const since = wall ? `Since the start: ${over(o, now, clock)}. ${of}` : of;
   const parts = [h("span", { title: since, class: late ? "trouble" : "" }, over(o, now, wall ?? clock))];
-  if (o.violated.length) parts.push(h("span", { class: "trouble", title: of }, `may be violated: ${o.violated.join(", ")}`));
+  // First: a phone may have no room for more.
+  if (o.violated.length) parts.unshift(h("span", { class: "trouble", title: of }, `may be violated: ${o.violated.join(", ")}`));
   if (o.by_faults.length)
     parts.push(h("span", { title: `If plans fail or links are lost: ${o.by_faults.join(", ")}. ${of}` },
       `faults may violate ${properties(o.by_faults.length)}`));

@@ -119,6 +119,7 @@ await test("a run asks, is answered, and grows on map, timeline and log", async 
   await page.waitForSelector("#log pre >> text=noptilus-1");
   await page.waitForSelector("#now >> text=consume");
   await page.waitForTimeout(4000);
+  if (pictures) await page.click(".map-button >> text=Fleet");
   await picture(page, "light");
 });
 

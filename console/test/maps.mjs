@@ -20,7 +20,7 @@ for column in range(x - 1, x + 3):
 db.commit()
 `;
 
-export default async function maps({ folder, page, test, same, choose, over, picture, phone }) {
+export default async function maps({ pictures, folder, page, test, same, choose, over, picture, phone }) {
   writeFileSync(join(folder, "charted.dol"), `harbour = Location.APDL
 zone = harbour ^ 300.m
 basin = polygon([harbour, harbour.displace(0, 300), harbour.displace(200, 300), harbour.displace(200, 0)])
@@ -62,6 +62,7 @@ execute until { poll over: true } run (imcPlan {
     await page.click("text=Follows lauv-1");
     await page.waitForSelector("text=Follows lauv-1", { state: "hidden" });
     await page.click(".map-buttons >> text=All");
+    if (pictures && await page.locator("[aria-label='close lauv-1']").isVisible()) await page.click("[aria-label='close lauv-1']");
     await picture(page, "map");
   });
 

@@ -219,9 +219,13 @@ let sent e i = Option.value (List.assoc_opt i e.sent) ~default:0
 
 (* Those that the program declares and that may still come, each with its place. *)
 let pending options (program : Core.program) e =
-  let may_come (i, input) = List.mem input.key program.inputs && sent e i < input.times in
+  let declared = Hashtbl.create 16 in
+  let may_come (i, input) = Hashtbl.mem declared input.key && sent e i < input.times in
   if options.inputs = [] || program.inputs = [] then []
-  else List.filter may_come (List.mapi (fun i input -> (i, input)) options.inputs)
+  else begin
+    List.iter (fun k -> Hashtbl.replace declared k ()) program.inputs;
+    List.filter may_come (List.mapi (fun i input -> (i, input)) options.inputs)
+  end
 
 let owes options program e = List.exists (fun (_, input) -> input.certain) (pending options program e)
 

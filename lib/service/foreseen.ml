@@ -38,6 +38,8 @@ let next choices =
 
 let follow ~own_fleet (p : Core.program) scenario =
   let options = Scenario_world.environment ~answers:[] ~faults:Faults.none p scenario in
+  (* They are voluntary: none is taken. *)
+  let options = { options with inputs = [] } in
   let world = Scenario_world.world scenario in
   let rec go left ~certain configuration outside =
     if left <= 0 then None

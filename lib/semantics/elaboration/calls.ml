@@ -84,7 +84,7 @@ let input env at arguments =
   let key = function
     | Ast.Positional { it = String key; at } when key <> "" ->
       Pairs.check_own env key at;
-      if List.exists (fun (other : string Ast.located) -> other.it = key) (Scope.inputs env.program) then
+      if Scope.is_input env.program key then
         error env Defined_twice at "input '%s' is declared twice" key
       else Scope.note_input env.program { Ast.it = key; at }
     | Ast.Positional { at; _ } | Keyed ({ at; _ }, _) -> wrong at

@@ -23,10 +23,12 @@ type program = {
   mutable sites : int;
   mutable lambdas : int;
   mutable reports : Diagnostic.t list;
-  mutable ordered_keys : string list;
+  ordered_keys : (string, unit) Hashtbl.t;
   mutable inputs : string Ast.located list;  (* latest first *)
+  input_keys : (string, unit) Hashtbl.t;
   mutable on_interrupt : Core.lambda option;
-  mutable looked_at : string list option;  (* the keys that code consumes or polls; [None]: any *)
+  looked_at : (string, unit) Hashtbl.t;  (* the keys that code consumes or polls *)
+  mutable looks_at_any : bool;
   mutable all_ordered : bool;
   mutable hints : (Location.t * (bool * (string -> string))) list;  (* for names that are unknown *)
   mutable recruits : bool;
@@ -72,10 +74,12 @@ let create ?(first_site = 0) ?(variables = Assigned.Names.empty) ?(parameters = 
       sites = first_site;
       lambdas = 0;
       reports = [];
-      ordered_keys = [];
+      ordered_keys = Hashtbl.create 16;
       inputs = [];
+      input_keys = Hashtbl.create 16;
       on_interrupt = None;
-      looked_at = Some [];
+      looked_at = Hashtbl.create 16;
+      looks_at_any = false;
       all_ordered = false;
       hints = [];
       recruits = false;
@@ -123,24 +127,27 @@ let unknown program =
        if global.assigned then unknown else List.map (fun at -> (name, at)) global.uses @ unknown)
     program.table []
 
-let note_ordered_key program key =
-  if not (List.mem key program.ordered_keys) then program.ordered_keys <- key :: program.ordered_keys
+let note_ordered_key program key = Hashtbl.replace program.ordered_keys key ()
 
-let note_input program key = program.inputs <- key :: program.inputs
+let note_input program (key : string Ast.located) =
+  program.inputs <- key :: program.inputs;
+  Hashtbl.replace program.input_keys key.it ()
+
+let is_input program key = Hashtbl.mem program.input_keys key
 let note_interrupt program lambda = program.on_interrupt <- Some lambda
 let on_interrupt program = program.on_interrupt
 let inputs program = List.rev program.inputs
 
-let note_looked_at program key =
-  program.looked_at <-
-    (match key, program.looked_at with Some key, Some keys -> Some (key :: keys) | None, _ | _, None -> None)
+let note_looked_at program = function
+  | Some key -> Hashtbl.replace program.looked_at key ()
+  | None -> program.looks_at_any <- true
 
-let is_looked_at program key = match program.looked_at with Some keys -> List.mem key keys | None -> true
+let is_looked_at program key = program.looks_at_any || Hashtbl.mem program.looked_at key
 
 let note_all_ordered program = program.all_ordered <- true
 
 let ordered_keys program : Tuple_space.order =
-  match program.all_ordered, program.ordered_keys with
+  match program.all_ordered, Hashtbl.fold (fun key () keys -> key :: keys) program.ordered_keys [] with
   | true, _ -> Every_key
   | false, [] -> No_key
   | false, keys -> Keys (List.sort String.compare keys)

@@ -75,6 +75,9 @@ val ordered_keys : program -> Tuple_space.order
 val note_input : program -> string Ast.located -> unit
 (** [input 'k'] declares this key. *)
 
+val is_input : program -> string -> bool
+(** Whether an [input] that was noted has this key. *)
+
 val inputs : program -> string Ast.located list
 (** Those that were noted, in the order of the text. *)
 

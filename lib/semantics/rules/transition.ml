@@ -66,7 +66,7 @@ let on_event program world ({ control; shared = s } as c : Configuration.t) even
   match event, control with
   | _, Ended _ -> Decision.Decided (Error Not_awaited)
   | Interruption, (Script m | Waiting (m, _) | Executing (m, _)) -> Decided (Ok (Script_rules.interrupt program c m))
-  | Input (k, x), (Script _ | Waiting _ | Executing _) when List.mem k program.inputs ->
+  | Input (k, x), (Script _ | Waiting _ | Executing _) when List.exists (String.equal k) program.inputs ->
     Decided (Ok (Conclusion.make Input (Input (k, Value.canonical x)) control (Shared.post k x s)))
   | (Vehicle_done _ | Vehicle_failed _ | Timer_expired _ | Confirmed _ | Recruited _), Executing (m, r) ->
     executing_event program world s m r event

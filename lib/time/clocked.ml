@@ -245,6 +245,15 @@ let until_change o s p =
     { p with bounds = Within { least = ms; most = ms }; prompt = Some (Links.words (links o) s.changes) }
   | None -> p
 
+(* Of many items, inputs for example, each is looked up. *)
+let by_item pending =
+  if List.compare_length_with pending 16 <= 0 then fun item -> List.find_opt (fun p -> is_same p.item item) pending
+  else begin
+    let table = Hashtbl.create 64 in
+    List.iter (fun p -> if not (Hashtbl.mem table p.item) then Hashtbl.add table p.item p) pending;
+    Hashtbl.find_opt table
+  end
+
 (* [s] with its pending events, including those that begin with a transition that leads to [s], answers [over] and
    requests [effects]; [before] was pending before. *)
 let with_pending o ~before ~over effects s =
@@ -252,11 +261,12 @@ let with_pending o ~before ~over effects s =
   let now = List.concat_map (begun o s) effects in
   let latest item = List.fold_left (fun found p -> if is_same p.item item then Some p else found) None now in
   let is_over item = match over with Some other -> is_same other item | None -> false in
+  let pending = by_item before in
   let find item =
     match latest item with
     | Some p -> (p, true)
     | None -> (
-        match List.find_opt (fun p -> is_same p.item item && not (is_over item)) before with
+        match if is_over item then None else pending item with
         | Some p -> (p, false)
         | None -> (by_itself o s item, true))
   in
@@ -528,9 +538,12 @@ let is_heard o s (choice : Environment.choice) =
   | Some (Vehicle_done v | Vehicle_failed (v, _)) -> not (is_silent o s v)
   | Some _ | None -> true
 
-let all_steps o s =
+let all_steps ?(tick = ignore) o s =
   let world = world o s in
-  let with_step (choice : Environment.choice) = (choice, step o s choice) in
+  let with_step (choice : Environment.choice) =
+    tick ();
+    (choice, step o s choice)
+  in
   let choices =
     Environment.choices_on o.environment o.program world s.outside s.configuration
     |> Seq.filter (is_heard o s) |> Fun.flip Seq.append (List.to_seq (given_up o world s))

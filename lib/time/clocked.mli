@@ -111,8 +111,8 @@ val steps : options -> state -> step list
     first, unless its vehicle's place matters: docs/time.md shows why that is enough.
     @raise Environment.Unclear *)
 
-val all_steps : options -> state -> step list
-(** The same, with each [START]. *)
+val all_steps : ?tick:(unit -> unit) -> options -> state -> step list
+(** The same, with each [START]. [tick] is called before each step is computed; it may raise. *)
 
 val enough : options -> ('a -> step) -> 'a list -> 'a list
 (** [enough o step_of xs] is those of [xs], which belong to {!all_steps}, that belong to {!steps}. *)

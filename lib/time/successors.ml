@@ -13,11 +13,12 @@ type t = {
   likeness : Canonical_state.t option;
   unread : string list;  (* keys *)
   known : successor list Clocked.Table.t;
+  mutable tick : unit -> unit;
 }
 
 let create ?course reduction (options : Clocked.options) =
   let apart = Option.map Course.vehicle course in
-  { options; course; known = Clocked.Table.create 1_000;
+  { options; course; known = Clocked.Table.create 1_000; tick = ignore;
     unread = Unread_pairs.keys options.program;
     ends = (if reduction = Nothing then None else Some (Inert.create options));
     likeness =
@@ -57,9 +58,13 @@ let all t state =
   match Clocked.Table.find_opt t.known state with
   | Some successors -> successors
   | None ->
-    let successors = List.map (successor t) (Clocked.all_steps t.options state) in
+    let successors = List.map (successor t) (Clocked.all_steps ~tick:t.tick t.options state) in
     if Clocked.Table.length t.known < most then Clocked.Table.add t.known state successors;
     successors
+
+let ticking t tick f =
+  t.tick <- tick;
+  Fun.protect ~finally:(fun () -> t.tick <- ignore) f
 
 let followed t state = Clocked.enough t.options (fun s -> s.step) (all t state)
 

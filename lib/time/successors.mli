@@ -32,6 +32,9 @@ val all : t -> Clocked.state -> successor list
 (** [all t s] is {!Clocked.all_steps} of [s].
     @raise Dolphin_environment.Environment.Unclear *)
 
+val ticking : t -> (unit -> unit) -> (unit -> 'a) -> 'a
+(** [ticking t tick f] is [f ()], in which [tick] is called at each step that is computed. It may raise. *)
+
 val followed : t -> Clocked.state -> successor list
 (** [followed t s] is {!Clocked.steps} of [s], reduced in the same way. *)
 

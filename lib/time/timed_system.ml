@@ -384,7 +384,7 @@ let end_rest t n (before : Zone_node.t) zone =
     List.filter_map (fun found -> Option.bind found into) ends
   | (No_rest | Unsaid | Said), _ -> []
 
-let expand t key (v : via System.visitor) =
+let expand_state t key (v : via System.visitor) =
   Zone_node.check_dates t.places;
   let n = number t key.(0) in
   let { place = before; zone; _ } = t.nodes.(n) in
@@ -405,6 +405,10 @@ let expand t key (v : via System.visitor) =
     in
     List.fold_left follow 0 arrows
   end
+
+(* With many inputs a state has many steps, and so has each of its successors. *)
+let expand t key (v : via System.visitor) =
+  Successors.ticking (Zone_node.successors t.places) v.tick (fun () -> expand_state t key v)
 
 (* One process searches. *)
 let numbering t = t.numbering

@@ -22,6 +22,13 @@ def inputs(_, pairs, posted):
     return ["exec", "inputs.dol", "-q", "--journal", "inputs.run"]
 
 
+def declared(_, keys):
+    """A program that declares `keys` inputs, beside a fleet that posts one pair of each."""
+    write("declared.fleet", [VEHICLE] + [f"input 'k{i}', 1, after 1.minutes" for i in range(keys)])
+    write("declared.dol", [f"input 'k{i}'" for i in range(keys)] + ["v = pick { count 1 }", "execute task('p')[v]"])
+    return ["check", "declared.dol"]
+
+
 def picture(dolphin, tasks):
     """The picture of a run with so many tasks, a bar each."""
     write("picture.fleet", [VEHICLE, "plan 'p', { duration 7 }"])

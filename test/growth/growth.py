@@ -43,7 +43,7 @@ def main():
         os.chdir(folder)
         for what, found, most in [
                 ("an input, by pairs of N", ratio_of_inputs(1_000, 400), 2),
-                ("declared inputs, by their number", ratio(sizes.declared, 1_000), MOST),
+                ("declared inputs, by their number", ratio(sizes.declared, 4_000), MOST),
                 ("a picture, by its bars", ratio(sizes.picture, 2_000), MOST),
                 ("areas beside a plan, by their corners", ratio(sizes.areas, 6_000), MOST),
                 # Those of the process that collects the runs: they vary with the number of its looks, so its limit

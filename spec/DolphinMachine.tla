@@ -104,7 +104,7 @@ Carries(vehicle, devices) == { Lower(d) : d \in Range(devices) } \subseteq vehic
 
 (* A sensor's reading is open, at each step; within one step it stays. S.sees is the answers seen in this step so
    far: for each question its answer, by number. There are two kinds of questions: <<sensor, v>> where the sensor (by
-   its name, or "position") may show one of several values, and <<"claim", text>>, of a comparison. *)
+   its name, or "position") may show one of several values, and those of comparisons, as Claim has them. *)
 NothingSeen == << >>
 Seeing(sees, question, i) == (question :> i) @@ sees
 Claims(sees) == { question \in DOMAIN sees : question[1] = "claim" }
@@ -1128,12 +1128,17 @@ Steps2(k, m) ==
 (* A machine takes at most a few steps for each expression, so it stops before it has made 2^26. *)
 Stopped(started) == Only({ Steps2(26, m) : m \in { started } })
 
-(* A machine that asks goes on with each answer, the first one first. *)
+(* The answer i to the question of m, or an earlier answer in this step, is wrong. *)
+IsContradicted(m, i) ==
+  m.stop[2][1] = "claim" /\ \E claim \in Claims(m.sees) : Contradict(m.stop[2], i, claim, m.sees[claim])
+
+(* A machine that asks goes on with each answer that agrees with those before, the first one first. *)
 RECURSIVE WithAllAnswers(_)
 WithAllAnswers(m) ==
   LET seeing(i) == Stopped([ m EXCEPT !.stop = Going, !.sees = Seeing(@, m.stop[2], i) ])
   IN CASE m.stop[1] = "asks" ->
-            Flatten([ i \in 1 .. m.stop[3] |-> Only({ WithAllAnswers(n) : n \in { seeing(i) } }) ])
+            Flatten([ i \in 1 .. m.stop[3] |->
+                        IF IsContradicted(m, i) THEN << >> ELSE Only({ WithAllAnswers(n) : n \in { seeing(i) } }) ])
        [] m.stop[1] = "unsettled" -> Assert(FALSE, OpenHere(m.stop[2], m.at))
        [] OTHER -> << m >>
 

@@ -605,9 +605,38 @@ Spelled(x) == IF IsReading(x) THEN x[3] ELSE Literal(Canonical(x))
 Enclosed(text) == IF Contains(text, " ") THEN "(" \o text \o ")" ELSE text
 SpelledBinary(op, x, y) == Enclosed(Spelled(x)) \o " " \o op \o " " \o Enclosed(Spelled(y))
 
+Mirrored(op) == CASE op = "<" -> ">" [] op = ">" -> "<" [] OTHER -> op
+
+(* The question whether a comparison holds, answered by 1 or 2; of an operand with a number, it has these, too. *)
+Claim(op, x, y) ==
+  LET text == SpelledBinary(op, x, y)
+      isKnown(z) == z[1] \in { "integer", "number" }
+  IN CASE isKnown(y) -> << "claim", text, Enclosed(Spelled(x)), op, y >>
+       [] isKnown(x) -> << "claim", text, Enclosed(Spelled(y)), Mirrored(op), x >>
+       [] OTHER -> << "claim", text >>
+
+(* The bounds from below, and from above, of what is compared, each with whether it is among the values. *)
+AtLeast(claim, answer) ==
+  CASE << claim[4], answer >> \in { << "<", 2 >>, << "==", 1 >> } -> { << claim[5], TRUE >> }
+    [] << claim[4], answer >> = << ">", 1 >> -> { << claim[5], FALSE >> }
+    [] OTHER -> { }
+AtMost(claim, answer) ==
+  CASE << claim[4], answer >> \in { << ">", 2 >>, << "==", 1 >> } -> { << claim[5], TRUE >> }
+    [] << claim[4], answer >> = << "<", 1 >> -> { << claim[5], FALSE >> }
+    [] OTHER -> { }
+
+(* No number has both answers. *)
+Contradict(claim, answer, other, otherAnswer) ==
+  /\ Len(claim) = 5 /\ Len(other) = 5
+  /\ claim[3] = other[3]
+  /\ \E least \in AtLeast(claim, answer) \cup AtLeast(other, otherAnswer) :
+       \E most \in AtMost(claim, answer) \cup AtMost(other, otherAnswer) :
+         \/ Less(most[1], least[1])
+         \/ ~Less(least[1], most[1]) /\ ~(least[2] /\ most[2])
+
 (* A comparison that holds, or does not; its opposite. *)
-Holds(text) == Depends(<< "claim", text >>, << True, False >>)
-HoldsNot(text) == Depends(<< "claim", text >>, << False, True >>)
+Holds(op, x, y) == Depends(Claim(op, x, y), << True, False >>)
+HoldsNot(op, x, y) == Depends(Claim(op, x, y), << False, True >>)
 
 AnyMore(xs) == Unsettled(Join(Each(SelectSeq(xs, IsReading), Spelled), ", "))
 
@@ -615,12 +644,12 @@ BinaryOnReadings(op, x, y) ==
   LET amounts == IsAmount(x) /\ IsAmount(y)
       computed(quantity) == Ok(Reading(quantity, SpelledBinary(op, x, y)))
       isNumber == ~IsReading(y) /\ IsNumber(y)
-  IN CASE op \in { "<", ">" } /\ amounts -> Holds(SpelledBinary(op, x, y))
-       [] op = ">=" /\ amounts -> HoldsNot(SpelledBinary("<", x, y))
-       [] op = "<=" /\ amounts -> HoldsNot(SpelledBinary(">", x, y))
-       [] op = "==" -> Holds(SpelledBinary(op, x, y))
-       [] op = "!=" -> HoldsNot(SpelledBinary("==", x, y))
-       [] op = "in" /\ IsPlace(x) /\ IsRegion(y) -> Holds(SpelledBinary(op, x, y))
+  IN CASE op \in { "<", ">" } /\ amounts -> Holds(op, x, y)
+       [] op = ">=" /\ amounts -> HoldsNot("<", x, y)
+       [] op = "<=" /\ amounts -> HoldsNot(">", x, y)
+       [] op = "==" -> Holds(op, x, y)
+       [] op = "!=" -> HoldsNot("==", x, y)
+       [] op = "in" /\ IsPlace(x) /\ IsRegion(y) -> Holds(op, x, y)
        [] op = "+" /\ (IsWords(x) \/ IsWords(y)) -> Ok(Reading("words", Text(x) \o Text(y)))
        [] op \in { "+", "-", "*" } /\ amounts -> computed("amount")
        [] op = "/" /\ amounts /\ isNumber -> IF Numerator(y) = 0 THEN Bad("division by zero") ELSE computed("amount")

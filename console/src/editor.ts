@@ -2,11 +2,11 @@
 // says.
 
 import { EditorState, StateEffect, StateField } from "@codemirror/state";
-import { Decoration, type DecorationSet, EditorView, type Tooltip, hoverTooltip, keymap, showTooltip, lineNumbers, highlightActiveLine, drawSelection } from "@codemirror/view";
+import { Decoration, type DecorationSet, EditorView, type Tooltip, closeHoverTooltips, hoverTooltip, keymap, showTooltip, lineNumbers, highlightActiveLine, drawSelection } from "@codemirror/view";
 import { defaultKeymap, history, historyKeymap } from "@codemirror/commands";
 import { StreamLanguage, HighlightStyle, syntaxHighlighting, bracketMatching, indentUnit } from "@codemirror/language";
 import { linter, lintGutter, lintKeymap } from "@codemirror/lint";
-import { autocompletion, completionKeymap, type CompletionContext } from "@codemirror/autocomplete";
+import { autocompletion, closeCompletion, completionKeymap, type CompletionContext } from "@codemirror/autocomplete";
 import { search, searchKeymap, highlightSelectionMatches } from "@codemirror/search";
 import { tags } from "@lezer/highlight";
 import { type Diagnostic, post } from "./api";
@@ -97,11 +97,13 @@ type Asked = (path: string, text: string, at: number) => Promise<{ form: string;
 function signature(ask: Asked, path: () => string) {
   let number = 0, hidden = "";
   const show = async (view: EditorView) => {
-    const mine = ++number, at = view.state.selection.main.head;
+    const mine = ++number, at = view.state.selection.main.head, { doc } = view.state;
+    // Not for a text that was opened or changed meanwhile.
+    const isOver = () => mine !== number || view.state.doc !== doc;
     await new Promise((done) => setTimeout(done, 150));
-    if (mine !== number || !path()) return;
-    const found = await ask(path(), view.state.doc.toString(), at).catch(() => null);
-    if (mine !== number) return;
+    if (isOver() || !path()) return;
+    const found = await ask(path(), doc.toString(), at).catch(() => null);
+    if (isOver()) return;
     if (found?.form !== hidden) hidden = "";
     const wanted = found && !hidden && view.hasFocus ? found : null;
     if (!wanted && !view.state.field(shownSignature)) return;
@@ -166,6 +168,9 @@ export class Editor {
   open(path: string, text: string) {
     this.path = path;
     this.shownLine = null;
+    // Tooltips that are about to be placed would be placed in the new text.
+    closeCompletion(this.view);
+    this.view.dispatch({ effects: [closeHoverTooltips, setSignature.of(null)] });
     this.view.setState(this.state(text));
   }
 
@@ -213,8 +218,9 @@ export class Editor {
   }
 
   private async define(view: EditorView) {
-    const found = await post("definition", { path: this.path, text: this.text, at: view.state.selection.main.head }).catch(() => null);
-    if (!found) return;
+    const { doc } = view.state;
+    const found = await post("definition", { path: this.path, text: doc.toString(), at: view.state.selection.main.head }).catch(() => null);
+    if (!found || view.state.doc !== doc) return;
     if (found.file === this.path) this.select(found.from, found.to);
     else this.events.elsewhere(found.file, found.from, found.to);
   }

@@ -339,8 +339,13 @@ let all =
       replacement = {|Depends(<< "sensor", v >>, xs)|} };
     { name = "the opposite of a comparison is another comparison";
       file = values;
-      pattern = {|HoldsNot(text) == Depends(<< "claim", text >>, << False, True >>)|};
-      replacement = {|HoldsNot(text) == Depends(<< "claim", "not " \o text >>, << False, True >>)|} };
+      pattern = {|HoldsNot(op, x, y) == Depends(Claim(op, x, y), << False, True >>)|};
+      replacement =
+        {|HoldsNot(op, x, y) == Depends(<< "claim", "not " \o SpelledBinary(op, x, y) >>, << False, True >>)|} };
+    { name = "comparisons of one step contradict each other";
+      file = machine;
+      pattern = {|IF IsContradicted(m, i) THEN << >> ELSE|};
+      replacement = {||} };
     { name = "earlier readings are later readings";
       file = machine;
       pattern = {|KeptBy(keeper, x) == IF IsReading(x) THEN Reading(x[2], keeper) ELSE x|};

@@ -82,7 +82,7 @@ Act(r) ==
   CASE r.op = "seq" -> [ r EXCEPT !.first = Act(@) ]
     [] r.op = "par" -> [ r EXCEPT !.branches = Each(@, Act) ]
     [] r.op \in { "allOf", "repeat" } -> [ r EXCEPT !.runs = Each(@, Act) ]
-    [] r.op \in { "until", "watch", "hold", "recruited", "fresh" } -> [ r EXCEPT !.body = Act(@) ]
+    [] r.op \in { "until", "watch", "hold", "recruited", "fresh", "ensure" } -> [ r EXCEPT !.body = Act(@) ]
     [] r.op = "during" -> IF Is(r.time, "closure") THEN r ELSE [ r EXCEPT !.started = TRUE, !.body = Act(@) ]
     [] OTHER -> r
 
@@ -93,7 +93,7 @@ Running(r) ==
     [] r.op = "seq" -> Running(r.first)
     [] r.op = "par" -> Flatten(Each(r.branches, Running))
     [] r.op \in { "allOf", "repeat" } -> Flatten(Each(r.runs, Running))
-    [] r.op \in { "until", "watch", "hold", "recruited", "fresh" } -> Running(r.body)
+    [] r.op \in { "until", "watch", "hold", "recruited", "fresh", "ensure" } -> Running(r.body)
     [] r.op = "during" -> IF r.started THEN Running(r.body) ELSE << >>
     [] OTHER -> << >>
 
@@ -106,7 +106,7 @@ Timers(r) ==
     [] r.op = "seq" -> Timers(r.first)
     [] r.op = "par" -> Flatten(Each(r.branches, Timers))
     [] r.op \in { "allOf", "repeat" } -> Flatten(Each(r.runs, Timers))
-    [] r.op \in { "until", "watch", "hold", "recruited", "fresh" } -> Timers(r.body)
+    [] r.op \in { "until", "watch", "hold", "recruited", "fresh", "ensure" } -> Timers(r.body)
     [] r.op = "during" -> IF r.started THEN << [ i |-> r.timer, time |-> r.time ] >> \o Timers(r.body) ELSE << >>
     [] OTHER -> << >>
 
@@ -117,7 +117,7 @@ Recruits(r) ==
     [] r.op = "seq" -> Recruits(r.first)
     [] r.op = "par" -> Flatten(Each(r.branches, Recruits))
     [] r.op \in { "allOf", "repeat" } -> Flatten(Each(r.runs, Recruits))
-    [] r.op \in { "until", "watch", "hold", "fresh" } -> Recruits(r.body)
+    [] r.op \in { "until", "watch", "hold", "fresh", "ensure" } -> Recruits(r.body)
     [] r.op = "during" -> IF r.started THEN Recruits(r.body) ELSE << >>
     [] OTHER -> << >>
 
@@ -128,8 +128,20 @@ Keys(r) ==
     [] r.op = "seq" -> Keys(r.first)
     [] r.op = "par" -> Flatten(Each(r.branches, Keys))
     [] r.op \in { "allOf", "repeat" } -> Flatten(Each(r.runs, Keys))
-    [] r.op \in { "until", "watch", "hold", "recruited" } -> Keys(r.body)
+    [] r.op \in { "until", "watch", "hold", "recruited", "ensure" } -> Keys(r.body)
     [] r.op = "during" -> IF r.started THEN Keys(r.body) ELSE << >>
+    [] OTHER -> << >>
+
+(* ensured(r): the deeds of the active part of r if it is cut off, from the inside out and from left to right:
+   <<"post", k, x>>, <<"set", i, x, name>> of the global i, and <<"giveBack">>, which does nothing. *)
+RECURSIVE EnsuredIn(_)
+EnsuredIn(r) ==
+  CASE r.op = "ensure" -> EnsuredIn(r.body) \o r.ensured
+    [] r.op = "seq" -> EnsuredIn(r.first)
+    [] r.op = "par" -> Flatten(Each(r.branches, EnsuredIn))
+    [] r.op \in { "allOf", "repeat" } -> Flatten(Each(r.runs, EnsuredIn))
+    [] r.op \in { "until", "watch", "hold", "recruited", "fresh" } -> EnsuredIn(r.body)
+    [] r.op = "during" -> IF r.started THEN EnsuredIn(r.body) ELSE << >>
     [] OTHER -> << >>
 
 RecruitsOf(kappa) == IF kappa.at = "exec" THEN Recruits(kappa.r) ELSE << >>
@@ -186,6 +198,7 @@ IsResidual(r, active) ==
             active /\ r.vehicles # << >> /\ Range(r.vehicles) \subseteq Bound /\ IsResidual(r.body, active)
        [] r.op = "recruit" -> r.timer \in Nat \ { 0 } /\ r.place \in Nat \ { 0 } /\ Is(r.code, "closure")
        [] r.op = "fresh" -> Range(r.keys) \subseteq Nat \ { 0 } /\ IsResidual(r.body, active)
+       [] r.op = "ensure" -> r.ensured # << >> /\ IsResidual(r.body, active)
        [] r.op = "recruited" -> active /\ r.v \notin Range(B) /\ IsResidual(r.body, active)
        [] OTHER -> FALSE
 
@@ -277,7 +290,7 @@ Leaves(t, allowed) ==
     [] t.op = "on" ->
          Leaves(t.body, << IF allowed = << >> THEN t.vehicles ELSE Intersection(t.vehicles, allowed[1]) >>)
     [] t.op \in { "allOf", "oneOf" } -> Flatten(Each(t.branches, LAMBDA b : Leaves(b.body, allowed)))
-    [] t.op \in { "until", "during", "watch", "repeat", "fresh" } -> Leaves(t.body, allowed)
+    [] t.op \in { "until", "during", "watch", "repeat", "fresh", "ensure" } -> Leaves(t.body, allowed)
     [] OTHER -> << >>
 
 LeafCount(t) == Len(Leaves(t, << >>))
@@ -293,7 +306,7 @@ Exclusive(t, n) ==
     [] t.op \in { "allOf", "oneOf" } ->
          UNION { LET before == Flatten(Each(SubSeq(t.branches, 1, j - 1), LAMBDA b : Leaves(b.body, << >>)))
                  IN Exclusive(t.branches[j].body, n + Len(before)) : j \in DOMAIN t.branches }
-    [] t.op \in { "on", "until", "during", "watch", "repeat", "fresh" } -> Exclusive(t.body, n)
+    [] t.op \in { "on", "until", "during", "watch", "repeat", "fresh", "ensure" } -> Exclusive(t.body, n)
     [] OTHER -> { }
 
 (* The devices that v lacks for p, or nothing. *)
@@ -354,7 +367,7 @@ TimerCount(t, first) ==
          LET counts[j \in 0 .. Len(t.branches)] ==
                IF j = 0 THEN 0 ELSE counts[j - 1] + TimerCount(t.branches[j].body, first)
          IN counts[Len(t.branches)]
-    [] t.op \in { "on", "until", "repeat", "fresh" } -> TimerCount(t.body, first)
+    [] t.op \in { "on", "until", "repeat", "fresh", "ensure" } -> TimerCount(t.body, first)
     [] OTHER -> 0
 
 (* Timers for a task made at a place of the executed task, as many as it needs: none of those in use. *)
@@ -396,7 +409,7 @@ Assigned(t, f, n, i, q) ==
                                               i + TimerCount(before(j), IsExecuted(q)), q) ]
              choices == << >> \o [ j \in DOMAIN t.branches |-> branch(j) ]
          IN IF t.op = "oneOf" THEN [ op |-> "oneOf", choices |-> choices ] ELSE AllOf(<< >>, choices)
-    [] t.op = "until" -> [ t EXCEPT !.body = Assigned(@, f, n, i, q) ]
+    [] t.op \in { "until", "ensure" } -> [ t EXCEPT !.body = Assigned(@, f, n, i, q) ]
     [] t.op = "idle" -> [ op |-> "idle", timer |-> TimerOf(i + 1, q), time |-> t.time ]
     [] t.op = "confirm" -> [ op |-> "confirm", timer |-> TimerOf(i + 1, q), prompt |-> t.prompt, at |-> t.at ]
     [] t.op = "recruit" ->
@@ -496,14 +509,29 @@ ForgettingAll(s) ==
      ELSE [ s EXCEPT !.S.N = WithoutKeys(@, keys),
                      !.deeds = Append(@, [ did |-> "forget", pairs |-> PairsWith(s.S.N, keys) ]) ]
 
+(* s, in which the end of a task does ds. Its values are known: it cannot fail. *)
+RECURSIVE Ensuring(_, _)
+Ensuring(s, ds) ==
+  IF ds = << >> THEN s
+  ELSE LET d == Head(ds)
+           after ==
+             CASE d[1] = "post" ->
+                    [ s EXCEPT !.S.N = Post(@, d[2], d[3]),
+                               !.deeds = Append(@, [ did |-> "post", pairs |-> << << d[2], d[3] >> >> ]) ]
+               [] d[1] = "set" -> [ s EXCEPT !.S.store = [ @ EXCEPT ![d[2]] = << d[3] >> ] ]
+               [] OTHER -> s
+       IN Ensuring(after, Tail(ds))
+
 (* s, by which the turn of r comes, which is active now. *)
 Entering(s, r) == Asking(Forgetting(s, Keys(r)), SetTimers(Timers(r)))
 
 (* S without A(V). *)
 WithoutA(S, V) == [ S EXCEPT !.A = [ v \in DOMAIN @ \ V |-> @[v] ] ]
 
-(* s, by which rs are cut off: S' without A(run(rs)), and the effects cut(rs). *)
-CutOff(s, rs) == Asking([ s EXCEPT !.S = WithoutA(@, Range(Flatten(Each(rs, Running)))) ], Cut(rs))
+(* s, by which rs are cut off: S' without A(run(rs)), the effects cut(rs), and their ensured deeds. *)
+CutOff(s, rs) ==
+  Ensuring(Asking([ s EXCEPT !.S = WithoutA(@, Range(Flatten(Each(rs, Running)))) ], Cut(rs)),
+           Flatten(Each(rs, EnsuredIn)))
 
 (* S |- g => x, S', ds: the code g with these arguments, once for each outcome that sensors allow. Of a fault only
    the messages stay. Seen answers stay for the rest of the step. *)
@@ -590,12 +618,20 @@ InParallel(s, rs, j) ==
 
 (* {2 Branches with guards} *)
 
-(* Code in the place of a branch's task gets the values that the guard took. *)
-ValuesTaken(ds) ==
-  Flatten(Each(ds, LAMBDA d : IF d.did = "consume" THEN Each(d.pairs, LAMBDA pair : pair[2]) ELSE << >>))
+(* Code in the place of a branch's task gets the values that the guard took; its ensure gets the pairs. *)
+PairsTaken(ds) == Flatten(Each(ds, LAMBDA d : IF d.did = "consume" THEN d.pairs ELSE << >>))
+ValuesTaken(ds) == Each(PairsTaken(ds), LAMBDA pair : pair[2])
 
+Ensure(ds, r) == IF ds = << >> THEN r ELSE [ op |-> "ensure", ensured |-> ds, body |-> r ]
+
+RECURSIVE Given(_, _)
 Given(r, ds) ==
-  IF r.op = "made" THEN IF Lambdas[r.code[2]].parameters > 0 THEN [ r EXCEPT !.given = ValuesTaken(ds) ] ELSE r ELSE r
+  LET back(d) ==
+        IF d[1] # "giveBack" THEN << d >>
+        ELSE Each(PairsTaken(ds), LAMBDA pair : << "post", pair[1], pair[2] >>)
+  IN CASE r.op = "made" /\ Lambdas[r.code[2]].parameters > 0 -> [ r EXCEPT !.given = ValuesTaken(ds) ]
+       [] r.op = "ensure" -> Ensure(Flatten(Each(r.ensured, back)), Given(r.body, ds))
+       [] OTHER -> r
 
 ALLOF_WHEN(run, bs, j) ==
   LET r == Act(Given(bs[j].body, run.deeds))
@@ -781,7 +817,7 @@ HasFresh(t) ==
   CASE t.op = "fresh" -> TRUE
     [] t.op \in { "seq", "par" } -> HasFresh(t.left) \/ HasFresh(t.right)
     [] t.op \in { "allOf", "oneOf" } -> \E j \in DOMAIN t.branches : HasFresh(t.branches[j].body)
-    [] t.op \in { "on", "until", "during", "watch", "repeat" } -> HasFresh(t.body)
+    [] t.op \in { "on", "until", "during", "watch", "repeat", "ensure" } -> HasFresh(t.body)
     [] OTHER -> FALSE
 
 (* The task t, the last key of which has the i-th number; or the fault of its code. *)
@@ -801,7 +837,7 @@ Opened(S, t, i, depth, q) ==
     [] t.op = "watch" ->
          And(Opened(S, t.body, i, depth, q),
              LAMBDA o : << OpenedAs(o.S, [ t EXCEPT !.body = o.t ] @@ [ closed |-> t.body ], o.i) >>)
-    [] t.op \in { "on", "until", "during", "repeat" } ->
+    [] t.op \in { "on", "until", "during", "repeat", "ensure" } ->
          And(Opened(S, t.body, i, depth, q), LAMBDA o : << OpenedAs(o.S, [ t EXCEPT !.body = o.t ], o.i) >>)
     [] t.op \in { "allOf", "oneOf" } ->
          LET upTo[j \in 0 .. Len(t.branches)] ==
@@ -833,6 +869,18 @@ InFresh(s, r) ==
   CASE GoesOn(s) -> FRESH_1(s, r)
     [] IsDone(s) -> FRESH_2(s, r)
     [] IsErr(s) -> FRESH_ERR(s, r)
+    [] OTHER -> s
+
+(* {2 Ends} *)
+
+ENSURE_1(s, r) == By(s, "ENSURE-1", Next_([ r EXCEPT !.body = s.out[2] ]))
+ENSURE_2(s, r) == Ensuring(By(s, "ENSURE-2", Done_), r.ensured)
+ENSURE_ERR(s, r) == Ensuring(By(s, "ENSURE-ERR", s.out), r.ensured)
+
+InEnsure(s, r) ==
+  CASE GoesOn(s) -> ENSURE_1(s, r)
+    [] IsDone(s) -> ENSURE_2(s, r)
+    [] IsErr(s) -> ENSURE_ERR(s, r)
     [] OTHER -> s
 
 (* {2 Vehicles at the turn} *)
@@ -999,6 +1047,7 @@ Steps(S, r, E) ==
     [] r.op = "unallocated" -> AllocateSteps(S, r)
     [] r.op = "hold" -> In(Steps(S, r.body, E), LAMBDA s : InHold(s, r))
     [] r.op = "fresh" -> In(Steps(S, r.body, E), LAMBDA s : InFresh(s, r))
+    [] r.op = "ensure" -> In(Steps(S, r.body, E), LAMBDA s : InEnsure(s, r))
     [] r.op = "recruit" ->
          OnThose(E, LAMBDA e : e[1] = "recruited" /\ e[2] = r.timer, LAMBDA e : RECRUIT(S, r, e))
     [] r.op = "recruited" ->
@@ -1110,17 +1159,19 @@ TimersOf(kappa) ==
     [] kappa.at = "wait" /\ kappa.request[1] \in { "pick", "pause" } -> << [ i |-> ScriptTimer ] >>
     [] OTHER -> << >>
 
+EnsuredOf(kappa) == IF kappa.at = "exec" THEN EnsuredIn(kappa.r) ELSE << >>
+
 (* The running task is cut off; the task of onInterrupt gets the vehicles of B, and the recruited ones. *)
 ON_INTERRUPT(kappa) ==
   LET bound == B \o RecruitsOf(kappa)
       stops == Each(SelectSeq(bound, LAMBDA v : v \in DOMAIN A), LAMBDA v : << "stop", v >>)
       t == Transition("ON-INTERRUPT", "interrupt", Interruption, Script(Call(OnInterrupt[1], << Vehicles(bound) >>)),
                       [ Shared EXCEPT !.A = << >>, !.B = bound ], CancelTimers(TimersOf(kappa)) \o stops)
-  IN ForgettingAll(t)
+  IN ForgettingAll(Ensuring(t, EnsuredOf(kappa)))
 
 INTERRUPT(kappa) ==
-  EndedBy(Step("INTERRUPT", "interrupt", Interruption, Shared, Ends(Interrupted), << >>), TimersOf(kappa),
-          RecruitsOf(kappa))
+  EndedBy(Ensuring(Step("INTERRUPT", "interrupt", Interruption, Shared, Ends(Interrupted), << >>), EnsuredOf(kappa)),
+          TimersOf(kappa), RecruitsOf(kappa))
 
 (* Of a configuration that is not an end. *)
 Interrupt(kappa) ==

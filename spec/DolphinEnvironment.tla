@@ -82,7 +82,7 @@ Waiting_(r) ==
     [] r.op = "seq" -> Waiting_(r.first)
     [] r.op = "par" -> Flatten(Each(r.branches, Waiting_))
     [] r.op \in { "allOf", "repeat" } -> Flatten(Each(r.runs, Waiting_))
-    [] r.op \in { "until", "watch", "hold", "recruited", "fresh" } -> Waiting_(r.body)
+    [] r.op \in { "until", "watch", "hold", "recruited", "fresh", "ensure" } -> Waiting_(r.body)
     [] r.op = "during" -> IF r.started THEN Waiting_(r.body) ELSE << >>
     [] OTHER -> << >>
 

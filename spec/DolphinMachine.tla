@@ -166,7 +166,7 @@ Nodes(rs) ==
           [] r.op = "allOf" -> r.runs \o Each(r.choices, LAMBDA b : b.body)
           [] r.op = "repeat" -> Append(r.runs, r.each)
           [] r.op = "oneOf" -> Each(r.choices, LAMBDA b : b.body)
-          [] r.op \in { "until", "during", "watch", "hold", "recruited", "fresh" } -> << r.body >>
+          [] r.op \in { "until", "during", "watch", "hold", "recruited", "fresh", "ensure" } -> << r.body >>
           [] OTHER -> << >>
   IN Flatten(Each(rs, LAMBDA r : << r >> \o Nodes(below(r))))
 
@@ -747,9 +747,36 @@ RECURSIVE NeverWaits(_)
 NeverWaits(t) ==
   CASE t.op = "action" -> TRUE
     [] t.op \in { "seq", "par" } -> NeverWaits(t.left) /\ NeverWaits(t.right)
-    [] t.op \in { "on", "until", "watch", "repeat" } -> NeverWaits(t.body)
+    [] t.op \in { "on", "until", "watch", "repeat", "ensure" } -> NeverWaits(t.body)
     [] t.op = "during" -> ~Is(t.time, "closure") /\ NeverWaits(t.body)
     [] OTHER -> FALSE
+
+(* The deeds by these forms with the values xs, or the first fault. *)
+RECURSIVE Ensured(_, _)
+Ensured(forms, xs) ==
+  LET d == Head(forms)
+      after(deed, n) ==
+        LET rest == Ensured(Tail(forms), SubSeq(xs, n + 1, Len(xs)))
+        IN IF IsOk(rest) THEN Ok(<< deed >> \o rest[2]) ELSE rest
+      pair(k, x, n) ==
+        IF x = Wildcard THEN Bad("only consume and poll take the wildcard _")
+        ELSE after(<< "post", k, Canonical(x) >>, n)
+  IN CASE forms = << >> -> Ok(<< >>)
+       [] d.op = "giveBack" -> after(<< "giveBack" >>, 0)
+       [] d.op = "set" -> after(<< "set", d.global, xs[1], d.name >>, 1)
+       [] d.key # << >> -> pair(d.key[1], xs[1], 1)
+       [] ~(IsString(xs[1]) \/ IsNumber(xs[1])) -> Expected("a string as a key", xs[1])
+       [] OTHER -> pair(Text(Canonical(xs[1])), xs[2], 2)
+
+(* T ensure { } is T; of two around one another, the inner one comes first. *)
+MakeEnsure(op, xs) ==
+  LET ds == Ensured(op.forms, Tail(xs))
+      t == TaskOf(xs[1])
+  IN CASE ~IsTask(xs[1]) -> Expected("a task before ensure", xs[1])
+       [] ~IsOk(ds) -> ds
+       [] ds[2] = << >> -> Ok(TaskValue(t))
+       [] t.op = "ensure" -> Ok(TaskValue([ t EXCEPT !.ensured = @ \o ds[2] ]))
+       [] OTHER -> Ok(TaskValue([ op |-> "ensure", ensured |-> ds[2], body |-> t ]))
 
 (* op has those of n, t, c that xs contains: n rounds, of t, until c. *)
 MakeRepeat(op, at, xs) ==
@@ -900,6 +927,7 @@ Procedure(m, op, xs) ==
               [] OTHER -> Settle(m, Expected("a key, as in poll 'ready', or pairs, as in poll(ready: 1)", x))
        [] name = "task" -> PlatformTask(m, x)
        [] name = "repeat" -> Settle(m, MakeRepeat(op, m.at, xs))
+       [] name = "ensure" -> Settle(m, MakeEnsure(op, xs))
        [] name = "idle" /\ Is(x, "vehicles") -> Result(m, Vehicles(IdleOf(m, x[2])))
        [] name \in TaskNames -> Settle(m, MakeTask(name, m.at, xs))
        [] name = "execute" ->

@@ -240,6 +240,7 @@ ShortText(x) ==
 Parenthesised(needed, level, text) == IF level > needed THEN "(" \o text \o ")" ELSE text
 
 (* Loosest first: |, >>, /, operands. *)
+RECURSIVE Written(_, _)
 RECURSIVE TaskText(_, _)
 TaskText(t, level) ==
   CASE t.op = "platform" -> "task(" \o Quoted(t.name) \o ")"
@@ -268,13 +269,18 @@ TaskText(t, level) ==
     [] t.op = "recruit" -> Parenthesised(0, level, "recruit { ... } then { ... }")
     [] t.op = "fresh" -> "fresh { " \o LambdaNames[t.code[2]] \o " }"
     [] t.op = "made" -> "{ " \o LambdaNames[t.code[2]] \o " }"
+    [] t.op = "ensure" ->
+         LET deed(d) ==
+               CASE d[1] = "post" -> "post " \o d[2] \o ": " \o Written(d[3], FALSE)
+                 [] d[1] = "set" -> d[4] \o " = " \o Written(d[3], FALSE)
+                 [] OTHER -> "giveBack()"
+         IN TaskText(t.body, 3) \o " ensure { " \o Join(Each(t.ensured, deed), "; ") \o " }"
 
 HasCorners(area) == area[3] = -1
 NoComputing == Assert(FALSE, "this model cannot compute with areas")
 
 AreaText(x) == IF HasCorners(x) THEN Places[x[2]] ELSE Places[x[2]] \o " ^ " \o ShortText(Number(x[3], x[4])) \o " m"
 
-RECURSIVE Written(_, _)
 (* bare: strings without quotes, as message shows them. *)
 Written(x, bare) ==
   CASE Is(x, "string") -> IF bare THEN x[2] ELSE Quoted(x[2])

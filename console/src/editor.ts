@@ -13,7 +13,7 @@ import { type Diagnostic, post } from "./api";
 
 const words = new Set(("if else while for in return break continue function include input parameter execute pick when then until run watch during " +
   "onError onInterrupt assure within repeat allOf oneOf action condition post consume poll release idle wait pause halt message ask confirm " +
-  "assert vehicle plan answer reply imcPlan choose waitFor").split(" "));
+  "assert vehicle plan answer reply imcPlan choose waitFor ensure using").split(" "));
 const constants = new Set(["true", "false", "null", "_"]);
 
 const language = StreamLanguage.define<{ block: boolean }>({

@@ -48,6 +48,7 @@ let rec of_residual budget (r : Residual.t) : json =
     tagged "recruit" [ `Int site; `Int number; of_filter budget asked; code c; `Int place; `Int depth ]
   | Recruited (v, a) -> tagged "recruited" [ `String v; part a ]
   | Fresh (ns, a) -> tagged "fresh" [ of_list (fun n -> `Int n) ns; part a ]
+  | Ensure (ds, a) -> tagged "ensure" [ of_list (of_ensured budget) ds; part a ]
 
 let rec residual nodes (json : json) : Residual.t =
   let part = residual nodes and code = closure nodes in
@@ -93,6 +94,7 @@ let rec residual nodes (json : json) : Residual.t =
               depth = whole depth; site = whole site }
   | `List [ `String "recruited"; v; a ] -> Recruited (text v, part a)
   | `List [ `String "fresh"; ns; a ] -> Fresh (list whole ns, part a)
+  | `List [ `String "ensure"; ds; a ] -> Ensure (list (ensured nodes) ds, part a)
   | json -> wrong "a residual" json
 
 (* {1 Machines} *)

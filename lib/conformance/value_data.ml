@@ -73,7 +73,13 @@ and of_task budget (t : task) : json =
     tagged "repeat" [ `Int site; rounds; of_option code until; part body ]
   | Made c -> tagged "made" [ code c ]
   | Fresh c -> tagged "fresh" [ code c ]
+  | Ensure (ds, a) -> tagged "ensure" [ of_list (of_ensured budget) ds; part a ]
   | Recruit { asked; code = c; site } -> tagged "recruit" [ `Int site; of_filter budget asked; code c ]
+
+and of_ensured budget = function
+  | Pair (k, x) -> tagged "post" [ of_text k; of_value budget x ]
+  | Variable (i, name, x) -> tagged "set" [ `Int i; of_text name; of_value budget x ]
+  | Taken -> tagged "giveBack" []
 
 and of_filter budget (q : Vehicle_filter.t) : json =
   let text = of_option of_text and area a = of_value budget (Area a) in
@@ -169,9 +175,17 @@ and task nodes (json : json) : task =
     Repeat { rounds = option whole rounds; until = option code until; body = part body; site = whole site }
   | `List [ `String "made"; c ] -> Made (code c)
   | `List [ `String "fresh"; c ] -> Fresh (code c)
+  | `List [ `String "ensure"; ds; a ] -> Ensure (list (ensured nodes) ds, part a)
   | `List [ `String "recruit"; site; asked; c ] ->
     Recruit { asked = filter nodes asked; code = code c; site = whole site }
   | json -> wrong "a task" json
+
+and ensured nodes (json : json) : ensured =
+  match json with
+  | `List [ `String "post"; k; x ] -> Pair (text k, value nodes x)
+  | `List [ `String "set"; i; name; x ] -> Variable (whole i, text name, value nodes x)
+  | `List [ `String "giveBack" ] -> Taken
+  | json -> wrong "an ensured deed" json
 
 and filter nodes : json -> Vehicle_filter.t = function
   | `List [ id; kind; payload; region ] ->

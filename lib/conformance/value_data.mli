@@ -19,6 +19,9 @@ val of_duration : Data.budget -> Core.duration -> Data.json
 val of_task : Data.budget -> Core.task -> Data.json
 (** The task term, with its code. *)
 
+val of_ensured : Data.budget -> Core.ensured -> Data.json
+(** A deed of the end of a task. *)
+
 val of_filter : Data.budget -> Vehicle_filter.t -> Data.json
 (** The conditions of a [recruit] on a vehicle. *)
 
@@ -40,6 +43,9 @@ val duration : Nodes.t -> Data.json -> Core.duration
 
 val task : Nodes.t -> Data.json -> Core.task
 (** Reads what {!of_task} writes. *)
+
+val ensured : Nodes.t -> Data.json -> Core.ensured
+(** Reads what {!of_ensured} writes. *)
 
 val filter : Nodes.t -> Data.json -> Vehicle_filter.t
 (** Reads what {!of_filter} writes. *)

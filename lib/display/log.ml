@@ -3,6 +3,7 @@ module Phrase = Dolphin_trace.Phrase
 
 type t = {
   before : Core.platform_task Vehicle_map.t;  (* A before the transition: the tasks of stopped vehicles *)
+  last : Configuration.t option;  (* before the transition *)
   unheard : Core.vehicle list;  (* bound vehicles without a link *)
   unready : (Core.vehicle * string) list;  (* bound vehicles that cannot be given a plan, and why *)
   bound : Core.vehicle list;
@@ -20,7 +21,7 @@ let narrowest = 10
 let widest = 24
 let program = "program"
 let start =
-  { before = Vehicle_map.empty; unheard = []; unready = []; bound = []; members = Vehicle_set.empty;
+  { before = Vehicle_map.empty; last = None; unheard = []; unready = []; bound = []; members = Vehicle_set.empty;
     column = narrowest; stuck = false }
 
 (* Further lines of a text stand below its first one. *)
@@ -144,6 +145,56 @@ let of_effect ~stuck l : Effect.t -> happening list = function
   | Withdraw_question _ -> [ of_program "withdraws its question" ]
   | Set_timer _ | Cancel_timer _ | Put_question _ | Look_for _ | Ask _ | Call_host _ -> []
 
+(* {2 Ends of tasks} *)
+
+let may_end : Rule.t -> bool = function
+  | Ensure_2 | Ensure_err | Par_err | Until_cut | Assure_cut | Until_err | During_cut | Within_cut | Interrupt
+  | On_interrupt -> true
+  | _ -> false
+
+let same (k, x) (k', x') = String.equal k k' && Value.compare (Value.normal x) (Value.normal x') = 0
+
+(* [pairs] without one of each of [others]. *)
+let rec less pairs others =
+  match pairs with
+  | [] -> []
+  | pair :: rest -> (
+      match List.partition (same pair) others with
+      | _ :: fewer, different -> less rest (fewer @ different)
+      | [], _ -> pair :: less rest others)
+
+(* The pairs that the label has posted, and taken. *)
+let pairs_of_label (label : Label.t) =
+  let of_deed (posted, taken) : Code.deed -> _ = function
+    | Posted pairs -> (pairs @ posted, taken)
+    | Consumed pairs -> (posted, pairs @ taken)
+    | Said _ | Released _ | Set_connection_timeout _ -> (posted, taken)
+  in
+  match label with
+  | Did d -> of_deed ([], []) d
+  | Check ds | Act ds | Cut ds -> List.fold_left of_deed ([], []) ds
+  | _ -> ([], [])
+
+(* Those of the pairs that tasks of [before] ensure that came into N by [s], and not by its label. *)
+let ensured (before : Configuration.t) (s : Transition.t) =
+  match before.control with
+  | Executing (_, r) when List.exists may_end s.rules ->
+    let pair : Core.ensured -> _ = function Pair (k, x) -> Some (k, x) | Variable _ | Taken -> None in
+    let owed = List.filter_map pair (Residual.ensured r) in
+    let keys = List.sort_uniq String.compare (List.map fst owed) in
+    let pairs (c : Configuration.t) =
+      List.concat_map (fun k -> List.map (fun x -> (k, x)) (Tuples.values k c.shared.tuples)) keys in
+    let posted, taken = pairs_of_label s.label in
+    let came = less (pairs s.next) (posted @ less (pairs before) taken) in
+    List.filter (fun pair -> List.exists (same pair) owed) came
+  | _ -> []
+
+let of_ensured = function
+  | [] -> []
+  | pairs -> [ of_program (deed (Posted pairs) ^ ", as ensured") ]
+
+(* {2 All of it} *)
+
 let transition ?(stuck = false) l ~time (s : Transition.t) =
   let bound = s.next.shared.bound in
   let wider column v = max column (min widest (Phrase.width v)) in
@@ -151,10 +202,11 @@ let transition ?(stuck = false) l ~time (s : Transition.t) =
   let stuck = l.stuck || (stuck && s.label = Interrupt) in
   let l = { l with column; stuck } in
   let further = List.filteri (fun i _ -> i >= told_by_label s.label) s.effects in
-  let happenings = of_label ~stuck s @ List.concat_map (of_effect ~stuck l) further in
+  let ended = of_ensured (Option.fold l.last ~none:[] ~some:(fun before -> ensured before s)) in
+  let happenings = of_label ~stuck s @ ended @ List.concat_map (of_effect ~stuck l) further in
   let lines = List.map (line l ~time) happenings in
   let members = if bound == l.bound then l.members else Vehicle_set.of_list bound in
-  ({ l with before = s.next.shared.allocation; bound; members }, lines)
+  ({ l with before = s.next.shared.allocation; last = Some s.next; bound; members }, lines)
 
 let link l ~time (state : World.vehicle_state) =
   let was_heard = not (List.mem state.id l.unheard) in

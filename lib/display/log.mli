@@ -40,8 +40,8 @@ val tint : colour:bool -> line -> string
 
 val transition : ?stuck:bool -> t -> time:float -> Transition.t -> t * line list
 (** [transition l ~time s] is the lines for [s], in the order of its effects, and the log after it. Silent steps have
-    no line, nor has the question of an [ask], which {!question} reports. With [~stuck:true] an interruption is
-    reported as the end of a stuck program, not as a person's wish. *)
+    no line, nor has the question of an [ask], which {!question} reports. Pairs that the end of a task posts by [ensure]
+    have one. With [~stuck:true] an interruption is reported as the end of a stuck program, not as a person's wish. *)
 
 val news : t -> time:float -> World.vehicle_state -> t * line list
 (** [news l ~time state] is the lines for vehicles of the program that lose their link or have it back. *)

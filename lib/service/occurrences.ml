@@ -98,7 +98,7 @@ let rec expression env e =
     closure env c
   | When (c, e) | Wait_for (c, e) | Until (_, c, e) -> closure env c; expression env e
   | During (_, a, b) -> expression env a; expression env b
-  | Watch (e, c) -> expression env e; closure env c
+  | Watch (e, c) | Ensure (e, c) -> expression env e; closure env c
   | Repeat { rounds; body; until } ->
     Option.iter (expression env) rounds;
     expression env body;

@@ -130,6 +130,7 @@ let rec task known (e : expression) =
     together a b (if a.ending = b.ending then a.ending else if a.ending = Succeeds then b.ending else Either)
   | Closure { parameters = None | Some []; body = [ { it = Expression e | Return (Some e); _ } ] } -> task known e
   | Index (t, _) -> task known t
+  | Ensure (t, _) -> Option.map (fun t -> { t with acts = true }) (task known t)
   | During (on_cut, d, t) -> limited known on_cut d t
   | Until (Completes, _, t) ->
     Option.map (fun t -> { t with ending = (if t.ending = Fails then Either else t.ending) }) (task known t)

@@ -24,6 +24,11 @@ let words =
       "when", "when { C } then T", "In allOf and oneOf: T runs once C holds, which is judged and taken in one step.";
       "then", "when { C } then T", "The task that runs once the condition holds.";
       "waitFor", "waitFor { C } then T", "T, which starts as soon as C holds.";
+      "ensure", "T ensure { post k: x }",
+      "T, whose end posts pairs and assigns globals in the same step, however it ends: done, failed or stopped.";
+      "using", "using k: x run T",
+      "T, once the pair is there; it is taken, and given back when T ends, fails or is stopped. "
+      ^ "Also `using k: _ run { x -> T }`.";
       "watch", "watch T onError { err -> ... }",
       "T; an error in it stops it and runs the code, which may `ignore()`, `propagate()`, `retry()` or `halt()`.";
       "onError", "watch T onError { err -> ... }", "The reaction to an error of the watched task.";

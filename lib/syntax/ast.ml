@@ -67,6 +67,7 @@ and expression_node =
   | Until of on_cut * closure * expression      (* [until { C } run T]; [assure { C } run T] *)
   | During of on_cut * expression * expression  (* [during D run T], [T during D]; [within D run T], [T within D] *)
   | Watch of expression * closure               (* [watch T onError { ... }] *)
+  | Ensure of expression * closure              (* [T ensure { ... }]; [using K: X run T] is read by it *)
   | Repeat of { rounds : expression option; body : expression; until : closure option }
   (* [repeat T], [repeat N, T], [repeat T until { C }] *)
 

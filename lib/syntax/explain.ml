@@ -132,7 +132,7 @@ let rest_of_statement place i = rest place i
 (* The argument of a call without parentheses within a task: operators of tasks and their words go on after it. *)
 let arguments place i =
   let ends = function
-    | SHIFT_RIGHT | BAR | THEN | RUN | ON_ERROR | AFTER_UNTIL | AFTER_ASSURE | AFTER_DURING _ -> true
+    | SHIFT_RIGHT | BAR | THEN | RUN | ON_ERROR | ENSURE | AFTER_UNTIL | AFTER_ASSURE | AFTER_DURING _ -> true
     | _ -> false in
   rest ~ends place i
 
@@ -142,8 +142,8 @@ let arguments place i =
 
 let is_word = function
   | DEF | IF | ELSE | OTHERWISE | WHILE | FOR | IN | RETURN | BREAK | CONTINUE | WHEN | WATCH | WAIT_FOR | REPEAT
-  | UNTIL _ | DURING _ | AFTER_UNTIL | AFTER_ASSURE | AFTER_DURING _ | THEN | RUN | ON_ERROR | TRUE | FALSE
-  | NULL -> true
+  | UNTIL _ | DURING _ | AFTER_UNTIL | AFTER_ASSURE | AFTER_DURING _ | THEN | RUN | ON_ERROR | ENSURE | USING | TRUE
+  | FALSE | NULL -> true
   | _ -> false
 
 (* Whether the place is among the parameters of a function or of a closure. *)
@@ -196,6 +196,7 @@ let construct = function
   | AFTER_UNTIL -> Some ("until", "task until { condition }")
   | AFTER_ASSURE -> Some ("assure", "task assure { condition }")
   | ON_ERROR -> Some ("onError", "watch task onError { error -> ... }")
+  | ENSURE -> Some ("ensure", "task ensure { post key: value }")
   | _ -> None
 
 let timed on_cut =
@@ -269,7 +270,7 @@ let misplaced_word place =
   | THEN -> Some ("'then' cannot stand here", "'then' follows when { ... }, waitFor { ... } and recruit { ... }")
   | RUN ->
     Some ("'run' cannot stand here",
-          "'run' follows until { ... }, assure { ... }, waitFor { ... }, during time and within time")
+          "'run' follows until { ... }, assure { ... }, waitFor { ... }, during time, within time and using key: value")
   | ON_ERROR -> Some ("'onError' cannot stand here", "write watch task onError { error -> ... }")
   | ARROW when (match before place 2, before place 1 with (NAME _ | COMMAND _), NAME _ -> true | _ -> false) ->
     Some ("a name has no type before it", Printf.sprintf "write only %s" (text_of place (place.index - 1)))

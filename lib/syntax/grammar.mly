@@ -22,6 +22,8 @@ let expression place it = located place it
 %token OTHERWISE                         (* the [else] of a [pick] *)
 %token DEF IF ELSE WHILE FOR IN RETURN BREAK CONTINUE
 %token WHEN WATCH WAIT_FOR REPEAT THEN RUN ON_ERROR
+%token ENSURE                            (* after a task: [T ensure { a }] *)
+%token USING
 %token <Ast.on_cut> UNTIL DURING         (* [until] and [during] complete; [assure] and [within] fail *)
 %token AFTER_UNTIL AFTER_ASSURE          (* after a task: [T until { C }], [T assure { C }] *)
 %token <Ast.on_cut> AFTER_DURING         (* the same for [T during D], [T within D] *)
@@ -157,6 +159,7 @@ any_limit:
 inner_limit:
   | on_cut = AFTER_DURING; duration = postfix { During_limit (on_cut, duration) }
   | AFTER_ASSURE; c = closure { Until_limit (Fails, c) }
+  | ENSURE; c = closure { Ensure_limit c }
 
 command:
   | callee = commanded; reversed = command_arguments { command $loc callee reversed }
@@ -231,6 +234,8 @@ expression(limit):
   | WAIT_FOR; c = closure; THEN; t = item(limit)
   | WAIT_FOR; c = closure; RUN; t = item(limit)
     { item (expression $loc (Wait_for (c, settle t))) }
+  | USING; reversed = command_arguments; RUN; t = item(limit)
+    { item (Node.using $loc reversed (settle t)) }
   | on_cut = UNTIL; c = closure; RUN; t = item(limit)
     { item (expression $loc (Until (on_cut, c, settle t))) }
   | on_cut = DURING; d = item(any_limit); RUN; t = item(limit)

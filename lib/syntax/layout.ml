@@ -9,7 +9,7 @@ let is_incomplete = function
   | COMMA | COLON | ARROW | DOT | SAFE_DOT | QUESTION | ELVIS | ASSIGN | ASSIGN_OPERATOR _
   | LPAREN | LBRACKET | LBRACE | TRAILING | BLOCK | HOLE_OPEN | SEPARATOR | BUILDER _ | RECRUIT | COMMAND _
   | PARAMETER | DEF | IF | ELSE | OTHERWISE | WHILE | FOR | WHEN | WATCH | WAIT_FOR | REPEAT | UNTIL _ | DURING _
-  | AFTER_UNTIL | AFTER_ASSURE | AFTER_DURING _ | THEN | RUN | ON_ERROR -> true
+  | AFTER_UNTIL | AFTER_ASSURE | AFTER_DURING _ | THEN | RUN | ON_ERROR | ENSURE | USING -> true
   | NEVER | NAME _ | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN | TEMPLATE_CLOSE | HOLE_CLOSE | TEXT _ | WILDCARD
   | TRUE | FALSE | NULL | RETURN | BREAK | CONTINUE | RPAREN | RBRACKET | RBRACE | STEP _ | EOF -> false
 
@@ -18,10 +18,11 @@ let continues = function
   | RANGE | RANGE_LESS | POWER | STAR | SLASH | PERCENT | SHIFT_LEFT | SHIFT_RIGHT | LESS | LESS_EQUAL
   | GREATER | GREATER_EQUAL | EQUAL | NOT_EQUAL | AMPERSAND | CARET | BAR | AND | OR | IN
   | COMMA | COLON | DOT | SAFE_DOT | QUESTION | ELVIS | THEN | RUN | ON_ERROR | ELSE | OTHERWISE
-  | AFTER_UNTIL | AFTER_ASSURE | AFTER_DURING _ | RPAREN | RBRACKET | RBRACE | HOLE_CLOSE | SEPARATOR | EOF -> true
+  | AFTER_UNTIL | AFTER_ASSURE | AFTER_DURING _ | ENSURE | RPAREN | RBRACKET | RBRACE | HOLE_CLOSE | SEPARATOR
+  | EOF -> true
   | NAME _ | COMMAND _ | BUILDER _ | RECRUIT | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN | TEMPLATE_CLOSE
   | HOLE_OPEN | TEXT _ | WILDCARD | TRUE | FALSE | NULL | PARAMETER | DEF | IF | WHILE | FOR | RETURN | BREAK | CONTINUE
-  | NEVER | WHEN | WATCH | WAIT_FOR | REPEAT | UNTIL _ | DURING _ | LPAREN | LBRACKET
+  | NEVER | WHEN | WATCH | WAIT_FOR | REPEAT | USING | UNTIL _ | DURING _ | LPAREN | LBRACKET
   | LBRACE | TRAILING | BLOCK | ARROW | ASSIGN | ASSIGN_OPERATOR _ | STEP _ | PLUS | MINUS | NOT -> false
 
 (* Whether an operand can end with [token]. *)
@@ -37,7 +38,7 @@ let takes_closure = function
 
 let is_word = function
   | DEF | IF | ELSE | OTHERWISE | WHILE | FOR | IN | RETURN | BREAK | CONTINUE | WHEN | WATCH | WAIT_FOR | REPEAT
-  | UNTIL _ | DURING _ | THEN | RUN | ON_ERROR -> true
+  | UNTIL _ | DURING _ | THEN | RUN | ON_ERROR | ENSURE | USING -> true
   | _ -> false
 
 let builder = function
@@ -92,7 +93,7 @@ let begins_expression state i =
     | word when is_word word && is_named state i -> run_follows (i + 1) (fuel - 1)
     | RUN -> true
     | SEPARATOR | COMMA | RPAREN | RBRACKET | RBRACE | HOLE_CLOSE | EOF -> false
-    | UNTIL _ | DURING _ | WAIT_FOR | WHEN | WATCH | REPEAT -> false
+    | UNTIL _ | DURING _ | WAIT_FOR | WHEN | WATCH | REPEAT | USING -> false
     | LPAREN | LBRACKET | LBRACE | HOLE_OPEN -> run_follows (state.partner.(i) + 1) (fuel - 1)
     | token when state.raw.(i).newline && not (continues token) -> false
     | _ -> run_follows (i + 1) (fuel - 1)
@@ -105,7 +106,7 @@ let begins_expression state i =
 let begins_argument state i =
   match raw_token state i with
   | NAME _ | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN | WILDCARD | TRUE | FALSE | NULL | WHEN | WATCH
-  | WAIT_FOR | REPEAT | NOT -> true
+  | WAIT_FOR | REPEAT | USING | NOT -> true
   | UNTIL _ | DURING _ -> is_key state i || begins_expression state i
   | token -> is_word token && is_key state i
 

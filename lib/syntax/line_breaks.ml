@@ -19,7 +19,8 @@ let body_start pieces opener =
 let is_joined pieces i =
   pieces.(i).comments = []
   && match pieces.(i - 1).token, pieces.(i).token with
-  | (UNTIL _ | AFTER_UNTIL | AFTER_ASSURE | WHEN | WAIT_FOR | ON_ERROR | BUILDER _ | ELSE), (LBRACE | BLOCK) -> true
+  | (UNTIL _ | AFTER_UNTIL | AFTER_ASSURE | WHEN | WAIT_FOR | ON_ERROR | ENSURE | BUILDER _ | ELSE),
+    (LBRACE | BLOCK) -> true
   | RPAREN, BLOCK -> Spacing.ends_head pieces (i - 1)
   | RBRACE, ELSE | ELSE, IF -> true
   | _, COMMA -> true
@@ -100,7 +101,7 @@ let looseness pieces i =
   | (PLUS | MINUS), _ when not (Spacing.is_prefix pieces (i - 1)) -> Some Sum
   | (STAR | SLASH | PERCENT | POWER | AMPERSAND | CARET | EQUAL | NOT_EQUAL | LESS | LESS_EQUAL | GREATER
     | GREATER_EQUAL | IN), _ -> Some Operator
-  | _, (AFTER_UNTIL | AFTER_ASSURE | AFTER_DURING _) -> Some Limit
+  | _, (AFTER_UNTIL | AFTER_ASSURE | AFTER_DURING _ | ENSURE) -> Some Limit
   | (LPAREN | LBRACKET), _ -> Some Inside
   | (ASSIGN | ASSIGN_OPERATOR _), _ -> Some Value
   | _, _ when pieces.(i).starts -> Some Body

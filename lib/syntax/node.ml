@@ -2,7 +2,7 @@ open Ast
 
 let located place it = { it; at = Location.make place }
 
-type limit = During_limit of on_cut * expression | Until_limit of on_cut * closure
+type limit = During_limit of on_cut * expression | Until_limit of on_cut * closure | Ensure_limit of closure
 
 type item = { base : expression; limits : (limit * Lexing.position) list }
 
@@ -15,6 +15,7 @@ let apply base limits =
     match limit with
     | During_limit (on_cut, duration) -> { it = During (on_cut, duration, base); at }
     | Until_limit (on_cut, condition) -> { it = Until (on_cut, condition, base); at }
+    | Ensure_limit c -> { it = Ensure (base, c); at }
   in
   List.fold_left apply base (List.rev limits)
 
@@ -55,3 +56,12 @@ let trailing place call closure =
   | Call { callee; arguments } ->
     located place (Call { callee; arguments = arguments @ [ Positional closure ] })
   | _ -> located place (Call { callee = call; arguments = [ Positional closure ] })
+
+let give_back = "giveBack"
+
+(* [waitFor { consume K: X } then (T ensure { giveBack() })]. *)
+let using place arguments t =
+  let call name arguments = located place (Call { callee = located place (Variable name); arguments }) in
+  let code e = { parameters = None; body = [ located place (Expression e) ] } in
+  let taken = call "consume" (List.rev_map argument arguments) in
+  located place (Wait_for (code taken, located place (Ensure (t, code (call give_back [])))))

@@ -5,8 +5,9 @@ open Ast
 val located : Lexing.position * Lexing.position -> 'a -> 'a located
 (** [located place x] is [x] at [place], its first and last position. *)
 
-(** The rest of a task in the postfix forms [T during D], [T within D], [T until { C }] and [T assure { C }]. *)
-type limit = During_limit of on_cut * expression | Until_limit of on_cut * closure
+(** The rest of a task in the postfix forms [T during D], [T within D], [T until { C }], [T assure { C }] and
+    [T ensure { a }]. *)
+type limit = During_limit of on_cut * expression | Until_limit of on_cut * closure | Ensure_limit of closure
 
 (** An expression, and the limits written after it, outermost first. *)
 type item = { base : expression; limits : (limit * Lexing.position) list }
@@ -36,3 +37,10 @@ val command : Lexing.position * Lexing.position -> expression -> argument_item l
 
 val trailing : Lexing.position * Lexing.position -> expression -> expression -> expression
 (** [trailing place call closure] is [call] with one more argument, a closure after the parentheses. *)
+
+val give_back : string
+(** The procedure that posts the pairs of a guard again: ["giveBack"]. *)
+
+val using : Lexing.position * Lexing.position -> argument_item list -> expression -> expression
+(** [using place arguments t] is [using K: X run T], [arguments] in reverse: [waitFor { consume K: X } then (T ensure
+    { giveBack() })]. *)

@@ -19,6 +19,6 @@ let map f (e : expression) : expression =
     | Range r -> Range { r with first = f r.first; last = f r.last }
     | ( Null | Boolean _ | Integer _ | Number _ | String _ | Template _ | Variable _ | Wildcard | Map _ | Closure _
       | Increment _ | Builder _ | Pick_else _ | Recruit _ | When _ | Wait_for _ | Until _ | During _ | Watch _
-      | Repeat _ ) as it -> it
+      | Ensure _ | Repeat _ ) as it -> it
   in
   { e with it }

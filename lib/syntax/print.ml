@@ -40,7 +40,7 @@ let rec begins_with_call e =
 let rec is_limited_call e =
   match e.it with
   | During (_, d, e) -> (not (is_closure (Positional d))) && is_limited_call e
-  | Until (_, _, e) -> is_limited_call e
+  | Until (_, _, e) | Ensure (e, _) -> is_limited_call e
   | _ -> begins_with_call e
 
 (* The arguments between parentheses, and the closure after them. *)
@@ -78,7 +78,8 @@ let rec starts_with_brace e =
   match e.it with
   | Closure _ -> true
   | Binary (_, e, _) | Conditional (e, _, _) | Elvis (e, _) | Range { first = e; _ } | Index (e, _)
-  | Member { subject = e; _ } | Call { callee = e; _ } | Increment { target = e; prefix = false; _ } ->
+  | Member { subject = e; _ } | Call { callee = e; _ } | Increment { target = e; prefix = false; _ }
+  | Ensure (e, _) ->
     starts_with_brace e
   | _ -> false
 
@@ -212,6 +213,10 @@ and bare out e =
     put out "watch ";
     expression out conditional t;
     put out " onError ";
+    closure out c
+  | Ensure (t, c) ->
+    expression out postfix t;
+    put out " ensure ";
     closure out c
   | Repeat { rounds; body; until = condition } ->
     let first n = expression out conditional n; put out ", " in
@@ -382,6 +387,10 @@ and limited ?(inside = false) out e =
     limited ~inside:true out t;
     put out (" " ^ until on_cut ^ " ");
     closure out c
+  | Ensure (t, c) when is_limited_call e ->
+    limited ~inside:true out t;
+    put out " ensure ";
+    closure out c
   | Binary _ when inside -> expression out postfix e
   | _ -> opening out e
 
@@ -430,6 +439,7 @@ and command out name arguments =
 
 let until = Spelling.until
 let during = Spelling.during
+let give_back = Node.give_back
 let operator = Spelling.operator
 
 (* {1 Programs} *)

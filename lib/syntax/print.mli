@@ -17,6 +17,9 @@ val expression : Format.formatter -> Ast.expression -> unit
 val until : Ast.on_cut -> string
 (** [until on_cut] is ["until"] or ["assure"]. *)
 
+val give_back : string
+(** The procedure that posts the pairs of a guard again: ["giveBack"]. *)
+
 val during : Ast.on_cut -> string
 (** [during on_cut] is ["during"] or ["within"]. *)
 

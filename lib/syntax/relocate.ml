@@ -27,6 +27,7 @@ and node f = function
   | Until (on_cut, c, t) -> Until (on_cut, closure f c, expression f t)
   | During (on_cut, d, t) -> During (on_cut, expression f d, expression f t)
   | Watch (t, c) -> Watch (expression f t, closure f c)
+  | Ensure (t, c) -> Ensure (expression f t, closure f c)
   | Repeat { rounds; body; until } ->
     let rounds = Option.map (expression f) rounds in
     Repeat { rounds; body = expression f body; until = Option.map (closure f) until }

@@ -62,7 +62,8 @@ let keywords =
       "return", RETURN; "break", BREAK; "continue", CONTINUE;
       "when", WHEN; "watch", WATCH; "waitFor", WAIT_FOR; "repeat", REPEAT;
       "until", UNTIL Completes; "assure", UNTIL Fails; "during", DURING Completes; "within", DURING Fails;
-      "then", THEN; "run", RUN; "onError", ON_ERROR ];
+      "then", THEN; "run", RUN; "onError", ON_ERROR;
+      "ensure", ENSURE; "using", USING ];
   table
 
 let words =

@@ -29,7 +29,7 @@ let range = level_of_operator Sequence
 
 let level e =
   match e.it with
-  | When _ | Wait_for _ | Until _ | During _ | Watch _ | Repeat _ | Recruit _ -> whole
+  | When _ | Wait_for _ | Until _ | During _ | Watch _ | Ensure _ | Repeat _ | Recruit _ -> whole
   | Conditional _ | Elvis _ -> conditional
   | Binary (operator, _, _) -> level_of_operator operator
   | Range _ -> range

@@ -36,7 +36,8 @@ let children_of_expression e =
     let code = Option.fold until ~none:[] ~some:(fun (c : closure) -> statements c.body) in
     expressions (body :: Option.to_list rounds) @ code
   | Recruit (settings, c) -> statements settings @ statements c.body
-  | When (c, t) | Wait_for (c, t) | Until (_, c, t) | Watch (t, c) -> Expression_node t :: statements c.body
+  | When (c, t) | Wait_for (c, t) | Until (_, c, t) | Watch (t, c) | Ensure (t, c) ->
+    Expression_node t :: statements c.body
 
 let children_of_statement s =
   match s.it with
@@ -53,7 +54,7 @@ let is_target e =
   | Variable _ | Member _ | Index _ -> true
   | Null | Boolean _ | Integer _ | Number _ | String _ | Template _ | Wildcard | List _ | Map _ | Range _
   | Closure _ | Unary _ | Binary _ | Conditional _ | Elvis _ | Increment _ | Call _ | Builder _ | Pick_else _ | When _
-  | Recruit _ | Wait_for _ | Until _ | During _ | Watch _ | Repeat _ -> false
+  | Recruit _ | Wait_for _ | Until _ | During _ | Watch _ | Ensure _ | Repeat _ -> false
 
 let target_fault what e =
   Diagnostic.error e.at (Printf.sprintf "this cannot be %s" what)

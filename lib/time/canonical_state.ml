@@ -38,6 +38,7 @@ type head =
   | Part of int
   | Sequence
   | Parallel
+  | In_order  (* [Parallel] whose parts are cut off in an order that matters *)
   | All_of
   | One_of
   | Branch
@@ -49,6 +50,10 @@ type head =
   | Watch
   | Fresh
   | Repeat of int option
+  | Ensure of deed list
+
+(* The value of a pair is a name, as in code. *)
+and deed = Posts | Assigns of int * int | Gives_back
 
 and takes = Milliseconds of int * int | As_its_plan of label
 
@@ -59,10 +64,18 @@ module Heads = Dolphin_checker.Interner.Make (struct
     let hash = Hashtbl.hash
   end)
 
+module Values = Dolphin_checker.Interner.Make (struct
+    type t = Core.value
+
+    let equal x y = Value.compare x y = 0
+    let hash = Value.hash
+  end)
+
 type t = {
   options : Clocked.options;
   skeletons : Skeleton.context;
   heads : Heads.t;
+  values : Values.t;  (* that are assigned *)
   numbers : Form.numbers;
   unread : string list;  (* keys *)
   constants : int Constants.t;
@@ -74,9 +87,8 @@ type t = {
 let create ?apart (options : Clocked.options) =
   let numbering = Dolphin_checker.Numbering.create () in
   { options; apart; skeletons = Skeleton.context numbering options.program; heads = Heads.create numbering;
-    numbers = Form.numbers numbering; unread = Unread_pairs.keys options.program;
-    constants = Constants.create 64; executions = Clocked.Table.create 8;
-    possible = Inert.names_are_free options }
+    values = Values.create numbering; numbers = Form.numbers numbering; unread = Unread_pairs.keys options.program;
+    constants = Constants.create 64; executions = Clocked.Table.create 8; possible = Inert.names_are_free options }
 
 let orbit e label =
   match Hashtbl.find_opt e.orbits label with Some orbit -> List.rev (Hashtbl.find e.members orbit) | None -> [ label ]
@@ -128,6 +140,45 @@ let platform_task s ~runs v (p : Core.platform_task) =
   let charges = s.t.options.durations.charges p.name in
   Task { runs; ending = Environment.ending s.t.options.environment v p.name; takes; charges; orbit = s.orbit label }
 
+(* {2 Ends} *)
+
+let ensured r = Residual.fold_all (fun found -> function Residual.Ensure (ds, _) -> ds @ found | _ -> found) [] r
+
+let is_ordered t k =
+  match t.options.program.ordered_keys with No_key -> false | Keys ks -> List.mem k ks | Every_key -> true
+
+(* Whether the order of two deeds of ends matters. The pairs that a guard will take are not known. *)
+let are_in_order t (d : Core.ensured) (d' : Core.ensured) =
+  match d, d' with
+  | Variable (i, _, x), Variable (j, _, y) -> i = j && Value.compare x y <> 0
+  | Pair (k, x), Pair (k', x') -> String.equal k k' && is_ordered t k && Value.compare x x' <> 0
+  | Pair (k, _), Taken | Taken, Pair (k, _) -> is_ordered t k
+  | Taken, Taken -> t.options.program.ordered_keys <> No_key
+  | Variable _, (Pair _ | Taken) | (Pair _ | Taken), Variable _ -> false
+
+(* Whether it matters which of [rs], which stand side by side, comes first if a step cuts them off. *)
+let order_matters t rs =
+  let meets ds ds' = List.exists (fun d -> List.exists (are_in_order t d) ds') ds in
+  let rec some_meet = function
+    | [] -> false
+    | ds :: others -> List.exists (meets ds) others || some_meet others
+  in
+  some_meet (List.filter (( <> ) []) (List.map ensured rs))
+
+let ensure s ds =
+  let deed : Core.ensured -> deed = function
+    | Pair _ -> Posts
+    | Variable (i, _, x) -> Assigns (i, Values.number s.t.values x)
+    | Taken -> Gives_back
+  in
+  let name : Core.ensured -> _ = function
+    | Pair (k, x) -> Some (place s.pairs (Skeleton.pair s.t.skeletons k x))
+    | Variable _ | Taken -> None
+  in
+  tree s ~names:(List.filter_map name ds) (Ensure (List.map deed ds))
+
+(* {2 All parts} *)
+
 let rec spell s (r : Residual.t) =
   match r with
   | Ready (p, v) -> tree s (platform_task s ~runs:false v p) []
@@ -135,7 +186,7 @@ let rec spell s (r : Residual.t) =
   | Action c -> code s (fun n -> Action n) c
   | Condition c -> code s (fun n -> Condition n) c
   | Sequence (a, rest) -> tree s Sequence (List.map (spell s) (a :: rest))
-  | Parallel bs -> tree s ~ordered:false Parallel (List.map (spell s) (Branches.to_list bs))
+  | Parallel bs -> beside s (Branches.to_list bs)
   | All_of (a, bs) -> tree s All_of [ optional s (spell s) a; branches s bs ]
   | One_of bs -> tree s One_of [ branches s bs ]
   | Until (e, c, a) -> tree s (Until (cut e)) [ code s part c; spell s a ]
@@ -151,6 +202,11 @@ let rec spell s (r : Residual.t) =
   | Fresh (_, a) -> tree s Fresh [ spell s a ]
   | Made _ | Unallocated _ | Hold _ | Recruit _ | Recruited _ ->
     invalid_arg "Canonical_state: a task that is made at its turn"
+  | Ensure (ds, a) -> ensure s ds [ spell s a ]
+
+and beside s rs =
+  let parts = List.map (spell s) rs in
+  if order_matters s.t rs then tree s In_order parts else tree s ~ordered:false Parallel parts
 
 and optional : 'a. spelling -> ('a -> Form.tree) -> 'a option -> Form.tree =
   fun s spelled x -> tree s Some_of (List.map spelled (Option.to_list x))
@@ -167,7 +223,7 @@ let root s inert (r : Residual.t) =
     | _ -> false
   in
   let components = match r with Parallel bs -> Branches.to_list bs | r -> [ r ] in
-  tree s ~ordered:false Parallel (List.map (spell s) (List.filter (fun r -> not (is_gone r)) components))
+  beside s (List.filter (fun r -> not (is_gone r)) components)
 
 (* Pairs of N, each with its place among those of its key, if that matters. *)
 let in_space t pairs tuples =
@@ -227,6 +283,8 @@ let closures =
       | Handler c -> (true, c) :: found
       | Plan _ | Given _ | Term _ | Held _ | Timer _ -> found) []
 
+let posted r = List.filter_map (function Core.Pair (k, x) -> Some (k, x) | Variable _ | Taken -> None) (ensured r)
+
 let labels r =
   let add found : Residual.leaf -> _ = function Plan (p, v) -> label_of v p :: found | _ -> found in
   List.sort_uniq Stdlib.compare (Residual.fold_leaves add [] r)
@@ -251,11 +309,16 @@ let find_execution t (s : Clocked.state) m r =
   if List.exists (fun (k : Skeleton.t) -> k.unclear) skeletons then None
   else
     let fixed = List.fold_left (fun fixed (k : Skeleton.t) -> Pairs.union fixed k.fixed) Pairs.empty skeletons in
+    let by_name, others = List.partition (fun (_, x) -> Skeleton.may_be_named x) (posted r) in
+    let fixed = List.fold_left (fun fixed (k, _) -> Pairs.add (k, None) fixed) fixed others in
     let is_movable n =
       let pair = (Skeleton.key_of t.skeletons n, Some (Skeleton.value_of t.skeletons n)) in
       not (Pairs.meet (Pairs.singleton pair) fixed)
     in
-    let named = List.filter (is_read t) (List.concat_map (fun (k : Skeleton.t) -> Array.to_list k.pairs) skeletons) in
+    let of_code = List.concat_map (fun (k : Skeleton.t) -> Array.to_list k.pairs) skeletons in
+    let named =
+      List.map (fun (k, x) -> Skeleton.pair t.skeletons k x) by_name @ List.filter (is_read t) of_code
+    in
     let numbers = List.filter is_movable (List.sort_uniq Int.compare named) in
     let pairs = { numbers = Array.of_list numbers; places = Hashtbl.create 16 } in
     Array.iteri (fun place n -> Hashtbl.replace pairs.places n place) pairs.numbers;

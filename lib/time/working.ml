@@ -22,7 +22,8 @@ let rec longest cost v (r : Residual.t) =
   | Parallel bs -> sum (Branches.to_list bs)
   | All_of (a, bs) -> sum (Option.to_list a @ bodies bs)
   | One_of bs -> List.fold_left (fun n r -> max n (longest cost v r)) 0 (bodies bs)
-  | Until (_, _, a) | During { body = a; _ } | Watch (a, _) | Hold (_, a) | Recruited (_, a) | Fresh (_, a) ->
+  | Until (_, _, a) | During { body = a; _ } | Watch (a, _) | Hold (_, a) | Recruited (_, a) | Fresh (_, a)
+  | Ensure (_, a) ->
     longest cost v a
   | Repeat { round; again = { left = Some n; each; _ } } ->
     sum (Option.to_list round) ++ times n (longest cost v each)

@@ -215,6 +215,12 @@ and procedure t site builtin : Tla.t =
         ~hint:"the models know which keys are queues: name the key where _ or a pattern takes a pair";
     record name [ ("keys", Tuple (List.map key keys)) ]
   in
+  let ensured_form : ensured_form -> Tla.t = function
+    | Pair_of (Some k) -> record "post" [ ("key", Tla.Tuple [ Tla.String k ]) ]
+    | Pair_of None -> record "post" [ ("key", Tla.Tuple []) ]
+    | Variable_of (i, name) -> record "set" [ ("global", Integer (i + 1)); ("name", String name) ]
+    | Taken_pairs -> plain "giveBack"
+  in
   match builtin with
   | Platform_task -> plain "task"
   | Make_action -> plain "action"
@@ -228,6 +234,7 @@ and procedure t site builtin : Tla.t =
   | Make_during Fails -> plain "within"
   | Make_watch -> plain "watch"
   | Make_fresh -> plain "fresh"
+  | Make_ensure forms -> record "ensure" [ ("forms", Tuple (List.map ensured_form forms)) ]
   | Make_repeat { counted; asked } -> record "repeat" [ ("counted", Boolean counted); ("asked", Boolean asked) ]
   | Execute -> plain "execute"
   | Execute_for vehicles -> record "executeFor" [ ("names", Tla.strings vehicles) ]

@@ -5,8 +5,8 @@ module R = Residual
 let names : I.names =
   { vehicle_eq = String.equal; store_eq = (fun s s' -> Store.compare s s' = 0) }
 
-let without_fresh = "the calculus of proofs/ does not have fresh"
-let no_fresh () = invalid_arg without_fresh
+let outside = "the calculus of proofs/ has neither fresh nor ensure"
+let not_there () = invalid_arg outside
 
 (* {1 Tasks} *)
 
@@ -36,7 +36,7 @@ let rec task : Core.task -> I.task = function
   | Repeat { rounds; until; body; site = _ } -> TRepeat (rounds, until, task body)
   | Made a -> TMade a
   | Recruit { asked; code; site = _ } -> TRecruit (of_filter asked, code)
-  | Fresh _ -> no_fresh ()
+  | Fresh _ | Ensure _ -> not_there ()
 
 and branch { guard; body } = (guard, task body)
 
@@ -92,7 +92,7 @@ let rec residual : R.t -> I.residual = function
   | Hold (vs, r) -> Holding (vs, residual r)
   | Recruit { number; asked; code; place; depth; site = _ } -> Recruit (number, of_filter asked, code, place, depth)
   | Recruited (v, r) -> Recruited (v, residual r)
-  | Fresh _ -> no_fresh ()
+  | Fresh _ | Ensure _ -> not_there ()
 
 and residual_branch { guard; body } = (guard, residual body)
 

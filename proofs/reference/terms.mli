@@ -7,13 +7,13 @@ open Dolphin_semantics
 val names : Interpreter.names
 (** Equality of vehicles and stores. *)
 
-val without_fresh : string
-(** The argument of [Invalid_argument] for a task with a [fresh]. *)
+val outside : string
+(** The argument of [Invalid_argument] for a task with a [fresh] or an [ensure]. *)
 
 val task : Core.task -> Interpreter.task
 (** The same task.
 
-    @raise Invalid_argument {!without_fresh} if it has a [fresh]. *)
+    @raise Invalid_argument {!outside} if it has a [fresh] or an [ensure]. *)
 
 val to_task : Interpreter.task -> Core.task
 (** The same task. *)

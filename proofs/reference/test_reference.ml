@@ -71,8 +71,8 @@ let along (ast, choices) =
   let walk = Walk.run ~choices program world in
   let configurations =
     Configuration.initial program :: List.map (fun (s : Walk.step) -> s.transition.next) walk in
-  (* The calculus does not have fresh. *)
-  (try List.iter (agree program world) configurations with Invalid_argument why when why = Terms.without_fresh -> ());
+  (* The calculus has neither fresh nor ensure. *)
+  (try List.iter (agree program world) configurations with Invalid_argument why when why = Terms.outside -> ());
   true
 
 let print (ast, choices) = Generate.print ast ^ "choices " ^ String.concat ", " (List.map string_of_int choices)

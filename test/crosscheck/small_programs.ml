@@ -115,6 +115,17 @@ let tasks =
       ("code of fresh that fails, and that does something",
        "def f() { post x: 1; idle(1.seconds) }\n\
         execute watch { fresh { k -> 1 / 0 } } onError { e -> message e; fresh { k -> f() } }");
+      ("ensured deeds: at the end, by an error beside it, a time, a condition",
+       two ^ "n = 0\nexecute watch ((task('p')[a] ensure { post x: 1; n = 1 }) | (task('q')[b] ensure { post x: 2 } ensure { n = 2 })) \
+              onError { ignore() }\nmessage \"$n ${count(x: _)}\"\n\
+              execute ((idle(2.seconds) ensure { post y: 1 }) during 1.seconds >> (idle(1.seconds) ensure { post y: 2 }) | condition { consume(y: 1) }) \
+              until { consume(y: 2) }");
+      ("a pair that is used is given back by failures and cuts, before its task is made and after",
+       two ^ "post lift: 'e', lift: 'w'\n\
+              execute (using lift: _ run { l -> task(\"p$l\")[a] }) during 1.seconds | (watch using lift: 'w' run task('q')[b] onError { ignore() })\n\
+              message count(lift: _)");
+      ("an interruption does ensured deeds before its own task begins",
+       "onInterrupt { vs -> waitFor { consume x: 1 } then idle(1.seconds) }\na = pick { id 'a' }\nexecute task('p')[a] ensure { post x: 1 }");
       ("within a time, and not",
        two ^ "execute watch ((task('p')[a] | task('q')[b]) within 10.seconds) onError { why -> message why; ignore() }");
       ("rounds by number, of parts that run together",

@@ -120,6 +120,12 @@ let all =
             {|List.iter image (Task_group.orbit_of_shared g shared)|},
             {|image (List.hd (Task_group.orbit_of_shared g shared))|} );
         ];
+      in_file "lib/explore/steps/memoised_steps.ml" ~noticed_by:"explore/test_agreement"
+        [
+          ( "steps are remembered without the ensured deeds around them",
+            {|(s, number_owed t owed)|},
+            {|(s, min 1 (number_owed t owed))|} );
+        ];
       in_file "lib/explore/steps/recruiting.ml" ~noticed_by:"reduction/test_told_apart"
         [
           ( "recruits side by side have the same vehicles in all orders",
@@ -365,8 +371,8 @@ let all =
           ("HOLD-1 forgets the held vehicles", {|~next:(within (Holding vs))|}, {|~next:Fun.id|});
           ("WITHIN-CUT ends as done", {|Failed (Fault.make site (too_late duration))|}, {|Finished|});
           ( "ONEOF-WHEN does not begin its body",
-            {|enter label enters around body|},
-            {|change label enters (Next (around body))|} );
+            {|enter label enters around b.body|},
+            {|change label enters (Next (around b.body))|} );
           ("CONFIRM-NO ends as done", {|(failed (Printf.sprintf "'%s' was answered no" prompt))|}, {|Finished|});
         ];
       in_file "lib/semantics/terms/tuple_space.ml" ~noticed_by:"tuple_space/test_tuple_space"

@@ -37,6 +37,25 @@ It may die again, and the journal may go on in another file; a picture shows the
   $ grep -o 'survey1' joined.svg | head -1
   survey1
 
+A console that dies while tasks use something, and another one: each pair is given back once.
+
+  $ dolphin exec ../../examples/corridors.dol --journal whole2.run > whole2.log
+  $ died() { prlimit --fsize=$1 --core=0 dolphin exec ../../examples/corridors.dol --journal used.run > first.log 2> /dev/null; }
+  $ for share in 15 30 40 50 60 70 80 90; do
+  >   bytes=$(($(wc -c < whole2.run) * share / 100))
+  >   rm -f used.run; (died $bytes) 2> /dev/null
+  >   dolphin exec --resume used.run ../../examples/corridors.dol > second.log
+  >   cat first.log second.log | diff - whole2.log && dolphin trace check ../../examples/corridors.dol used.run
+  > done
+  used.run: a run, of 33 transitions in 4:00; completed
+  used.run: a run, of 33 transitions in 4:00; completed
+  used.run: a run, of 33 transitions in 4:00; completed
+  used.run: a run, of 33 transitions in 4:00; completed
+  used.run: a run, of 33 transitions in 4:00; completed
+  used.run: a run, of 33 transitions in 4:00; completed
+  used.run: a run, of 33 transitions in 4:00; completed
+  used.run: a run, of 33 transitions in 4:00; completed
+
 A run that is over, no run, no journal.
 
   $ dolphin exec --resume whole.run ../../examples/rendezvous.dol

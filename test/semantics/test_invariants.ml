@@ -89,7 +89,22 @@ let deeds_of (l : Label.t) : Code.deed list =
 let unseen = [ Rule.Watch_ignore; Watch_propagate; Watch_halt; Watch_retry; Watch_instead; Halt;
                During_set ]
 
-(* But for pairs of the keys of [fresh], which are forgotten. *)
+(* The pairs that the parts which run would post if they were cut off. *)
+let ensured (c : Configuration.t) =
+  let posted : Core.ensured -> _ = function
+    | Pair (k, x) -> Some (Format.asprintf "%a" Value.pp_tuple (k, x))
+    | Variable _ | Taken -> None
+  in
+  match c.control with
+  | Executing (_, r) -> List.filter_map posted (Residual.ensured r)
+  | Script _ | Waiting _ | Ended _ -> []
+
+(* [all] without each of [some], once for each time it is there. *)
+let without some all =
+  let rec remove x = function [] -> [] | y :: ys -> if String.equal x y then ys else y :: remove x ys in
+  List.fold_left (fun all x -> remove x all) all some
+
+(* Pairs of the keys of [fresh] are forgotten. Tasks that end post their ensured pairs; no other task does. *)
 let tuples_are_conserved _ (s : Walk.step) =
   let texts = List.map (Format.asprintf "%a" Value.pp_tuple) in
   let posted, consumed =
@@ -101,22 +116,19 @@ let tuples_are_conserved _ (s : Walk.step) =
          | Said _ | Released _ | Set_connection_timeout _ -> (posted, consumed))
       ([], []) (deeds_of s.transition.label)
   in
-  let sorted = List.sort String.compare in
   let is_of_fresh pair = Residual.is_key (List.hd (String.split_on_char ':' pair)) in
-  let before = sorted (pairs s.before.shared.tuples @ posted) in
-  let after = sorted (pairs s.transition.next.shared.tuples @ consumed) in
   let others = List.filter (fun pair -> not (is_of_fresh pair)) in
-  let rec is_within some all =
-    match some, all with
-    | [], _ -> true
-    | _, [] -> false
-    | x :: some', y :: all -> if String.equal x y then is_within some' all else is_within some all
-  in
+  let before = pairs s.before.shared.tuples @ posted and after = pairs s.transition.next.shared.tuples @ consumed in
+  let may_end = ensured s.before in
+  let surely_end = if has [ Rule.Assert_err ] s.transition then [] else without (ensured s.transition.next) may_end in
+  let gained = without (others before) (others after) in
   has unseen s.transition
-  || (others before = others after && is_within after before)
-  || fail "%s: N was {%s}, is {%s}" (shown s)
+  || (without (others after) (others before) = [] && without (before @ may_end) after = []
+      && without may_end gained = [] && without gained (others surely_end) = [])
+  || fail "%s: N was {%s}, is {%s}; those that end may post {%s}" (shown s)
     (String.concat ", " (pairs s.before.shared.tuples))
     (String.concat ", " (pairs s.transition.next.shared.tuples))
+    (String.concat ", " may_end)
 
 (* The end is the end: nothing is bound, nothing runs, no step follows; and the last effect reports it. *)
 let ends_well program (s : Walk.step) =

@@ -8,7 +8,7 @@ let constructor : Residual.t -> string = function
   | Sequence _ -> "Sequence" | Parallel _ -> "Parallel" | All_of _ -> "All_of" | One_of _ -> "One_of"
   | Until _ -> "Until" | Idle _ -> "Idle" | Confirm _ -> "Confirm" | During _ -> "During" | Watch _ -> "Watch"
   | Repeat _ -> "Repeat" | Made _ -> "Made" | Unallocated _ -> "Unallocated" | Hold _ -> "Hold"
-  | Recruit _ -> "Recruit" | Recruited _ -> "Recruited" | Fresh _ -> "Fresh"
+  | Recruit _ -> "Recruit" | Recruited _ -> "Recruited" | Fresh _ -> "Fresh" | Ensure _ -> "Ensure"
 
 (* A part that both views see, compared by identity. *)
 type seen = Residual of Residual.t | Code of string * Core.closure | Value of Core.value | Term of Core.task
@@ -72,7 +72,7 @@ let views_agree r =
 (* The task inside of code is not in a task: that of each [repeat] is, for instance. *)
 let rec parts_are_smaller t =
   let all = Task.parts t in
-  let image = Task.map { part = Fun.id; code = Fun.id; vehicle = Fun.id } t in
+  let image = Task.map { part = Fun.id; code = Fun.id; value = Fun.id; vehicle = Fun.id } t in
   if Value.compare_task t image <> 0 then QCheck2.Test.fail_reportf "the identity maps a task to another";
   List.iter parts_are_smaller all;
   let shown t = String.length (Value.to_string (Core.Task t)) in
@@ -107,7 +107,7 @@ let along_walks =
 
 let all =
   [ "Ready"; "Running"; "Action"; "Condition"; "Sequence"; "Parallel"; "All_of"; "One_of"; "Until"; "Idle"; "Confirm";
-    "During"; "Watch"; "Repeat"; "Made"; "Unallocated"; "Hold"; "Recruit"; "Recruited"; "Fresh" ]
+    "During"; "Watch"; "Repeat"; "Made"; "Unallocated"; "Hold"; "Recruit"; "Recruited"; "Fresh"; "Ensure" ]
 
 let every_constructor () =
   let missing = List.filter (fun name -> not (Hashtbl.mem seen name)) all in

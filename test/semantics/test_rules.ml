@@ -229,6 +229,13 @@ let tasks : example list =
       ("def f(t) { post a: 1; t }\n" ^ task "watch { fresh { k -> f(%p) } } onError { ignore() }")
       "cannot-execute({ f task('p')[v] } makes a task, so it may only compute: it must not post, consume, assign or print)"
       "ALLOCATE-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [];
+    example Ensure_1 "it goes on" (task "%p ensure { post x: 1 }") "start(noptilus-1, p)" "START, ENSURE-1"
+      "p[noptilus-1]... ensure { post x: 1 }" [ "start p on noptilus-1" ];
+    example Ensure_2 "its end does the ensured deeds" (task "%p ensure { post x: 1 } >> condition { poll x: 1 }")
+      "done(noptilus-1, p)" "DONE, ENSURE-2, SEQ-2" "condition { condition }" [];
+    example Ensure_err "so does its error, before the handler"
+      (task "watch (%p ensure { post x: 1 }) onError { message poll(x: 1); ignore() }") "fail(noptilus-1, p, broken)"
+      "FAIL, ENSURE-ERR, WATCH-IGNORE, EXECUTE-DONE" "script" [ "say true" ];
     example Idle_end "the time is up" (task "idle(5) >> idle(1)") "timeout" "IDLE-END, SEQ-2" "idle(1)"
       [ "set timer 2 to 1 s" ];
     example Confirm_yes "somebody says yes" (task "confirm('go?') >> idle(1)") "answer(yes)" "CONFIRM-YES, SEQ-2" "idle(1)"

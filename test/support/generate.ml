@@ -283,6 +283,24 @@ let shared_out vehicles =
   let side wanted = List.filter_map (fun (v, left) -> if left = wanted then Some v else None) both in
   return (side true, side false)
 
+(* [t ensure { post x: 1; g = 2 }]. *)
+let ensured t =
+  let post =
+    let* k = key and* x = number in
+    return (statement (call "post" [ named k (integer x) ]))
+  in
+  let assignment = map (fun x -> assign "g" (integer x)) number in
+  let* body = list_size (int_range 1 2) (frequency [ (3, post); (1, assignment) ]) in
+  return (expression (Ensure (t, code body)))
+
+(* [using x: 1 run t]: [t] may be code that gets the taken value. *)
+let using t =
+  let* k = key and* x = number and* any = map (fun n -> n = 0) (int_bound 2) in
+  let wanted = if any then expression Wildcard else integer x in
+  let taken = code [ statement (call "consume" [ named k wanted ]) ] in
+  let back = code [ statement (call "giveBack" []) ] in
+  return (expression (Wait_for (taken, expression (Ensure (t, back)))))
+
 let rec task_of ~sensing ~vehicles ~depth : expression Gen.t =
   let leaf = leaf ~sensing and guard = guard_of ~sensing in
   if depth <= 0 then leaf vehicles
@@ -291,7 +309,8 @@ let rec task_of ~sensing ~vehicles ~depth : expression Gen.t =
     let* shape =
       frequencyl
         [ (2, `Leaf); (5, `Sequence); (5, `Parallel); (2, `All_of); (2, `One_of); (1, `Wait_for); (2, `Until);
-          (2, `During); (4, `Watch); (1, `Allocated); (2, `Repeat); (2, `Made); (1, `Taken) ]
+          (2, `During); (4, `Watch); (1, `Allocated); (2, `Repeat); (2, `Made); (1, `Taken);
+          (2, `Ensure); (1, `Using) ]
     in
     match shape with
     | `Leaf -> leaf vehicles
@@ -307,6 +326,8 @@ let rec task_of ~sensing ~vehicles ~depth : expression Gen.t =
     | `During -> map3 (fun e d t -> expression (During (e, d, t))) on_cut duration (part ())
     | `Watch -> map2 (fun t c -> expression (Watch (t, c))) (part ()) (handler ~sensing)
     | `Repeat -> Gen.bind (part ()) (repeated ~sensing)
+    | `Ensure -> Gen.bind (part ()) ensured
+    | `Using -> Gen.bind (frequency [ (3, part ()); (1, map taker (oneofl [ "p"; "q" ])) ]) using
     | `Made -> frequency [ (3, some_made ~sensing vehicles); (1, recruiting ~sensing) ]
     | `Taken -> map2 (fun g plan -> expression (Wait_for (g, taker plan))) guard (oneofl [ "p"; "q" ])
     | `Allocated ->
@@ -362,9 +383,11 @@ let in_context ~sensing vehicles t =
   let* shape =
     frequencyl
       [ (3, `Until); (2, `During); (4, `Watch); (2, `Before); (1, `After); (2, `All_of); (1, `One_of); (1, `Repeat);
-        (2, `Fresh) ]
+        (2, `Fresh); (2, `Ensure); (1, `Using) ]
   in
   match shape with
+  | `Ensure -> ensured t
+  | `Using -> using t
   | `Fresh -> with_key ~sensing t
   | `Until -> map2 (fun e c -> expression (Until (e, c, t))) on_cut guard
   | `During -> map2 (fun e d -> expression (During (e, d, t))) on_cut duration
@@ -609,14 +632,16 @@ let replicated_any =
 
 let printed p = Format.asprintf "%a" Print.program p
 
-(* Few of them make tasks, ask for idle or running vehicles, or dismiss: symmetry of tasks is off then. *)
+(* Few of them make tasks, ensure something, ask for idle or running vehicles, or dismiss: symmetry of tasks is off
+   then. *)
 let rec replicated_gen () =
   let* p = replicated_any in
   let words = List.filter (( <> ) "") (String.split_on_char ' ' (String.map (function '\n' -> ' ' | c -> c) (printed p))) in
   let text = String.concat " " words in
   let has part = replace ~by:"" part text <> text in
-  let* keep = map (( = ) 0) (int_bound 5) in
-  if keep || not (has "idle(va)" || has "running(va)" || has "dismiss" || has "{ task" || has "w ->" || has "{ {") then return p else replicated_gen ()
+  let* keep = map (( = ) 0) (int_bound 8) in
+  let without = [ "idle(va)"; "running(va)"; "dismiss"; "{ task"; "w ->"; "{ {"; "ensure {"; "using " ] in
+  if keep || not (List.exists has without) then return p else replicated_gen ()
 
 let replicated = replicated_gen ()
 

@@ -10,9 +10,9 @@ let names =
   [ "a"; "b"; "v1"; "task"; "pick"; "imcPlan"; "pos"; "allOf"; "type"; "execute"; "count"; "é"; "x_1"; "choose";
     "parameter" ]
 let variable_name = oneofl names
-let key_name = oneofl ([ "run"; "if"; "else"; "in"; "_"; "true"; "a b"; "it's"; ""; "when" ] @ names)
-let setting_name = oneofl ([ "run"; "if"; "else"; "then"; "in"; "onError" ] @ names)
-let member_name = oneofl ([ "run"; "if"; "km"; "then"; "true"; "e3"; "size"; "until"; "during" ] @ names)
+let key_name = oneofl ([ "run"; "if"; "else"; "in"; "_"; "true"; "a b"; "it's"; ""; "when"; "ensure"; "using" ] @ names)
+let setting_name = oneofl ([ "run"; "if"; "else"; "then"; "in"; "onError"; "ensure"; "using" ] @ names)
+let member_name = oneofl ([ "run"; "if"; "km"; "then"; "true"; "e3"; "size"; "until"; "during"; "ensure"; "using" ] @ names)
 
 let text =
   oneof
@@ -81,6 +81,7 @@ and node fuel =
         1, map3 (fun on_cut d t -> During (on_cut, d, t)) (oneofl [ Completes; Fails ]) e e;
         1, map2 (fun settings c -> Recruit (settings, c)) (program (fuel / 2)) c;
         1, map2 (fun t c -> Watch (t, c)) e c;
+        1, map2 (fun t c -> Ensure (t, c)) e c;
         1, map3 (fun rounds body until -> Repeat { rounds; body; until }) (opt e) e (opt c) ]
 
 and argument fuel =

@@ -37,7 +37,10 @@ let copy =
         (1, "(waitFor { consume go: # } then task('g'))"); (1, "(during 3 run task('d#'))");
         (1, "(task('s#') within 2)"); (1, "action { post go: # }"); (1, "(idle(1) | task('p#'))");
         (1, "(watch task('f#') onError { ignore() })"); (1, "action { post any: 0 }"); (1, "(repeat 2, task('r'))");
-        (1, "(repeat 3, (task('r') >> idle(1)))"); (1, "(repeat 2, (task('r#') >> idle(2)))") ]
+        (1, "(repeat 3, (task('r') >> idle(1)))"); (1, "(repeat 2, (task('r#') >> idle(2)))");
+        (1, "(task('e#') ensure { post ready: # })"); (1, "((idle(1) | task('e')) ensure { post any: 0 })");
+        (1, "((task('s#') within 2) ensure { last = # })"); (1, "(using lock: _ run task('u#'))");
+        (1, "(using lock: 1 run idle(1))"); (1, "(task('e') ensure { last = 5; post any: # })") ]
   in
   map (String.concat " >> ") (list_size (int_range 1 4) part)
 
@@ -60,11 +63,16 @@ let mission =
   let* beside =
     oneofl [ ""; ""; " | idle(4)"; " | action { post ready: 1 }"; " | (idle(1) >> action { consume any: 0 })" ] in
   let* after =
-    oneofl [ ""; "execute idle(1)\n"; "execute UUVs: task('z') | task('z')\n"; "clear = poll(ready: 1)\n" ] in
+    oneofl [ ""; "execute idle(1)\n"; "execute UUVs: task('z') | task('z')\n"; "clear = poll(ready: 1)\n";
+             "if (last == 2) { execute idle(7) }\n"; "if (poll(any: 2)) { execute idle(7) }\n";
+             "if (consume(lock: _) == 2) { execute idle(7) }\n" ] in
+  let* around = frequencyl [ (6, ""); (1, " during 3"); (1, " within 4") ] in
   let visits = if visitor = "" then "" else Printf.sprintf ", UAV: allOf {\n%s\n}" visitor in
   return
-    (Printf.sprintf "UUVs = pick { count 3; type 'UUV' }\nUAV = pick { type 'UAV' }\nexecute UUVs: %s%s%s\n%s"
-       (numbered n " | " ("(" ^ copy ^ ")")) beside visits after)
+    (Printf.sprintf
+       "last = 0\npost lock: 1, lock: 2\nUUVs = pick { count 3; type 'UUV' }\nUAV = pick { type 'UAV' }\n\
+        execute UUVs: (%s%s)%s%s\n%s"
+       (numbered n " | " ("(" ^ copy ^ ")")) beside around visits after)
 
 type program = Mission of string | Any of Dolphin_syntax.Ast.program
 

@@ -372,6 +372,11 @@ let test_places () =
   let o = outcome (both ^ "p = " ^ go ^ "\nexecute (p[va] during 1) >> p[va]\n") (fleet (two ^ "plan 'x'")) in
   Alcotest.(check int) "from an unknown one" 1 (List.length o.unknown)
 
+(* The end of a task sets the date that code waits for. *)
+let test_date_of_end () =
+  let program = "due = 5\nexecute (idle(1) ensure { post n: 1; due = 9 }) >> condition { now() >= due }\n" in
+  Alcotest.check window "the later date" (9., 9.) (ends (outcome program (fleet two)))
+
 (* {1 Growth} *)
 
 (* Vehicles that do one thing side by side, and meet. Zones that differ in the order of vehicles, or in the waits that
@@ -406,4 +411,5 @@ let () =
          case "faults" test_faults; case "runs without end" test_endless; case "unknown durations" test_unknown;
          case "deadlines" test_deadline; case "slack" test_slack; case "batteries" test_batteries;
          case "batteries without a link" test_batteries_without_link; case "picks" test_picks; case "joins" test_joins;
-         case "places" test_places; case "growth of a meeting" test_meeting ]) ]
+         case "places" test_places; case "growth of a meeting" test_meeting;
+         case "a date set by an end" test_date_of_end ]) ]

@@ -105,6 +105,39 @@ let test_left () =
   check_left ~alike:true "task('v')" "post ready: 1\nif (poll(ready: 2)) {\n  execute idle(5)\n}\n";
   check_left ~alike:false "task('v')" "consume(ready: _)\nif (poll(ready: 2)) {\n  execute idle(5)\n}\n"
 
+(* {1 Ends of tasks} *)
+
+let of_text text = (Mission text, (5, By_plan), ("as planned", answering))
+
+let states copy =
+  let pick = "last = 0\npost lock: 1\nUUVs = pick { count 3; type 'UUV' }\n" in
+  let text = Printf.sprintf "%sexecute UUVs: %s\n" pick (numbered 3 " | " copy) in
+  let found = Timed_analysis.run Dolphin_checker.Limits.none (options (of_text text)) in
+  Alcotest.(check bool) (copy ^ ": likeness is used") true (found.reduction = Inert_ends_and_canonical_states);
+  found.states
+
+(* Tasks with [ensure] are alike as those whose next step does the same. *)
+let test_ends_alike () =
+  let no_more name ends by_hand = Alcotest.(check bool) name true (states ends <= states by_hand) in
+  no_more "pairs" "((task('s') ensure { post ready: # }) >> idle(2))"
+    "(task('s') >> action { post ready: # } >> idle(2))";
+  no_more "variables" "((task('s') ensure { last = 1 }) >> idle(2))" "(task('s') >> action { last = 1 } >> idle(2))";
+  no_more "a lock" "(using lock: 1 run task('s'))"
+    "(waitFor { consume lock: 1 } then (task('s') >> action { post lock: 1 }))"
+
+(* The last of two values is that of the right task: it is not like the left one. *)
+let test_ends_in_order () =
+  let cut deed after =
+    Printf.sprintf
+      "last = 0\nUUVs = pick { count 2; type 'UUV' }\n\
+       execute UUVs: ((idle(9) >> task('s') ensure { %s }) | (idle(9) >> task('s') ensure { %s })) during 1\n%s\n"
+      (deed 1) (deed 2) after
+  in
+  let check text = Alcotest.(check bool) (text ^ ": the same is found") true (agrees (of_text text)) in
+  check (cut (Printf.sprintf "last = %d") "if (last == 2) { execute idle(7) }");
+  check (cut (Printf.sprintf "post any: %d") "first = 1\nif (consume(any: 1)) { execute idle(7) }");
+  check (cut (Printf.sprintf "post any: %d") "consume any: _\nif (poll(any: 2)) { execute idle(7) }")
+
 (* {1 How times are written} *)
 
 let copies_of copy ~defined stay =
@@ -173,7 +206,8 @@ let test_asks () =
   let asked x = "execute action { if (idle(" ^ x ^ ").size() > 0) { post a: 1 } }\n" in
   List.iter (asks true)
     [ asked "vs"; "ws = vs\n" ^ asked "ws"; "ws = vs - vs\n" ^ asked "ws"; asked "vs + vs"; "x = 1\nx = vs\n" ^ asked "x";
-      "m = [min: vs]\n" ^ asked "m.min"; asked "true ? vs : 5";
+      "m = [min: vs]\n" ^ asked "m.min";
+      "x = 1\ndef f(v) {\n  execute idle(1) ensure { post((1): v); x = v }\n}\nf(vs)\n" ^ asked "x"; asked "true ? vs : 5";
       "def f(x) {\n  idle(x)\n}\ndef g(x) {\n  f(x)\n}\nmessage f(1)\nmessage g(vs)\n";
       "def f(x) {\n  idle(x)\n}\ng = f\nmessage f(1)\nmessage g(vs)\n";
       "def f(x) {\n  idle(x)\n}\nmessage f(1)\nmessage ([vs].collect(f))\n";
@@ -183,6 +217,7 @@ let test_asks () =
       "message ([vs].collect { x -> idle(x) })\n" ];
   List.iter (asks false)
     [ "execute idle(1.min)\n"; "x = 2\ny = x * 3 + 1\nx = y\nexecute idle(y - x + 60.seconds)\n";
+      "x = 1\ndef f(v) {\n  execute idle(x) ensure { post((1): 'a'); x = v }\n}\nf(3)\n";
       "execute idle(true ? 1.min : 2)\n"; "def f(x) {\n  idle(x)\n}\nexecute f(1)\n";
       "def f(n, x) {\n  n == 0 ? idle(x) : f(n - 1, x + 1)\n}\nexecute f(3, 1)\n" ]
 
@@ -223,6 +258,8 @@ let () =
                             Alcotest.test_case "variety" `Quick test_variety ]);
       ("by hand",
        [ Alcotest.test_case "what is left in N" `Quick test_left;
+         Alcotest.test_case "ends of tasks are alike" `Quick test_ends_alike;
+         Alcotest.test_case "ends of tasks in their order" `Quick test_ends_in_order;
          Alcotest.test_case "how times are written" `Quick test_spellings;
          Alcotest.test_case "who asks" `Quick test_asks ]);
       ("pairs that no code reads", unread);

@@ -148,8 +148,8 @@ let rules_have_models () =
 
 let models =
   [ "Paper"; "Platform"; "CodeOfTasks"; "Sequence"; "Parallel"; "Branches"; "Until"; "Time"; "Errors"; "Recovery";
-    "Rounds"; "Made"; "Recruits"; "Fresh"; "Deeds"; "Picking"; "Sensors"; "Dates"; "Waiting"; "Executing"; "Inputs";
-    "Ends"; "Leaving"; "SmallAbstract" ]
+    "Rounds"; "Made"; "Recruits"; "Fresh"; "Ensuring"; "Deeds"; "Picking"; "Sensors"; "Dates"; "Waiting"; "Executing";
+    "Inputs"; "Ends"; "Leaving"; "SmallAbstract" ]
 
 let configurations =
   List.filter (fun name -> Filename.check_suffix name ".cfg") (Array.to_list (Sys.readdir "../../spec/models"))

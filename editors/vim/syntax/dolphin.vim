@@ -6,7 +6,7 @@ syntax keyword dolphinConditional if else
 syntax keyword dolphinRepeat while for in break continue
 syntax keyword dolphinStatement def return
 syntax match dolphinStatement '\v^\s*\zsparameter\ze\s+\h\w*\s*\='
-syntax keyword dolphinOperatorWord when then watch onError waitFor repeat run until assure during within allOf oneOf choose recruit
+syntax keyword dolphinOperatorWord when then watch onError waitFor repeat run until assure during within ensure using allOf oneOf choose recruit
 syntax keyword dolphinBoolean true false
 syntax keyword dolphinConstant null _
 syntax keyword dolphinTask task imcPlan mission action condition fresh idle assert pick pos

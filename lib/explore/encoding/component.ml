@@ -65,6 +65,12 @@ and guard = {
   mutable actions : int array;  (* the numbers of actions, if formulas are checked *)
 }
 
+(* The ensured deeds of the parts that a step may cut off. *)
+and owed = {
+  inside : Core.ensured list;  (* of a nest: its children *)
+  beside : Core.ensured list list;  (* of a component or nest: the parts beside it, beside the nest around it, ... *)
+}
+
 (* The effect of a step in a given shared state. *)
 and outcome = {
   possible : bool;
@@ -84,13 +90,15 @@ and step = {
   event : Transition.event option;  (* the one that it takes *)
   home : path;  (* its place *)
   kin : family option;  (* of the component *)
+  cut_of : path option;  (* the path of the nest that it cuts off *)
   dependence : dependence;
   successor : target;  (* if it goes well *)
   begins : Task_rules.round list;  (* the rounds that begin if it goes well *)
-  looks : bool;  (* whether it depends on the vehicles held around it *)
-  mutable looked : (int * Core.vehicle list * Residual.timer list * Core.vehicle list list, outcome) Hashtbl.t option;
-  (* memoised by {!Memoised_steps}, by the number of the shared part and, if it [looks], by the vehicles held around
-     it *)
+  looks : bool;  (* whether it depends on the vehicles held around it, or on ensured deeds around it *)
+  mutable looked :
+    ((int * int) * Core.vehicle list * Residual.timer list * Core.vehicle list list, outcome) Hashtbl.t option;
+  (* memoised by {!Memoised_steps}, by the number of the shared part and ensured deeds around it, and by the vehicles
+     held there *)
   mutable free_action : int;  (* the action of a [Free] step, or -1 until it is computed *)
   mutable outcomes : outcome array;  (* memoised by {!Memoised_steps}, by the number of the shared part *)
 }

@@ -22,6 +22,7 @@ type t = {
   context : Step_footprints.context;
   holding : Step_footprints.context;
   dismisses : bool;
+  ensures : bool;
   foreseen : int;
   mutable paths : int;
   mutable families : int;
@@ -36,7 +37,7 @@ let hole = Residual.hole
 let may_renew : Residual.context -> bool = function
   | Round_of { left = None; _ } | In_watch { anew = Some _; _ } -> true
   | Round_of _ | In_watch _ | In_sequence _ | Branch_of _ | Body_until _ | Body_during _ | Holding _ | In_recruited _
-  | With_keys _ -> false
+  | With_keys _ | Ensuring _ -> false
 
 let new_path id contexts outer body =
   let components = Residuals.create 16 and inner = Residuals.create 1 in
@@ -57,6 +58,7 @@ let create ?(foreseen = 2_048) numbering options program world =
     context;
     holding = Step_footprints.with_holding context;
     dismisses = Footprint.dismisses program;
+    ensures = Footprint.all_ensured program <> None;
     foreseen;
     paths = 1;
     families = 0;
@@ -67,6 +69,7 @@ let create ?(foreseen = 2_048) numbering options program world =
 
 let options t = t.options
 let dismisses t = t.dismisses
+let ensures t = t.ensures
 let program t = t.program
 let world t = t.world
 let coverage t = t.coverage
@@ -187,18 +190,19 @@ and target_of t path family residual =
 
 (* Steps that go on in one way, whatever is shared, are settled here; the others per shared state, by
    {!Memoised_steps}. *)
-and compile t home kin index (Step { offer; continue; _ } as source : Task_rules.step) =
+and compile ?cut_of t home kin index (Step { offer; continue; _ } as source : Task_rules.step) =
   let looks = Step_footprints.looks t.context (Task_rules.escaping (nests home) source) in
+  let cuts = t.ensures && (kin = None || Task_rules.broken source (Fault.make Fault.unknown_site "") <> None) in
   let dependent event =
-    { index; source; looks; looked = None; event; home; kin; dependence = Dependent; successor = Gone; begins = [];
-      free_action = -1; outcomes = [||] }
+    { index; source; looks = looks || cuts; looked = None; event; home; kin; cut_of; dependence = Dependent;
+      successor = Gone; begins = []; free_action = -1; outcomes = [||] }
   in
   let certain event dependence change =
     let begins = (change : Task_rules.change).rounds in
     let settled successor = { (dependent event) with dependence; successor; begins } in
     note_rounds t begins;
     match change.outcome with
-    | (Next _ | Finished) when Task_rules.keys change <> [] -> dependent event
+    | (Next _ | Finished) when Task_rules.changes_shared change || (t.ensures && kin = None) -> dependent event
     | Next r -> settled (target_of t home kin r)
     | Finished -> settled Gone
     | Failed _ | Handling _ -> dependent event
@@ -260,7 +264,16 @@ let reach t p =
 
 (* {1 Footprints} *)
 
-let escaping step = Task_rules.escaping (nests step.home) step.source
+let escaping ?owed step =
+  match owed with
+  | None -> Task_rules.escaping (nests step.home) step.source
+  | Some { inside; beside } ->
+    let source =
+      match step.cut_of with
+      | Some path -> List.nth (Task_rules.cuts path.contexts (Residual.ensuring inside hole)) step.index
+      | None -> step.source
+    in
+    Task_rules.escaping ~beside (nests step.home) source
 
 let footprint_step step : Step_footprints.step =
   { index = step.index; source = escaping step; event = step.event }
@@ -282,7 +295,9 @@ let cuts t path =
   match path.cuts with
   | Some cuts -> cuts
   | None ->
-    let compiled = List.mapi (compile t (outside path) None) (Task_rules.cuts path.contexts path.body) in
+    (* The ensured deeds inside are not known. *)
+    let body = if t.ensures then hole else path.body in
+    let compiled = List.mapi (compile ~cut_of:path t (outside path) None) (Task_rules.cuts path.contexts body) in
     let cuts = Array.of_list (List.concat compiled) in
     cover t cuts;
     path.cuts <- Some cuts;

@@ -61,8 +61,12 @@ val cuts : t -> Component.path -> Component.step array
 val cut_footprints : t -> makes:bool -> Component.path -> Step_footprints.t
 (** [cut_footprints t ~makes p] is the footprints of these steps, in their order. *)
 
-val escaping : Component.step -> Task_rules.step
-(** [escaping s] is [s] as a step of the whole task, as far as errors go ({!Task_rules.escaping}). *)
+val escaping : ?owed:Component.owed -> Component.step -> Task_rules.step
+(** [escaping ?owed s] is [s] as a step of the whole task, as far as errors go ({!Task_rules.escaping}), and what they
+    cut off ensures: nothing by default. *)
+
+val ensures : t -> bool
+(** Whether some task of the program may have an [ensure]. *)
 
 val alone : t -> Component.component -> Component.target
 (** [alone t p] is the result of the nest around [p] when nothing else is left in it. *)

@@ -116,6 +116,14 @@ let of_posts (program : Core.program) pairs =
   let posts = Pairs.of_list (List.map (fun (k, x) -> (k, told_apart ~ordered:(is_queue k) x)) pairs) in
   { empty with posts; queues = Pairs.filter (fun (k, _) -> is_queue k) posts }
 
+let of_ensured program ds =
+  let one f = function
+    | Pair (k, x) -> union f (of_posts program [ (k, x) ])
+    | Variable (i, _, _) -> { f with writes = Globals.add i f.writes }
+    | Taken -> f
+  in
+  List.fold_left one empty ds
+
 let reads_nothing f =
   Pairs.is_empty f.takes && Pairs.is_empty f.needs && Pairs.is_empty f.tests && Globals.is_empty f.reads
   && not (f.anything || f.looks)
@@ -364,6 +372,7 @@ let rec is_composed looked (lambda : lambda) e =
       (Builtin (Ignore | Propagate | Retry | Dismiss | Fail | Halt | Message | Post _ | Consume _ | Poll _), _) -> true
   | Apply (Builtin (Make_wait_for | Make_until _ | Make_during _), [ _; t ]) -> go t
   | Apply (Builtin Make_fresh, [ c ]) -> go c
+  | Apply (Builtin (Make_ensure _), t :: _) -> go t
   | Apply (Builtin Make_watch, [ t; { node = Make_closure (handler, _); _ } ]) ->
     go t && ((not (Recovery.may_give handler)) || gives_composed looked handler)
   | Apply (Element, t :: _) -> go t
@@ -425,6 +434,33 @@ let claims f = not (is_none f.claims)
 let exists_code p (program : program) =
   let found = ref false in
   Code_walk.iter_within (fun within e -> if p within e.node then found := true) (Code_walk.pieces program);
+  !found
+
+let all_ensured (program : program) =
+  let found = ref None and consumed = ref empty in
+  let add f = found := Some (Option.fold !found ~none:f ~some:(union f)) in
+  let any_pair k =
+    let posts = Pairs.singleton (k, None) in
+    { empty with posts; queues = (if is_ordered program k then posts else Pairs.empty) }
+  in
+  let form = function
+    | Pair_of (Some k) -> add (any_pair k)
+    | Pair_of None -> add anything
+    | Variable_of (i, _) -> add { empty with writes = Globals.singleton i }
+    | Taken_pairs -> add empty
+  in
+  let taken = function Some k -> consumed := union (any_pair k) !consumed | None -> consumed := anything in
+  let gives_back = ref false in
+  let node _ e =
+    match e.node with
+    | Apply (Builtin (Make_ensure forms), _) ->
+      List.iter form forms;
+      if List.mem Taken_pairs forms then gives_back := true
+    | Apply (Builtin (Consume keys), _) -> List.iter taken keys
+    | _ -> ()
+  in
+  Code_walk.iter_within node (Code_walk.pieces program);
+  if !gives_back then add !consumed;
   !found
 
 let dismisses = exists_code (fun _ -> function Apply (Builtin Dismiss, _) -> true | _ -> false)

@@ -96,5 +96,11 @@ val asks_held : Core.program -> bool
 (** [asks_held p] is whether the effect of some code of [p] may depend on held vehicles: [idle(V)], [dismiss V], and
     [running(v)]. *)
 
+val of_ensured : Core.program -> Core.ensured list -> t
+(** [of_ensured p ds] is the footprint of the end of a task that does [ds]. *)
+
+val all_ensured : Core.program -> t option
+(** [all_ensured p] is a footprint that has that of all that [ensure] in [p] may do; [None] if [p] has none. *)
+
 val dismisses : Core.program -> bool
 (** [dismisses p] is whether some handler of [p] may dismiss vehicles. *)

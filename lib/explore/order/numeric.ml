@@ -17,8 +17,8 @@ let text program =
     { program; globals = Hashtbl.create 16; locals = Hashtbl.create 16; calls = Hashtbl.create 16;
       mentions = Hashtbl.create 16 } in
   let note within e =
+    List.iter (fun (i, e) -> Hashtbl.add t.globals i { within; e }) (Code_walk.assigned e);
     match e.node with
-    | Set_global (i, e) -> Hashtbl.add t.globals i { within; e }
     | Set_local (slot, e) -> Hashtbl.add t.locals (within.id, slot) (Some { within; e })
     | For (slot, _, _) -> Hashtbl.add t.locals (within.id, slot) None
     | Apply (Call names, { node = Constant (Closure { lambda; _ }); _ } :: arguments) ->

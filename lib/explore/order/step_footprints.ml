@@ -28,6 +28,7 @@ type context = {
   asks_running : bool;
   leaks : bool;  (* a key of some [fresh] may be known outside of its task *)
   terms : Footprint.t Terms.t;  (* those known so far of one component *)
+  ensured : Footprint.t option;  (* of all that tasks ensure *)
 }
 
 (* {1 Tasks made at their turn} *)
@@ -35,7 +36,7 @@ type context = {
 let context options program =
   { options; code = Footprint.code program; makes = false; asks_held = Footprint.asks_held program;
     asks_running = program.Core.asks_running; leaks = (Name_flow.of_program program ~asked:[]).leaks;
-    terms = Terms.create 1 }
+    terms = Terms.create 1; ensured = Footprint.all_ensured program }
 let with_holding c = { c with makes = true }
 let for_one_component c = { c with terms = Terms.create 16 }
 let union = Footprint.union
@@ -84,6 +85,11 @@ let recruiting c code =
   let any = { breaking with claims = Footprint.all_vehicles; frees = Footprint.all_vehicles } in
   union any (Footprint.of_maker c.code code)
 
+let ensured c = Option.value c.ensured ~default:Footprint.empty
+
+(* An error may cut tasks off, which does their ensured deeds. *)
+let with_ensured c (f : Footprint.t) = if f.breaks then union f (ensured c) else f
+
 let rec future c (r : Residual.t) =
   match r with
   | Ready (p, v) | Running (p, v) -> { (ending c p v) with frees = freed c [ v ] }
@@ -108,6 +114,7 @@ let rec future c (r : Residual.t) =
   | Recruit { code; _ } -> recruiting c code
   | Recruited (v, r) -> union { Footprint.empty with frees = freed c [ v ] } (future c r)
   | Fresh (_, r) -> future c r
+  | Ensure (_, r) -> union (ensured c) (future c r)
 
 and rounds c (again : Residual.again) =
   let asked = Option.fold again.until ~none:Footprint.empty ~some:(Footprint.of_code c.code) in
@@ -150,6 +157,7 @@ and of_term c (t : task) =
     else if not (Recovery.possible code.lambda) then union f (Footprint.of_code c.code code)
     else all [ f; Footprint.of_code c.code code; recovering c code { allowed = None; place = 0; depth = 0 } ]
   | Made code | Fresh code -> Footprint.of_maker c.code code
+  | Ensure (_, a) -> union (ensured c) (of_term c a)
   | Recruit { code; _ } -> recruiting c code
   | Repeat { until; body; _ } ->
     union (Option.fold until ~none:Footprint.empty ~some:(Footprint.of_code c.code)) (of_term c body)
@@ -157,7 +165,7 @@ and of_term c (t : task) =
 and of_branch c (b : Residual.branch) = union (Footprint.of_guard c.code b.guard) (future c b.body)
 
 (* Whose keys others may know, it may touch what they do at any step. *)
-let widened c f = if c.leaks then union f Footprint.anything else f
+let widened c f = with_ensured c (if c.leaks then union f Footprint.anything else f)
 
 let of_residual c r =
   let c = for_one_component c in
@@ -292,7 +300,7 @@ let handlers_of c contexts =
   let handler = function
     | Residual.In_watch handler -> Some (of_handler c handler)
     | In_sequence _ | Branch_of _ | Body_until _ | Body_during _ | Round_of _ | Holding _ | In_recruited _
-    | With_keys _ -> None
+    | With_keys _ | Ensuring _ -> None
   in
   List.filter_map handler contexts
 
@@ -303,6 +311,7 @@ let following c contexts =
     | Round_of again -> rounds c again
     | Holding vs -> { Footprint.empty with frees = freed c vs }
     | In_recruited v -> { Footprint.empty with frees = freed c [ v ] }
+    | Ensuring _ -> ensured c
     | Body_until _ | Body_during _ | In_watch _ | With_keys _ -> Footprint.empty
   in
   all (List.map following contexts)
@@ -315,15 +324,16 @@ let may_be_put_off c { source = Step { offer; _ }; _ } =
   | Start _ | Perform _ | Check _ | Guard_false _ | Guard_either _ | Guard_values _ | Measure _ | Make _ | Allocate _
   | End_of _ | Expiry_of _ | Answer_to _ -> false
 
-(* [first] is the future of the component itself. An error may reach any handler around. If none of these ignores it,
-   the error cuts off the component alone, whose vehicles are [failed]. *)
-let analyse ?own c nests (first : Footprint.t) branches ~failed ~lost steps =
+(* [first] is the future of the component itself; each of its steps may touch what [always] does. An error may reach
+   any handler around. If none of these ignores it, the error cuts off the component alone, whose vehicles are
+   [failed]. *)
+let analyse ?own ~always c nests (first : Footprint.t) branches ~failed ~lost steps =
   let around = all (List.concat_map (handlers_of c) nests) in
   let ignoring = around.ignores || first.ignores in
   let failed = if around.ignores then Footprint.all_vehicles else failed in
   let with_lost lost = with_lost c ~ignoring ~failed lost in
   let first = with_lost (fun () -> Footprint.these []) () first in
-  let with_handlers (f : Footprint.t) = if f.breaks then union f around else f in
+  let with_handlers (f : Footprint.t) = if f.breaks then union (with_ensured c f) around else f in
   let further futures contexts =
     match futures with
     | f :: _ -> with_handlers (union f (following c contexts)) :: futures
@@ -332,7 +342,7 @@ let analyse ?own c nests (first : Footprint.t) branches ~failed ~lost steps =
   let futures = Array.of_list (List.rev (List.fold_left further (further [] []) nests)) in
   let ignores (f : Footprint.t) = f.ignores in
   let cut_by_error level contexts = futures.(level).breaks && List.exists ignores (handlers_of c contexts) in
-  let of_step step = widened c (with_lost (lost ~failed) step (footprint ?own c step)) in
+  let of_step step = widened c (with_lost (lost ~failed) step (union always (footprint ?own c step))) in
   let footprints = Array.map of_step steps in
   let may_end (f : Footprint.t) = f.breaks || f.halts in
   {
@@ -346,6 +356,7 @@ let analyse ?own c nests (first : Footprint.t) branches ~failed ~lost steps =
 
 let of_component c nests r steps =
   let c = for_one_component c in
+  let own_ensured = if Residual.ensures r then ensured c else Footprint.empty in
   let around = all (List.concat_map (handlers_of c) nests) in
   let named = function
     | Residual.In_sequence rest -> List.concat_map Residual.named rest
@@ -353,28 +364,29 @@ let of_component c nests r steps =
     | Holding vs -> vs
     | In_recruited v -> [ v ]
     | Round_of again -> Residual.named again.each
-    | Body_until _ | Body_during _ | In_watch _ | With_keys _ -> []
+    | Body_until _ | Body_during _ | In_watch _ | With_keys _ | Ensuring _ -> []
   in
   let outer = if concerns_holding c then List.concat_map (List.concat_map named) nests else [] in
   let own = Residual.recruits (Residual.plug (fst (Residual.decompose r)) Residual.hole) in
   let holds = function
     | Residual.Holding _ | In_recruited _ -> true
-    | In_sequence _ | Branch_of _ | Body_until _ | Body_during _ | In_watch _ | Round_of _ | With_keys _ -> false
+    | In_sequence _ | Branch_of _ | Body_until _ | Body_during _ | In_watch _ | Round_of _ | With_keys _ | Ensuring _ ->
+      false
   in
   let branches = if c.leaks || List.exists (List.exists holds) nests then [] else first_branches c around r in
   let failed = Footprint.these (Residual.named r @ outer) in
-  analyse ~own c nests (future c r) branches ~failed ~lost:(lost r outer) steps
+  analyse ~own ~always:own_ensured c nests (future c r) branches ~failed ~lost:(lost r outer) steps
 
 let of_cuts c nests steps =
   let c = for_one_component c in
   match nests with
   | [] -> invalid_arg "Step_footprints.of_cuts: no nest"
   | contexts :: nests ->
-    let f = all (following c contexts :: Array.to_list (Array.map (footprint c) steps)) in
+    let f = all (ensured c :: following c contexts :: Array.to_list (Array.map (footprint c) steps)) in
     let first = if f.breaks then all (f :: handlers_of c contexts) else f in
     let lost = Footprint.all_vehicles in
     let first = if concerns_holding c then union first { Footprint.empty with frees = lost } else first in
-    analyse c nests first [] ~failed:lost ~lost:(fun ~failed:_ _ -> lost) steps
+    analyse ~always:(ensured c) c nests first [] ~failed:lost ~lost:(fun ~failed:_ _ -> lost) steps
 
 (* {1 Steps that look at what is held} *)
 

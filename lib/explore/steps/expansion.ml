@@ -200,12 +200,25 @@ let rec around x (place : Layout.place) =
     let inside = List.map (fun context -> Residual.Inside context) contexts in
     List.concat [ around x nest; inside; [ beside nest.children ] ]
 
+(* The ensured deeds of the parts that a step at [place] may cut off. *)
+let owed x (place : Layout.place) =
+  let ensured child = Residual.ensured (Encoding.residual x.layout x.key child) in
+  let rec beside (place : Layout.place) =
+    let others = List.concat_map (fun child -> if child == place then [] else ensured child) in
+    match place.around with
+    | None -> [ others x.layout.top ]
+    | Some nest -> others nest.children :: beside nest
+  in
+  let inside = match place.inside with Some _ -> List.concat_map ensured place.children | None -> [] in
+  { inside; beside = beside place }
+
 let outcome x place step =
   if step.looks then
     let around = around x place in
     let asks_running = (Components.program x.expansion.components).asks_running in
     let around = if asks_running then around @ [ Residual.Around (standing x place) ] else around in
-    Memoised_steps.look x.expansion.steps step ~around x.shared
+    let owed = if Components.ensures x.expansion.components then Some (owed x place) else None in
+    Memoised_steps.look x.expansion.steps step ~around ?owed x.shared
   else Memoised_steps.outcome x.expansion.steps step x.shared
 
 let take_outcome x place (outcome : outcome) =
@@ -279,13 +292,19 @@ let inputs x =
 let recruits x =
   if (program x.expansion).recruits then Residual.recruits (fst (Encoding.executing x.layout x.key)) else []
 
+let ensured x =
+  if Components.ensures x.expansion.components then Residual.ensured (fst (Encoding.executing x.layout x.key)) else []
+
 let interruption x =
   let t = x.expansion in
   let { Surroundings.shared; outside } = Surroundings.Numbers.value (Encoding.shareds t.encoding) x.shared in
+  let shared = Shared.ensure (ensured x) shared in
   let number, ending =
     match Transition.on_interrupt ~recruits:(recruits x) (program t) shared x.layout.frame.machine with
     | Some next -> (Encoding.script_number t.encoding [ On_interrupt ] next outside, None)
-    | None -> (concluded x x.shared (Ends Interrupted), Some Configuration.Interrupted)
+    | None ->
+      let after = Surroundings.Numbers.number (Encoding.shareds t.encoding) (Surroundings.make shared outside) in
+      (concluded x after (Ends Interrupted), Some Configuration.Interrupted)
   in
   (number, Observer.of_event t.observer ?ending Interrupt)
 
@@ -298,8 +317,9 @@ let interrupt x =
       | Some known -> known
       | None ->
         let found = interruption x in
-        (* It depends on the recruited vehicles, too. *)
-        if not (program t).recruits then By_number.add t.interrupted x.shared found;
+        (* It depends on the recruited vehicles, too, and on ensured deeds. *)
+        let depends = (program t).recruits || Components.ensures t.components in
+        if not depends then By_number.add t.interrupted x.shared found;
         found
     in
     visit_script t x.visitor number ~action;

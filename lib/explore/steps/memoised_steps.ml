@@ -2,9 +2,24 @@ open Dolphin_semantics
 open Dolphin_environment
 open Component
 
-type t = { components : Components.t; encoding : Encoding.t; observe : (Local_step.t -> int) option }
+(* The ensured deeds around a step, by its parts. *)
+module Owed = Hashtbl.Make (struct
+    type t = Core.ensured list list
 
-let create ?observe components encoding = { components; encoding; observe }
+    let equal = List.equal (List.equal (fun d d' -> Value.compare_ensured d d' = 0))
+
+    let hash dss =
+      List.fold_left (List.fold_left (fun h d -> Order.mix h (Value.hash_ensured d))) (List.length dss) dss land max_int
+  end)
+
+type t = {
+  components : Components.t;
+  encoding : Encoding.t;
+  observe : (Local_step.t -> int) option;
+  owed : int Owed.t;  (* numbered *)
+}
+
+let create ?observe components encoding = { components; encoding; observe; owed = Owed.create 16 }
 let unknown = -1
 let impossible = -2
 let special = -3
@@ -46,13 +61,13 @@ let outside_after t (Task_rules.Step { offer; _ }) event outside =
 type taken = { local : Local_step.t; level : int; certain : bool; assumed : World.assumption list list }
 
 (* The effect of [step], and its level: several results, if it depends on sensor readings. *)
-let taken ?(around = []) t step s =
+let taken ?(around = []) ?owed t step s =
   let { Surroundings.shared; outside } = Surroundings.Numbers.value (Encoding.shareds t.encoding) s in
   let shared =
     if (program t).asks_running then { shared with allocation = Residual.allocation_around around }
     else shared
   in
-  let source = Task_rules.among around (Components.escaping step) in
+  let source = Task_rules.among around (Components.escaping ?owed step) in
   let take () =
     match step.event with
     | None -> Local_step.internal (program t) (world t) shared source
@@ -115,8 +130,8 @@ let unknown_outcome =
   { possible = false; certain = true; assumed = [ [] ]; shared = -1; action = 0; level = 0; target = Gone; rounds = [];
     others = [] }
 
-let find ?around t step s =
-  let found, outside = taken ?around t step s in
+let find ?around ?owed t step s =
+  let found, outside = taken ?around ?owed t step s in
   let outcome others { local; level; certain; assumed } =
     let target =
       match local.outcome with
@@ -139,7 +154,19 @@ let running t around =
     all :: List.map (fun (lazy rs) -> List.concat_map Residual.running rs) (Residual.inside_watches around)
   else []
 
-let look t step ~around s =
+let number_owed t (owed : owed option) =
+  match owed with
+  | None -> 0
+  | Some { inside; beside } -> (
+      let all = inside :: beside in
+      match Owed.find_opt t.owed all with
+      | Some number -> number
+      | None ->
+        let number = 1 + Owed.length t.owed in
+        Owed.add t.owed all number;
+        number)
+
+let look t step ~around ?owed s =
   let table =
     match step.looked with
     | Some table -> table
@@ -156,11 +183,11 @@ let look t step ~around s =
   let needed = if (program t).recruits then Residual.named_around around :: needed else needed in
   let beside_watches = List.map Residual.held (Residual.beyond_watches around) in
   let held = Residual.held around and timers = Residual.timers_around around in
-  let key = (s, held, timers, beside_watches @ needed @ running t around) in
+  let key = ((s, number_owed t owed), held, timers, beside_watches @ needed @ running t around) in
   match Hashtbl.find_opt table key with
   | Some outcome -> outcome
   | None ->
-    let outcome = find ~around t step s in
+    let outcome = find ~around ?owed t step s in
     Hashtbl.add table key outcome;
     outcome
 

@@ -30,9 +30,9 @@ val action : t -> Component.step -> int -> int
 val outcome : t -> Component.step -> int -> Component.outcome
 (** [outcome t step s] is the effect of [step] in shared state [s]. *)
 
-val look : t -> Component.step -> around:Residual.surrounding list -> int -> Component.outcome
-(** [look t step ~around s] is the effect of [step], which depends on the vehicles held [around], in shared state
-    [s]. *)
+val look : t -> Component.step -> around:Residual.surrounding list -> ?owed:Component.owed -> int -> Component.outcome
+(** [look t step ~around ?owed s] is the effect of [step], which depends on the vehicles held [around] and on what is
+    ensured there, [owed], in shared state [s]. *)
 
 val ends_run : Component.outcome -> bool
 (** Whether the run ends by it. *)

@@ -266,7 +266,8 @@ let stays (Task_rules.Step { offer; _ }) =
 
 let may_cut = function
   | Residual.Body_until _ | Body_during _ -> true
-  | In_sequence _ | Branch_of _ | In_watch _ | Round_of _ | Holding _ | In_recruited _ | With_keys _ -> false
+  | In_sequence _ | Branch_of _ | In_watch _ | Round_of _ | Holding _ | In_recruited _ | With_keys _ | Ensuring _ ->
+    false
 
 let repeats layers =
   let repeat (at, context) = match context with Residual.Round_of again -> Some (at, again) | _ -> None in

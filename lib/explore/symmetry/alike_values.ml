@@ -162,6 +162,14 @@ let looked_into e =
   | Apply (Builtin (Post keys), arguments) ->
     if keys = [] || List.mem None keys || List.compare_lengths keys arguments <> 0 then raise Looked_at;
     []
+  | Apply (Builtin (Make_ensure forms), _) ->
+    (* Its values are not made one. *)
+    let posted = function
+      | Pair_of (Some k) -> [ k ]
+      | Pair_of None | Taken_pairs -> raise Looked_at
+      | Variable_of _ -> []
+    in
+    List.concat_map posted forms
   | _ -> []
 
 (* [poll 'k'] is [poll(k: _)]. *)

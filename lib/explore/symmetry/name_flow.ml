@@ -271,11 +271,15 @@ and applied w lambda at operation arguments =
     let ks = List.map value_of es in
     List.iter2 give es ks;
     all ks land (vehicles lor key)
+  | Builtin (Make_ensure forms), t :: es ->
+    let k = value_of t in
+    let k' = ensured w lambda at forms es in
+    (k lor k') land (vehicles lor key)
   | Builtin Make_fresh, [ c ] ->
     (* Its keys are known to its task alone, unless that passes them on. *)
     call_value w c (value_of c) (fun _ -> text lor key) land vehicles
   | ( ( Builtin (Platform_task | Make_action | Make_condition | Make_until _ | Make_idle | Make_during _
-                | Make_watch | Make_fresh | Make_repeat _) ),
+                | Make_watch | Make_fresh | Make_ensure _ | Make_repeat _) ),
       es ) -> values es land (vehicles lor key)
   | Make_recruit, [ settings; code ] ->
     w.found <- { w.found with picks = true };
@@ -314,6 +318,26 @@ and applied w lambda at operation arguments =
   | ( ( Unary _ | Binary _ | Make_list | Make_range _ | Element | Replace_element | Property _ | Call _ | Builtin _
       | Add_setting _ | Make_recruit ),
       es ) -> values es
+
+(* Values that the task holds, keys too. *)
+and ensured w lambda at forms es =
+  match forms, es with
+  | Pair_of (Some _) :: forms, x :: es ->
+    let k = value w lambda x in
+    add w Posted k;
+    k lor ensured w lambda at forms es
+  | Pair_of None :: forms, k :: x :: es ->
+    let k = value w lambda k in
+    if has vehicles k then uses_name w at;
+    let k' = value w lambda x in
+    add w Posted k';
+    k lor k' lor ensured w lambda at forms es
+  | Variable_of (i, _) :: forms, x :: es ->
+    let k = value w lambda x in
+    add w (Variable i) k;
+    k lor ensured w lambda at forms es
+  | Taken_pairs :: forms, es -> ensured w lambda at forms es
+  | _, _ -> nothing
 
 (* The content posted under these keys; the keys themselves are not passed on. *)
 and posted w lambda keys es =

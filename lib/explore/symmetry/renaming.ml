@@ -35,7 +35,7 @@ and closure r c = if Array.length c.captured = 0 then c else { c with captured =
 
 and task r t =
   enter r;
-  Task.map { part = task r; code = closure r; vehicle = r.f } t
+  Task.map { part = task r; code = closure r; value = value_by r; vehicle = r.f } t
 
 let residual_by r t =
   let code = closure r in

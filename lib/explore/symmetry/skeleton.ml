@@ -46,6 +46,8 @@ exception Opaque
 (* A text made of longer ones could be too long, which is a fault. *)
 let longest_text = 1_000
 
+let may_be_named x = Footprint.is_small x && Value.is_alone x
+
 let is_scalar = function
   | String s -> String.length s <= longest_text
   | Null | Boolean _ | Integer _ | Number _ | Symbol _ | Vehicles _ -> true
@@ -148,7 +150,7 @@ and called w lambda slots =
 and named w k e =
   match known w e with
   | Some Wildcard -> print w "_"
-  | Some x when not (Footprint.is_small x && Value.is_alone x) -> raise Opaque
+  | Some x when not (may_be_named x) -> raise Opaque
   | Some x ->
     print w "#";
     w.named := pair w.context k x :: !(w.named)

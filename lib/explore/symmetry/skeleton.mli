@@ -20,6 +20,9 @@ val key_of : context -> int -> string
 val value_of : context -> int -> Core.value
 (** [value_of c n] is the value of the pair with number [n]. *)
 
+val may_be_named : Core.value -> bool
+(** [may_be_named x] is whether pairs with the value [x] can be renamed. *)
+
 (** {1:skeletons Skeletons} *)
 
 type t = {

@@ -114,7 +114,7 @@ let task f r tuples =
     (* Where tasks are made, or code asks for idle vehicles, it matters which task holds each vehicle. *)
     let claims = Footprint.claims (Step_footprints.of_residual f.footprints r) in
     let has tuples = automorphisms f r number tuples <> None in
-    let is_symmetric = (not claims) && (has [ tuples ] || has []) in
+    let is_symmetric = (not claims) && (not (Residual.ensures r)) && (has [ tuples ] || has []) in
     if not is_symmetric then note_no_group f r;
     let footprint = if is_symmetric then Some (Step_footprints.of_residual f.footprints r) else None in
     let task = { number; footprint } in

@@ -78,6 +78,7 @@ let rec spell s (r : Residual.t) =
   | Recruit { code = c; _ } -> "recruit" ^ code s ~handler:false c
   | Fresh (ns, a) -> Printf.sprintf "fresh(%d,%s)" (List.length ns) (spell s a)
   | Unallocated _ | Hold _ | Recruited _ -> invalid_arg "Task_isomorphism: a task that has begun"
+  | Ensure _ -> invalid_arg "Task_isomorphism: a task with an ensure"
 
 and spell_branch s (b : Residual.branch) = code s ~handler:false b.guard ^ "?" ^ spell s b.body
 

@@ -31,7 +31,7 @@ and hide acc (x : string located) = note x.it None acc
 (* Code inside of expressions assigns too. *)
 let assignments_inside acc (e : expression) =
   match e.it with
-  | Closure c | When (c, _) | Wait_for (c, _) | Until (_, c, _) | Watch (_, c)
+  | Closure c | When (c, _) | Wait_for (c, _) | Until (_, c, _) | Watch (_, c) | Ensure (_, c)
   | Repeat { until = Some c; _ } ->
     List.fold_left hide (List.fold_left assignments acc c.body) (Option.value c.parameters ~default:[])
   | Recruit (settings, c) ->

@@ -78,7 +78,7 @@ let rec kind_by variable (e : Ast.expression) : Builtins.kind =
   | String _ | Template _ -> String
   | Closure _ -> Closure
   | Builder ((Imc_plan | Mission | All_of | One_of | Recruit), _) | Recruit _ | Wait_for _ | Until _ | During _
-  | Watch _
+  | Watch _ | Ensure _
   | Repeat _ -> Task
   | Builder (Pick, _) -> Vehicles
   | Builder (Pos, _) -> Position
@@ -277,7 +277,7 @@ let rec never_waits env (e : Ast.expression) =
   match e.it with
   | Call { callee = { it = Variable (("action" | "assert") as name); _ }; _ } -> not (is_hidden env name)
   | Binary ((Sequence | Parallel), a, b) -> never_waits env a && never_waits env b
-  | Until (_, _, t) | During (_, _, t) | Watch (t, _) | Repeat { body = t; _ } -> never_waits env t
+  | Until (_, _, t) | During (_, _, t) | Watch (t, _) | Ensure (t, _) | Repeat { body = t; _ } -> never_waits env t
   | _ -> false
 
 (* Parentheses belong to the location of the expression in them. *)

@@ -44,7 +44,7 @@ let rec computes p (e : expression) =
     (not (p.is_own "Math")) && List.for_all argument arguments
   | Call { callee = { it = Member { subject; name; _ }; _ }; arguments } ->
     (not p.has_host) && List.mem name.it computing && computes p subject && List.for_all argument arguments
-  | Wait_for (_, t) | Until (_, _, t) | Watch (t, _) -> computes p t
+  | Wait_for (_, t) | Until (_, _, t) | Watch (t, _) | Ensure (t, _) -> computes p t
   | Repeat { rounds; body; _ } -> all (body :: Option.to_list rounds)
   | Increment _ | Call _ | Builder _ | Pick_else _ | Recruit _ | When _ -> false
 
@@ -54,7 +54,8 @@ let hint (e : expression) =
   | Call { callee = { it = Member { subject = { it = Variable x; _ }; name; _ }; _ }; _ }
     when List.mem name.it [ "sort"; "reverse"; "unique"; "take"; "drop"; "tail"; "trim"; "replace" ] ->
     Some (Printf.sprintf "values never change: write %s = %s.%s(...)" x x name.it)
-  | Binary ((Sequence | Parallel), _, _) | Until _ | During _ | Watch _ | Wait_for _ | Repeat _ | Recruit _ ->
+  | Binary ((Sequence | Parallel), _, _) | Until _ | During _ | Watch _ | Ensure _ | Wait_for _ | Repeat _
+  | Recruit _ ->
     Some "execute runs a task"
   | _ -> None
 
@@ -92,7 +93,7 @@ and statement p ~top ~value acc (s : statement) =
 let inside p acc (e : expression) =
   let code acc (c : closure) = body p ~top:false ~value:true acc c.body in
   match e.it with
-  | Closure c | Recruit (_, c) | When (c, _) | Wait_for (c, _) | Until (_, c, _) | Watch (_, c)
+  | Closure c | Recruit (_, c) | When (c, _) | Wait_for (c, _) | Until (_, c, _) | Watch (_, c) | Ensure (_, c)
   | Repeat { until = Some c; _ } -> code acc c
   | _ -> acc
 

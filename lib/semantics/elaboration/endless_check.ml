@@ -8,7 +8,7 @@ let rec is_endless named (e : expression) =
   | Repeat { rounds = None; until = None; _ } -> true
   | Variable x -> named x
   | Binary ((Sequence | Parallel), a, b) -> go a || go b
-  | Index (a, _) | Watch (a, _) | Wait_for (_, a) -> go a
+  | Index (a, _) | Watch (a, _) | Ensure (a, _) | Wait_for (_, a) -> go a
   | _ -> false
 
 (* [execute (a | b) during d] is read as an [execute] with a limit. *)

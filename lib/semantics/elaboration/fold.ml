@@ -33,7 +33,7 @@ and expression f acc (e : expression) =
   | Pick_else (settings, otherwise) -> body (body acc settings) otherwise
   | Recruit (settings, c) -> body (body acc settings) c.body
   | When (c, e) | Wait_for (c, e) | Until (_, c, e) -> go (body acc c.body) e
-  | Watch (e, c) -> body (go acc e) c.body
+  | Watch (e, c) | Ensure (e, c) -> body (go acc e) c.body
   | Repeat { rounds; body = e; until } ->
     let acc = go (Option.fold rounds ~none:acc ~some:(go acc)) e in
     Option.fold until ~none:acc ~some:(fun c -> body acc c.body)

@@ -15,7 +15,7 @@ let rec value (e : Ast.expression) =
   | Template _ | Variable _ | Wildcard | List _ | Map _ | Range _ | Closure _ | Binary _ | Conditional _ | Elvis _
   | Increment _ | Call _ | Member _ | Index _ | Builder _ | Pick_else _ | Recruit _ | When _ | Wait_for _ | Until _
   | During _
-  | Watch _ | Repeat _ -> None
+  | Watch _ | Ensure _ | Repeat _ -> None
 
 let all es =
   let values = List.filter_map value es in

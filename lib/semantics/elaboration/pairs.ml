@@ -39,6 +39,8 @@ let check_key env p =
       | Any | String | Number -> ()
       | found -> error env Wrong_kind k.at "a key is a string, this is %s" (Builtins.describe found))
 
+let check_key_of env a = Result.iter (check_key env) (pair a)
+
 let check_pattern env name p =
   match p.wanted with
   | Pattern { parameters = Some (_ :: second :: _); _ } ->

@@ -6,5 +6,8 @@ val elaborate :
   Core.expression
 (** [elaborate env at name construct arguments] is the call of [construct], which the program spells [name]. *)
 
+val check_key_of : Checks.env -> Dolphin_syntax.Ast.argument -> unit
+(** [check_key_of env a] reports the key of the pair [a], if it cannot be one. *)
+
 val check_own : Checks.env -> string -> Dolphin_syntax.Location.t -> unit
 (** [check_own env k at] reports the key [k], spelled out at [at], if it is a key of [fresh]. *)

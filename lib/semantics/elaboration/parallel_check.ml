@@ -39,7 +39,7 @@ let rec width (e : expression) =
   | Binary (Parallel, a, b) -> width a + width b
   | Binary (Sequence, a, b) -> max (width a) (width b)
   | Binary (Divide, a, _) | Index (a, _) | Until (_, _, a) | During (_, _, a) | Watch (a, _) | Wait_for (_, a)
-  | Repeat { body = a; _ } -> width a
+  | Ensure (a, _) | Repeat { body = a; _ } -> width a
   | _ -> 0
 
 (* The single vehicles that a task surely runs on, each with its place in the text. *)
@@ -47,7 +47,7 @@ let rec surely singles (e : expression) =
   match e.it with
   | Index (a, { it = Variable v; at }) when List.mem v singles && width a > 0 -> [ (v, at) ]
   | Index (a, _) | Binary (Divide, a, _) | Until (_, _, a) | During (_, _, a) | Watch (a, _) | Wait_for (_, a)
-  | Repeat { body = a; _ } -> surely singles a
+  | Ensure (a, _) | Repeat { body = a; _ } -> surely singles a
   | Binary ((Sequence | Parallel), a, b) -> surely singles a @ surely singles b
   | Call { callee = { it = Variable "execute"; _ }; arguments = [ Positional a ] } -> surely singles a
   | _ -> []

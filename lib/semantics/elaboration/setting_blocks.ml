@@ -161,7 +161,7 @@ let when_then env at guard t =
     check_kind env "then" Task t;
     Scope.inside_settings env.code None (fun () ->
         let guard = task_code env at "when" guard in
-        let t = branch_operand env t in
+        let t = Ensures.branch_operand env t in
         set_local env at slot (apply env at Make_branch [ local env at slot; guard; t ]))
   | Some ((Pick | Recruit | Imc_plan | Mission | Pos), _) | None ->
     let hint =

@@ -10,6 +10,17 @@ let rec is_path (e : Ast.expression) =
 
 let set_global env at name e = expression env at (Set_global (Scope.assigned_global env.program name, e))
 
+(* Reports a name that no program may assign, though it is not a local. *)
+let check_assignable env name name_at =
+  if Scope.find_function env.program name <> None then
+    error env Not_assignable name_at "'%s' is a function and cannot be assigned" name
+  else if Builtins.is_reserved name then
+    error env Not_assignable name_at "'%s' is a name of the language and cannot be assigned" name
+      ~hint:"choose another name"
+  else if Scope.is_parameter env.program name then
+    error env Not_assignable name_at "'%s' is a parameter and keeps its value" name
+      ~hint:"give what changes another name"
+
 let assign_variable env at name name_at e =
   match Scope.find_local env.code name with
   | Some (Own _) when Scope.has_fields env.code name ->
@@ -23,14 +34,7 @@ let assign_variable env at name name_at e =
       ~hint:"make it a global variable, without def";
     e
   | None ->
-    if Scope.find_function env.program name <> None then
-      error env Not_assignable name_at "'%s' is a function and cannot be assigned" name
-    else if Builtins.is_reserved name then
-      error env Not_assignable name_at "'%s' is a name of the language and cannot be assigned" name
-        ~hint:"choose another name"
-    else if Scope.is_parameter env.program name then
-      error env Not_assignable name_at "'%s' is a parameter and keeps its value" name
-        ~hint:"give what changes another name";
+    check_assignable env name name_at;
     check_in_maker env ("an assignment to '" ^ name ^ "'") name_at;
     set_global env at name e
 

@@ -25,3 +25,6 @@ val update : env -> Location.t -> Ast.expression -> (expression -> expression) -
 val increment : env -> Location.t -> Ast.expression -> int -> bool -> expression
 (** [increment env at target by prefix] adds [by], 1 or -1, to [target]. Its value is the new one with [prefix],
     otherwise the old one. *)
+
+val check_assignable : Checks.env -> string -> Dolphin_syntax.Location.t -> unit
+(** [check_assignable env x at] reports the name [x], which is not a local, if no program may assign it. *)

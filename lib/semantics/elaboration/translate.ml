@@ -53,6 +53,7 @@ let first_operand (e : Ast.expression) : (Ast.expression * (Ast.expression -> As
   | Elvis (first, otherwise) -> Some (first, fun first -> Elvis (first, otherwise))
   | During (e, d, t) when begins t -> Some (t, fun t -> During (e, d, t))
   | Until (e, c, t) when begins t -> Some (t, fun t -> Until (e, c, t))
+  | Ensure (t, c) -> Some (t, fun t -> Ensure (t, c))
   | Null | Boolean _ | Integer _ | Number _ | String _ | Template _ | Variable _ | Wildcard | List _ | Map _ | Closure _
   | Unary _ | Increment _ | Builder _ | Pick_else _ | Recruit _ | When _ | Wait_for _ | Until _ | During _ | Watch _
   | Repeat _ -> None
@@ -171,6 +172,7 @@ let rec elaborate env (e : Ast.expression) : expression =
   | Until (Fails, guard, t) -> assure env at guard t
   | During (on_cut, d, t) -> during env at on_cut d t
   | Watch (t, handler) -> watch env at t handler
+  | Ensure (t, c) -> Ensures.elaborate env at ~in_branch:false t c
   | Repeat { rounds; body; until } -> repeat env at rounds body until
 
 and truth env (e : Ast.expression) =
@@ -208,7 +210,7 @@ and elaborate_map env at entries =
 and guarded env at operation construct guard t =
   check_kind env construct Task t;
   let guard = task_code env at construct guard in
-  let operand = if operation = Make_wait_for then branch_operand else task_operand in
+  let operand = if operation = Make_wait_for then Ensures.branch_operand else task_operand in
   apply env at (Builtin operation) [ guard; operand env t ]
 
 and assure env at guard t =

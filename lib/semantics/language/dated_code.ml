@@ -160,7 +160,7 @@ let rec possible assigned seen e =
 let named (program : program) =
   let t = of_program program in
   let assigned = Hashtbl.create 16 in
-  let note e = match e.node with Set_global (i, e) -> Hashtbl.add assigned i e | _ -> () in
+  let note e = List.iter (fun (i, e) -> Hashtbl.add assigned i e) (Code_walk.assigned e) in
   Code_walk.iter note (Code_walk.pieces program);
   let of_comparison { op; shift; bound; site } =
     match shift, possible assigned [] bound with

@@ -19,8 +19,8 @@ let spins = "a round of this repeat never waits: it would loop endlessly, and no
 let rec never_waits = function
   | Action _ -> true
   | Sequence (a, b) | Parallel (a, b) -> never_waits a && never_waits b
-  | Allocated (a, _) | Until (_, _, a) | During (_, Seconds _, a) | Watch (a, _) | Repeat { body = a; _ } ->
-    never_waits a
+  | Allocated (a, _) | Until (_, _, a) | During (_, Seconds _, a) | Watch (a, _) | Repeat { body = a; _ }
+  | Ensure (_, a) -> never_waits a
   | Platform _ | Condition _ | All_of _ | One_of _ | Idle _ | Confirm _ | During (_, Given_by _, _) | Made _
   | Recruit _ | Fresh _ -> false
 
@@ -38,9 +38,34 @@ let repeat at n body until =
 (* Code in the place of a task is the task that it makes. *)
 let as_task operation i x =
   match operation, i, x with
-  | Make_watch, 0, Closure c | (Make_wait_for | Make_until _ | Make_during _), 1, Closure c -> Task (Made c)
+  | (Make_watch | Make_ensure _), 0, Closure c
+  | (Make_wait_for | Make_until _ | Make_during _), 1, Closure c -> Task (Made c)
   | Make_repeat { counted; _ }, _, Closure c when i = if counted then 1 else 0 -> Task (Made c)
   | _, _, x -> x
+
+(* [T ensure { }] is T; of two around one another, the inner one comes first. *)
+let ensure ds t =
+  match ds, t with
+  | [], t -> t
+  | ds, Ensure (first, t) -> Ensure (first @ ds, t)
+  | ds, t -> Ensure (ds, t)
+
+let rec ensured forms arguments =
+  let pair k x forms arguments =
+    match x with
+    | Wildcard -> Error (Error "only consume and poll take the wildcard _")
+    | x -> Result.map (fun ds -> Pair (k, Value.canonical x) :: ds) (ensured forms arguments)
+  in
+  match forms, arguments with
+  | Pair_of (Some k) :: forms, x :: arguments -> pair k x forms arguments
+  | Pair_of None :: forms, String k :: x :: arguments -> pair k x forms arguments
+  | Pair_of None :: forms, ((Integer _ | Number _) as k) :: x :: arguments ->
+    pair (Value.to_string (Value.canonical k)) x forms arguments
+  | Pair_of None :: _, k :: _ -> Error (Operators.expected "a string as a key" k)
+  | Variable_of (i, name) :: forms, x :: arguments ->
+    Result.map (fun ds -> Variable (i, name, x) :: ds) (ensured forms arguments)
+  | Taken_pairs :: forms, arguments -> Result.map (fun ds -> Taken :: ds) (ensured forms arguments)
+  | _, _ -> Ok []
 
 let make_task context at = function
   | Make_repeat { counted = false; asked = false }, [ Task t ] -> repeat at None t None
@@ -61,6 +86,11 @@ let make_task context at = function
   | Make_watch, (x :: _) -> expected "a task after watch" x
   | Make_fresh, [ Closure c ] -> Value (Task (Fresh c))
   | Make_fresh, [ x ] -> expected "code { k -> T }" x
+  | Make_ensure forms, Task t :: arguments -> (
+      match ensured forms arguments with
+      | Ok ds -> Value (Task (ensure ds t))
+      | Error e -> of_result e)
+  | Make_ensure _, x :: _ -> expected "a task before ensure" x
   | Make_idle, [ Vehicles vs ] ->
     let is_idle v = List.mem v context.bound && not (List.mem v (Lazy.force context.held)) in
     Value (Vehicles (List.filter is_idle vs))
@@ -256,7 +286,7 @@ let apply context at operation arguments =
   | Platform_task, [ String name ] when name <> "" ->
     Value (Task (Platform { name; plan = None; task_site = at }))
   | ( ( Platform_task | Make_action | Make_condition | Make_wait_for | Make_until _ | Make_idle | Make_confirm
-      | Make_during _ | Make_watch | Make_fresh | Make_repeat _ ),
+      | Make_during _ | Make_watch | Make_fresh | Make_ensure _ | Make_repeat _ ),
       _ ) -> make_task context at (operation, List.mapi (as_task operation) arguments)
   | Execute, [ Closure c ] -> blocking context "execute" (Execute (Made c))
   | Execute, [ Task t ] -> blocking context "execute" (Execute t)

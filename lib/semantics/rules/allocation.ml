@@ -25,6 +25,7 @@ let rec tree_of next_opened allowed t : leaf Assignment.tree =
   | Allocated (a, vs) -> tree_of next_opened (restrict allowed vs) a
   | All_of branches | One_of branches -> Shared (List.map (fun (b : Core.branch) -> of_task b.body) branches)
   | Until (_, _, a) | During (_, _, a) | Watch (a, _) | Repeat { body = a; _ } -> of_task a
+  | Ensure (_, a) -> of_task a
   | Fresh _ -> of_task (snd (next_opened ()))
 
 let rec map_tree f : 'a Assignment.tree -> ('b Assignment.tree, 'e) result = function
@@ -223,6 +224,7 @@ let rec residual supply allowed t : Residual.t =
   | Fresh _ ->
     let ns, a = supply.next_opened () in
     Fresh (ns, recurse a)
+  | Ensure (ds, a) -> Residual.ensuring ds (recurse a)
   | Repeat { rounds; until; body; site } ->
     let each = recurse body in
     Residual.repeat { left = Option.map pred rounds; until; each; site } each

@@ -61,12 +61,19 @@ let released = function [] -> [] | vs -> [ Effect.Release vs ]
 let undo : Task_rules.undoing -> vehicle list * Effect.t list = function
   | Cancel timer -> ([], [ Cancel_timer timer ])
   | Leave v -> ([], [ Release [ v ] ])
-  | Forget _ -> ([], [])
+  | Forget _ | Do _ -> ([], [])
   | Cut cut ->
     let cancelled = List.map Effect.ceases (List.concat_map Residual.waits cut) in
     let stopped = List.concat_map Residual.running cut in
     let recruits = List.concat_map Residual.recruits cut in
     (stopped, cancelled @ List.map (fun v -> Effect.Stop v) stopped @ released recruits)
+
+(* N and the variables after it. *)
+let undone s : Task_rules.undoing -> Shared.t = function
+  | Cancel _ | Leave _ -> s
+  | Forget ns -> Shared.without_keys (List.map Residual.key ns) s
+  | Do ds -> Shared.ensure ds s
+  | Cut cut -> List.fold_left (fun s r -> Shared.ensure (Residual.ensured r) s) s cut
 
 (* So deep are tasks in the place of those that failed. *)
 let deepest = Maker.deepest
@@ -108,11 +115,12 @@ let next_watch around =
 (* [settle s derivation asked change] carries a change of the residual over to the shared part [s], handlers of errors
    included. [asked] are the effects so far. *)
 let rec settle around program world s derivation asked (change : Task_rules.change) =
-  let stopped, undone = List.split (List.map undo change.undone) in
+  let stopped, ceased = List.split (List.map undo change.undone) in
   let derivation = derivation @ change.rules in
   let s = without_tasks (List.concat stopped) s in
-  let s = Shared.without_keys (List.map Residual.key (Task_rules.keys change)) s in
-  let asked = asked @ List.concat undone @ Conclusion.begun change.timers in
+  let s = List.fold_left undone s change.undone in
+  let s = Shared.without_keys (List.map Residual.key (Task_rules.keys_begun change)) s in
+  let asked = asked @ List.concat ceased @ Conclusion.begun change.timers in
   let come_to outcome = { after = s; outcome; derivation; named = change.label; asked; rounds = change.rounds } in
   match change.outcome with
   | Next r -> Decision.Decided (come_to (Goes_on r))

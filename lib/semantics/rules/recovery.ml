@@ -8,7 +8,7 @@ let may_retry lambda =
 
 let gives_tasks = function
   | Platform_task | Make_action | Make_condition | Make_wait_for | Make_until _ | Make_idle | Make_confirm
-  | Make_during _ | Make_watch | Make_fresh | Make_repeat _ -> true
+  | Make_during _ | Make_watch | Make_fresh | Make_ensure _ | Make_repeat _ -> true
   | Execute | Execute_for _ | Release | Set_connection_timeout | Ask | Message | Pause | Halt | Post _ | Consume _
   | Poll _ | Values_of | Position_of | Sensor_of _ | Is_running | Reading_of | Now | Eta | Location_of | Area_of
   | Assert | Fail | Ignore | Propagate | Retry | Dismiss | Get_supplier | Interrupted | Is_there | Is_host | Math _

@@ -29,6 +29,7 @@ type t =
   | Recruit of { number : timer; asked : Vehicle_filter.t; code : closure; place : timer; depth : int; site : site }
   | Recruited of vehicle * t
   | Fresh of timer list * t
+  | Ensure of ensured list * t
 
 and again = { left : int option; until : closure option; each : t; site : site }
 
@@ -44,7 +45,7 @@ let rank = function
   | Ready _ -> 0 | Running _ -> 1 | Action _ -> 2 | Condition _ -> 3 | Sequence _ -> 4 | Parallel _ -> 5
   | All_of _ -> 6 | One_of _ -> 7 | Until _ -> 8 | Idle _ -> 9 | During _ -> 10 | Watch _ -> 11 | Repeat _ -> 12
   | Made _ -> 13 | Unallocated _ -> 14 | Hold _ -> 15 | Confirm _ -> 16
-  | Recruit _ -> 17 | Recruited _ -> 18 | Fresh _ -> 19
+  | Recruit _ -> 17 | Recruited _ -> 18 | Fresh _ -> 19 | Ensure _ -> 20
 
 let rec compare r r' =
   if r == r' then 0
@@ -82,6 +83,8 @@ let rec compare r r' =
     | Hold (vs, a), Hold (vs', a') ->
       Order.both (List.compare String.compare vs vs') (fun () -> compare a a')
     | Fresh (ns, a), Fresh (ns', a') -> Order.both (List.compare Int.compare ns ns') (fun () -> compare a a')
+    | Ensure (ds, a), Ensure (ds', a') ->
+      Order.both (Order.list Value.compare_ensured ds ds') (fun () -> compare a a')
     | Recruited (v, a), Recruited (v', a') -> Order.both (String.compare v v') (fun () -> compare a a')
     | Recruit a, Recruit b ->
       Order.both (Int.compare a.number b.number) (fun () ->
@@ -92,7 +95,7 @@ let rec compare r r' =
                           Vehicle_filter.compare a.asked b.asked)))))
     | ( ( Ready _ | Running _ | Action _ | Condition _ | Sequence _ | Parallel _ | All_of _ | One_of _ | Until _
         | Idle _ | Confirm _ | During _ | Watch _ | Repeat _ | Made _ | Unallocated _ | Hold _ | Recruit _
-        | Recruited _ | Fresh _ ),
+        | Recruited _ | Fresh _ | Ensure _ ),
         _ ) -> Int.compare (rank r) (rank r')
 
 and compare_branch b b' = Order.both (Value.compare_closure b.guard b'.guard) (fun () -> compare b.body b'.body)
@@ -150,6 +153,7 @@ let rec hash r =
   | Recruit { number; code; _ } -> Order.mix (Order.mix h number) (Value.hash_closure code)
   | Recruited (v, a) -> Order.mix (Order.mix h (hash a)) (Hashtbl.hash v)
   | Fresh (ns, a) -> List.fold_left Order.mix (Order.mix h (hash a)) ns
+  | Ensure (ds, a) -> List.fold_left (fun h d -> Order.mix h (Value.hash_ensured d)) (Order.mix h (hash a)) ds
 
 (* {1 Keys} *)
 
@@ -194,6 +198,7 @@ let rec pp ppf r =
     Format.fprintf ppf "recruit {%a } then { %s }" Settings.pp_filter asked code.lambda.label
   | Recruited (v, a) -> Format.fprintf ppf "recruited %s %a" v pp a
   | Fresh (ns, a) -> Format.fprintf ppf "fresh %s %a" (String.concat ", " (List.map key ns)) pp a
+  | Ensure (ds, a) -> Format.fprintf ppf "%a ensure { %a }" pp a Value.pp_ensured ds
 
 and pp_branch ppf b = Format.fprintf ppf "when { %s } then %a" b.guard.lambda.label pp b.body
 
@@ -216,6 +221,10 @@ let optional f x acc = match x with Some x -> f acc x | None -> acc
 
 let fold_branches ~later ~leaf acc bs =
   List.fold_left (fun acc (b : branch) -> later (leaf acc (Code b.guard)) b.body) acc bs
+
+let add_ensured leaf acc = function
+  | Pair (_, x) | Variable (_, _, x) -> leaf acc (Given x)
+  | Taken -> acc
 
 let fold ~begun ~later ~leaf acc r =
   match r with
@@ -242,6 +251,7 @@ let fold ~begun ~later ~leaf acc r =
   | Recruit { number; code; _ } -> leaf (leaf acc (Timer number)) (Maker code)
   | Recruited (v, a) -> begun (leaf acc (Held v)) a
   | Fresh (ns, a) -> begun (each leaf (fun n -> Timer n) ns acc) a
+  | Ensure (ds, a) -> begun (List.fold_left (add_ensured leaf) acc ds) a
 
 type mapper = {
   part : t -> t;
@@ -307,6 +317,9 @@ let map m r =
     let v = m.vehicle v in
     Recruited (v, m.part a)
   | Fresh (ns, a) -> Fresh (ns, m.part a)
+  | Ensure (ds, a) ->
+    let ds = List.map (Task.map_ensured m.value) ds in
+    Ensure (ds, m.part a)
 
 let no_leaf acc (_ : leaf) = acc
 
@@ -337,15 +350,15 @@ let marks_of_node r : Branches.mark list =
   | Idle { timer = n; _ } | Confirm { question = n; _ } | During { duration = Seconds _; timer = n; _ } -> [ Number n ]
   | During { duration = Given_by _; timer; _ } -> [ Alone; Number timer ]
   | Recruit { number; _ } -> [ Recruits; Number number ]
-  | Sequence _ | Parallel _ | All_of (Some _, _) | Watch _ | Hold _ | Recruited _ | Fresh _
+  | Sequence _ | Parallel _ | All_of (Some _, _) | Watch _ | Hold _ | Recruited _ | Fresh _ | Ensure _
   | Repeat { round = Some _; _ } -> []
 
 let is_mark m r = List.exists (fun m' -> Branches.compare_marks m m' = 0) (marks_of_node r)
 
 let rec awaits m r =
   match r with
-  | Sequence (a, _) | Watch (a, _) | Hold (_, a) | Recruited (_, a) | Fresh (_, a) | Repeat { round = Some a; _ } ->
-    awaits m a
+  | Sequence (a, _) | Watch (a, _) | Hold (_, a) | Recruited (_, a) | Fresh (_, a) | Ensure (_, a)
+  | Repeat { round = Some a; _ } -> awaits m a
   | Parallel bs -> (
       match Branches.marked awaits m bs () with Seq.Nil -> false | Cons _ -> true)
   | Ready _ | Running _ | Action _ | Condition _ | Idle _ | Confirm _ | One_of _ | All_of (None, _)
@@ -397,6 +410,7 @@ let repeat again round =
   match again.left with Some 0 -> round | Some _ | None -> Repeat { round = Some round; again }
 
 let holding vs r = match vs with [] -> r | _ :: _ -> Hold (vs, r)
+let ensuring ds r = match ds with [] -> r | _ :: _ -> Ensure (ds, r)
 
 let rec activate r =
   match r with
@@ -414,6 +428,9 @@ let rec activate r =
   | Fresh (ns, a) ->
     let a, begun = activate a in
     (Fresh (ns, a), List.map (fun n -> Key n) ns @ begun)
+  | Ensure (ds, a) ->
+    let a, timers = activate a in
+    (Ensure (ds, a), timers)
   | Idle { timer; seconds; _ } -> (r, [ Wait (timer, Time seconds) ])
   | Confirm { question; prompt; _ } -> (r, [ Wait (question, Answer prompt) ])
   | Sequence (a, rest) ->
@@ -460,6 +477,17 @@ let site_of_timer number r =
 
 let recruits = collect (function Recruited (v, _) -> Some v | _ -> None)
 
+let ensures r = fold_all (fun found r -> found || match r with Ensure _ -> true | _ -> false) false r
+
+(* From the inside out, and from left to right. *)
+let ensured r =
+  let later found _ = found in
+  let rec add found r =
+    let found = fold ~begun:add ~later ~leaf:no_leaf found r in
+    match r with Ensure (ds, _) -> List.rev_append ds found | _ -> found
+  in
+  List.rev (add [] r)
+
 (* The result of code is not known: it may be without end. *)
 let may_go_round r =
   let makes found = function
@@ -481,6 +509,7 @@ type context =
   | Holding of vehicle list
   | In_recruited of vehicle
   | With_keys of timer list
+  | Ensuring of ensured list
 
 let opened = function
   | Sequence (a, rest) -> Some (In_sequence rest, a)
@@ -493,6 +522,7 @@ let opened = function
   | Hold (vs, a) -> Some (Holding vs, a)
   | Recruited (v, a) -> Some (In_recruited v, a)
   | Fresh (ns, a) -> Some (With_keys ns, a)
+  | Ensure (ds, a) -> Some (Ensuring ds, a)
   | Ready _ | Running _ | Action _ | Condition _ | Parallel _ | All_of (None, _) | One_of _ | Idle _ | Confirm _
   | Made _ | Unallocated _ | Recruit _ | Repeat { round = None; _ } -> None
 
@@ -508,6 +538,7 @@ let within context r =
   | Holding vs, r -> Hold (vs, r)
   | In_recruited v, r -> Recruited (v, r)
   | With_keys ns, r -> Fresh (ns, r)
+  | Ensuring ds, r -> Ensure (ds, r)
 
 let decompose r =
   let rec from contexts r =

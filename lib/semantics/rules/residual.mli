@@ -48,6 +48,7 @@ type t =
   (** waits for a vehicle; [place] and [depth] are of the {!type-request} for the task that [code] gives of it *)
   | Recruited of vehicle * t  (** has the vehicle, which is released when it ends *)
   | Fresh of timer list * t  (** has the keys of these numbers, for itself alone *)
+  | Ensure of ensured list * t  (** does these, one at least, when it ends *)
 
 (** A branch [when { guard } then body] of an [allOf] or [oneOf]. *)
 and branch = { guard : closure; body : t }
@@ -90,7 +91,7 @@ type leaf =
   | Code of closure  (** of an action, a condition, a guard, a duration *)
   | Handler of closure
   | Maker of closure  (** gives a task *)
-  | Given of value  (** an argument of it *)
+  | Given of value  (** an argument of it, or a value of an [ensure] *)
   | Term of task  (** may become a residual *)
   | Held of vehicle  (** until the whole ends *)
   | Timer of timer  (** or the number of a question, a recruit, a key *)
@@ -150,6 +151,9 @@ val in_place : t Branches.place -> t -> t
 val without : t Branches.place -> t
 (** [without p] is the branches beside [p], one at least. *)
 
+val ensuring : ensured list -> t -> t
+(** [ensuring ds r] is [r], which does [ds] when it ends. *)
+
 val activate : t -> t * begun list
 (** [activate r] is [r] about to run, and the timers, questions and keys that begin with it. A [during] whose time
     is given by code starts in a step of its own. *)
@@ -165,6 +169,13 @@ val site_of_timer : timer -> t -> site option
 
 val recruits : t -> vehicle list
 (** [recruits r] is the vehicles that [r] has recruited and has still. *)
+
+val ensures : t -> bool
+(** [ensures r] is whether there is an [ensure] in [r], begun or to come; tasks that code would give are not seen. *)
+
+val ensured : t -> ensured list
+(** [ensured r] is the deeds of the end of [r] if it is cut off: of each [ensure] that has begun, the innermost
+    first, and from left to right. *)
 
 val waits : t -> (timer * wait) list
 (** [waits r] is the timers of [r] that have started, and the questions that stand. *)
@@ -193,6 +204,7 @@ type context =
   | Holding of vehicle list
   | In_recruited of vehicle
   | With_keys of timer list
+  | Ensuring of ensured list
 
 val opened : t -> (context * t) option
 (** [opened r] is the outermost context of [r], and its contents, if any part in it has begun. *)

@@ -15,6 +15,7 @@ type t =
   | Make | Make_err | Allocate | Allocate_err | Hold_1 | Hold_2 | Hold_err
   | Recruit | Recruit_1 | Recruit_2 | Recruit_err
   | Fresh_1 | Fresh_2 | Fresh_err
+  | Ensure_1 | Ensure_2 | Ensure_err
   | Script | Post | Consume | Message | Release | Set_timeout
   | Pick | Pick_bind | Pick_err | Pick_else
   | Ask | Answer | Answer_err
@@ -30,8 +31,8 @@ let all =
     Until_2; Until_err; Idle_end; Confirm_yes; Confirm_no; During_set; During_cut; Within_cut; During_1; During_2;
     During_err; Watch_1; Watch_2; Watch_ignore; Watch_propagate; Watch_halt; Watch_retry; Watch_instead; Repeat_1;
     Repeat_2; Repeat_until; Repeat_again; Repeat_err; Make; Make_err; Allocate; Allocate_err; Hold_1; Hold_2;
-    Hold_err; Recruit; Recruit_1; Recruit_2; Recruit_err; Fresh_1; Fresh_2; Fresh_err; Script; Post; Consume;
-    Message; Release; Set_timeout; Pick; Pick_bind; Pick_err; Pick_else; Ask;
+    Hold_err; Recruit; Recruit_1; Recruit_2; Recruit_err; Fresh_1; Fresh_2; Fresh_err; Ensure_1; Ensure_2;
+    Ensure_err; Script; Post; Consume; Message; Release; Set_timeout; Pick; Pick_bind; Pick_err; Pick_else; Ask;
     Answer; Answer_err; Pause; Resume; Call; Reply; Call_err; Execute; Execute_done; Execute_err; Alloc_err; Input;
     End; Halt; Fault; Interrupt; On_interrupt ]
 
@@ -60,6 +61,7 @@ let name = function
   | Hold_1 -> "HOLD-1" | Hold_2 -> "HOLD-2" | Hold_err -> "HOLD-ERR"
   | Recruit -> "RECRUIT" | Recruit_1 -> "RECRUIT-1" | Recruit_2 -> "RECRUIT-2" | Recruit_err -> "RECRUIT-ERR"
   | Fresh_1 -> "FRESH-1" | Fresh_2 -> "FRESH-2" | Fresh_err -> "FRESH-ERR"
+  | Ensure_1 -> "ENSURE-1" | Ensure_2 -> "ENSURE-2" | Ensure_err -> "ENSURE-ERR"
   | Script -> "SCRIPT" | Post -> "POST" | Consume -> "CONSUME" | Message -> "MESSAGE" | Release -> "RELEASE"
   | Set_timeout -> "SET-TIMEOUT"
   | Pick -> "PICK" | Pick_bind -> "PICK-BIND" | Pick_err -> "PICK-ERR"

@@ -21,6 +21,7 @@ type t =
   | Make | Make_err | Allocate | Allocate_err | Hold_1 | Hold_2 | Hold_err
   | Recruit | Recruit_1 | Recruit_2 | Recruit_err
   | Fresh_1 | Fresh_2 | Fresh_err
+  | Ensure_1 | Ensure_2 | Ensure_err
   (* The program *)
   | Script | Post | Consume | Message | Release | Set_timeout
   | Pick | Pick_bind | Pick_err | Pick_else

@@ -68,7 +68,8 @@ let on_interrupt ?(recruits = []) (program : Core.program) (s : Shared.t) m : Co
   | Some _ | None -> None
 
 let interrupt program (c : Configuration.t) m =
-  let waits = Configuration.waits c and recruits = Configuration.recruits c and s = c.shared in
+  let waits = Configuration.waits c and recruits = Configuration.recruits c in
+  let s = match c.control with Executing (_, r) -> Shared.ensure (Residual.ensured r) c.shared | _ -> c.shared in
   match on_interrupt ~recruits program s m with
   | Some { control; shared } ->
     Conclusion.make ~effects:(Conclusion.cut waits s) On_interrupt Interrupt control shared

@@ -14,6 +14,14 @@ let post k x s = { s with tuples = Tuples.post k (Value.canonical x) s.tuples }
 let without_keys keys s =
   if keys = [] then s else { s with tuples = List.fold_left (fun n k -> Tuples.without k n) s.tuples keys }
 
+let ensure ds s =
+  let one s = function
+    | Pair (k, x) -> post k x s
+    | Variable (i, _, x) -> { s with store = Store.set i x s.store }
+    | Taken -> s
+  in
+  List.fold_left one s ds
+
 let without_fresh s =
   without_keys (List.filter Residual.is_key (Tuples.keys_with Residual.key_prefix s.tuples)) s
 

@@ -16,6 +16,9 @@ val initial : program -> t
 val post : string -> value -> t -> t
 (** [post k x s] is [s] with one pair [k:x] more in N. *)
 
+val ensure : ensured list -> t -> t
+(** [ensure ds s] is [s] after the end of a task has done [ds]. *)
+
 val without_keys : string list -> t -> t
 (** [without_keys ks s] is [s] without the pairs of N with one of these keys. *)
 

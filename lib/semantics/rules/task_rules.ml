@@ -18,7 +18,7 @@ type _ offer =
   | Answer_to : timer * string -> (bool, string) result offer
   | Recruit_for : timer * Vehicle_filter.t -> vehicle offer
 
-type undoing = Cancel of timer | Leave of vehicle | Forget of timer list | Cut of t list
+type undoing = Cancel of timer | Leave of vehicle | Forget of timer list | Do of ensured list | Cut of t list
 
 type round = Endless of again | Asked of again | Retried of site
 
@@ -47,10 +47,15 @@ and change = {
 
 type step = Step : { offer : 'reply offer; continue : 'reply -> change; around : surrounding list } -> step
 
-let keys change =
-  let ended = function Forget ns -> ns | Cancel _ | Leave _ | Cut _ -> [] in
-  let begun = function Key n -> Some n | Wait _ -> None in
-  List.concat_map ended change.undone @ List.filter_map begun change.timers
+let keys_begun change = List.filter_map (function Key n -> Some n | Wait _ -> None) change.timers
+
+let changes_shared change =
+  let changes = function
+    | Forget _ | Do _ -> true
+    | Cut rs -> List.exists (fun r -> Residual.ensured r <> []) rs
+    | Cancel _ | Leave _ -> false
+  in
+  keys_begun change <> [] || List.exists changes change.undone
 
 let alone offer continue = Step { offer; continue; around = [] }
 
@@ -201,6 +206,12 @@ let around_fresh ns =
     on_finished = (fun c -> undoing (Forget ns) (plain.on_finished c));
     on_failed = (fun fault c -> undoing (Forget ns) (plain.on_failed fault c)) }
 
+let around_ensure ds =
+  let plain = around ~next:(within (Ensuring ds)) (Rule.Ensure_1, Rule.Ensure_2, Rule.Ensure_err) in
+  { plain with
+    on_finished = (fun c -> undoing (Do ds) (plain.on_finished c));
+    on_failed = (fun fault c -> undoing (Do ds) (plain.on_failed fault c)) }
+
 let around_context = function
   | Round_of again -> around_round again
   | In_sequence rest -> around_sequence rest
@@ -211,17 +222,23 @@ let around_context = function
   | Holding vs -> around_hold vs
   | In_recruited v -> around_recruited v
   | With_keys ns -> around_fresh ns
+  | Ensuring ds -> around_ensure ds
 
 let change_within context change = lift (around_context context) change
 let change_within_all contexts change = List.fold_left (fun c context -> change_within context c) change contexts
 
-let rec escape nests change =
-  match change.outcome, nests with
-  | (Next _ | Finished), _ | Failed _, [] -> change
-  | Failed fault, contexts :: outer -> escape outer (change_within_all contexts (leave_parallel fault change))
-  | Handling _, _ -> after_handling (escape nests) change
+let rec escape nests beside change =
+  match change.outcome with
+  | Next _ | Finished -> change
+  | Failed fault -> (
+      let owed, further = match beside with [] -> ([], []) | owed :: further -> (owed, further) in
+      let change = match owed with [] -> change | _ :: _ -> undoing (Do owed) change in
+      match nests with
+      | [] -> change
+      | contexts :: outer -> escape outer further (change_within_all contexts (leave_parallel fault change)))
+  | Handling _ -> after_handling (escape nests beside) change
 
-let escaping nests step = with_change (escape nests) step
+let escaping ?(beside = []) nests step = with_change (escape nests beside) step
 
 let not_assured (condition : closure) = Printf.sprintf "assure: { %s } does not hold" condition.lambda.label
 
@@ -233,7 +250,8 @@ let too_late = function
 let cut context body =
   let cut change = undoing (Cut [ body ]) change in
   match context with
-  | In_sequence _ | Branch_of _ | In_watch _ | Round_of _ | Holding _ | In_recruited _ | With_keys _ -> None
+  | In_sequence _ | Branch_of _ | In_watch _ | Round_of _ | Holding _ | In_recruited _ | With_keys _ | Ensuring _ ->
+    None
   | Body_until (Completes _, condition) ->
     let continue = function
       | Ok deeds -> cut (change (Label.Cut deeds) Rule.Until_cut Finished)
@@ -296,24 +314,41 @@ let check guard ~holds ~error =
 let wait_for guard =
   check guard ~holds:(fun label -> change label Rule.Condition Finished) ~error:Rule.Condition_err
 
-(* The values that the guard took, in their order. *)
+(* The pairs that the guard took, in their order. *)
 let taken deeds =
-  let values : Code.deed -> value list = function
-    | Consumed pairs -> List.map snd pairs
+  let pairs : Code.deed -> (string * value) list = function
+    | Consumed pairs -> pairs
     | Posted _ | Said _ | Released _ | Set_connection_timeout _ -> []
   in
-  List.concat_map values deeds
+  List.concat_map pairs deeds
 
-(* The step of a branch, by rule [enters]: code in the place of its task gets what the guard took. *)
+let is_taken = function Taken -> true | Pair _ | Variable _ -> false
+
+(* Whether the task of a branch depends on the pairs that its guard takes. *)
+let rec uses_taken = function
+  | Made made -> made.code.lambda.parameters > 0
+  | Ensure (ds, r) -> List.exists is_taken ds || uses_taken r
+  | _ -> false
+
+let rec with_taken deeds = function
+  | Made made when made.code.lambda.parameters > 0 -> Made { made with given = List.map snd (taken deeds) }
+  | Ensure (ds, r) ->
+    let given = function
+      | Taken -> List.map (fun (k, x) -> Pair (k, x)) (taken deeds)
+      | (Pair _ | Variable _) as d -> [ d ]
+    in
+    ensuring (List.concat_map given ds) (with_taken deeds r)
+  | r -> r
+
+(* The step of a branch, by rule [enters]: code in the place of its task, and [giveBack()], get the guard's pairs. *)
 let choose (b : branch) around ~enters ~error =
-  match b.body with
-  | Made made when made.code.lambda.parameters > 0 ->
+  if uses_taken b.body then
     let continue = function
-      | Ok deeds -> enter (Label.Check deeds) enters around (Made { made with given = taken deeds })
+      | Ok deeds -> enter (Label.Check deeds) enters around (with_taken deeds b.body)
       | Error fault -> broke error fault
     in
     alone (Guard_values b.guard) continue
-  | body -> check b.guard ~holds:(fun label -> enter label enters around body) ~error
+  else check b.guard ~holds:(fun label -> enter label enters around b.body) ~error
 
 let choose_of_all before b after =
   let remaining = List.rev_append before after in
@@ -407,7 +442,7 @@ let rec steps_at (mark : Branches.mark option) r : step Seq.t =
   | Unallocated { task; request } -> Seq.return (allocate task request)
   | Recruit { number; asked; code; place; depth; site = _ } -> Seq.return (recruit number asked code place depth)
   | Sequence _ | All_of (Some _, _) | Until _ | During _ | Watch _ | Hold _ | Recruited _ | Fresh _
-  | Repeat { round = Some _; _ } -> (
+  | Ensure _ | Repeat { round = Some _; _ } -> (
       match opened r with
       | None -> Seq.empty
       | Some (context, body) -> (

@@ -34,8 +34,9 @@ type undoing =
   | Cancel of timer
   | Leave of vehicle  (** it was recruited, and is released if it is in B *)
   | Forget of timer list  (** the keys of these numbers *)
+  | Do of ensured list  (** by an [ensure] that ends *)
   | Cut of t list  (** residuals that were cut off: their timers are cancelled, then their vehicles stop, and
-                       those that were recruited are released *)
+                       those that were recruited are released; their ensured deeds are done *)
 
 (** A further round that begins, of a [repeat] without a number of rounds: it has no end of its own, or its condition
     was asked and does not hold; or a watched task that runs again, by [retry()] of the handler at that place. *)
@@ -67,8 +68,11 @@ and change = {
   rounds : round list;  (** that begin: without these, every step leaves less of the residual *)
 }
 
-val keys : change -> timer list
-(** [keys c] is the numbers of the keys of tasks that begin or end by [c]: N is without pairs of them afterwards. *)
+val keys_begun : change -> timer list
+(** [keys_begun c] is the numbers of the keys of tasks that begin by [c]: N is without pairs of them afterwards. *)
+
+val changes_shared : change -> bool
+(** [changes_shared c] is whether [c] itself changes N or variables: keys begin or end, or something ensured is done. *)
 
 type step = Step : { offer : 'reply offer; continue : 'reply -> change; around : surrounding list } -> step
 (** [around] is the surroundings of the part that takes the step. *)
@@ -99,8 +103,9 @@ val cuts : context list -> t -> step list
 (** [cuts ks r] is the steps of [plug ks r] that are not steps of [r]: UNTIL-CUT, ASSURE-CUT, DURING-CUT and WITHIN-CUT
     of each of [ks], the innermost first. *)
 
-val escaping : context list list -> step -> step
+val escaping : ?beside:ensured list list -> context list list -> step -> step
 (** [escaping nests s] is [s] with its errors passed on. [s] is a step of a branch of a [|]. This [|] stands in the
     contexts at the head of [nests], as a branch of a [|] that stands in the next contexts, and so on. If the branch
     goes on or is over, all around it stays. An error leaves the [|] by PAR-ERR, passes through the contexts, and climbs
-    on unless it is handled there. The other branches are not known here, so they are not in [undone]. *)
+    on unless it is handled there. The other branches are not known here, so they are not in [undone], but for what
+    they ensure: [beside], for the innermost [|] first. *)

@@ -8,6 +8,19 @@ let parts e =
   | If (a, b, c) -> [ a; b; c ]
   | While (a, b) | For (_, a, b) -> [ a; b ]
 
+let rec ensured forms arguments =
+  match forms, arguments with
+  | Pair_of (Some _) :: forms, _ :: arguments | Pair_of None :: forms, _ :: _ :: arguments -> ensured forms arguments
+  | Taken_pairs :: forms, arguments -> ensured forms arguments
+  | Variable_of (i, _) :: forms, e :: arguments -> (i, e) :: ensured forms arguments
+  | _, _ -> []
+
+let assigned e =
+  match e.node with
+  | Set_global (i, e) -> [ (i, e) ]
+  | Apply (Builtin (Make_ensure forms), _ :: arguments) -> ensured forms arguments
+  | _ -> []
+
 (* [visit] of the expressions of one piece of code; [enter] of the code that it makes or holds. *)
 let rec walk ~visit ~enter e =
   visit e;

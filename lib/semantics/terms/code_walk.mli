@@ -6,6 +6,10 @@ val parts : expression -> expression list
 (** [parts e] is the expressions directly in [e], in the order in which they stand. The code that [e] makes or holds is
     not among them. *)
 
+val assigned : expression -> (int * expression) list
+(** [assigned e] is the global variables that [e] itself assigns, or the end of the task that it makes, each with the
+    expression of its value. *)
+
 val pieces : program -> lambda list
 (** [pieces p] is the code of [p] outside of other code: the script, the functions, the task of [onInterrupt]. *)
 

@@ -78,8 +78,15 @@ and task =
   | Recruit of { asked : Vehicle_filter.t; code : closure; site : site }
   (* waits for such a vehicle; the task that the code gives of it *)
   | Fresh of closure                            (* the task that this code gives of keys of its own *)
+  | Ensure of ensured list * task               (* the end of the task does these *)
 
 and branch = { guard : closure; body : task }
+
+(** A deed of the end of a task. Its values are known from the start, so it cannot fail. *)
+and ensured =
+  | Pair of string * value                      (* posts it; the value is canonical *)
+  | Variable of int * string * value            (* assigns a global, by its index and its name *)
+  | Taken                                       (* posts the pairs that the guard of the branch takes *)
 
 (** The state of a task that is cut off: done, by [until] and [during]; failed, by [assure] and [within]. The place in
     the program is that of the whole expression. A failure has it, so tasks that fail at other places differ; the
@@ -146,6 +153,7 @@ and builtin =
   | Make_during of Dolphin_syntax.Ast.on_cut
   | Make_watch
   | Make_fresh
+  | Make_ensure of ensured_form list            (* the task first, then keys and values *)
   | Make_repeat of { counted : bool; asked : bool }  (* how many rounds, the task, the condition *)
   | Execute
   | Execute_for of string list                  (* [execute v1: T1, ...]; names for messages, ["_"] no vehicles *)
@@ -180,6 +188,9 @@ and builtin =
                                                    objects *)
   | Math of string
   | Geometry of string * string option list     (* [along] and the like; names of named arguments *)
+
+(** [None]: the key is an argument before the value. *)
+and ensured_form = Pair_of of string option | Variable_of of int * string | Taken_pairs
 
 (** The code of a closure. The mutable fields are set once, by elaboration: functions may refer to themselves. *)
 and lambda = {

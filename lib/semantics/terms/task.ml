@@ -1,6 +1,16 @@
 open Core
 
-type mapper = { part : task -> task; code : closure -> closure; vehicle : vehicle -> vehicle }
+type mapper = {
+  part : task -> task;
+  code : closure -> closure;
+  value : value -> value;
+  vehicle : vehicle -> vehicle;
+}
+
+let map_ensured f = function
+  | Pair (k, x) -> Pair (k, f x)
+  | Variable (i, name, x) -> Variable (i, name, f x)
+  | Taken -> Taken
 
 (* From left to right: a function may number what it meets. *)
 let map m t =
@@ -37,6 +47,9 @@ let map m t =
     Repeat { x with until; body = m.part x.body }
   | Made c -> Made (m.code c)
   | Fresh c -> Fresh (m.code c)
+  | Ensure (ds, a) ->
+    let ds = List.map (map_ensured m.value) ds in
+    Ensure (ds, m.part a)
   | Recruit x -> Recruit { x with code = m.code x.code }
 
 let parts t =
@@ -45,5 +58,5 @@ let parts t =
     found := a :: !found;
     a
   in
-  ignore (map { part; code = Fun.id; vehicle = Fun.id } t);
+  ignore (map { part; code = Fun.id; value = Fun.id; vehicle = Fun.id } t);
   List.rev !found

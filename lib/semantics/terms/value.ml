@@ -16,6 +16,7 @@ let rank_task = function
   | Platform _ -> 0 | Action _ -> 1 | Condition _ -> 2 | Sequence _ -> 3 | Parallel _ -> 4 | Allocated _ -> 5
   | All_of _ -> 6 | One_of _ -> 7 | Until _ -> 8 | Idle _ -> 9 | During _ -> 10 | Watch _ -> 11
   | Repeat _ -> 12 | Made _ -> 13 | Confirm _ -> 14 | Recruit _ -> 15 | Fresh _ -> 16
+  | Ensure _ -> 17
 
 (* Two values may hold their parts many times over. Pairs of parts that took long to compare, and are equal, are
    remembered: this number of the latest. *)
@@ -113,10 +114,20 @@ and order_parts m t t' =
   | Recruit a, Recruit b ->
     Order.both (order_closure m a.code b.code) (fun () ->
         Order.both (Int.compare a.site b.site) (fun () -> Vehicle_filter.compare a.asked b.asked))
+  | Ensure (ds, a), Ensure (ds', a') ->
+    Order.both (Order.list (order_ensured m) ds ds') (fun () -> order_task m a a')
   | ( ( Platform _ | Action _ | Condition _ | Sequence _ | Parallel _ | Allocated _ | All_of _ | One_of _
       | Until _ | Idle _ | Confirm _ | During _ | Watch _ | Repeat _ | Made _ | Recruit _
-      | Fresh _ ),
+      | Fresh _ | Ensure _ ),
       _ ) -> Int.compare (rank_task t) (rank_task t')
+
+and order_ensured m d d' =
+  match d, d' with
+  | Pair (k, x), Pair (k', x') -> order_entry m (k, x) (k', x')
+  | Variable (i, _, x), Variable (i', _, x') -> Order.both (Int.compare i i') (fun () -> order m x x')
+  | Taken, Taken -> 0
+  | Pair _, (Variable _ | Taken) | Variable _, Taken -> -1
+  | (Variable _ | Taken), Pair _ | Taken, Variable _ -> 1
 
 and order_branch m b b' =
   Order.both (order_closure m b.guard b'.guard) (fun () -> order_task m b.body b'.body)
@@ -130,6 +141,7 @@ and order_duration m d d' =
 
 let compare x y = if x == y then 0 else order (memory ()) x y
 let compare_task t t' = if t == t' then 0 else order_task (memory ()) t t'
+let compare_ensured d d' = order_ensured (memory ()) d d'
 let compare_closure c c' = if c == c' then 0 else order_closure (memory ()) c c'
 
 (* The number of parts of a value that are hashed: it may share its parts with itself many times over. *)
@@ -193,10 +205,17 @@ and hash_task left depth t =
     | Confirm { prompt; _ } -> Order.mix 14 (Hashtbl.hash prompt)
     | During (_, _, a) -> Order.mix 10 (part a)
     | Repeat { rounds; body; _ } -> Order.mix (Order.mix 12 (Option.value rounds ~default:0)) (part body)
+    | Ensure (ds, a) -> List.fold_left (fun h d -> Order.mix h (hash_given left d)) (part a) ds
+
+and hash_given left = function
+  | Pair (k, x) -> Order.mix (Hashtbl.hash k) (hash_value left x)
+  | Variable (i, _, x) -> Order.mix i (hash_value left x)
+  | Taken -> 17
 
 let hashing () = { parts = hashed_parts; code = hashed_code }
 let hash x = hash_value (hashing ()) x
 let hash_closure c = hash_code (hashing ()) c
+let hash_ensured d = hash_given (hashing ()) d
 
 let canonical_number x =
   match x with
@@ -454,7 +473,16 @@ and print_task left level ppf t =
       parenthesised 0 (fun ppf -> Format.fprintf ppf "repeat %s%a%s" first (task 1) body last)
     | Made c -> print "{ %s }" c.lambda.label
     | Fresh c -> print "fresh { %s }" c.lambda.label
+    | Ensure (ds, a) -> print "%a ensure { %a }" (task 3) a pp_ensured ds
     | Recruit _ -> parenthesised 0 (fun ppf -> Format.fprintf ppf "recruit { ... } then { ... }")
+
+and pp_ensured ppf ds =
+  let one ppf = function
+    | Pair (k, x) -> Format.fprintf ppf "post %s: %a" k (print ~bare:false) x
+    | Variable (_, name, x) -> Format.fprintf ppf "%s = %a" name (print ~bare:false) x
+    | Taken -> Format.pp_print_string ppf "giveBack()"
+  in
+  Format.pp_print_list ~pp_sep:(fun ppf () -> Format.pp_print_string ppf "; ") one ppf ds
 
 let to_string x = Format.asprintf "%a" (print ~bare:true) x
 let pp ppf x = print ~bare:false ppf x

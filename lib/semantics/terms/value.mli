@@ -26,6 +26,9 @@ val compare_task : Core.task -> Core.task -> int
 val compare_closure : Core.closure -> Core.closure -> int
 (** A total order: by the piece of program, then by the captured values. *)
 
+val compare_ensured : Core.ensured -> Core.ensured -> int
+(** A total order of deeds of ends of tasks. *)
+
 val compare_on_cut : Core.on_cut -> Core.on_cut -> int
 (** A total order. *)
 
@@ -34,6 +37,9 @@ val hash : t -> int
 
 val hash_closure : Core.closure -> int
 (** Closures that are equal by {!compare_closure} have equal hashes. *)
+
+val hash_ensured : Core.ensured -> int
+(** Deeds that are equal by {!compare_ensured} have equal hashes. *)
 
 (** {1:language As the language has it} *)
 
@@ -104,6 +110,9 @@ val until : Core.on_cut -> string
 
 val during : Core.on_cut -> string
 (** [during e] is ["during"] or ["within"]. *)
+
+val pp_ensured : Format.formatter -> Core.ensured list -> unit
+(** As the statements between the braces of [ensure]. *)
 
 val pp_tuple : Format.formatter -> string * t -> unit
 (** ["k:x"]. *)

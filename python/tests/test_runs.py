@@ -196,8 +196,10 @@ async def main():
 
 asyncio.run(main())
 """)
+        # A shell's job in the background ignores SIGINT, and so would the child.
         child = subprocess.Popen(
-            [sys.executable, "ctrl_c.py"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True)
+            [sys.executable, "ctrl_c.py"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True,
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
         try:
             self.assertEqual(child.stdout.readline(), b"started\n")
             os.killpg(child.pid, signal.SIGINT)

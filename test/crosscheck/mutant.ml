@@ -318,8 +318,8 @@ let all =
       replacement = {|Result([ m EXCEPT !.sees = NothingSeen ], xs[m.sees[question]])|} };
     { name = "a sensor shows its first value only, and comparisons hold";
       file = machine;
-      pattern = {|Flatten([ i \in 1 .. m.stop[3] |-> Only|};
-      replacement = {|Flatten([ i \in 1 .. 1 |-> Only|} };
+      pattern = {|Flatten([ i \in 1 .. m.stop[3] |->|};
+      replacement = {|Flatten([ i \in 1 .. 1 |->|} };
     { name = "the date is that of the start";
       file = machine;
       pattern = {|DateAsValue(m.date))|};
@@ -413,8 +413,8 @@ let all =
     { name = "an interruption stops nothing";
       file = rules;
       pattern =
-        {|  EndedBy(Step("INTERRUPT", "interrupt", Interruption, Shared, Ends(Interrupted), << >>), TimersOf(kappa),
-          RecruitsOf(kappa))|};
+        {|  EndedBy(Ensuring(Step("INTERRUPT", "interrupt", Interruption, Shared, Ends(Interrupted), << >>), EnsuredOf(kappa)),
+          TimersOf(kappa), RecruitsOf(kappa))|};
       replacement = {|  Transition("INTERRUPT", "interrupt", Interruption, Ended(Interrupted), Shared, << >>)|} };
     { name = "an interruption completes the program";
       file = rules;

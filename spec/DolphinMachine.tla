@@ -104,7 +104,7 @@ Carries(vehicle, devices) == { Lower(d) : d \in Range(devices) } \subseteq vehic
 
 (* A sensor's reading is open, at each step; within one step it stays. S.sees is the answers seen in this step so
    far: for each question its answer, by number. There are two kinds of questions: <<sensor, v>> where the sensor (by
-   its name, or "position") may show one of several values, and those of comparisons, as Claim has them. *)
+   its name, or "position") may show one of several values, and those of comparisons, as ComparisonOf has them. *)
 NothingSeen == << >>
 Seeing(sees, question, i) == (question :> i) @@ sees
 Claims(sees) == { question \in DOMAIN sees : question[1] = "claim" }

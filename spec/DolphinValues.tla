@@ -614,7 +614,7 @@ SpelledBinary(op, x, y) == Enclosed(Spelled(x)) \o " " \o op \o " " \o Enclosed(
 Mirrored(op) == CASE op = "<" -> ">" [] op = ">" -> "<" [] OTHER -> op
 
 (* The question whether a comparison holds, answered by 1 or 2; of an operand with a number, it has these, too. *)
-Claim(op, x, y) ==
+ComparisonOf(op, x, y) ==
   LET text == SpelledBinary(op, x, y)
       isKnown(z) == z[1] \in { "integer", "number" }
   IN CASE isKnown(y) -> << "claim", text, Enclosed(Spelled(x)), op, y >>
@@ -622,11 +622,11 @@ Claim(op, x, y) ==
        [] OTHER -> << "claim", text >>
 
 (* The bounds from below, and from above, of what is compared, each with whether it is among the values. *)
-AtLeast(claim, answer) ==
+LowerBounds(claim, answer) ==
   CASE << claim[4], answer >> \in { << "<", 2 >>, << "==", 1 >> } -> { << claim[5], TRUE >> }
     [] << claim[4], answer >> = << ">", 1 >> -> { << claim[5], FALSE >> }
     [] OTHER -> { }
-AtMost(claim, answer) ==
+UpperBounds(claim, answer) ==
   CASE << claim[4], answer >> \in { << ">", 2 >>, << "==", 1 >> } -> { << claim[5], TRUE >> }
     [] << claim[4], answer >> = << "<", 1 >> -> { << claim[5], FALSE >> }
     [] OTHER -> { }
@@ -635,14 +635,14 @@ AtMost(claim, answer) ==
 Contradict(claim, answer, other, otherAnswer) ==
   /\ Len(claim) = 5 /\ Len(other) = 5
   /\ claim[3] = other[3]
-  /\ \E least \in AtLeast(claim, answer) \cup AtLeast(other, otherAnswer) :
-       \E most \in AtMost(claim, answer) \cup AtMost(other, otherAnswer) :
+  /\ \E least \in LowerBounds(claim, answer) \cup LowerBounds(other, otherAnswer) :
+       \E most \in UpperBounds(claim, answer) \cup UpperBounds(other, otherAnswer) :
          \/ Less(most[1], least[1])
          \/ ~Less(least[1], most[1]) /\ ~(least[2] /\ most[2])
 
 (* A comparison that holds, or does not; its opposite. *)
-Holds(op, x, y) == Depends(Claim(op, x, y), << True, False >>)
-HoldsNot(op, x, y) == Depends(Claim(op, x, y), << False, True >>)
+Holds(op, x, y) == Depends(ComparisonOf(op, x, y), << True, False >>)
+HoldsNot(op, x, y) == Depends(ComparisonOf(op, x, y), << False, True >>)
 
 AnyMore(xs) == Unsettled(Join(Each(SelectSeq(xs, IsReading), Spelled), ", "))
 

@@ -339,7 +339,7 @@ let all =
       replacement = {|Depends(<< "sensor", v >>, xs)|} };
     { name = "the opposite of a comparison is another comparison";
       file = values;
-      pattern = {|HoldsNot(op, x, y) == Depends(Claim(op, x, y), << False, True >>)|};
+      pattern = {|HoldsNot(op, x, y) == Depends(ComparisonOf(op, x, y), << False, True >>)|};
       replacement =
         {|HoldsNot(op, x, y) == Depends(<< "claim", "not " \o SpelledBinary(op, x, y) >>, << False, True >>)|} };
     { name = "comparisons of one step contradict each other";

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import os
-import random
 import shutil
 import tempfile
 import unittest
@@ -97,15 +96,6 @@ def converse(adapter: Adapter, script: Callable[[Console], Awaitable[None]], hel
         return await conversation
 
     return asyncio.run(go())
-
-
-def seeds(count: int) -> List[int]:
-    """Fixed seeds, and from DOLPHIN_SEED as many new ones."""
-    found = list(range(count))
-    if os.environ.get("DOLPHIN_SEED"):
-        new = random.Random(int(os.environ["DOLPHIN_SEED"]))
-        found += [new.randrange(1 << 30) for _ in range(count)]
-    return found
 
 
 class InFolder(unittest.TestCase):

@@ -9,7 +9,8 @@ import unittest
 import dolphin
 from dolphin import adapter as adapters
 from dolphin.adapter import Adapter
-from tests.support import ENDS, Console, converse, seeds, settled, until
+from seeds import seeds
+from tests.support import ENDS, Console, converse, settled, until
 
 
 class Board(dolphin.Vehicle):

@@ -1,7 +1,5 @@
 """Shared by tests of the adapter: missions, and networks of one vehicle."""
 
-import os
-import random
 import unittest
 
 from dolphin_mavlink import geo
@@ -37,15 +35,6 @@ def one(kind="copter", px4=False, items=None, armed=False, **network):
     wires = Network([vehicle], options=options, **network)
     wires.run(3)
     return vehicle, wires
-
-
-def seeds(count):
-    """Fixed seeds, and from DOLPHIN_SEED as many new ones."""
-    found = list(range(count))
-    if os.environ.get("DOLPHIN_SEED"):
-        new = random.Random(int(os.environ["DOLPHIN_SEED"]))
-        found += [new.randrange(1 << 30) for _ in range(count)]
-    return found
 
 
 class Case(unittest.TestCase):

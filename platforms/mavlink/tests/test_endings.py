@@ -5,7 +5,8 @@ import unittest
 
 from dolphin_mavlink.mission import Item
 from dolphin_mavlink.wire import mavlink
-from tests.support import Case, one, seeds, stored, waypoint, way
+from seeds import seeds
+from tests.support import Case, one, stored, waypoint, way
 
 LANDINGS = {
     "a landing": waypoint(0, 0, 0.0, command=21),

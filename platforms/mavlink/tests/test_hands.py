@@ -5,7 +5,8 @@ import random
 import unittest
 
 from dolphin_mavlink.wire import mavlink
-from tests.support import Case, one, seeds, stored, waypoint, way
+from seeds import seeds
+from tests.support import Case, one, stored, waypoint, way
 
 SET_MODE = mavlink.MAV_CMD_DO_SET_MODE
 # What the autopilot itself takes after the last item: a pilot's hand in the same mode looks alike.

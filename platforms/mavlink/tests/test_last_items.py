@@ -5,7 +5,8 @@ import unittest
 
 from dolphin_mavlink.mission import Item
 from dolphin_mavlink.wire import mavlink
-from tests.support import Case, one, seeds, stored, waypoint
+from seeds import seeds
+from tests.support import Case, one, stored, waypoint
 
 TRANSITION = mavlink.MAV_CMD_DO_VTOL_TRANSITION
 WAY = (waypoint(20, 0), waypoint(40, 0))

@@ -9,7 +9,7 @@ import unittest
 from dolphin_mavlink import mission, mission_files, plans
 from dolphin_mavlink.mission import Unreadable
 from dolphin_mavlink.wire import Wire
-from tests.support import seeds
+from seeds import seeds
 
 
 def simple(command, params, frame=3, **more):

@@ -12,7 +12,8 @@ from pymavlink.dialects import v20
 from dolphin_mavlink import mission, mission_files
 from dolphin_mavlink.mission import Item, Unreadable
 from dolphin_mavlink.wire import mavlink
-from tests.support import Case, one, seeds, stored, waypoint
+from seeds import seeds
+from tests.support import Case, one, stored, waypoint
 
 # Those of pymavlink that missions of ArduPilot or PX4 are written in.
 DIALECTS = [m.name for m in pkgutil.iter_modules(v20.__path__) if m.name in {"ardupilotmega", "common", "development"}]

@@ -14,7 +14,8 @@ from pymavlink import mavutil
 from dolphin_mavlink import replay, tlog
 from dolphin_mavlink.station import Options
 from dolphin_mavlink.wire import mavlink
-from tests.support import Case, one, seeds, stored, waypoint, way
+from seeds import seeds
+from tests.support import Case, one, stored, waypoint, way
 from tests.test_endings import LANDINGS, at_its_landing
 from tests.test_mavsdk import spawn_vehicle
 from tests.test_process import FOLDER, free_port

@@ -10,7 +10,8 @@ from dolphin_mavlink.station import Options
 from dolphin_mavlink.wire import mavlink
 from sim.network import Network
 from sim.vehicle import SimVehicle
-from tests.support import HARBOUR, Case, one, seeds, stored, way
+from seeds import seeds
+from tests.support import HARBOUR, Case, one, stored, way
 
 POINTS = 100
 LENGTH = 16.0  # seconds that the mission takes, from the order to its end, and a little more

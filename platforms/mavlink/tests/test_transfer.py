@@ -4,7 +4,8 @@ import unittest
 
 from dolphin_mavlink.transfer import Download, RoundTrip, Upload, numbered
 from dolphin_mavlink.wire import mavlink
-from tests.support import Case, one, seeds, stored, way
+from seeds import seeds
+from tests.support import Case, one, stored, way
 
 BAD = {"loss": 0.3, "doubled": 0.1, "reordered": 0.2}
 

@@ -8,6 +8,8 @@ import re
 from dataclasses import dataclass
 from typing import Any, Dict, Mapping, Optional, Tuple, Union
 
+import dolphin
+
 from . import messages
 from .document import Place, Value
 from .geo import Origin
@@ -40,15 +42,6 @@ class Topic:
     type: Type
     path: Optional[Path] = None
     place: Place = dataclasses.field(default=Place(1, 1), compare=False)
-
-
-@dataclass(frozen=True)
-class Fixed:
-    """The position of a robot that stays where it is."""
-
-    latitude: float
-    longitude: float
-    height: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -116,7 +109,7 @@ class Kind:
     name: str
     type: str
     payload: Tuple[str, ...]
-    position: Union[Topic, Fixed]
+    position: Union[Topic, dolphin.Position]
     battery: Optional[Topic]
     readings: Mapping[str, Topic]
     ready: Optional[Ready]

@@ -6,9 +6,11 @@ from __future__ import annotations
 import re
 from typing import Dict, Mapping, Optional, Sequence, Tuple, Union
 
+import dolphin
+
 from . import messages
 from .configuration import (
-    ANSWER, SILENCE, Configuration, Fixed, Kind, PlanRule, Progress, Ready, RobotEntry, Rule, Topic, Type,
+    ANSWER, SILENCE, Configuration, Kind, PlanRule, Progress, Ready, RobotEntry, Rule, Topic, Type,
 )
 from .document import Fault, Faulty, Place, Reader, Value, near, parse
 from .geo import Origin
@@ -161,14 +163,14 @@ class _Reading:
                 self.reader.fault(
                     plan.type.place, f"the {what} {plan.interface} is of type {before} in line {before.place.line}")
 
-    def position(self, value: Optional[Value], origin: Optional[Origin]) -> Union[Topic, Fixed]:
-        nowhere = Fixed(0.0, 0.0)
+    def position(self, value: Optional[Value], origin: Optional[Origin]) -> Union[Topic, dolphin.Position]:
+        nowhere = dolphin.Position(0.0, 0.0)
         if value is None:
             return nowhere
         if isinstance(value.data, dict) and "topic" not in value.data:
             members = self.reader.members(
                 value, "'position' without a topic", ("latitude", "longitude", "height"), ("latitude", "longitude"))
-            return Fixed(
+            return dolphin.Position(
                 self.reader.number(members.get("latitude"), "'latitude'", 0, -90, 90),
                 self.reader.number(members.get("longitude"), "'longitude'", 0, -180, 180),
                 self.reader.number(members.get("height"), "'height'"),

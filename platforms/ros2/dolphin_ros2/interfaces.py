@@ -6,8 +6,10 @@ from __future__ import annotations
 import importlib
 from typing import Any, Callable
 
+import dolphin
+
 from . import messages
-from .configuration import Configuration, Fixed, Kind, PlanRule, Topic, Type
+from .configuration import Configuration, Kind, PlanRule, Topic, Type
 from .document import Reader, near
 from .messages import Path, Unfit
 
@@ -66,7 +68,7 @@ class _Check:
             return None
 
     def kind(self, kind: Kind) -> None:
-        if not isinstance(kind.position, Fixed):
+        if not isinstance(kind.position, dolphin.Position):
             self.topic(kind.position)
         if kind.battery is not None:
             self.topic(kind.battery)

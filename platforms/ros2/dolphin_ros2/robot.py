@@ -16,7 +16,7 @@ from typing import (
 import dolphin
 
 from . import goals, interfaces, messages
-from .configuration import Configuration, Fixed, PlanRule, RobotEntry, Topic
+from .configuration import Configuration, PlanRule, RobotEntry, Topic
 from .document import near
 from .messages import Unfit
 
@@ -180,7 +180,7 @@ class Robot(dolphin.Vehicle):
             else:
                 self._actions[rule.name] = self._by_interface[rule.interface] = links.action(name, class_)
         position = self.kind.position
-        if isinstance(position, Fixed):
+        if isinstance(position, dolphin.Position):
             self.report(latitude=position.latitude, longitude=position.longitude, height=position.height)
         else:
             self._listen(links, position, self._locate)

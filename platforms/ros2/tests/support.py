@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import os
-import random
 import uuid
 from types import SimpleNamespace
 from typing import Any, Awaitable, Callable, Dict, FrozenSet, List, Mapping, Optional, Tuple
@@ -264,12 +262,3 @@ def converse(links: FakeLinks, script: Callable[[Console, Robot], Awaitable[None
         return console
 
     return asyncio.run(go())
-
-
-def seeds(count: int) -> List[int]:
-    """Fixed seeds, and from DOLPHIN_SEED as many new ones."""
-    fixed = list(range(count))
-    if os.environ.get("DOLPHIN_SEED"):
-        new = random.Random(int(os.environ["DOLPHIN_SEED"]))
-        fixed += [new.randrange(1 << 30) for _ in range(count)]
-    return fixed

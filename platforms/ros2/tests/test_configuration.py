@@ -7,7 +7,8 @@ import unittest
 from dolphin_ros2 import configuration_file, interfaces
 from dolphin_ros2.document import Faulty
 
-from tests.support import TEXT, load, seeds
+from seeds import seeds
+from tests.support import TEXT, load
 
 EXAMPLE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "example", "robots.yaml")
 

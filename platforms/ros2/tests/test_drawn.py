@@ -8,7 +8,8 @@ import unittest
 import dolphin_ros2.robot as module
 from dolphin_ros2 import goals
 
-from tests.support import Console, FakeLinks, converse, seeds, until
+from seeds import seeds
+from tests.support import Console, FakeLinks, converse, until
 
 ENDS = ("done", "failed", "stopped", "absent")
 

@@ -54,6 +54,16 @@ class Ready:
 
 
 @dataclass(frozen=True)
+class Lifecycle:
+    """The robot takes plans while this managed node is active."""
+
+    node: str
+    """Its name, relative to the robot's namespace."""
+    type: Type
+    """The service that reports its state."""
+
+
+@dataclass(frozen=True)
 class Rule:
     """How a result is judged: by a field that has one of the values `done`, or else the plan has failed. `words` are
     reasons by value, `message` is the field that has the reason."""
@@ -90,13 +100,15 @@ class PlanRule:
     result: Rule
     progress: Optional[Progress]
     place: Place = dataclasses.field(compare=False)
+    point: Optional[Value] = None
+    """Of the maneuver `path`: a point of it, an item of `${points}`."""
 
     def match(self, name: str) -> Optional[Dict[str, str]]:
         """The parameters of a plan's name; `None` if it is another plan."""
         match = _pattern(self.name).fullmatch(name)
         return None if match is None else match.groupdict()
 
-    def values(self, parameters: Mapping[str, str]) -> Dict[str, Any]:
+    def values(self, parameters: Mapping[str, Any]) -> Dict[str, Any]:
         """The fields of the goal or the request."""
         found: Dict[str, Any] = messages.substitute(self.template.plain(), parameters)
         return found
@@ -112,9 +124,11 @@ class Kind:
     position: Union[Topic, dolphin.Position]
     battery: Optional[Topic]
     readings: Mapping[str, Topic]
-    ready: Optional[Ready]
+    ready: Union[Ready, Lifecycle, None]
     silence: float
     plans: Tuple[PlanRule, ...]
+    maneuvers: Mapping[str, PlanRule]
+    """The actions for the maneuvers of plans that programs describe: `goTo`, `path`, `wait`."""
 
     def plan(self, name: str) -> Optional[Tuple[PlanRule, Dict[str, str]]]:
         """The plan of this name with its parameters: names without parameters go before those with them."""
@@ -146,6 +160,8 @@ class Configuration:
     robots: Tuple[RobotEntry, ...]
     kinds: Tuple[Kind, ...]
     inputs: Mapping[str, Topic]
+    outputs: Mapping[str, str]
+    """The topics for news of a run, by `messages`, `posts` and `states`."""
     domain: Optional[int]
     origin: Optional[Origin]
     answer: float

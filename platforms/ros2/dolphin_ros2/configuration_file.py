@@ -4,13 +4,13 @@ these, with the packages that are there."""
 from __future__ import annotations
 
 import re
-from typing import Dict, Mapping, Optional, Sequence, Tuple, Union
+from typing import Collection, Dict, Mapping, Optional, Sequence, Tuple, Union
 
 import dolphin
 
-from . import messages
+from . import maneuvers, messages
 from .configuration import (
-    ANSWER, SILENCE, Configuration, Kind, PlanRule, Progress, Ready, RobotEntry, Rule, Topic, Type,
+    ANSWER, SILENCE, Configuration, Kind, Lifecycle, PlanRule, Progress, Ready, RobotEntry, Rule, Topic, Type,
 )
 from .document import Fault, Faulty, Place, Reader, Value, near, parse
 from .geo import Origin
@@ -40,7 +40,11 @@ _NAME = re.compile(r"/?[A-Za-z_]\w*(/[A-Za-z_]\w*)*")
 _INTERFACE = re.compile(r"([A-Za-z]\w*)/(?:(msg|srv|action)/)?([A-Za-z]\w*)")
 _FOLDERS = {"msg": "sensor_msgs/msg/NavSatFix", "srv": "std_srvs/srv/Trigger", "action": "nav2_msgs/action/Spin"}
 
-POSITIONS = ("sensor_msgs/msg/NavSatFix", "nav_msgs/msg/Odometry")
+POSITIONS = (
+    "sensor_msgs/msg/NavSatFix", "nav_msgs/msg/Odometry", "geometry_msgs/msg/PoseStamped",
+    "geometry_msgs/msg/PoseWithCovarianceStamped",
+)
+OUTPUTS = ("messages", "posts", "states")
 BATTERY = "sensor_msgs/msg/BatteryState"
 
 
@@ -52,7 +56,7 @@ class _Reading:
 
     def configuration(self, document: Value) -> Configuration:
         members = self.reader.members(
-            document, "the configuration", ("robots", "kinds", "inputs", "domain", "origin", "answer"),
+            document, "the configuration", ("robots", "kinds", "inputs", "outputs", "domain", "origin", "answer"),
             needed=("robots", "kinds"),
         )
         origin = self.origin(members.get("origin"))
@@ -74,9 +78,16 @@ class _Reading:
         return Configuration(
             path=self.reader.path, robots=tuple(robot for robot in robots if robot is not None),
             kinds=tuple(kinds.values()), inputs={key: topic for key, topic in inputs.items() if topic is not None},
-            domain=self.domain(members.get("domain")), origin=origin,
+            outputs=self.outputs(members.get("outputs")), domain=self.domain(members.get("domain")), origin=origin,
             answer=self.reader.number(members.get("answer"), "'answer'", ANSWER, 0.1, 600),
         )
+
+    def outputs(self, value: Optional[Value]) -> Dict[str, str]:
+        if value is None:
+            return {}
+        members = self.reader.members(value, "'outputs'", OUTPUTS)
+        return {key: name for key, name in ((key, self.name(item, "a topic", f"dolphin/{key}"))
+                                            for key, item in members.items()) if name}
 
     def domain(self, value: Optional[Value]) -> Optional[int]:
         if value is None:
@@ -133,7 +144,7 @@ class _Reading:
 
     def kind(self, name: str, value: Value, origin: Optional[Origin]) -> Kind:
         what = f"the kind '{name}'"
-        known = ("type", "payload", "position", "battery", "readings", "ready", "silence", "plans")
+        known = ("type", "payload", "position", "battery", "readings", "ready", "silence", "plans", "maneuvers")
         members = self.reader.members(value, what, known, needed=("type", "position", "plans"))
         readings = {
             key: self.topic(item, f"the reading '{key}'", with_field=True)
@@ -143,7 +154,8 @@ class _Reading:
             self.plan(key, item, members["plans"].keys[key])
             for key, item in self.reader.entries(members.get("plans"), "'plans'").items()
         ]
-        self.one_type_each([plan for plan in plans if plan is not None])
+        maneuvers = self.maneuvers(members.get("maneuvers"), origin)
+        self.one_type_each([plan for plan in [*plans, *maneuvers.values()] if plan is not None])
         return Kind(
             name=name, type=self.reader.text(members.get("type"), "'type'"),
             payload=self.payload(members.get("payload")), position=self.position(members.get("position"), origin),
@@ -151,7 +163,7 @@ class _Reading:
             readings={key: topic for key, topic in readings.items() if topic is not None},
             ready=self.ready(members.get("ready")),
             silence=self.reader.number(members.get("silence"), "'silence'", SILENCE, 0.5, 3600),
-            plans=tuple(plan for plan in plans if plan is not None),
+            plans=tuple(plan for plan in plans if plan is not None), maneuvers=maneuvers,
         )
 
     def one_type_each(self, plans: Sequence[PlanRule]) -> None:
@@ -179,11 +191,13 @@ class _Reading:
         if topic is None:
             return nowhere
         if str(topic.type) not in POSITIONS:
-            self.reader.fault(topic.type.place, f"a position is of type {' or '.join(POSITIONS)}; this is {topic.type}")
-        elif str(topic.type) == POSITIONS[1] and origin is None:
+            types = f"{', '.join(POSITIONS[:-1])} or {POSITIONS[-1]}"
+            self.reader.fault(topic.type.place, f"a position is of type {types}; this is {topic.type}")
+        elif str(topic.type) != POSITIONS[0] and origin is None:
+            what = f"{'an' if topic.type.name[0] in 'AEIOU' else 'a'} {topic.type.name}"
             self.reader.fault(
                 topic.type.place,
-                "an Odometry is in metres from the origin of its map: the configuration needs 'origin', with its "
+                f"{what} is in metres from the origin of its map: the configuration needs 'origin', with its "
                 "'latitude' and 'longitude'",
             )
         return topic
@@ -196,9 +210,13 @@ class _Reading:
             self.reader.fault(topic.type.place, f"a battery is of type {BATTERY}, or gives a 'field' from 0 to 1")
         return topic
 
-    def ready(self, value: Optional[Value]) -> Optional[Ready]:
+    def ready(self, value: Optional[Value]) -> Union[Ready, Lifecycle, None]:
         if value is None:
             return None
+        if isinstance(value.data, dict) and "lifecycle" in value.data:
+            node = self.reader.members(value, "'ready' by a lifecycle", ("lifecycle",)).get("lifecycle")
+            name = self.name(node, "a node", "bt_navigator")
+            return Lifecycle(name, Type("lifecycle_msgs", "srv", "GetState", value.place)) if name else None
         members = self.reader.members(
             value, "'ready'", ("topic", "type", "field", "is", "otherwise"), needed=("topic", "type", "field", "is"))
         own = {key: item for key, item in members.items() if key in ("topic", "type", "field")}
@@ -269,6 +287,48 @@ class _Reading:
         if not interface or type_ is None:
             return None
         return PlanRule(name, is_service, interface, type_, template, result, progress, place)
+
+    def maneuvers(self, value: Optional[Value], origin: Optional[Origin]) -> Dict[str, PlanRule]:
+        found = {}
+        members = {} if value is None else self.reader.members(value, "'maneuvers'", tuple(maneuvers.PARAMETERS))
+        for name, item in members.items():
+            rule = self.maneuver(name, item, origin)
+            if rule is not None:
+                found[name] = rule
+        if value is not None and members and not {"goTo", "path"} & set(members):
+            self.reader.fault(value.place, "'maneuvers' needs the member 'goTo', 'path', or both")
+        return found
+
+    def maneuver(self, name: str, value: Value, origin: Optional[Origin]) -> Optional[PlanRule]:
+        what, point = f"the maneuver '{name}'", ("point",) if name == "path" else ()
+        known = ("action", "type", "goal", "result", "progress")
+        members = self.reader.members(value, what, (*known, *point), needed=(*known[:3], *point))
+        interface = self.name(members.get("action"), "an action", "navigate_to_pose")
+        type_ = self.type(members.get("type"), "action")
+        template, has = members.get("goal") or Value(value.place, {}), maneuvers.PARAMETERS[name]
+        own = messages.parameters_of(template.plain())
+        self.known_parameters(template, has, what)
+        if name == "path" and "goal" in members and "points" not in own:
+            self.reader.fault(template.place, "the goal of 'path' has a field with the value ${points}")
+        if "point" in members:
+            self.known_parameters(members["point"], maneuvers.POINT, "a point")
+            own |= messages.parameters_of(members["point"].plain())
+        if own & maneuvers.OF_MAP and origin is None:
+            self.reader.fault(value.place, f"{what} is in metres of a map: the configuration needs 'origin'")
+        progress, result = self.progress(members.get("progress"), name), self.rule(members.get("result"))
+        if not interface or type_ is None:
+            return None
+        return PlanRule(
+            name, False, interface, type_, template, result, progress, value.place, members.get("point"))
+
+    def known_parameters(self, template: Value, known: Collection[str], what: str) -> None:
+        """Reports parameters that are not those of a maneuver."""
+        inside = template.data.values() if isinstance(template.data, dict) else (
+            template.data if isinstance(template.data, tuple) else ())
+        for item in inside:
+            self.known_parameters(item, known, what)
+        for parameter in sorted(messages.parameters_of(template.data) - set(known)) if not inside else ():
+            self.reader.fault(template.place, f"{what} has no parameter '{parameter}'{near(parameter, known)}")
 
     def parameters(self, name: str, place: Place) -> None:
         found = messages.PARAMETER.findall(name)

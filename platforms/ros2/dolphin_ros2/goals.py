@@ -21,14 +21,14 @@ ERROR_NONE, ERROR_REJECTED, ERROR_UNKNOWN_GOAL_ID, ERROR_GOAL_TERMINATED = range
 _NAMESPACE = uuid.uuid5(uuid.NAMESPACE_DNS, "dolphin-ros2")
 
 
-def goal_id(robot: str, request: str) -> uuid.UUID:
-    """The identity of the goal of a request. It follows from the request, so that an adapter which is started again, by
-    the same console or by another one, asks the robot about the same goal.
+def goal_id(robot: str, request: str, number: int = 0) -> uuid.UUID:
+    """The identity of a goal of a request: of the only one, or of one of several. It follows from the request, so that
+    an adapter which is started again, by the same console or by another one, asks the robot about the same goal.
 
     >>> goal_id("carrier-1", "k3q9x2f1-4")
     UUID('0c389aa5-cb63-55f9-b061-0eab7a6e95ca')
     """
-    return uuid.uuid5(_NAMESPACE, f"{robot}\n{request}")
+    return uuid.uuid5(_NAMESPACE, f"{robot}\n{request}" + (f"\n{number}" if number else ""))
 
 
 def judge(rule: PlanRule, status: int, result: Any) -> None:
@@ -89,7 +89,7 @@ def _same(value: Any, wanted: Any) -> bool:
     return value == wanted and isinstance(value, bool) == isinstance(wanted, bool)
 
 
-def share(rule: PlanRule, parameters: Mapping[str, str], feedback: Any) -> Optional[float]:
+def share(rule: PlanRule, parameters: Mapping[str, Any], feedback: Any) -> Optional[float]:
     """The share of the plan that is done, by its feedback."""
     if rule.progress is None or rule.progress.field is None:
         return None

@@ -8,8 +8,8 @@ from typing import Any, Callable
 
 import dolphin
 
-from . import messages
-from .configuration import Configuration, Kind, PlanRule, Topic, Type
+from . import maneuvers, messages
+from .configuration import Configuration, Kind, Lifecycle, PlanRule, Topic, Type
 from .document import Reader, near
 from .messages import Path, Unfit
 
@@ -74,10 +74,23 @@ class _Check:
             self.topic(kind.battery)
         for topic in kind.readings.values():
             self.topic(topic)
-        if kind.ready is not None:
+        if isinstance(kind.ready, Lifecycle):
+            self._of(kind.ready.type)
+        elif kind.ready is not None:
             self.topic(kind.ready.topic)
-        for plan in kind.plans:
+        for plan in (*kind.plans, *kind.maneuvers.values()):
             self.plan(plan)
+        for rule in kind.maneuvers.values():
+            self.maneuver(rule)
+
+    def maneuver(self, rule: PlanRule) -> None:
+        """A goal with values of its own shows whether parameters fit their fields, which have known types here."""
+        try:
+            class_ = of(rule.type, self.load)
+            messages.build(class_.Goal, rule.values(maneuvers.sample(rule)), self._find)
+        except Unfit as unfit:
+            if not self.reader.faults:
+                self.reader.fault(rule.template.place, str(unfit))
 
     def topic(self, topic: Topic) -> None:
         class_ = self._of(topic.type)

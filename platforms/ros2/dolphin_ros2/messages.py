@@ -114,14 +114,19 @@ def parameters_of(template: Any) -> "set[str]":
     return {name for item in inside for name in parameters_of(item)}
 
 
-def substitute(template: Any, parameters: Mapping[str, str]) -> Any:
-    """A template with its parameters' values.
+def substitute(template: Any, parameters: Mapping[str, Any]) -> Any:
+    """A template with its parameters' values. A text that is just a parameter becomes its value.
 
     >>> substitute({"bay": "${bay}", "label": "bay ${bay}"}, {"bay": "3"})
     {'bay': '3', 'label': 'bay 3'}
+    >>> substitute({"x": "${x}"}, {"x": 0.5})
+    {'x': 0.5}
     """
     if isinstance(template, str):
-        return PARAMETER.sub(lambda match: parameters[match.group(1)], template)
+        whole = PARAMETER.fullmatch(template)
+        if whole is not None:
+            return parameters[whole.group(1)]
+        return PARAMETER.sub(lambda match: str(parameters[match.group(1)]), template)
     if isinstance(template, Mapping):
         return {key: substitute(item, parameters) for key, item in template.items()}
     if isinstance(template, list):

@@ -15,9 +15,10 @@ from typing import (
 
 import dolphin
 
-from . import goals, interfaces, messages
-from .configuration import Configuration, PlanRule, RobotEntry, Topic
+from . import goals, interfaces, maneuvers, messages
+from .configuration import Configuration, Lifecycle, PlanRule, Ready, RobotEntry, Topic
 from .document import near
+from .maneuvers import Step
 from .messages import Unfit
 
 LOOK = 0.25
@@ -31,6 +32,8 @@ ASK_AGAIN = (2.0, 60.0)
 goal is over, so they are few."""
 MOST_ASKED = 3
 """Requests for one result that are waited for at once at most."""
+STATE = (1.0, 2.0)
+"""Seconds between two questions for the state of a node, and until a question without an answer is given up."""
 ASK_AT_MOST = 0.5
 """Seconds between two requests for a result at least."""
 CANCEL_WAIT = 2.0
@@ -85,7 +88,7 @@ class Links(Protocol):
 class Goal:
     """A goal of a request, from the order on."""
 
-    def __init__(self, rule: PlanRule, parameters: Mapping[str, str], action: Action, id_: uuid.UUID) -> None:
+    def __init__(self, rule: PlanRule, parameters: Mapping[str, Any], action: Action, id_: uuid.UUID) -> None:
         self.rule, self.parameters, self.action, self.id = rule, parameters, action, id_
         self.reply: "Optional[asyncio.Future[bool]]" = None
         """The server's answer to the goal: accepted or rejected. `None` if an adapter before this one sent it."""
@@ -154,12 +157,19 @@ class Robot(dolphin.Vehicle):
         super().__init__(entry.name, type=entry.kind.type, payload=entry.payload, link=False)
         self.entry, self.kind, self.configuration, self._clock = entry, entry.kind, configuration, clock
         self._load = load or importlib.import_module
+        self.languages = ("imcPlan",) if entry.kind.maneuvers else ()
+        self._steps: Dict[str, List[Step]] = {}
+        """The goals of requests, in their order; one of a plan by name."""
+        self._at: Dict[str, int] = {}
+        """The numbers of the goals that run."""
+        self._doubtful: Set[str] = set()
+        """Requests any of whose goals may run."""
         self._goals: Dict[str, Goal] = {}
+        """The goals that run."""
         self._started: Set[str] = set()
         """The requests that this adapter was ordered to start: without a goal or a call nothing was sent for them."""
         self._calls: "Dict[str, asyncio.Future[Any]]" = {}
         self._actions: Dict[str, Action] = {}
-        self._by_interface: Dict[str, Action] = {}
         self._services: Dict[str, Service] = {}
         self._topics: "List[Tuple[Callable[[], Any], Callable[[Any], None]]]" = []
         self._heard, self._since = -math.inf, math.inf
@@ -168,17 +178,18 @@ class Robot(dolphin.Vehicle):
         self._at_first: Set[uuid.UUID] = set()
         """The goals that ran when this adapter began, if the run had begun before: they may be those of requests."""
         self._not_ready: Optional[str] = None
+        self._node: Optional[Service] = None
         self._complaints: Set[str] = set()
         if links is not None:
             self._connect(links)
 
     def _connect(self, links: Links) -> None:
-        for rule in self.kind.plans:
+        for rule in (*self.kind.plans, *self.kind.maneuvers.values()):
             name, class_ = self.entry.resolve(rule.interface), interfaces.of(rule.type, self._load)
             if rule.is_service:
                 self._services[rule.name] = links.service(name, class_)
             else:
-                self._actions[rule.name] = self._by_interface[rule.interface] = links.action(name, class_)
+                self._actions[rule.interface] = links.action(name, class_)
         position = self.kind.position
         if isinstance(position, dolphin.Position):
             self.report(latitude=position.latitude, longitude=position.longitude, height=position.height)
@@ -188,7 +199,11 @@ class Robot(dolphin.Vehicle):
             self._listen(links, self.kind.battery, self._charge)
         for name, topic in self.kind.readings.items():
             self._listen(links, topic, lambda message, name=name, topic=topic: self._read(name, topic, message))
-        if self.kind.ready is not None:
+        if isinstance(self.kind.ready, Lifecycle):
+            node = self.entry.resolve(self.kind.ready.node)
+            self._node = links.service(f"{node}/get_state", interfaces.of(self.kind.ready.type, self._load))
+            self._not_ready = f"its node {node} does not answer"
+        elif self.kind.ready is not None:
             self._not_ready = self.kind.ready.otherwise
             self._listen(links, self.kind.ready.topic, self._judge_readiness)
 
@@ -199,9 +214,26 @@ class Robot(dolphin.Vehicle):
     # Telemetry.
 
     async def run(self) -> None:
+        asking = None if self._node is None else asyncio.ensure_future(self._ask_state(self._node))
+        try:
+            while True:
+                self.look()
+                await asyncio.sleep(LOOK)
+        finally:
+            if asking is not None:
+                asking.cancel()
+
+    async def _ask_state(self, service: Service) -> None:
+        """Keeps the reason why the robot is not ready up to date by the state of its node."""
+        assert isinstance(self.kind.ready, Lifecycle)
+        node = self.entry.resolve(self.kind.ready.node)
+        request = interfaces.of(self.kind.ready.type, self._load).Request
         while True:
-            self.look()
-            await asyncio.sleep(LOOK)
+            answer = await _within(service.call(request()), STATE[1]) if service.is_there() else None
+            label = None if answer is None else str(answer.current_state.label)
+            self._not_ready = {None: f"its node {node} does not answer", "active": None}.get(
+                label, f"its node {node} is {label}")
+            await asyncio.sleep(STATE[0])
 
     def look(self) -> None:
         """Reports what the topics have, the link, and whether the robot can be given a plan."""
@@ -216,7 +248,7 @@ class Robot(dolphin.Vehicle):
         if self._topics:
             is_heard = self._clock() - self._heard <= self.kind.silence
         else:
-            is_heard = (any(action.is_there() for action in self._by_interface.values())
+            is_heard = (any(action.is_there() for action in self._actions.values())
                         or any(service.is_there() for service in self._services.values()))
         if not is_heard:
             self._since = math.inf
@@ -232,7 +264,7 @@ class Robot(dolphin.Vehicle):
 
     def _running(self) -> Iterator[Tuple[uuid.UUID, str]]:
         """The goals that run, of any client, with the names of their actions."""
-        for interface, action in self._by_interface.items():
+        for interface, action in self._actions.items():
             for id_, status in action.statuses().items():
                 if status in goals.ACTIVE:
                     yield id_, interface
@@ -246,12 +278,13 @@ class Robot(dolphin.Vehicle):
 
     def _locate(self, message: Any) -> None:
         if hasattr(message, "pose"):
-            origin, point = self.configuration.origin, message.pose.pose.position
-            speed = message.twist.twist.linear
+            origin, point = self.configuration.origin, getattr(message.pose, "pose", message.pose).position
             if origin is not None and math.isfinite(point.x) and math.isfinite(point.y):
                 latitude, longitude = origin.locate(point.x, point.y)
-                self.report(latitude=latitude, longitude=longitude, height=origin.height + point.z,
-                            speed=math.hypot(speed.x, speed.y))
+                self.report(latitude=latitude, longitude=longitude, height=origin.height + point.z)
+                if hasattr(message, "twist"):
+                    speed = message.twist.twist.linear
+                    self.report(speed=math.hypot(speed.x, speed.y))
         elif message.status.status >= 0:  # there is a fix
             self.report(latitude=message.latitude, longitude=message.longitude, height=message.altitude)
 
@@ -269,7 +302,7 @@ class Robot(dolphin.Vehicle):
 
     def _judge_readiness(self, message: Any) -> None:
         ready = self.kind.ready
-        assert ready is not None and ready.topic.path is not None
+        assert isinstance(ready, Ready) and ready.topic.path is not None
         self._not_ready = None if ready.topic.path.read(message) == ready.value else ready.otherwise
 
     def _complain(self, why: str) -> None:
@@ -281,45 +314,71 @@ class Robot(dolphin.Vehicle):
     # Plans.
 
     async def problems(self, plan: dolphin.Plan) -> Sequence[str]:
-        found = self.kind.plan(plan.name)
-        if found is None:
-            names = [rule.name for rule in self.kind.plans]
-            return [f"undefined plan '{plan.name}'{near(plan.name, names)}"]
+        steps, problems = self._judged(plan)
+        if problems:
+            return problems
         try:
-            self._message(*found)
+            for step in steps:
+                self._message(*step)
         except Unfit as unfit:
             return [f"plan '{plan.name}': {unfit}"]
         return []
 
-    def _message(self, rule: PlanRule, parameters: Mapping[str, str]) -> Any:
+    def _judged(self, plan: dolphin.Plan) -> Tuple[List[Step], List[str]]:
+        """The goals of a plan, or the call of its service; and the reasons why it cannot be carried out."""
+        if plan.language is not None:
+            place = self.known.get("latitude"), self.known.get("longitude")
+            start = None if place[0] is None or place[1] is None else (place[0], place[1])
+            return maneuvers.compile_plan(
+                plan.body, self.name, self.kind.maneuvers, self.configuration.origin, start)
+        found = self.kind.plan(plan.name)
+        if found is None:
+            names = [rule.name for rule in self.kind.plans]
+            return [], [f"undefined plan '{plan.name}'{near(plan.name, names)}"]
+        return [Step(*found)], []
+
+    def _message(self, rule: PlanRule, parameters: Mapping[str, Any]) -> Any:
         """The goal or the request of a plan. Raises `Unfit`."""
         class_ = interfaces.of(rule.type, self._load)
         kind = class_.Request if rule.is_service else class_.Goal
         return messages.build(kind, rule.values(parameters), lambda name: interfaces.message(name, self._load))
 
-    def _found(self, plan: dolphin.Plan) -> Tuple[PlanRule, Dict[str, str]]:
-        found = self.kind.plan(plan.name)
-        if found is None:
-            raise dolphin.Unknown(f"its configuration has no plan '{plan.name}' any more")
-        return found
+    def _found(self, plan: dolphin.Plan) -> List[Step]:
+        """The goals of a plan that an adapter has accepted."""
+        steps = self._steps.get(plan.request)
+        if steps is None:
+            steps, problems = self._judged(plan)
+            if problems:
+                raise dolphin.Unknown(f"its configuration has no plan '{plan.name}' any more")
+            self._steps[plan.request] = steps
+        return steps
 
     async def start(self, plan: dolphin.Plan) -> None:
         self._started.add(plan.request)
-        rule, parameters = self._found(plan)
-        message = self._message(rule, parameters)
+        steps = self._found(plan)
+        rule, parameters = steps[0]
         if rule.is_service:
+            message = self._message(rule, parameters)
             service = self._services[rule.name]
             await self._present(service, f"has no service {self.entry.resolve(rule.interface)}")
             self._calls[plan.request] = asyncio.ensure_future(service.call(message))
             return
-        action = self._actions[rule.name]
-        await self._present(action, f"has no action {self.entry.resolve(rule.interface)}")
+        for step in steps:
+            await self._present(
+                self._actions[step.rule.interface], f"has no action {self.entry.resolve(step.rule.interface)}")
         while not self._is_settled() and self._since < math.inf:
             await asyncio.sleep(LOOK)
+        await self._send(plan, 0)
+
+    async def _send(self, plan: dolphin.Plan, number: int) -> None:
+        """Sends a goal of the plan; returns once it is accepted."""
         foreign = self._foreign()
         if foreign is not None:
+            self._forget(plan)
             raise dolphin.Failed(foreign)
-        goal = self._goal(plan, rule, parameters)
+        rule, parameters = self._found(plan)[number]
+        message = self._message(rule, parameters)
+        goal = self._goal(plan, number)
         goal.send(message)
         if not await self._is_accepted(goal):
             self._forget(plan)
@@ -347,25 +406,39 @@ class Robot(dolphin.Vehicle):
             f"its action {goal.rule.interface} has not answered the goal for {self.configuration.answer:g} seconds")
 
     async def finish(self, plan: dolphin.Plan) -> None:
-        rule, _ = self._found(plan)
-        if rule.is_service:
-            await self._reply(rule, plan)
+        steps = self._found(plan)
+        if steps[0].rule.is_service:
+            await self._reply(steps[0].rule, plan)
             return
-        goal = self._goals[plan.request]
-        end = None
+        while True:
+            await self._end_of_goal(plan, steps)
+            number = self._at[plan.request] + 1
+            if number == len(steps):
+                self._forget(plan)
+                return
+            await plan.note({"goal": number})  # before it is sent: `resume` looks for this one
+            await self._send(plan, number)
+
+    async def _end_of_goal(self, plan: dolphin.Plan, steps: Sequence[Step]) -> None:
+        """Returns once the goal that runs is done."""
+        goal, end = self._goals[plan.request], None
         while end is None:
             end = await goal.end(LOOK)
-            self._report_progress(plan, goal)
-        if end[0] != goals.UNKNOWN:
+            self._report_progress(plan, goal, len(steps))
+        try:
+            goals.judge(goal.rule, *end)
+        except dolphin.Failed:
             self._forget(plan)
-        goals.judge(rule, *end)
+            raise
 
-    def _report_progress(self, plan: dolphin.Plan, goal: Goal) -> None:
+    def _report_progress(self, plan: dolphin.Plan, goal: Goal, count: int) -> None:
         feedback = goal.action.feedback(goal.id)
         if feedback is not None:
             share, remaining = goals.share(goal.rule, goal.parameters, feedback), goals.remaining(goal.rule, feedback)
+            if share is not None:
+                share = (self._at[plan.request] + min(1.0, max(0.0, share))) / count
             if share is not None or remaining is not None:
-                plan.progress(share, remaining)
+                plan.progress(share, remaining if count == 1 else None)
 
     async def _reply(self, rule: PlanRule, plan: dolphin.Plan) -> None:
         call, service, missing = self._calls[plan.request], self._services[rule.name], 0.0
@@ -382,16 +455,20 @@ class Robot(dolphin.Vehicle):
         if goal is not None:
             goal.forget()
         self._calls.pop(plan.request, None)
+        self._steps.pop(plan.request, None)
 
     async def stop(self, plan: dolphin.Plan) -> None:
-        rule, parameters = self._found(plan)
+        steps = self._found(plan)
         if plan.request in self._started and plan.request not in self._goals and plan.request not in self._calls:
             return  # the stop came before anything was sent
-        if rule.is_service:
-            await self._stop_call(rule, plan)
+        if steps[0].rule.is_service:
+            await self._stop_call(steps[0].rule, plan)
+        elif plan.request in self._goals and plan.request not in self._doubtful:
+            await self._stop_goal(self._goals[plan.request])
         else:
-            goal = self._goals.get(plan.request) or self._goal(plan, rule, parameters)
-            await self._stop_goal(goal)
+            for number in range(_noted(plan), len(steps)):
+                await self._stop_goal(self._goal(plan, number))
+        self._doubtful.discard(plan.request)
         self._forget(plan)
 
     async def _stop_call(self, rule: PlanRule, plan: dolphin.Plan) -> None:
@@ -419,22 +496,33 @@ class Robot(dolphin.Vehicle):
             if end is not None and end[0] in goals.OVER or unknown >= CERTAIN:
                 return
 
-    def _goal(self, plan: dolphin.Plan, rule: PlanRule, parameters: Mapping[str, str]) -> Goal:
-        """The goal of a request; this adapter or one before it sends it."""
-        goal = Goal(rule, parameters, self._actions[rule.name], goals.goal_id(self.name, plan.request))
-        self._goals[plan.request] = goal
+    def _goal(self, plan: dolphin.Plan, number: int) -> Goal:
+        """A goal of a request, which counts as running; this adapter or one before it sends it."""
+        rule, parameters = self._found(plan)[number]
+        before = self._goals.get(plan.request)
+        if before is not None:
+            before.forget()
+        goal = Goal(rule, parameters, self._actions[rule.interface], goals.goal_id(self.name, plan.request, number))
+        self._goals[plan.request], self._at[plan.request] = goal, number
         self._own.add(goal.id)
         return goal
 
     async def resume(self, plan: dolphin.Plan) -> None:
-        rule, parameters = self._found(plan)
+        steps, number = self._found(plan), _noted(plan)
+        rule = steps[number].rule
         if rule.is_service:
             raise dolphin.Unknown(f"the reply of its service {rule.interface} went to an adapter that has ended")
-        goal, waited = self._goal(plan, rule, parameters), 0.0
+        self._own.update(goals.goal_id(self.name, plan.request, later) for later in range(number, len(steps)))
+        if plan.doubt is not None and len(steps) > 1:
+            self._doubtful.add(plan.request)
+            raise dolphin.Unknown("the journal may have lost which of its goals was sent last")
+        goal, waited = self._goal(plan, number), 0.0
         while waited < self.configuration.answer:
             if goal.action.statuses().get(goal.id) in goals.ACTIVE:
                 return
             end = await goal.end(LOOK)
+            if end is not None and end[0] == goals.SUCCEEDED and number + 1 < len(steps):
+                return  # `finish` judges it, and goes on with the next one
             if end is not None and end[0] in goals.OVER:
                 self._forget(plan)
                 goals.judge(rule, *end)
@@ -445,6 +533,11 @@ class Robot(dolphin.Vehicle):
                     "the goal has been over for long")
             waited += LOOK if self._since < math.inf or goal.action.is_there() else 0.0
         raise dolphin.Unknown(f"its action {rule.interface} does not answer")
+
+
+def _noted(plan: dolphin.Plan) -> int:
+    """The number of the goal that was sent last, by the notes on the plan."""
+    return next((int(note["goal"]) for note in plan.notes if "goal" in note), 0)
 
 
 async def _within(work: Awaitable[Any], seconds: float) -> Any:

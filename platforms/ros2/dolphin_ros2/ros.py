@@ -20,6 +20,7 @@ from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
+from std_msgs.msg import String
 
 _LATEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT, durability=DurabilityPolicy.VOLATILE)
 _STATUS = QoSProfile(depth=1, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -74,6 +75,11 @@ class Links:
             return None if taken is None else taken[0]
 
         return latest
+
+    def publisher(self, name: str) -> Callable[[str], None]:
+        """A function that publishes a text."""
+        publisher = self.caller.create_publisher(String, name, 100)
+        return lambda text: publisher.publish(String(data=text))
 
     def every(self, name: str, class_: Any, hear: Callable[[Any], None]) -> None:
         """Calls `hear` on the loop for every message of a topic."""

@@ -6,7 +6,7 @@ import argparse
 import asyncio
 import json
 import sys
-from typing import Optional, Sequence
+from typing import Awaitable, List, Optional, Sequence
 
 import dolphin
 
@@ -14,6 +14,7 @@ from . import configuration_file, interfaces, version
 from .configuration import Configuration
 from .document import Faulty
 from .inputs import Inputs
+from .outputs import Outputs
 from .robot import Robot
 
 DESCRIPTION = """Dolphin's adapter for ROS 2 robots:
@@ -26,10 +27,10 @@ class Robots(dolphin.Adapter):
     """The robots of a configuration."""
 
     def __init__(self, configured: Configuration, journal: Optional[str] = None) -> None:
-        super().__init__("ros2", version=version, plans=["name"], announce=5.0, patience=configured.answer + 10)
+        super().__init__("ros2", version=version, announce=5.0, patience=configured.answer + 10)
         self._configuration, self._journal = configured, journal
         self._links: "Optional[object]" = None
-        self._inputs: Optional[Inputs] = None
+        self._work: List[Awaitable[None]] = []
 
     async def open(self) -> None:
         """Takes part in the network, unless plans are only to be checked."""
@@ -41,13 +42,16 @@ class Robots(dolphin.Adapter):
         for entry in self._configuration.robots:
             self.add(Robot(entry, self._configuration, links))
         if links is not None:
-            if self._journal is not None:
-                self._inputs = Inputs(self._configuration.inputs, dolphin.attach(self._journal), links)
+            if self._journal is not None and self._configuration.inputs:
+                self._work.append(Inputs(self._configuration.inputs, dolphin.attach(self._journal), links).run())
+            if self._journal is not None and self._configuration.outputs:
+                run = dolphin.attach(self._journal)
+                self._work.append(Outputs(self._configuration.outputs, run, links, self.resumes).run())
             links.open()
 
     async def run(self) -> None:
         try:
-            await (asyncio.Event().wait() if self._inputs is None else self._inputs.run())
+            await asyncio.gather(asyncio.Event().wait(), *self._work)
         finally:
             if self._links is not None:
                 self._links.close()  # type: ignore[attr-defined]
@@ -67,7 +71,7 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
     parser.add_argument(
         "--run", metavar="JOURNAL",
         help="the journal of the run, as dolphin exec --journal has it: messages of the topics under 'inputs' are "
-        "posted to this run")
+        "posted to this run, and its news is published on those under 'outputs'")
     parser.add_argument(
         "--check", action="store_true", help="only check the configuration, print all its faults, and end")
     parser.add_argument("--version", action="version", version=f"dolphin-ros2 {version}")
@@ -83,7 +87,7 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
         names = [robot.name for robot in found.robots]
         print(f"{options.config}: {len(names)} robot{'' if len(names) == 1 else 's'}: {', '.join(names)}")
     else:
-        if found.inputs and options.run is None:
-            print("dolphin-ros2: inputs are not posted, as --run is not given", file=sys.stderr)
+        if (found.inputs or found.outputs) and options.run is None:
+            print("dolphin-ros2: inputs and outputs are not used, as --run is not given", file=sys.stderr)
         Robots(found, options.run).serve()
     return 0

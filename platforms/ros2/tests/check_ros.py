@@ -1,12 +1,15 @@
 """The adapter on ROS 2 itself, with simulated robots and the command: DOLPHIN. For scripts/nightly: it takes minutes.
 
-DOLPHIN_KILLS is the number of kills of each kind. DOLPHIN_ROS2_PARTNER is a program with an action server of others, to
-try the adapter on: NAME TYPE COMMAND, such as `fibonacci test_msgs/action/Fibonacci python3 server.py`."""
+DOLPHIN_KILLS is the number of kills of each kind; DOLPHIN_KILLS_ADAPTERS, _CONSOLES, _ROBOTS and _PARTITIONS are those
+of one kind. Partitions of the network need network namespaces: root, and the command `ip`. DOLPHIN_ROS2_PARTNER is a
+program with an action server of others, to try the adapter on: NAME TYPE COMMAND, such as `fibonacci
+test_msgs/action/Fibonacci python3 server.py`."""
 
 import os
 import random
 import re
 import shlex
+import shutil
 import signal
 import subprocess
 import sys
@@ -17,7 +20,7 @@ import unittest
 FOLDER = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 DOLPHIN = os.environ.get("DOLPHIN", "dolphin")
 DOMAIN = 1 + os.getpid() % 100
-KILLS = int(os.environ.get("DOLPHIN_KILLS", "3"))
+KILLS = os.environ.get("DOLPHIN_KILLS", "3")
 SEED = int(os.environ.get("DOLPHIN_SEED", "0"))
 PATIENCE = 60.0
 
@@ -50,6 +53,8 @@ robots:
 
 class Case(unittest.TestCase):
     robots = ROBOTS
+    prefix = []
+    """The words before each command."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -71,7 +76,7 @@ class Case(unittest.TestCase):
         return self.path(name)
 
     def spawn(self, command, **more):
-        process = subprocess.Popen(command, env=self.environment, start_new_session=True, **more)
+        process = subprocess.Popen([*self.prefix, *command], env=self.environment, start_new_session=True, **more)
         self.addCleanup(self.kill, process)
         return process
 
@@ -104,6 +109,42 @@ class Case(unittest.TestCase):
 
 
 ONE = "v = pick { id 'carrier-1'; timeout 20.seconds }\n"
+
+
+MANEUVERS = """\
+    maneuvers:
+      goTo: {action: work, type: test_msgs/action/Fibonacci, goal: {order: 3}}
+      wait: {action: work, type: test_msgs/action/Fibonacci, goal: {order: '${seconds}'}}
+"""
+INLINE = """\
+tour = imcPlan { planName 'tour'; z 0; speed 1.0, Speed.Units.METERS_PS
+    locate location(41.1851, -8.7060); goTo(); move 20, 0; goTo(); loiter duration: 4 }
+far = imcPlan { planName 'far'; speed 1.0, Speed.Units.METERS_PS; locate location(41.1851, -8.7060); yoyo() }
+"""
+LISTENER = """\
+import sys
+import rclpy
+from std_msgs.msg import String
+rclpy.init()
+node = rclpy.create_node("listener")
+for topic in sys.argv[1:]:
+    node.create_subscription(String, topic, lambda message, topic=topic: print(topic, message.data, flush=True), 100)
+rclpy.spin(node)
+"""
+MANAGED = """\
+import sys
+import time
+import rclpy
+from rclpy.lifecycle import LifecycleNode
+rclpy.init()
+node = LifecycleNode("driver", namespace="/carrier1")
+node.trigger_configure()
+end = time.monotonic() + float(sys.argv[1])
+while time.monotonic() < end:
+    rclpy.spin_once(node, timeout_sec=0.1)
+node.trigger_activate()
+rclpy.spin(node)
+"""
 
 
 class Robots(Case):
@@ -169,6 +210,54 @@ class Robots(Case):
             "input 'load'\n" + ONE + "execute v: task('work_20')\nexecute waitFor { consume load: 1.0 } then "
             "action { message 'was loaded' }\n", "--journal", self.path("run"))
         self.assertIn("was loaded", run.stdout)
+
+    def test_plans_that_the_program_describes(self):
+        self.write("robots.yaml", ROBOTS.replace("robots:\n", MANEUVERS + "robots:\n"))
+        self.simulate("/carrier1")
+        run = self.execute(INLINE.replace("far", "f") + ONE + "execute v: tour\nmessage 'toured'\n")
+        self.assertIn("toured", run.stdout)
+        self.assertEqual(len(self.events("ends")), 4)
+        self.write("far.fleet", "vehicle 'carrier-1', { type 'UGV'; at 41.185, -8.706; speed 1 }\n")
+        checked = subprocess.run(
+            [DOLPHIN, "check", self.write("far.dol", INLINE + ONE + "execute v: far\n"), "--platform", self.adapter],
+            env=self.environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=60)
+        self.assertEqual(checked.returncode, 2, checked.stdout)
+        self.assertIn("its robots have no yoyo", checked.stdout)
+
+    def test_the_building(self):
+        """The carriers of the example share a lift and a charger; each delivery is made once."""
+        with open(os.path.join(FOLDER, "example", "building.yaml"), encoding="utf-8") as file:
+            self.write("robots.yaml", file.read().replace("domain: 42", f"domain: {DOMAIN}"))
+        self.simulate("/carrier1", "/carrier2", "/lift1")
+        with open(os.path.join(FOLDER, "example", "building.dol"), encoding="utf-8") as file:
+            run = self.execute(file.read())
+        self.assertIn("3 of 3 parcels are delivered", run.stdout)
+        for room in ("ward", "office", "lab"):
+            self.assertEqual(run.stdout.count(f"{room} has its parcel"), 1, run.stdout)
+
+    def test_a_node_that_is_not_active(self):
+        self.write("robots.yaml", ROBOTS.replace("    plans:\n", "    ready: {lifecycle: driver}\n    plans:\n", 1))
+        self.simulate("/carrier1")
+        self.spawn([sys.executable, "-c", MANAGED, "6"], stdin=subprocess.DEVNULL)
+        run = self.execute(ONE.replace("20", "4"))
+        self.assertIn("its node /carrier1/driver is inactive", run.stdout)
+        run = self.execute(ONE + "message 'ready'\n")
+        self.assertIn("ready", run.stdout)
+
+    def test_outputs(self):
+        """A node hears the messages and posts of a run, each once."""
+        self.write("robots.yaml", ROBOTS + "outputs: {messages: dolphin/messages, posts: dolphin/posts}\n")
+        self.simulate("/carrier1")
+        heard = open(self.path("heard"), "w+", encoding="utf-8")
+        self.addCleanup(heard.close)
+        self.spawn([sys.executable, "-c", LISTENER, "/dolphin/messages", "/dolphin/posts"], stdout=heard)
+        self.adapter += f" --run {self.path('run')}"
+        self.execute(ONE + "execute v: task('work_20')\npost bay: 3\nmessage 'loaded'\nexecute v: task('work_5')\n",
+                     "--journal", self.path("run"))
+        with open(self.path("heard"), encoding="utf-8") as file:
+            text = file.read()
+        self.assertEqual(text.count('"text": "loaded"'), 1, text)
+        self.assertEqual(text.count('"key": "bay", "value": "3"'), 1, text)
 
     @unittest.skipUnless(os.environ.get("DOLPHIN_ROS2_PARTNER"), "DOLPHIN_ROS2_PARTNER is not set")
     def test_a_partner(self):
@@ -241,10 +330,15 @@ class Kills(Case):
         else:
             self.assertRegex(text, REASONS, note)
             self.assertLessEqual(len(goals), 4, note)
+            for reason in set(REASONS.findall(text)):
+                self.reasons[reason] = self.reasons.get(reason, 0) + 1
+            if note.split()[0] != "robot":
+                self.until(lambda: len(self.events()) == len(self.events("ends")) + len(self.events("is-cancelled")))
 
     def each(self, seed, how):
-        counts = {0: 0}
-        for number in range(KILLS):
+        counts, self.reasons = {0: 0}, {}
+        kills = int(os.environ.get(f"DOLPHIN_KILLS_{seed.upper()}", KILLS))
+        for number in range(kills):
             with self.subTest(number=number, seed=seed):
                 for name in ("run", "log"):
                     if os.path.exists(self.path(name)):
@@ -254,7 +348,8 @@ class Kills(Case):
                 counts[status] = counts.get(status, 0) + 1
         completed = counts.pop(0)
         failed = sum(counts.values())
-        print(f"{seed}: of {KILLS} missions {completed} completed, {failed} failed with a reason", flush=True)
+        reasons = "".join(f"; {count} {reason!r}" for reason, count in sorted(self.reasons.items()))
+        print(f"{seed}: of {kills} missions {completed} completed, {failed} failed with a reason{reasons}", flush=True)
 
     def adapters(self):
         """The processes of adapters with our configuration."""
@@ -320,6 +415,77 @@ class Kills(Case):
             return status
 
         self.each("robots", one)
+
+
+class Network:
+    """Two network namespaces, of robots and of consoles, on one bridge, which parts them on request."""
+
+    def __init__(self):
+        self.names = [f"dolphin{os.getpid()}{end}" for end in ("r", "c", "m")]
+        robots, consoles, middle = self.names
+        for name in self.names:
+            self.ip("netns", "add", name)
+        self.ip("-n", middle, "link", "add", "name", "bridge0", "type", "bridge")
+        self.ip("-n", middle, "link", "set", "bridge0", "up")
+        for number, name in enumerate((robots, consoles)):
+            self.ip("-n", name, "link", "add", "eth0", "type", "veth", "peer", "name", f"port{number}", "netns", middle)
+            self.ip("-n", middle, "link", "set", f"port{number}", "master", "bridge0", "up")
+            self.ip("-n", name, "addr", "add", f"10.77.0.{number + 1}/24", "dev", "eth0")
+            for device in ("lo", "eth0"):
+                self.ip("-n", name, "link", "set", device, "up")
+            self.ip("-n", name, "route", "add", "224.0.0.0/4", "dev", "eth0")
+
+    def ip(self, *words):
+        subprocess.run(["ip", *words], check=True, stderr=subprocess.PIPE)
+
+    def part(self):
+        self.ip("-n", self.names[2], "link", "set", "port0", "nomaster")
+
+    def join(self):
+        self.ip("-n", self.names[2], "link", "set", "port0", "master", "bridge0")
+
+    def close(self):
+        for name in self.names:
+            subprocess.run(["ip", "netns", "del", name], stderr=subprocess.DEVNULL)
+
+
+def has_namespaces():
+    if os.geteuid() != 0 or shutil.which("ip") is None:
+        return False
+    try:
+        Network().close()
+    except subprocess.CalledProcessError:
+        return False
+    return True
+
+
+class Partitions(Kills):
+    """The network between the robots and the console is parted at a drawn moment, for a drawn time: every tenth time
+    for longer than DDS keeps a participant that it does not hear."""
+
+    test_adapters = test_consoles = test_robots = None
+
+    @unittest.skipUnless(has_namespaces(), "there are no network namespaces here")
+    def test_partitions(self):
+        network = Network()
+        self.addCleanup(network.close)
+        self.environment["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "SUBNET"
+        self.prefix = ["ip", "netns", "exec", network.names[0]]
+        self.simulate()
+        self.prefix = ["ip", "netns", "exec", network.names[1]]
+
+        def one(draw, number):
+            console = self.begin()
+            self.until(lambda: "starts work_8" in self.text())
+            time.sleep(draw.uniform(0, 2.2))
+            network.part()
+            time.sleep(draw.uniform(21, 26) if number % 10 == 9 else draw.uniform(0.1, 8))
+            network.join()
+            status = self.wait(console)
+            self.judge(status, self.text(), f"partition {number}")
+            return status
+
+        self.each("partitions", one)
 
 
 if __name__ == "__main__":

@@ -66,7 +66,15 @@ CLASSES = {
     "fake_msgs.action": SimpleNamespace(Drive=SimpleNamespace(
         Goal=message("Drive_Goal", bay="int32", label="string<12>", pose="fake_msgs/Pose", quick="boolean"),
         Result=message("Drive_Result", code="int32", text="string"),
-        Feedback=message("Drive_Feedback", done="sequence<int32>", left="fake_msgs/Duration"))),
+        Feedback=message("Drive_Feedback", done="sequence<int32>", left="fake_msgs/Duration")),
+        Follow=SimpleNamespace(
+            Goal=message("Follow_Goal", points="sequence<fake_msgs/Point>", speed="double"),
+            Result=message("Follow_Result"), Feedback=message("Follow_Feedback")),
+        Wait=SimpleNamespace(
+            Goal=message("Wait_Goal", time="fake_msgs/Duration"), Result=message("Wait_Result"),
+            Feedback=message("Wait_Feedback"))),
+    "lifecycle_msgs.srv": SimpleNamespace(GetState=SimpleNamespace(
+        Request=message("GetState_Request"), Response=message("GetState_Response", current_state="fake_msgs/Pose"))),
     "fake_msgs.srv": SimpleNamespace(Trigger=SimpleNamespace(
         Request=message("Trigger_Request"), Response=message("Trigger_Response", success="boolean", message="string"))),
     "nav_msgs.msg": SimpleNamespace(Odometry=message("Odometry", pose="double", twist="double")),
@@ -179,6 +187,7 @@ class FakeLinks:
         self.topics: Dict[str, Any] = {}
 
     def action(self, name: str, class_: Any) -> FakeServer:
+        """All actions have one server, as goals do that exclude each other."""
         return self.server
 
     def service(self, name: str, class_: Any) -> FakeService:
@@ -215,8 +224,9 @@ class Console(Channel):
     def die(self) -> None:
         self._orders.put_nowait(None)
 
-    def task(self, kind: str, request: str, name: str = "drive_3", **members: Any) -> None:
-        self.order(kind, request=request, vehicle="carrier-1", plan={"name": name}, timeout=60, **members)
+    def task(self, kind: str, request: str, plan: Any = "drive_3", **members: Any) -> None:
+        whole = {"name": plan} if isinstance(plan, str) else plan
+        self.order(kind, request=request, vehicle="carrier-1", plan=whole, timeout=60, **members)
 
     def words(self, request: str) -> List[str]:
         """The reports on a request, without estimates and notes."""

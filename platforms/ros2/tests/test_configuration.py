@@ -62,7 +62,8 @@ FAULTS = [
         "17:7: the name 'drive_${bay}${bay}' has a parameter twice",
     ]),
     ("type: nav_msgs/msg/Odometry", "type: nav_msgs/msg/Path", [
-        "10:35: a position is of type sensor_msgs/msg/NavSatFix or nav_msgs/msg/Odometry; this is nav_msgs/msg/Path",
+        "10:35: a position is of type sensor_msgs/msg/NavSatFix, nav_msgs/msg/Odometry, geometry_msgs/msg/PoseStamped "
+        "or geometry_msgs/msg/PoseWithCovarianceStamped; this is nav_msgs/msg/Path",
     ]),
     ("    payload: [tray]", "    payload: tray", [
         "8:14: 'payload' is a list, such as [a, b]; this is the text 'tray'",

@@ -57,6 +57,16 @@ let traps =
     breaks "until cuts a body before it posts" [ No_leftover ]
       {|execute (until { poll stop: 1 } run (task('p')[a] >> action { post x: 1 })) | action { post stop: 1 } |
         (task('q')[b] >> condition { consume stop: 1 } )|};
+    breaks "the last part of several does what all of them ensure" [ No_leftover ]
+      {|g = 0
+        h = 0
+        execute ((action { g = 1 } | task('q')[b]) ensure { h = 1 }) |
+          (oneOf { when { g == 1 && h == 0 } then action { post x: 1 }; when { h == 1 } then action { g = 2 } })|};
+    breaks "the last part of several, in a part that ends with it" [ No_leftover ]
+      {|g = 0
+        h = 0
+        execute ((during 10 run (until { g == 5 } run (action { g = 1 } | task('q')[b]))) ensure { h = 1 }) |
+          (oneOf { when { g == 1 && h == 0 } then action { post x: 1 }; when { h == 1 } then action { g = 2 } })|};
     breaks "until takes what another part waits for" [ No_deadlock ]
       {|execute (until { consume go: 1 } run task('p')[a]) | (task('q')[b] >> action { post go: 1 } >> condition { consume go: 1 })|};
     breaks "during lets its body go on or not" [ No_deadlock; No_leftover ]

@@ -241,6 +241,22 @@ let lost r outer ~failed { source = Step { offer; continue; _ }; _ } =
   | Guard_either _ -> Footprint.these (Residual.named r @ outer)
   | Guard_false _ -> failed
 
+(* Whether a step may be the last of its component: the parts around it are over if nothing else is left in them. *)
+let may_finish { source = Step { offer; continue; _ }; _ } =
+  let finishes (change : Task_rules.change) =
+    match change.outcome with Finished -> true | Next _ | Failed _ | Handling _ -> false in
+  match offer with
+  | Start _ -> finishes (continue ())
+  | Perform _ -> finishes (continue (Ok []))
+  | Check _ -> finishes (continue (Ok []))
+  | Guard_values _ -> finishes (continue (Ok []))
+  | End_of _ -> finishes (continue (Ok ()))
+  | Measure _ -> finishes (continue (Ok 0.))
+  | Expiry_of _ -> finishes (continue ())
+  | Answer_to _ -> finishes (continue (Ok true))
+  | Make _ | Allocate _ | Recruit_for _ | Guard_false _ -> false
+  | Guard_either _ -> true
+
 (* [f], the footprint of [step], with the vehicles that it frees. An ignored error also frees those that it cuts off. *)
 let with_lost c ~ignoring ~failed lost step (f : Footprint.t) =
   if not (concerns_holding c) then f
@@ -324,10 +340,10 @@ let may_be_put_off c { source = Step { offer; _ }; _ } =
   | Start _ | Perform _ | Check _ | Guard_false _ | Guard_either _ | Guard_values _ | Measure _ | Make _ | Allocate _
   | End_of _ | Expiry_of _ | Answer_to _ -> false
 
-(* [first] is the future of the component itself; each of its steps may touch what [always] does. An error may reach
-   any handler around. If none of these ignores it, the error cuts off the component alone, whose vehicles are
-   [failed]. *)
-let analyse ?own ~always c nests (first : Footprint.t) branches ~failed ~lost steps =
+(* [first] is the future of the component itself; each of its steps may touch what [always] does, and one that may be
+   its last what [last] does. An error may reach any handler around. If none of these ignores it, the error cuts off
+   the component alone, whose vehicles are [failed]. *)
+let analyse ?own ?(last = Footprint.empty) ~always c nests (first : Footprint.t) branches ~failed ~lost steps =
   let around = all (List.concat_map (handlers_of c) nests) in
   let ignoring = around.ignores || first.ignores in
   let failed = if around.ignores then Footprint.all_vehicles else failed in
@@ -342,7 +358,10 @@ let analyse ?own ~always c nests (first : Footprint.t) branches ~failed ~lost st
   let futures = Array.of_list (List.rev (List.fold_left further (further [] []) nests)) in
   let ignores (f : Footprint.t) = f.ignores in
   let cut_by_error level contexts = futures.(level).breaks && List.exists ignores (handlers_of c contexts) in
-  let of_step step = widened c (with_lost (lost ~failed) step (union always (footprint ?own c step))) in
+  let of_step step =
+    let f = union always (footprint ?own c step) in
+    widened c (with_lost (lost ~failed) step (if may_finish step then union last f else f))
+  in
   let footprints = Array.map of_step steps in
   let may_end (f : Footprint.t) = f.breaks || f.halts in
   {
@@ -357,6 +376,13 @@ let analyse ?own ~always c nests (first : Footprint.t) branches ~failed ~lost st
 let of_component c nests r steps =
   let c = for_one_component c in
   let own_ensured = if Residual.ensures r then ensured c else Footprint.empty in
+  let is_end = function
+    | Residual.Ensuring _ -> true
+    | In_sequence _ | Branch_of _ | Body_until _ | Body_during _ | In_watch _ | Round_of _ | Holding _ | In_recruited _
+    | With_keys _ -> false
+  in
+  (* The last step in a part does, by itself, what the part ensures. *)
+  let last = if List.exists (List.exists is_end) nests then ensured c else Footprint.empty in
   let around = all (List.concat_map (handlers_of c) nests) in
   let named = function
     | Residual.In_sequence rest -> List.concat_map Residual.named rest
@@ -375,7 +401,7 @@ let of_component c nests r steps =
   in
   let branches = if c.leaks || List.exists (List.exists holds) nests then [] else first_branches c around r in
   let failed = Footprint.these (Residual.named r @ outer) in
-  analyse ~own ~always:own_ensured c nests (future c r) branches ~failed ~lost:(lost r outer) steps
+  analyse ~own ~always:own_ensured ~last c nests (future c r) branches ~failed ~lost:(lost r outer) steps
 
 let of_cuts c nests steps =
   let c = for_one_component c in

@@ -115,12 +115,14 @@ let waiting s item head =
   end
   else tree s head []
 
-let is_read t n = not (List.mem (Skeleton.key_of t.skeletons n) t.unread)
+(* It does not matter which pair is posted that no code reads. *)
+let is_read t k = not (List.mem k t.unread)
 
-(* It does not matter which pair code posts that no code reads. *)
+let is_named t n = is_read t (Skeleton.key_of t.skeletons n)
+
 let code s ?(handler = false) kind c =
   let skeleton = Skeleton.of_code s.t.skeletons ~handler c in
-  let named = List.filter (is_read s.t) (Array.to_list skeleton.pairs) in
+  let named = List.filter (is_named s.t) (Array.to_list skeleton.pairs) in
   tree s ~names:(List.map (place s.pairs) named) (kind skeleton.number) []
 
 let part n = Part n
@@ -144,8 +146,7 @@ let platform_task s ~runs v (p : Core.platform_task) =
 
 let ensured r = Residual.fold_all (fun found -> function Residual.Ensure (ds, _) -> ds @ found | _ -> found) [] r
 
-let is_ordered t k =
-  match t.options.program.ordered_keys with No_key -> false | Keys ks -> List.mem k ks | Every_key -> true
+let is_ordered t = Tuple_space.keeps_order t.options.program.ordered_keys
 
 (* Whether the order of two deeds of ends matters. The pairs that a guard will take are not known. *)
 let are_in_order t (d : Core.ensured) (d' : Core.ensured) =
@@ -172,8 +173,8 @@ let ensure s ds =
     | Taken -> Gives_back
   in
   let name : Core.ensured -> _ = function
-    | Pair (k, x) -> Some (place s.pairs (Skeleton.pair s.t.skeletons k x))
-    | Variable _ | Taken -> None
+    | Pair (k, x) when is_read s.t k -> Some (place s.pairs (Skeleton.pair s.t.skeletons k x))
+    | Pair _ | Variable _ | Taken -> None
   in
   tree s ~names:(List.filter_map name ds) (Ensure (List.map deed ds))
 
@@ -283,7 +284,12 @@ let closures =
       | Handler c -> (true, c) :: found
       | Plan _ | Given _ | Term _ | Held _ | Timer _ -> found) []
 
-let posted r = List.filter_map (function Core.Pair (k, x) -> Some (k, x) | Variable _ | Taken -> None) (ensured r)
+let posted t r =
+  let pair : Core.ensured -> _ = function
+    | Pair (k, x) when is_read t k -> Some (k, x)
+    | Pair _ | Variable _ | Taken -> None
+  in
+  List.filter_map pair (ensured r)
 
 let labels r =
   let add found : Residual.leaf -> _ = function Plan (p, v) -> label_of v p :: found | _ -> found in
@@ -309,7 +315,7 @@ let find_execution t (s : Clocked.state) m r =
   if List.exists (fun (k : Skeleton.t) -> k.unclear) skeletons then None
   else
     let fixed = List.fold_left (fun fixed (k : Skeleton.t) -> Pairs.union fixed k.fixed) Pairs.empty skeletons in
-    let by_name, others = List.partition (fun (_, x) -> Skeleton.may_be_named x) (posted r) in
+    let by_name, others = List.partition (fun (_, x) -> Skeleton.may_be_named x) (posted t r) in
     let fixed = List.fold_left (fun fixed (k, _) -> Pairs.add (k, None) fixed) fixed others in
     let is_movable n =
       let pair = (Skeleton.key_of t.skeletons n, Some (Skeleton.value_of t.skeletons n)) in
@@ -317,7 +323,7 @@ let find_execution t (s : Clocked.state) m r =
     in
     let of_code = List.concat_map (fun (k : Skeleton.t) -> Array.to_list k.pairs) skeletons in
     let named =
-      List.map (fun (k, x) -> Skeleton.pair t.skeletons k x) by_name @ List.filter (is_read t) of_code
+      List.map (fun (k, x) -> Skeleton.pair t.skeletons k x) by_name @ List.filter (is_named t) of_code
     in
     let numbers = List.filter is_movable (List.sort_uniq Int.compare named) in
     let pairs = { numbers = Array.of_list numbers; places = Hashtbl.create 16 } in

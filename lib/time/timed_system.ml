@@ -384,15 +384,10 @@ let end_rest t n (before : Zone_node.t) zone =
     List.filter_map (fun found -> Option.bind found into) ends
   | (No_rest | Unsaid | Said), _ -> []
 
-let expand_state t key (v : via System.visitor) =
-  Zone_node.check_dates t.places;
-  let n = number t key.(0) in
+let expand_state t n (v : via System.visitor) =
   let { place = before; zone; _ } = t.nodes.(n) in
   let visited ns = List.iter (visit t v) ns; List.length ns in
-  note_unknown t before.state;
-  if t.nodes.(n).turn = To_come then t.nodes.(n).turn <- Taken;
-  if t.nodes.(n).turn <> Taken then 0
-  else if Inert.is_rest before.state before.inert then visited (end_rest t n before zone)
+  if Inert.is_rest before.state before.inert then visited (end_rest t n before zone)
   else begin
     let arrows = Zone_node.arrows t.places before in
     if Clocked.is_stuck t.options before.state (Zone_node.steps t.places before) then begin
@@ -408,7 +403,14 @@ let expand_state t key (v : via System.visitor) =
 
 (* With many inputs a state has many steps, and so has each of its successors. *)
 let expand t key (v : via System.visitor) =
-  Successors.ticking (Zone_node.successors t.places) v.tick (fun () -> expand_state t key v)
+  Zone_node.check_dates t.places;
+  let n = number t key.(0) in
+  note_unknown t t.nodes.(n).place.state;
+  match t.nodes.(n).turn with
+  | Included_in _ -> 0
+  | To_come | Taken ->
+    t.nodes.(n).turn <- Taken;
+    Successors.ticking (Zone_node.successors t.places) v.tick (fun () -> expand_state t n v)
 
 (* One process searches. *)
 let numbering t = t.numbering
@@ -522,9 +524,9 @@ let arrival_by t e =
   { move = e.by; into = state; items; execution }
 
 (* The state that is followed instead of state [n], if another one is. *)
-let rec followed t n = match t.nodes.(n).turn with Included_in m -> followed t m | To_come | Taken -> n
+let rec standing_for t n = match t.nodes.(n).turn with Included_in m -> standing_for t m | To_come | Taken -> n
 
-let edges t = Option.map (List.map (fun e -> { e with target = followed t e.target })) t.edges
+let edges t = Option.map (List.map (fun e -> { e with target = standing_for t e.target })) t.edges
 let along t edges = List.map (arrival_by t) edges
 
 let ends t =

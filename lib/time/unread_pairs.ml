@@ -15,6 +15,8 @@ let note use { node; _ } =
   | Apply (Builtin (Poll [] | Values_of), _) -> read use None
   | Apply (Builtin (Poll keys | Consume keys), _) -> List.fold_left read use keys
   | Apply (Builtin (Post keys), _) -> List.fold_left posted use (List.filter_map Fun.id keys)
+  | Apply (Builtin (Make_ensure forms), _) ->
+    List.fold_left posted use (List.filter_map (function Pair_of key -> key | _ -> None) forms)
   | _ -> use
 
 let keys (p : program) =

@@ -2,5 +2,5 @@
     alone become one. *)
 
 val keys : Dolphin_semantics.Core.program -> string list
-(** [keys p] is the keys of pairs that code of [p] or the outside posts, and that no code consumes, polls or counts.
-    There is none if code reads pairs of a key that it computes. *)
+(** [keys p] is the keys of pairs that code of [p], ends of its tasks or the outside post, and that no code consumes,
+    polls or counts. There is none if code reads pairs of a key that it computes. *)

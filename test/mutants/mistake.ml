@@ -464,8 +464,8 @@ let all =
             {|Zone.subset (seen other.zone) zone then begin|},
             {|(ignore (Zone.subset (seen other.zone) zone); true) then begin|} );
           ( "moves to included states lead no further",
-            {|Included_in m -> followed t m ||},
-            {|Included_in m when m < 0 -> followed t m | Included_in _ ||} );
+            {|Included_in m -> standing_for t m ||},
+            {|Included_in m when m < 0 -> standing_for t m | Included_in _ ||} );
           ("dates are forgotten", {|Latest -> Zone.reaching_down|}, {|Latest -> Zone.at_any_date|});
         ];
       in_file "lib/time/unread_pairs.ml" ~noticed_by:"time/test_exact"

@@ -249,6 +249,8 @@ let unread =
     case "posted by the outside" "input 'abort', 'go'\nexecute until { poll go: true } run idle(5)" [ "abort" ];
     case "read by the task of onInterrupt" "onInterrupt condition { poll a: 1 }\npost a: 1, b: 2" [ "b" ];
     case "read by a function that is not called" "def f() { poll a: 1 }\npost a: 1, b: 2" [ "b" ];
+    case "posted by the end of a task" "execute (idle(1) ensure { post a: 1, b: 2 }) >> waitFor { consume b: _ } then idle(1)"
+      [ "a" ];
     case "a computed key is read" "k = 'a'\npost a: 1\nconsume((k): _)" [];
     case "a computed key is posted" "k = 'a'\npost((k): 1)\npost b: 2" [ "b" ] ]
 

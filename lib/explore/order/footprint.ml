@@ -108,11 +108,10 @@ let is_small = Value.has_at_most most_parts
 (* The value of a pair that matters: none of a queue, where the order of all matters, nor of a value that is large. *)
 let told_apart ~ordered x = if ordered || not (is_small x) then None else Some (Value.normal x)
 
-let is_ordered (program : Core.program) k =
-  match program.ordered_keys with No_key -> false | Keys keys -> List.mem k keys | Every_key -> true
+let is_ordered (program : Core.program) = Tuple_space.keeps_order program.ordered_keys
 
 let of_posts (program : Core.program) pairs =
-  let is_queue k = is_ordered program k in
+  let is_queue = is_ordered program in
   let posts = Pairs.of_list (List.map (fun (k, x) -> (k, told_apart ~ordered:(is_queue k) x)) pairs) in
   { empty with posts; queues = Pairs.filter (fun (k, _) -> is_queue k) posts }
 

@@ -1,5 +1,7 @@
 type order = No_key | Keys of string list | Every_key
 
+let keeps_order order k = match order with No_key -> false | Keys keys -> List.mem k keys | Every_key -> true
+
 module type VALUE = sig
   type t
 

@@ -26,6 +26,9 @@ type order =
   | Keys of string list  (** repetitions do not matter *)
   | Every_key  (** for programs that compute the key of a [consume k:_] *)
 
+val keeps_order : order -> string -> bool
+(** [keeps_order order k] is whether [order] selects [k]: pairs with key [k] are taken in order of arrival. *)
+
 (** The operations that values must offer. *)
 module type VALUE = sig
   type t

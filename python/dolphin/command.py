@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import subprocess
+import sys
 from dataclasses import dataclass
 from typing import Any, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
 
@@ -17,9 +18,16 @@ Faults = Union[str, Iterable[str], Mapping[str, int]]
 INTERRUPTED = 130
 
 
+BUNDLED = os.path.join(os.path.dirname(os.path.abspath(__file__)), "_command", "bin", "dolphin")
+"""The command of a wheel that carries it (scripts/wheel)."""
+
+
 def find() -> str:
-    """The path of the command: that of the environment variable `DOLPHIN`, or else of `dolphin` on the path."""
+    """The path of the command: that of the environment variable `DOLPHIN`, or else that which the package carries, or
+    else that of `dolphin` on the path."""
     named = os.environ.get("DOLPHIN")
+    if not named and os.access(BUNDLED, os.X_OK):
+        return BUNDLED
     found = shutil.which(named or "dolphin")
     if found is None:
         raise CommandNotFound(
@@ -27,6 +35,11 @@ def find() -> str:
             else "there is no command 'dolphin' on the path: install Dolphin, or name it in the variable DOLPHIN"
         )
     return found
+
+
+def main() -> int:
+    """The command `dolphin` of a wheel that carries it: this process becomes the command."""
+    os.execv(BUNDLED, ["dolphin", *sys.argv[1:]])
 
 
 @dataclass(frozen=True)

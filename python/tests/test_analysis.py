@@ -1,7 +1,9 @@
 """Analyses as typed results."""
 
 import os
+import shutil
 import unittest
+import unittest.mock
 
 import dolphin
 from dolphin import command
@@ -91,6 +93,20 @@ class TheCommand(unittest.TestCase):
         os.environ["DOLPHIN"] = "/nonexistent/dolphin"
         with self.assertRaisesRegex(dolphin.CommandNotFound, "/nonexistent/dolphin"):
             dolphin.check("m.dol")
+
+    def test_the_command_of_a_wheel(self):
+        """It goes before the path; DOLPHIN goes before it."""
+        before = command.BUNDLED
+        self.addCleanup(setattr, command, "BUNDLED", before)
+        command.BUNDLED = shutil.which("true")
+        with unittest.mock.patch.dict(os.environ):
+            self.assertNotEqual(command.find(), command.BUNDLED)
+            os.environ.pop("DOLPHIN")
+            self.assertEqual(command.find(), command.BUNDLED)
+            command.BUNDLED = "/nonexistent/dolphin"
+            os.environ["PATH"] = ""
+            with self.assertRaisesRegex(dolphin.CommandNotFound, "on the path"):
+                command.find()
 
     def test_the_kinds_of_errors(self):
         for status, kind in [(2, dolphin.ProgramError), (3, dolphin.PlatformError), (125, dolphin.CommandFault),

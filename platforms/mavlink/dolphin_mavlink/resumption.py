@@ -9,10 +9,11 @@ _BEGUN = (mavlink.MISSION_STATE_ACTIVE, mavlink.MISSION_STATE_PAUSED, mavlink.MI
 
 class Doubt:
     """A mission without a note: the journal may have lost the note, or with `lost_order` the order, too. The items of a
-    mission that `is_relative` depend on the place where it was made: it is recognised by its commands."""
+    mission that `is_relative` depend on the place where it was made: it is recognised by its commands. One that `arms`
+    the vehicle can be begun while it is disarmed."""
 
-    def __init__(self, lost_order, is_relative):
-        self.lost_order, self.is_relative = lost_order, is_relative
+    def __init__(self, lost_order, is_relative, arms):
+        self.lost_order, self.is_relative, self.arms = lost_order, is_relative, arms
 
 
 def without_note(vehicle, doubt, different, same_commands):
@@ -22,8 +23,10 @@ def without_note(vehicle, doubt, different, same_commands):
     A vehicle that flies another station's mission does not take the start that follows `absent`."""
     is_on_board = different is None or (doubt.is_relative and same_commands)
     flies = vehicle.mode == vehicle.modes.mission and vehicle.armed
-    # The upload, which comes before the note, sets the state back.
-    if is_on_board and (doubt.lost_order or flies or vehicle.mission_state in _BEGUN):
+    # The upload, which comes before the note, sets the state back. So does the landing of some autopilots: a vehicle
+    # that is disarmed may have flown. A mission that does not arm it is not begun again: the start is refused.
+    landed = doubt.arms and not vehicle.armed
+    if is_on_board and (doubt.lost_order or flies or landed or vehicle.mission_state in _BEGUN):
         return "unknown", UNNOTED
     return ("absent",)
 

@@ -303,7 +303,8 @@ class Station:
         request.execution = self._execution(now, vehicle, missions.UNKNOWN if why else mission, request.timeout)
         execution = request.execution
         if request.doubt is not None:
-            doubt = resumption.Doubt(request.doubt == "order", self._is_relative(now, request, vehicle))
+            doubt = resumption.Doubt(
+                request.doubt == "order", self._is_relative(now, request, vehicle), why is None and mission.arm)
             out = execution.resume(now, doubt=doubt)
         else:
             out = execution.resume(now, why) if request.resumes else execution.begin(now)

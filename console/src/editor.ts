@@ -10,11 +10,10 @@ import { autocompletion, closeCompletion, completionKeymap, type CompletionConte
 import { search, searchKeymap, highlightSelectionMatches } from "@codemirror/search";
 import { tags } from "@lezer/highlight";
 import { type Diagnostic, post } from "./api";
+import { constants as constantNames, words as listed } from "./words";
 
-const words = new Set(("if else while for in return break continue function include input parameter execute pick when then until run watch during " +
-  "onError onInterrupt assure within repeat allOf oneOf action condition post consume poll release idle wait pause halt message ask confirm " +
-  "assert vehicle plan answer reply imcPlan choose waitFor ensure using").split(" "));
-const constants = new Set(["true", "false", "null", "_"]);
+const words = new Set([...listed, "include", "vehicle", "plan", "answer", "reply"]);
+const constants = new Set([...constantNames, "_"]);
 
 const language = StreamLanguage.define<{ block: boolean }>({
   name: "dolphin",

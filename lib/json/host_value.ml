@@ -61,10 +61,7 @@ let rec to_json_within depth (x : Core.value) : (Yojson.Safe.t, string) result =
     | Host name -> Ok (`Assoc [ ("object", `String name) ])
     | Task (Platform { name; plan = None; _ }) -> Ok (`Assoc [ ("task", `String name) ])
     | Task (Platform { plan = Some _; _ }) -> Error "an inline plan cannot be sent to the host"
-    | Task
-        ( Action _ | Condition _ | Sequence _ | Parallel _ | Allocated _ | All_of _ | One_of _ | Until _ | Idle _
-        | Confirm _ | During _ | Watch _ | Repeat _ | Made _ | Recruit _ | Fresh _ | Ensure _ ) ->
-      Error "of tasks, only platform tasks can be sent to the host"
+    | Task _ -> Error "of tasks, only platform tasks can be sent to the host"
     | Wildcard | Closure _ | Settings _ | Reading _ -> stays
 
 let to_json = to_json_within 0

@@ -3,78 +3,24 @@ type entry = { name : string; kind : kind; form : string; text : string }
 
 let entry kind (name, form, text) = { name; kind; form; text }
 
-let words =
-  List.map (entry Word)
-    [ "def", "def x = e",
-      "A local variable, which ends with its block; at the top of a program the same as `x = e`. `def \
-       f(x) { ... }` defines a function.";
-      "parameter", "parameter n = e, 'what it is'",
-      "A global whose value can be replaced at the start, by `--set n=e`; `dolphin help` lists them.";
-      "if", "if (c) { ... } else { ... }", "Runs the first block if the condition holds, else the second.";
-      "else", "if (c) { ... } else { ... }", "The block for a condition that does not hold.";
-      "while", "while (c) { ... }", "Repeats the block as long as the condition holds.";
-      "for", "for (x in xs) { ... }", "Goes through lists, ranges, vehicle sets, strings and maps.";
-      "in", "x in xs", "Whether x is an element of xs; in `for`, the collection to go through.";
-      "return", "return e", "Ends a function or closure with the value e.";
-      "break", "break", "Ends the innermost loop.";
-      "continue", "continue", "Goes on with the next round of the innermost loop.";
-      "true", "true", "The truth value.";
-      "false", "false", "The truth value.";
-      "null", "null", "No value.";
-      "when", "when { C } then T", "In allOf and oneOf: T runs once C holds, which is judged and taken in one step.";
-      "then", "when { C } then T", "The task that runs once the condition holds.";
-      "waitFor", "waitFor { C } then T", "T, which starts as soon as C holds.";
-      "ensure", "T ensure { post k: x }",
-      "T, whose end posts pairs and assigns globals in the same step, however it ends: done, failed or stopped.";
-      "using", "using k: x run T",
-      "T, once the pair is there; it is taken, and given back when T ends, fails or is stopped. "
-      ^ "Also `using k: _ run { x -> T }`.";
-      "watch", "watch T onError { err -> ... }",
-      "T; an error in it stops it and runs the code, which may `ignore()`, `propagate()`, `retry()` or `halt()`.";
-      "onError", "watch T onError { err -> ... }", "The reaction to an error of the watched task.";
-      "repeat", "repeat T", "T, again and again.";
-      "run", "during D run T", "The task to which a limit belongs.";
-      "until", "until { C } run T", "T, which is stopped and done when C holds. Also `T until { C }`.";
-      "assure", "assure { C } run T", "T, which is stopped and fails when C does not hold. Also `T assure { C }`.";
-      "during", "during D run T", "T, which is stopped and done after the time D. Also `T during D`.";
-      "within", "within D run T",
-      "T, which is stopped and fails if it is not done after the time D. Also `T within D`." ]
+(* {1 Constructs} *)
+
+let of_constructs kind =
+  let kind_of : Dolphin_syntax.Construct.place -> kind = function
+    | Begins | Limits | Begins_or_limits | Joins | Control | Defines | Declares | Constant -> Word
+    | Procedure | Task_procedure -> Procedure
+    | Block -> Block
+  in
+  let entry_of (word : Dolphin_syntax.Construct.word) =
+    if kind_of word.place = kind then Some (entry kind (word.spelling, word.form, word.text)) else None in
+  List.filter_map entry_of Dolphin_syntax.Construct.words
+
+let words = of_constructs Word
 
 let procedures =
-  List.map (entry Procedure)
-    [ "task", "task('name')", "The platform's plan of this name, as a task.";
-      "imcPlan", "imcPlan('name')", "The plan of this name, as a task; `imcPlan { ... }` describes one.";
-      "action", "action { ... }", "A task without a vehicle that runs code at once, in one step.";
-      "condition", "condition { C }", "A task without a vehicle that is done when C holds.";
-      "fresh", "fresh { k -> T }",
-      "A task with a key of its own, for `post((k): 1)` and the like, unknown to the rest of the program.";
-      "idle", "idle(10.seconds)", "A task without a vehicle that is done after this time.";
-      "assert", "assert { C }, 'text'",
-      "The program ends with the text if C does not hold. As part of a task, a task that is done at once.";
-      "execute", "execute v1: T1, v2: T2",
-      "Allocates the parts of the tasks to vehicles, runs them, and waits until they are done. Also \
-       `execute T`, on any of the vehicles picked.";
-      "release", "release vs", "Gives the vehicles back: others may pick them.";
-      "setConnectionTimeout", "setConnectionTimeout vs, 2.min",
-      "The longest silence of the vehicles before their tasks fail.";
-      "ask", "ask 'prompt'", "Asks people a question; its value is that of the expression typed in answer.";
-      "input", "input 'key', ...",
-      "At the top: pairs with these keys may be posted from outside at any time.";
-      "onInterrupt", "onInterrupt { vs -> T }",
-      "At the top: a task that Ctrl-C executes on the picked vehicles, instead of only stopping. A second Ctrl-C \
-       stops all.";
-      "confirm", "confirm 'prompt'",
-      "Asks a question that takes yes or no. As part of a task: a task, done by yes, failed by no.";
-      "message", "message x", "Shows a value to people.";
-      "println", "println x", "Shows a value to people, as `message`.";
-      "pause", "pause 2.min", "Makes the script wait.";
-      "halt", "halt 'why'", "Ends the program: running tasks are stopped, and all vehicles are released.";
-      "post", "post k: x", "Puts pairs into the tuple space.";
-      "consume", "consume k: x",
-      "Takes pairs out of the tuple space, all of them or none, and is true if it took them. `_` is any value.";
-      "poll", "poll k: x",
-      "Whether the pairs are in the tuple space; takes nothing. `poll 'k'` asks for any pair of that key.";
-      "position", "position(v)", "The vehicle's present position.";
+  of_constructs Procedure
+  @ List.map (entry Procedure)
+    [ "position", "position(v)", "The vehicle's present position.";
       "battery", "battery(v)", "The charge left in the vehicle's battery, from 0 to 1.";
       "speed", "speed(v)", "The vehicle's speed over the ground, in metres per second.";
       "connected", "connected(v)", "Whether there is a link to the vehicle.";
@@ -106,28 +52,10 @@ let procedures =
       "The points of a spiral around a position, which begins at `bearing:`.";
       "footprint", "footprint(altitude: 10.m, range: 50.m)",
       "The width of the strip that a sidescan of this range sees; a camera has an `angle` instead.";
-      "area", "area(centre, radius)", "The circle around a position, its radius in metres. Also `centre ^ radius`.";
-      "ignore", "ignore()", "In `onError`: the watched task counts as done.";
-      "propagate", "propagate()", "In `onError`: the error climbs on.";
-      "retry", "retry()", "In `onError`: the watched task runs once more, with vehicles that are free then.";
-      "dismiss", "dismiss e.vehicle", "In `onError`: the vehicles leave the program, even if they do not answer.";
-      "fail", "fail 'why'", "An error with this text, which a `watch` around the task handles.";
-      "getSupplier", "getSupplier()", "The object of the outside process that `--supplier` starts." ]
+      "area", "area(centre, radius)", "The circle around a position, its radius in metres. Also `centre ^ radius`." ]
 
 let blocks =
-  List.map (entry Block)
-    [ "pick", "pick { count 3; type 'UUV' }", "Binds vehicles to the program and gives them as a set. `else { ... }` \
-                                               is the alternative if too few come.";
-      "imcPlan", "imcPlan { locate 41.185, -8.706; goTo speed: 1.2 }",
-      "An inline plan: settings, and maneuvers in their order.";
-      "mission", "mission { takeOff 30; goPos p; returnHomeAndLand() }",
-      "A mission of items in their order, for vehicles such as those that speak MAVLink.";
-      "pos", "pos { lat 41.18; lon 8.7.west }", "A position.";
-      "allOf", "allOf { when { C } then T ... }", "Each task runs once its condition holds; done when all are.";
-      "oneOf", "oneOf { when { C } then T ... }", "The task whose condition holds first runs; the others never do.";
-      "recruit", "recruit { type 'UAV' } then { v -> T }",
-      "A task that waits for such a vehicle, has it run the task made of it, and releases it then.";
-      "choose", "choose { when { C } then T ... }", "Another word for `oneOf`." ]
+  of_constructs Block @ [ entry Block ("pos", "pos { lat 41.18; lon 8.7.west }", "A position.") ]
 
 let of_pick =
   List.map (entry Setting)

@@ -132,19 +132,15 @@ let rest_of_statement place i = rest place i
 (* The argument of a call without parentheses within a task: operators of tasks and their words go on after it. *)
 let arguments place i =
   let ends = function
-    | SHIFT_RIGHT | BAR | THEN | RUN | ON_ERROR | ENSURE | AFTER_UNTIL | AFTER_ASSURE | AFTER_DURING _ -> true
-    | _ -> false in
+    | SHIFT_RIGHT | BAR -> true
+    | token -> Words.continues token in
   rest ~ends place i
 
 (* {1 Likely mistakes}
 
     Each rule gives a message and a hint, or leaves the place to the next rule. *)
 
-let is_word = function
-  | DEF | IF | ELSE | OTHERWISE | WHILE | FOR | IN | RETURN | BREAK | CONTINUE | WHEN | WATCH | WAIT_FOR | REPEAT
-  | UNTIL _ | DURING _ | AFTER_UNTIL | AFTER_ASSURE | AFTER_DURING _ | THEN | RUN | ON_ERROR | ENSURE | USING | TRUE
-  | FALSE | NULL -> true
-  | _ -> false
+let is_word token = token = OTHERWISE || (token <> WILDCARD && Words.place token <> None)
 
 (* Whether the place is among the parameters of a function or of a closure. *)
 let is_parameter place =

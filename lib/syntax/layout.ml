@@ -8,22 +8,17 @@ let is_incomplete = function
   | LESS_EQUAL | GREATER | GREATER_EQUAL | EQUAL | NOT_EQUAL | AMPERSAND | CARET | BAR | AND | OR | IN | NOT
   | COMMA | COLON | ARROW | DOT | SAFE_DOT | QUESTION | ELVIS | ASSIGN | ASSIGN_OPERATOR _
   | LPAREN | LBRACKET | LBRACE | TRAILING | BLOCK | HOLE_OPEN | SEPARATOR | BUILDER _ | RECRUIT | COMMAND _
-  | PARAMETER | DEF | IF | ELSE | OTHERWISE | WHILE | FOR | WHEN | WATCH | WAIT_FOR | REPEAT | UNTIL _ | DURING _
-  | AFTER_UNTIL | AFTER_ASSURE | AFTER_DURING _ | THEN | RUN | ON_ERROR | ENSURE | USING -> true
-  | NEVER | NAME _ | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN | TEMPLATE_CLOSE | HOLE_CLOSE | TEXT _ | WILDCARD
-  | TRUE | FALSE | NULL | RETURN | BREAK | CONTINUE | RPAREN | RBRACKET | RBRACE | STEP _ | EOF -> false
+  | PARAMETER | OTHERWISE -> true
+  | RETURN | BREAK | CONTINUE -> false
+  | token -> Words.is_word token
 
 (* Whether no statement can begin with [token], so that it belongs to the line before. *)
 let continues = function
   | RANGE | RANGE_LESS | POWER | STAR | SLASH | PERCENT | SHIFT_LEFT | SHIFT_RIGHT | LESS | LESS_EQUAL
   | GREATER | GREATER_EQUAL | EQUAL | NOT_EQUAL | AMPERSAND | CARET | BAR | AND | OR | IN
-  | COMMA | COLON | DOT | SAFE_DOT | QUESTION | ELVIS | THEN | RUN | ON_ERROR | ELSE | OTHERWISE
-  | AFTER_UNTIL | AFTER_ASSURE | AFTER_DURING _ | ENSURE | RPAREN | RBRACKET | RBRACE | HOLE_CLOSE | SEPARATOR
-  | EOF -> true
-  | NAME _ | COMMAND _ | BUILDER _ | RECRUIT | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN | TEMPLATE_CLOSE
-  | HOLE_OPEN | TEXT _ | WILDCARD | TRUE | FALSE | NULL | PARAMETER | DEF | IF | WHILE | FOR | RETURN | BREAK | CONTINUE
-  | NEVER | WHEN | WATCH | WAIT_FOR | REPEAT | USING | UNTIL _ | DURING _ | LPAREN | LBRACKET
-  | LBRACE | TRAILING | BLOCK | ARROW | ASSIGN | ASSIGN_OPERATOR _ | STEP _ | PLUS | MINUS | NOT -> false
+  | COMMA | COLON | DOT | SAFE_DOT | QUESTION | ELVIS | ELSE | OTHERWISE | RPAREN | RBRACKET | RBRACE | HOLE_CLOSE
+  | SEPARATOR | EOF -> true
+  | token -> Words.continues token
 
 (* Whether an operand can end with [token]. *)
 let ends_operand = function
@@ -34,11 +29,6 @@ let ends_operand = function
 (* Whether a brace after [token] on the same line opens a closure that is one more argument. *)
 let takes_closure = function
   | NAME _ | RPAREN | RBRACKET | RBRACE -> true
-  | _ -> false
-
-let is_word = function
-  | DEF | IF | ELSE | OTHERWISE | WHILE | FOR | IN | RETURN | BREAK | CONTINUE | WHEN | WATCH | WAIT_FOR | REPEAT
-  | UNTIL _ | DURING _ | THEN | RUN | ON_ERROR | ENSURE | USING -> true
   | _ -> false
 
 let builder = function
@@ -90,10 +80,10 @@ let begins_expression state i =
   let rec run_follows i fuel =
     fuel > 0
     && match raw_token state i with
-    | word when is_word word && is_named state i -> run_follows (i + 1) (fuel - 1)
+    | word when Words.is_word word && is_named state i -> run_follows (i + 1) (fuel - 1)
     | RUN -> true
     | SEPARATOR | COMMA | RPAREN | RBRACKET | RBRACE | HOLE_CLOSE | EOF -> false
-    | UNTIL _ | DURING _ | WAIT_FOR | WHEN | WATCH | REPEAT | USING -> false
+    | token when Words.begins_task token -> false
     | LPAREN | LBRACKET | LBRACE | HOLE_OPEN -> run_follows (state.partner.(i) + 1) (fuel - 1)
     | token when state.raw.(i).newline && not (continues token) -> false
     | _ -> run_follows (i + 1) (fuel - 1)
@@ -105,10 +95,9 @@ let begins_expression state i =
 (* Whether the token at [i] can only begin an argument, when it follows a name. *)
 let begins_argument state i =
   match raw_token state i with
-  | NAME _ | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN | WILDCARD | TRUE | FALSE | NULL | WHEN | WATCH
-  | WAIT_FOR | REPEAT | USING | NOT -> true
+  | NAME _ | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN | WILDCARD | TRUE | FALSE | NULL | NOT -> true
   | UNTIL _ | DURING _ -> is_key state i || begins_expression state i
-  | token -> is_word token && is_key state i
+  | token -> Words.begins_task token || (Words.is_word token && is_key state i)
 
 let push state (token : Token.t) kind =
   state.arranged <- { token with token = kind } :: state.arranged;
@@ -183,7 +172,7 @@ let stands_behind state i (token : Token.t) =
 let classify state i (token : Token.t) =
   match token.token with
   | TRUE | FALSE | NULL when after_point state -> NAME (Token.text ~source:state.source token)
-  | word when is_word word && is_named state i -> NAME (Token.text ~source:state.source token)
+  | word when Words.is_word word && is_named state i -> NAME (Token.text ~source:state.source token)
   | UNTIL Completes when stands_behind state i token -> AFTER_UNTIL
   | UNTIL Fails when stands_behind state i token -> AFTER_ASSURE
   | DURING on_cut when stands_behind state i token -> AFTER_DURING on_cut

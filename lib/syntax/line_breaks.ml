@@ -19,8 +19,8 @@ let body_start pieces opener =
 let is_joined pieces i =
   pieces.(i).comments = []
   && match pieces.(i - 1).token, pieces.(i).token with
-  | (UNTIL _ | AFTER_UNTIL | AFTER_ASSURE | WHEN | WAIT_FOR | ON_ERROR | ENSURE | BUILDER _ | ELSE),
-    (LBRACE | BLOCK) -> true
+  | (BUILDER _ | ELSE), (LBRACE | BLOCK) -> true
+  | word, (LBRACE | BLOCK) when Words.takes_code word -> true
   | RPAREN, BLOCK -> Spacing.ends_head pieces (i - 1)
   | RBRACE, ELSE | ELSE, IF -> true
   | _, COMMA -> true
@@ -88,8 +88,8 @@ let is_in_parameters pieces i =
 
 let looseness pieces i =
   match pieces.(i - 1).token, pieces.(i).token with
+  | _, token when Words.place token = Some Joins -> Some Joint
   | _, (COMMA | RPAREN | RBRACKET | RBRACE | EOF | ARROW) -> None
-  | _, (THEN | RUN | ON_ERROR) -> Some Joint
   | _, (QUESTION | ELVIS) -> Some Choice
   | _, COLON when pieces.(i).ternary -> Some Choice
   | COMMA, _ when is_in_parameters pieces i -> None
@@ -101,7 +101,7 @@ let looseness pieces i =
   | (PLUS | MINUS), _ when not (Spacing.is_prefix pieces (i - 1)) -> Some Sum
   | (STAR | SLASH | PERCENT | POWER | AMPERSAND | CARET | EQUAL | NOT_EQUAL | LESS | LESS_EQUAL | GREATER
     | GREATER_EQUAL | IN), _ -> Some Operator
-  | _, (AFTER_UNTIL | AFTER_ASSURE | AFTER_DURING _ | ENSURE) -> Some Limit
+  | _, token when Words.place token = Some Limits -> Some Limit
   | (LPAREN | LBRACKET), _ -> Some Inside
   | (ASSIGN | ASSIGN_OPERATOR _), _ -> Some Value
   | _, _ when pieces.(i).starts -> Some Body

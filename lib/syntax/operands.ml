@@ -17,8 +17,6 @@ let map f (e : expression) : expression =
     | Index (a, b) -> Index (f a, f b)
     | Member m -> Member { m with subject = f m.subject }
     | Range r -> Range { r with first = f r.first; last = f r.last }
-    | ( Null | Boolean _ | Integer _ | Number _ | String _ | Template _ | Variable _ | Wildcard | Map _ | Closure _
-      | Increment _ | Builder _ | Pick_else _ | Recruit _ | When _ | Wait_for _ | Until _ | During _ | Watch _
-      | Ensure _ | Repeat _ ) as it -> it
+    | it -> it
   in
   { e with it }

@@ -40,9 +40,7 @@ let rec kind e =
     if List.for_all is_number arguments then Some Place else None
   | List es -> if List.for_all is_value es then Some List_of_values else None
   | Map entries -> if List.for_all (fun (k, e) -> is_key k.it && is_value e) entries then Some Map_of_values else None
-  | Template _ | Variable _ | Wildcard | Range _ | Closure _ | Unary (Not, _) | Binary _ | Conditional _ | Elvis _
-  | Increment _ | Call _ | Member _ | Index _ | Builder _ | Pick_else _ | When _ | Wait_for _ | Until _ | During _
-  | Ensure _ | Watch _ | Repeat _ | Recruit _ -> None
+  | _ -> None
 
 and is_key = function Name _ -> true | Computed k -> is_value k
 and is_value e = kind e <> None

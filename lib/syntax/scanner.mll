@@ -54,20 +54,11 @@ let mended state lexbuf token ~hint message =
   fault state (start, stop) message ~hint;
   push state token start stop
 
-let keywords =
-  let table = Hashtbl.create 64 in
-  List.iter (fun (word, token) -> Hashtbl.add table word token)
-    [ "_", WILDCARD; "true", TRUE; "false", FALSE; "null", NULL;
-      "def", DEF; "if", IF; "else", ELSE; "while", WHILE; "for", FOR; "in", IN;
-      "return", RETURN; "break", BREAK; "continue", CONTINUE;
-      "when", WHEN; "watch", WATCH; "waitFor", WAIT_FOR; "repeat", REPEAT;
-      "until", UNTIL Completes; "assure", UNTIL Fails; "during", DURING Completes; "within", DURING Fails;
-      "then", THEN; "run", RUN; "onError", ON_ERROR;
-      "ensure", ENSURE; "using", USING ];
-  table
+let keywords = Hashtbl.of_seq (List.to_seq Words.tokens)
 
 let words =
-  List.sort String.compare (Hashtbl.fold (fun word _ words -> if word = "_" then words else word :: words) keywords [])
+  let reserved = List.filter Construct.is_reserved Construct.words in
+  List.sort String.compare (List.map (fun (word : Construct.word) -> word.spelling) reserved)
 
 let word text =
   match Hashtbl.find_opt keywords text with

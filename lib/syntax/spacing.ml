@@ -19,10 +19,6 @@ type manner =
 let manner = function
   | NAME _ | INTEGER _ | NUMBER _ | STRING _ | TEMPLATE_OPEN | TEMPLATE_CLOSE | TEXT _ | WILDCARD | TRUE | FALSE
   | NULL -> Operand
-  | COMMAND _ | BUILDER _ | RECRUIT | PARAMETER | DEF | IF | ELSE | OTHERWISE | WHILE | FOR | RETURN | BREAK
-  | CONTINUE | WHEN
-  | WATCH | WAIT_FOR | REPEAT | THEN | RUN | ON_ERROR | ENSURE | USING | UNTIL _ | DURING _ | AFTER_UNTIL | AFTER_ASSURE
-  | AFTER_DURING _ | NEVER -> Word
   | IN | ARROW | QUESTION | ELVIS | ASSIGN | ASSIGN_OPERATOR _ | POWER | STAR | SLASH | PERCENT | SHIFT_LEFT
   | SHIFT_RIGHT | LESS | LESS_EQUAL | GREATER | GREATER_EQUAL | EQUAL | NOT_EQUAL | AMPERSAND | CARET | BAR | AND
   | OR -> Infix
@@ -36,6 +32,7 @@ let manner = function
   | RPAREN | RBRACKET | HOLE_CLOSE -> Closing
   | LBRACE | TRAILING | BLOCK -> Brace
   | RBRACE -> Closing_brace
+  | _ -> Word
 
 let token (pieces : Piece.t array) i = if i < 0 then SEPARATOR else pieces.(i).token
 

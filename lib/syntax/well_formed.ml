@@ -52,9 +52,7 @@ let children_of_statement s =
 let is_target e =
   match e.it with
   | Variable _ | Member _ | Index _ -> true
-  | Null | Boolean _ | Integer _ | Number _ | String _ | Template _ | Wildcard | List _ | Map _ | Range _
-  | Closure _ | Unary _ | Binary _ | Conditional _ | Elvis _ | Increment _ | Call _ | Builder _ | Pick_else _ | When _
-  | Recruit _ | Wait_for _ | Until _ | During _ | Watch _ | Ensure _ | Repeat _ -> false
+  | _ -> false
 
 let target_fault what e =
   Diagnostic.error e.at (Printf.sprintf "this cannot be %s" what)

@@ -6,12 +6,15 @@ syntax keyword dolphinConditional if else
 syntax keyword dolphinRepeat while for in break continue
 syntax keyword dolphinStatement def return
 syntax match dolphinStatement '\v^\s*\zsparameter\ze\s+\h\w*\s*\='
-syntax keyword dolphinOperatorWord when then watch onError waitFor repeat run until assure during within ensure using allOf oneOf choose recruit
+syntax keyword dolphinOperatorWord allOf when then oneOf choose waitFor until assure during within run watch onError
+syntax keyword dolphinOperatorWord repeat recruit ensure using
 syntax keyword dolphinBoolean true false
 syntax keyword dolphinConstant null _
-syntax keyword dolphinTask task imcPlan mission action condition fresh idle assert pick pos
-syntax keyword dolphinProcedure execute release setConnectionTimeout ask confirm message println pause halt post
-syntax keyword dolphinProcedure input onInterrupt consume poll position battery speed connected reading running now eta location map fence area polygon corridor along coverage expandingSquare sector spiral footprint fail ignore propagate retry dismiss getSupplier
+syntax keyword dolphinTask task imcPlan action condition assert idle confirm fresh mission pick pos
+syntax keyword dolphinProcedure ignore propagate retry dismiss fail post consume poll message println release
+syntax keyword dolphinProcedure setConnectionTimeout ask pause getSupplier execute input halt onInterrupt position
+syntax keyword dolphinProcedure battery speed connected reading running now eta location polygon map fence corridor
+syntax keyword dolphinProcedure along coverage expandingSquare sector spiral footprint area
 syntax keyword dolphinFleet vehicle plan answer reply field
 
 syntax match dolphinNumber '\v<\d[0-9_]*(\.\d[0-9_]*)?([eE][-+]?\d+)?>'

@@ -34,12 +34,7 @@ let of_builtin = function
   | Pause -> Some "pause"
   | Post _ -> Some "post"
   | Set_connection_timeout -> Some "setConnectionTimeout"
-  | Platform_task | Make_action | Make_condition | Make_wait_for | Make_until _ | Make_idle | Make_confirm
-  | Make_during _ | Make_watch | Make_fresh | Make_ensure _ | Make_repeat _
-  | Halt | Consume _ | Poll _ | Values_of | Position_of | Sensor_of _ | Is_running | Reading_of | Now | Eta
-  | Location_of | Area_of | Ignore | Propagate | Retry | Dismiss | Fail | Get_supplier | Interrupted | Assert | Is_host
-  | Is_there
-  | Math _ | Geometry _ -> None
+  | _ -> None
 
 (* The purpose of the code in an argument of this operation. *)
 let code_of = function

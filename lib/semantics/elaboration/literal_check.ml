@@ -12,10 +12,7 @@ let rec value (e : Ast.expression) =
   | Unary (op, e) -> Option.bind (value e) (fun x -> Result.to_option (Operators.unary op x))
   | Member { subject; name; safe = false } ->
     Option.bind (value subject) (fun x -> Result.to_option (Operators.in_unit x name.it))
-  | Template _ | Variable _ | Wildcard | List _ | Map _ | Range _ | Closure _ | Binary _ | Conditional _ | Elvis _
-  | Increment _ | Call _ | Member _ | Index _ | Builder _ | Pick_else _ | Recruit _ | When _ | Wait_for _ | Until _
-  | During _
-  | Watch _ | Ensure _ | Repeat _ -> None
+  | _ -> None
 
 let all es =
   let values = List.filter_map value es in

@@ -54,9 +54,7 @@ let first_operand (e : Ast.expression) : (Ast.expression * (Ast.expression -> As
   | During (e, d, t) when begins t -> Some (t, fun t -> During (e, d, t))
   | Until (e, c, t) when begins t -> Some (t, fun t -> Until (e, c, t))
   | Ensure (t, c) -> Some (t, fun t -> Ensure (t, c))
-  | Null | Boolean _ | Integer _ | Number _ | String _ | Template _ | Variable _ | Wildcard | List _ | Map _ | Closure _
-  | Unary _ | Increment _ | Builder _ | Pick_else _ | Recruit _ | When _ | Wait_for _ | Until _ | During _ | Watch _
-  | Repeat _ -> None
+  | _ -> None
 
 (* [execute (a | b) >> c] executes all of [(a | b) >> c]: a procedure without a value cannot be an operand, so the
    text after its parenthesis belongs to its argument. *)

@@ -300,6 +300,55 @@ let equality =
         Alcotest.(check (list bool)) "of 5" [ false; true ] [ Value.has_at_most 4 x; Value.has_at_most 5 x ];
         Alcotest.(check bool) "of many" false (Value.has_at_most 1_000_000 (doubled Null))) ]
 
+(* {1 Elements that are looked at} *)
+
+let steps source = List.length (run source) - List.length (run "message 1") + 1
+
+let many n body = Printf.sprintf "xs = (1..%d).toList()\nfor (i in 1..100) { %s }\nmessage xs.size()" n body
+
+let list_of = list
+
+let in_sets =
+  let open QCheck2.Gen in
+  let integer = map (fun i : Core.value -> Integer i) (int_range 0 3) in
+  let number = oneof [ integer; map (fun i : Core.value -> Number (Stdlib.float i)) (int_range 0 3) ] in
+  let map_of = map2 (fun x is_reversed : Core.value ->
+      let entries = [ ("a", x); ("b", Core.Integer 1) ] in
+      Map (if is_reversed then List.rev entries else entries)) in
+  let long = map (fun x -> list_of (List.init 1_100 (fun _ -> x))) number in
+  let value =
+    frequency
+      [ (6, number); (2, map list_of (list_size (int_range 0 3) number)); (2, map_of number bool); (2, long) ] in
+  let print (x, ys) = Value.to_string (list_of [ x; list_of ys ]) in
+  Property.case ~count:500 "as equality has it" ~print (pair value (list_size (int_range 0 8) value)) (fun (x, ys) ->
+      let set = List.fold_left (fun set y -> Equal_values.add y set) Equal_values.empty ys in
+      Equal_values.mem x set = List.exists (Value.equals x) ys)
+
+let elements =
+  let takes name least most source =
+    case name (fun () ->
+        let n = steps source in
+        if n < least || n > most then Alcotest.failf "%d steps, %d to %d expected" n least most)
+  in
+  [ takes "of a short list" 1 3 (many 900 "ys = xs.sort()");
+    takes "that are sorted" 20 40 (many 2_000 "ys = xs.sort()");
+    takes "that are compared" 10 20 (many 100_000 "ys = xs.reverse() == xs");
+    takes "by index, and one more at the end" 1 3 (many 100_000 "xs << xs[i] + xs.size()");
+    case "in code inside of a task" (fun () ->
+        let source = many 200_000 "message xs.size()" in
+        Alcotest.(check string) "few" "completed" (Pure_run.ending (run source));
+        let endless = "xs = (1..200000).toList()\nexecute action { while (true) { xs = xs.sort() } }" in
+        let ending = Pure_run.ending (run endless) in
+        let part = Str.regexp_string "does not come to an end" in
+        Alcotest.(check bool) ending true (try Str.search_forward part ending 0 > 0 with Not_found -> false));
+    case "of which equal ones are left out" (fun () ->
+        let numbers = "(1..100000).toList()" in
+        strings "said" [ "100000, 1" ]
+          (Pure_run.said
+             (run
+                (Printf.sprintf "xs = %s + %s\nys = xs.unique()\nmessage(\"${ys.size()}, ${(ys + [0] - xs).size()}\")"
+                   numbers numbers)))) ]
+
 let () =
   Alcotest.run "language"
     [ ( "without end",
@@ -310,5 +359,7 @@ let () =
       ("picks", picks);
       ("tuples", tuples);
       ("unknown", unknown);
+      ("elements", elements);
+      ("sets of equal values", [ in_sets ]);
       ("moments", moments);
       ("equality", equality) ]

@@ -331,6 +331,7 @@ and enter context fuel closure arguments at locals stack calls =
     evaluate context fuel closure.lambda.code (locals_of closure arguments) stack calls
 
 and perform context fuel operation at arguments locals stack calls =
+  let fuel = fuel - Work.of_operation operation arguments in
   settle_outcome context fuel (Operation.apply context at operation arguments) at locals stack calls
 
 and settle_outcome context fuel (outcome : outcome) at locals stack calls : (stop * t * context) Decision.t =

@@ -27,10 +27,9 @@ let extreme better items =
   match Array.to_list items with [] -> Ok Null | first :: _ as items -> Results.fold choose first items
 
 let distinct items =
-  Array.fold_left
-    (fun kept x -> if List.exists (Value.equals x) kept then kept else x :: kept)
-    [] items
-  |> List.rev |> Array.of_list
+  let add (known, kept) x = if Equal_values.mem x known then (known, kept) else (Equal_values.add x known, x :: kept) in
+  let _, latest_first = Array.fold_left add (Equal_values.empty, []) items in
+  Array.of_list (List.rev latest_first)
 
 let reversed items =
   let n = Array.length items in

@@ -161,7 +161,8 @@ let binary (op : Ast.binary) x y =
   | Subtract, Vehicles vs, Vehicles ws -> Ok (Vehicles (difference vs ws))
   | Subtract, Area a, Area b -> area (Dolphin_geo.Area.difference a b)
   | Subtract, List xs, List ys ->
-    let kept x = not (Vector.exists (Value.equals x) ys) in
+    let ys = List.fold_left (fun known y -> Equal_values.add y known) Equal_values.empty (Vector.to_list ys) in
+    let kept x = not (Equal_values.mem x ys) in
     Ok (List (Vector.of_list (List.filter kept (Vector.to_list xs))))
   | Subtract, x, y -> arithmetic op subtract ( -. ) x y
   | Multiply, x, y -> arithmetic op multiply ( *. ) x y

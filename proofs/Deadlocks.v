@@ -89,19 +89,8 @@ Section Deadlocks.
     - (* until, assure *)
       destruct (IHr (enter (Body_until k g) K) S Q) as [Hs | Hk].
       + left. apply (inside_acts (Body_until k g) r K S Hc Hs).
-      + destruct (guard_dec (wanted k) g K S None
-          (fun s N ds =>
-             match k with
-             | Completes => [By (LCut ds) (without (run_of r) (with_code s N S)) Ok (effects_of ds ++ cut [r])]
-             | Fails _ => []
-             end)
-          match k with
-          | Completes => []
-          | Fails at_site => [By (LCut []) (without (run_of r) S) (Err (not_assured at_site g)) (cut [r])]
-          end
-          (fun m ds => [By (LBroken m) (without (run_of r) S) (Err m) (effects_of (said ds) ++ cut [r])])
-          Hc eq_refl) as [[t Ht] | Hw]; try (destruct k; discriminate); try discriminate.
-        * left. exists None, t. split; [exact I | apply Itself; exact Ht].
+      + destruct (until_dec k g r K S Hc) as [[t Ht] | Hw].
+        * left. exists None, t. split; [exact I | exact Ht].
         * right. apply B_until; assumption.
     - (* idle *)
       left. exists (Some (Expired i)), (By LTimeout S Ok []). split; [exact I|]. apply Itself. cbn.

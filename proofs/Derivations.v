@@ -71,28 +71,8 @@ Section Derivations.
     map (fun t' => (t', snd d ++ frame_rule f (fst d) t')%list) (lift f K (fst d)).
 
   (** [steps], each with its derivation. *)
-  Fixpoint derivations (e : option event) (r : residual) (K : context) (S : shared) : list derived :=
-    let within f r := flat_map (lift_derived f K) (derivations e r (enter f K) S) in
-    (map (fun t => (t, [own_rule r t])) (own e K S r) ++
-    match r with
-    | Sequence r t => within (In_sequence t) r
-    | Parallel rs =>
-        (fix branches (before rs : list residual) : list derived :=
-           match rs with
-           | [] => []
-           | r :: after =>
-               flat_map (lift_derived (Beside before after) K) (derivations e r (enter (Beside before after) K) S)
-               ++ branches (before ++ [r]) after
-           end) [] rs
-    | Branch r bs => within (Branch_of bs) r
-    | Until k g r => within (Body_until k g) r
-    | During k i n r => within (Body_during k i n) r
-    | Watch r h => within (In_watch h) r
-    | Repeat r more g t => within (Round_of more g t) r
-    | Holding vs r => within (Held_by vs) r
-    | Recruited v r => within (In_recruited v) r
-    | _ => []
-    end)%list.
+  Definition derivations (e : option event) (r : residual) (K : context) (S : shared) : list derived :=
+    walk (fun K r => map (fun t => (t, [own_rule r t])) (own e K S r)) lift_derived r K.
 
   Lemma map_lift f K ds : map fst (flat_map (lift_derived f K) ds) = flat_map (lift f K) (map fst ds).
   Proof.
@@ -101,26 +81,15 @@ Section Derivations.
   Qed.
 
   (** Derivations change no step. *)
-  Theorem derivations_are_steps e r : forall K S, map fst (derivations e r K S) = steps e r K S.
+  Theorem derivations_are_steps e r K S : map fst (derivations e r K S) = steps e r K S.
   Proof.
-    induction r using residual_rect'; intros K S; cbn [derivations steps]; rewrite map_app, map_map; cbn [fst];
+    unfold derivations, steps. revert K.
+    induction r using residual_rect'; intros K; cbn [walk]; rewrite map_app, map_map; cbn [fst];
       rewrite map_id; f_equal; try reflexivity; try (rewrite map_lift, IHr; reflexivity);
       try (rewrite map_lift, IHr1; reflexivity).
-    assert (G : forall before,
-      map fst ((fix branches (before rs : list residual) : list derived :=
-                  match rs with
-                  | [] => []
-                  | r :: after =>
-                      flat_map (lift_derived (Beside before after) K) (derivations e r (enter (Beside before after) K) S)
-                      ++ branches (before ++ [r]) after
-                  end) before rs)%list =
-      ((fix branches (before rs : list residual) : list transition :=
-          match rs with
-          | [] => []
-          | r :: after =>
-              flat_map (lift (Beside before after) K) (steps e r (enter (Beside before after) K) S)
-              ++ branches (before ++ [r]) after
-          end) before rs)%list); [|apply G].
+    match goal with |- map fst (?f [] ?rs) = ?g [] ?rs =>
+      enough (G : forall before, map fst (f before rs) = g before rs) by apply G
+    end.
     induction H as [|r rs Hr _ IH]; intros before; [reflexivity|].
     rewrite map_app, map_lift, Hr, IH. reflexivity.
   Qed.

@@ -211,29 +211,39 @@ Section Function.
 
   (** {1 The function} *)
 
+  (** What the nodes of [r] give by [here], each carried outwards by [outwards]: that of a node before that of its
+      parts, and of [|] from left to right. *)
+  Section Walk.
+    Context {X : Type}.
+    Variables (here : context -> residual -> list X) (outwards : frame -> context -> X -> list X).
+
+    Fixpoint walk (r : residual) (K : context) : list X :=
+      let within f r := flat_map (outwards f K) (walk r (enter f K)) in
+      here K r ++
+      match r with
+      | Sequence r t => within (In_sequence t) r
+      | Parallel rs =>
+          (fix branches (before rs : list residual) : list X :=
+             match rs with
+             | [] => []
+             | r :: after =>
+                 flat_map (outwards (Beside before after) K) (walk r (enter (Beside before after) K))
+                 ++ branches (before ++ [r]) after
+             end) [] rs
+      | Branch r bs => within (Branch_of bs) r
+      | Until k g r => within (Body_until k g) r
+      | During k i n r => within (Body_during k i n) r
+      | Watch r h => within (In_watch h) r
+      | Repeat r more g t => within (Round_of more g t) r
+      | Holding vs r => within (Held_by vs) r
+      | Recruited v r => within (In_recruited v) r
+      | _ => []
+      end.
+  End Walk.
+
   (** [steps e r K S] is what [r] can do: by itself, or on event [e]. The cut comes before the steps of what it cuts. *)
-  Fixpoint steps (e : option event) (r : residual) (K : context) (S : shared) : list transition :=
-    let within f r := flat_map (lift f K) (steps e r (enter f K) S) in
-    own e K S r ++
-    match r with
-    | Sequence r t => within (In_sequence t) r
-    | Parallel rs =>
-        (fix branches (before rs : list residual) : list transition :=
-           match rs with
-           | [] => []
-           | r :: after =>
-               flat_map (lift (Beside before after) K) (steps e r (enter (Beside before after) K) S)
-               ++ branches (before ++ [r]) after
-           end) [] rs
-    | Branch r bs => within (Branch_of bs) r
-    | Until k g r => within (Body_until k g) r
-    | During k i n r => within (Body_during k i n) r
-    | Watch r h => within (In_watch h) r
-    | Repeat r more g t => within (Round_of more g t) r
-    | Holding vs r => within (Held_by vs) r
-    | Recruited v r => within (In_recruited v) r
-    | _ => []
-    end.
+  Definition steps (e : option event) (r : residual) (K : context) (S : shared) : list transition :=
+    walk (fun K => own e K S) lift r K.
 
   (** {1 Steps by frames}
 
@@ -244,16 +254,13 @@ Section Function.
   | Within : forall K S f r t t',
       goes e (enter f K) S r t -> In t' (lift f K t) -> goes e K S (plug f r) t'.
 
-  Lemma in_branches e K S t rs before :
-    In t ((fix branches (before rs : list residual) : list transition :=
+  Lemma in_branches (X : Type) (f : list residual -> residual -> list residual -> list X) t rs before :
+    In t ((fix branches (before rs : list residual) : list X :=
              match rs with
              | [] => []
-             | r :: after =>
-                 flat_map (lift (Beside before after) K) (steps e r (enter (Beside before after) K) S)
-                 ++ branches (before ++ [r]) after
+             | r :: after => f before r after ++ branches (before ++ [r]) after
              end) before rs)
-    <-> exists b r after, rs = b ++ r :: after /\
-        In t (flat_map (lift (Beside (before ++ b) after) K) (steps e r (enter (Beside (before ++ b) after) K) S)).
+    <-> exists b r after, rs = b ++ r :: after /\ In t (f (before ++ b) r after).
   Proof.
     revert before. induction rs as [|x rs IH]; intros before.
     - split; [intros []|]. intros (b & r & after & H & _). destruct b; discriminate.
@@ -317,10 +324,12 @@ Section Function.
     { intros f r1. split.
       - intros H. exists f, r1. cbn. auto.
       - intros (f' & r1' & [H | []] & H'). injection H as <- <-. exact H'. }
-    destruct r; cbn [steps parts]; rewrite in_app_iff;
+    unfold steps in *. destruct r; cbn [walk parts]; rewrite in_app_iff;
       try (rewrite One; reflexivity);
       try (split; [intros [H | []]; auto | intros [H | (f & r1 & [] & _)]; auto]).
-    rewrite in_branches. apply or_iff_compat_l. split.
+    rewrite (in_branches _ (fun before r after =>
+      flat_map (lift (Beside before after) K) (walk (fun K => own e K S) lift r (enter (Beside before after) K)))).
+    apply or_iff_compat_l. split.
     - intros (b & r & after & -> & H). exists (Beside b after), r. split; [|exact H].
       apply (proj2 (in_parts (Beside b after) r (Parallel (b ++ r :: after)))). reflexivity.
     - intros (f & r1 & Hin & H). rewrite in_each in Hin. destruct Hin as (b & x & after & -> & [E0 | []]).

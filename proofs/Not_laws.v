@@ -208,9 +208,9 @@ Section Not_laws.
     destruct (alike_next H (e := None) (K := K) (S := S)
       (t := By (LAct ds) (with_code s N S) (Next (Sequence (Repeat (Idle i n) None None (Idle i n)) (Ready p v)))
               (effects_of ds))) as (t' & T & A).
-    - apply steps_iff_goes. cbn [steps own app]. unfold coded. rewrite Ha by reflexivity. cbn.
+    - apply steps_iff_goes. unfold steps; cbn [walk own app]. unfold coded. rewrite Ha by reflexivity. cbn.
       rewrite (proj2 (mem_spec v [v])) by (left; reflexivity). left. reflexivity.
-    - apply steps_iff_goes in T. cbn [steps own app] in T. unfold coded in T. rewrite Ha in T by reflexivity.
+    - apply steps_iff_goes in T. unfold steps in T; cbn [walk own app] in T. unfold coded in T. rewrite Ha in T by reflexivity.
       cbn in T. destruct t'. sole T A.
   Qed.
 End Not_laws.

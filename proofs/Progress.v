@@ -115,6 +115,14 @@ Section Progress.
     - exfalso. eapply Hr. exact R.
   Qed.
 
+  Lemma until_dec k g r K S :
+    closed_world -> (exists t, goes None K S (Until k g r) t) \/ guard_waits (wanted k) g K S.
+  Proof.
+    intros Hc. assert (H : (exists t, In t (own None K S (Until k g r))) \/ guard_waits (wanted k) g K S).
+    { cbn [own]. apply guard_dec; auto; destruct k; discriminate. }
+    destruct H as [[t Ht] | Hw]; [left; exists t; apply Itself; exact Ht | right; exact Hw].
+  Qed.
+
   Lemma coded_some c ys K S gives faulty :
     closed_world -> (forall x s N ds, gives x s N ds <> []) -> (forall m ds, faulty m ds <> []) ->
     exists t, In t (coded None c ys K S gives faulty).
@@ -209,19 +217,8 @@ Section Progress.
       - destruct (IHr (enter (Body_until k g) K) S Q) as [Hs | [Ha | Hk]].
         + left. apply (inside_steps None (Body_until k g) r K S Hc Hs).
         + right. left. exact Ha.
-        + destruct (guard_dec (wanted k) g K S None
-            (fun s N ds =>
-               match k with
-               | Completes => [By (LCut ds) (without (run_of r) (with_code s N S)) Ok (effects_of ds ++ cut [r])]
-               | Fails _ => []
-               end)
-            match k with
-            | Completes => []
-            | Fails at_site => [By (LCut []) (without (run_of r) S) (Err (not_assured at_site g)) (cut [r])]
-            end
-            (fun m ds => [By (LBroken m) (without (run_of r) S) (Err m) (effects_of (said ds) ++ cut [r])])
-            Hc eq_refl) as [[t Ht] | Hw]; try (destruct k; discriminate); try discriminate.
-          * left. exists t. apply Itself. exact Ht.
+        + destruct (until_dec k g r K S Hc) as [[t Ht] | Hw].
+          * left. exists t. exact Ht.
           * right. right. constructor; assumption.
       - left. destruct (coded_some d [] K S
           (fun x s N ds =>

@@ -665,6 +665,37 @@ Section Refinement.
         * intros H. rewrite (Hg v H) in Hne. discriminate.
   Qed.
 
+  (** A recruited vehicle leaves when its task is over. *)
+  Lemma leaving_fits x X K S v r l S1 o E :
+    placed K S (Recruited v r) -> beside X K S (Recruited v r) ->
+    incl (bound S1) (bound S) -> nothing_runs (enter (In_recruited v) K) S1 ->
+    fits x (around (In_recruited v) X) (enter (In_recruited v) K) S r (By l S1 o E) ->
+    match o with Ok | Err _ => True | _ => False end ->
+    fits x X K S (Recruited v r) (By l S1 o (E ++ [Release [v]])).
+  Proof.
+    intros [W N R] [B1 B2 B3 B4 B5] K2 K4 (F1 & F2 & _) Ho.
+    assert (Before : forall u, here X S (recruits (Recruited v r)) u = here (around (In_recruited v) X) S (recruits r) u).
+    { intros u. apply here_around, (recruits_plug (In_recruited v)). }
+    assert (Rest : forall E0, rest r o E0 = [] /\ rest (Recruited v r) o E0 = [])
+      by (intros E0; destruct o; try contradiction; auto).
+    split; [|split; [|destruct o; auto; contradiction]].
+    - intros u. rewrite proj_app, app_assoc, vrun_app, Before, F1. destruct (Rest E) as [-> _].
+      destruct (Rest (E ++ [Release [v]])) as [_ ->]. change [Release [v]] with (release [v]).
+      rewrite (proj_release u [v]) by (constructor; [intros [] | constructor]).
+      unfold here, around. cbn [frame_recruits mem]. destruct (mem u [v]) eqn:M.
+      + apply mem_spec in M. destruct M as [<- | []].
+        assert (Hv : ~ In v (bound S1)) by (intros H; apply (B5 v (or_introl eq_refl)), K2, H).
+        assert (Ha : allocation S1 v = None).
+        { apply K4. cbn. destruct (held K v) eqn:Hh; [|reflexivity]. exfalso. apply (N v Hh). left. reflexivity. }
+        assert (Xv : X v = false).
+        { destruct (X v) eqn:Xv; [|reflexivity]. exfalso. apply (B4 v Xv). left. reflexivity. }
+        rewrite Ha, (proj2 (mem_false v _) Hv), Xv. reflexivity.
+      + cbn [vrun]. rewrite !orb_false_r. reflexivity.
+    - intros u Xu. rewrite left_app, in_app_iff. cbn. intros [H | [<- | []]].
+      + apply (F2 u); [unfold around; rewrite Xu; reflexivity | exact H].
+      + apply (B4 v Xu). left. reflexivity.
+  Qed.
+
   Lemma lift_fits f x X K S r t t' :
     sound K -> placed K S (plug f r) -> beside X K S (plug f r) -> kept (enter f K) S r t ->
     fits x (around f X) (enter f K) S r t -> loses x S t -> In t' (lift f K t) -> fits x X K S (plug f r) t'.
@@ -708,22 +739,7 @@ Section Refinement.
         * apply Plain; auto; [intros v; apply proj_begun | apply left_begun|]. intros v. cbn [rest frame_recruits].
           rewrite recruits_repeat, quiet_recruits by assumption. tauto.
       + (* RECRUIT-2 *)
-        split; [|split; [|exact I]].
-        * intros u. rewrite proj_app, app_assoc, vrun_app, Before, F1. cbn [rest].
-          change [Release [v]] with (release [v]).
-          rewrite (proj_release u [v]) by (constructor; [intros [] | constructor]).
-          unfold here, around. cbn [frame_recruits mem]. destruct (mem u [v]) eqn:M.
-          -- apply mem_spec in M. destruct M as [<- | []].
-             assert (Hv : ~ In v (bound S1)) by (intros H; apply (B5 v (or_introl eq_refl)), K2, H).
-             assert (Ha : allocation S1 v = None).
-             { apply K4. cbn. destruct (held K v) eqn:Hh; [|reflexivity]. exfalso. apply (N v Hh). left. reflexivity. }
-             assert (Xv : X v = false).
-             { destruct (X v) eqn:Xv; [|reflexivity]. exfalso. apply (B4 v Xv). left. reflexivity. }
-             rewrite Ha, (proj2 (mem_false v _) Hv), Xv. reflexivity.
-          -- cbn [vrun]. rewrite !orb_false_r. reflexivity.
-        * intros u Xu. rewrite left_app, in_app_iff. cbn. intros [H | [<- | []]].
-          -- apply (F2 u); auto.
-          -- apply (B4 v Xu). left. reflexivity.
+        eapply leaving_fits; eauto.
     - (* it fails *)
       assert (Over := over_released _ _ _ _ _ _ _ _ _ HP' Hb' Hk Hf I).
       pose proof Hk as (K1 & K2 & K3 & K4).
@@ -818,22 +834,7 @@ Section Refinement.
         * destruct (halted_law _ _ _ _ _ _ _ _ _ _ _ Hh) as (D1 & D2 & D3 & _). is_only Hin.
           eapply handler_fits; eauto.
       + (* RECRUIT-ERR *)
-        is_only Hin. split; [|split; [|exact I]].
-        * intros u. rewrite proj_app, app_assoc, vrun_app, Before, F1. cbn [rest].
-          change [Release [v]] with (release [v]).
-          rewrite (proj_release u [v]) by (constructor; [intros [] | constructor]).
-          unfold here, around. cbn [frame_recruits mem]. destruct (mem u [v]) eqn:M.
-          -- apply mem_spec in M. destruct M as [<- | []].
-             assert (Hv : ~ In v (bound S1)) by (intros H; apply (B5 v (or_introl eq_refl)), K2, H).
-             assert (Ha : allocation S1 v = None).
-             { apply K4. cbn. destruct (held K v) eqn:Hh; [|reflexivity]. exfalso. apply (N v Hh). left. reflexivity. }
-             assert (Xv : X v = false).
-             { destruct (X v) eqn:Xv; [|reflexivity]. exfalso. apply (B4 v Xv). left. reflexivity. }
-             rewrite Ha, (proj2 (mem_false v _) Hv), Xv. reflexivity.
-          -- cbn [vrun]. rewrite !orb_false_r. reflexivity.
-        * intros u Xu. rewrite left_app, in_app_iff. cbn. intros [H | [<- | []]].
-          -- apply (F2 u); auto.
-          -- apply (B4 v Xu). left. reflexivity.
+        is_only Hin. eapply leaving_fits; eauto.
     - (* the program ends *)
       is_only Hin. destruct F3 as [F3 F4].
       assert (After : forall v, here X S1 (rest (plug f r) (Ends y) E) v = here (around f X) S1 (rest r (Ends y) E) v).

@@ -210,7 +210,8 @@ Section Not_laws.
               (effects_of ds))) as (t' & T & A).
     - apply steps_iff_goes. unfold steps; cbn [walk own app]. unfold coded. rewrite Ha by reflexivity. cbn.
       rewrite (proj2 (mem_spec v [v])) by (left; reflexivity). left. reflexivity.
-    - apply steps_iff_goes in T. unfold steps in T; cbn [walk own app] in T. unfold coded in T. rewrite Ha in T by reflexivity.
+    - apply steps_iff_goes in T. unfold steps in T; cbn [walk own app] in T. unfold coded in T.
+      rewrite Ha in T by reflexivity.
       cbn in T. destruct t'. sole T A.
   Qed.
 End Not_laws.

@@ -674,7 +674,8 @@ Section Refinement.
     fits x X K S (Recruited v r) (By l S1 o (E ++ [Release [v]])).
   Proof.
     intros [W N R] [B1 B2 B3 B4 B5] K2 K4 (F1 & F2 & _) Ho.
-    assert (Before : forall u, here X S (recruits (Recruited v r)) u = here (around (In_recruited v) X) S (recruits r) u).
+    assert (Before : forall u, here X S (recruits (Recruited v r)) u =
+                               here (around (In_recruited v) X) S (recruits r) u).
     { intros u. apply here_around, (recruits_plug (In_recruited v)). }
     assert (Rest : forall E0, rest r o E0 = [] /\ rest (Recruited v r) o E0 = [])
       by (intros E0; destruct o; try contradiction; auto).

@@ -262,6 +262,10 @@ let differ name left right =
         Alcotest.(check bool) "told apart" false (Bisimulation.equivalent g g')
       | None, _ | _, None -> Alcotest.fail "too many states")
 
+(* A task whose end assigns n to g; and t, its errors ignored, and then g. *)
+let ends_with n = Printf.sprintf "(idle(%d) ensure { g = %d })" n n
+let shown t = Printf.sprintf "(watch (%s) onError { ignore() }) >> action { message \"${g}\" }" t
+
 let p = "task('p')[va]"
 let q = "task('q')[vb]"
 
@@ -296,6 +300,14 @@ let no_laws =
       "condition { true }";
     differ "until { true } run T is not nothing" (Printf.sprintf "until { true } run %s" p) "action { }";
     differ "during { n } is not during n" (Printf.sprintf "during { 5 } run %s" p) (Printf.sprintf "during 5 run %s" p);
+    (* An error cuts off the parts of the inner | first, and those of a flat | from left to right. *)
+    differ "until { false } is seen by an end beside it"
+      (shown (Printf.sprintf "%s | until { false } run (%s | action { fail 'no' })" (ends_with 1) (ends_with 2)))
+      (shown (Printf.sprintf "%s | %s | action { fail 'no' }" (ends_with 1) (ends_with 2)));
+    differ "assure does not go into | where both sides ensure"
+      (shown (Printf.sprintf "assure { poll(y: 1) } run (%s | %s)" (ends_with 1) (ends_with 2)))
+      (shown (Printf.sprintf "(assure { poll(y: 1) } run (%s)) | assure { poll(y: 1) } run (%s)" (ends_with 1)
+                (ends_with 2)));
     differ "allOf is not |"
       (Printf.sprintf "allOf { when { true } then %s\nwhen { true } then %s }" p q)
       (Printf.sprintf "(condition { true } >> %s) | (condition { true } >> %s)" p q);

@@ -40,6 +40,13 @@ export interface Note { time: number; text: string; by: string | null; at: strin
 export type Pair = [number, number];
 // Values of the program's variables on the map.
 export interface Place { name: string; position?: Pair; centre?: Pair; radius?: number; rings?: Pair[][] }
+// A number of the text, and whether one below 0 may stand there.
+export interface ShapeNumber { from: number; to: number; negative: boolean }
+export interface ShapePoint { at: Pair; latitude?: ShapeNumber; longitude?: ShapeNumber }
+export interface Shape {
+  name: string; from: number; to: number; kind: "position" | "way" | "plan" | "area" | "circle" | "computed"; points: ShapePoint[];
+  holes?: ShapePoint[][]; radius?: number; metres?: ShapeNumber; centre?: Pair; rings?: Pair[][];
+}
 export interface Fence {
   fence: string; rule: "inside" | "outside" | "depth" | "height" | "distance"; margin?: number; metres?: number;
   centre?: Pair; radius?: number; rings?: Pair[][];
@@ -57,7 +64,7 @@ export class Refusal extends Error {
 
 // Requests that only compute are aborted where a command needs a connection: browsers have six to a server.
 let computing = new AbortController();
-const computes = /^(check|complete|hover|signature|definition|format|plans|world|runs|files|layer|exploration|timing|graph|replacement|run\/differences)\b/;
+const computes = /^(check|complete|hover|signature|definition|format|shapes|plans|world|runs|files|layer|exploration|timing|graph|replacement|run\/differences)\b/;
 
 export function makeWay() {
   computing.abort();

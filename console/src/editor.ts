@@ -3,7 +3,7 @@
 
 import { EditorState, StateEffect, StateField } from "@codemirror/state";
 import { Decoration, type DecorationSet, EditorView, type Tooltip, closeHoverTooltips, hoverTooltip, keymap, showTooltip, lineNumbers, highlightActiveLine, drawSelection } from "@codemirror/view";
-import { defaultKeymap, history, historyKeymap } from "@codemirror/commands";
+import { defaultKeymap, history, historyKeymap, isolateHistory } from "@codemirror/commands";
 import { StreamLanguage, HighlightStyle, syntaxHighlighting, bracketMatching, indentUnit } from "@codemirror/language";
 import { linter, lintGutter, lintKeymap } from "@codemirror/lint";
 import { autocompletion, closeCompletion, completionKeymap, type CompletionContext } from "@codemirror/autocomplete";
@@ -171,6 +171,40 @@ export class Editor {
     closeCompletion(this.view);
     this.view.dispatch({ effects: [closeHoverTooltips, setSignature.of(null)] });
     this.view.setState(this.state(text));
+  }
+
+  get document(): unknown { return this.view.state.doc; }
+
+  // One step to undo.
+  change(changes: { from: number; to: number; insert: string }[]) {
+    this.view.dispatch({ changes, annotations: isolateHistory.of("full") });
+  }
+
+  // A name that the text does not have: the word, and a number if it needs one.
+  unused(word: string, bare = false): string {
+    const has = (name: string) => new RegExp(`\\b${name}\\b`).test(this.text) || words.has(name);
+    if (bare && !has(word)) return word;
+    let n = 1;
+    while (has(word + n)) n++;
+    return word + n;
+  }
+
+  // Lines at the cursor: as an expression where one is being written, else as a variable called [name] in lines of its
+  // own. The result is the number of the first line.
+  write(name: string, lines: string[]): number {
+    const { state } = this.view, { from, to } = state.selection.main, line = state.doc.lineAt(from);
+    const before = line.text.slice(0, from - line.from), after = state.doc.lineAt(to).text.slice(to - state.doc.lineAt(to).from);
+    const indent = /^\s*/.exec(line.text)![0], all = lines.join("\n" + indent);
+    const isOpen = before.trim() !== "" && (after.trim() !== "" || /[=([,:^|&+-]\s*$/.test(before) || from !== to);
+    const statement = `${name} = ${all}`;
+    const change = isOpen ? { from, to, insert: all }
+      : line.text.trim() === "" ? { from: line.from, to: line.to, insert: indent + statement + "\n" }
+      : before.trim() === "" ? { from: line.from, to: line.from, insert: indent + statement + "\n" }
+      : { from: line.to, to: line.to, insert: "\n" + indent + statement };
+    const start = change.from + (change.insert.startsWith("\n") ? 1 : 0);
+    this.view.dispatch({ changes: change, selection: { anchor: change.from + change.insert.length }, annotations: isolateHistory.of("full"),
+      effects: EditorView.scrollIntoView(change.from, { y: "center" }) });
+    return this.view.state.doc.lineAt(start).number;
   }
 
   replace(text: string) {

@@ -23,6 +23,12 @@ export class Layers {
     for (const path of paths) if (this.chosen.has(path)) void this.choose(path, true);
   }
 
+  turnOn(path: string) {
+    const box = $("layer-list").querySelector<HTMLInputElement>(`[data-path="${CSS.escape(path)}"] input`);
+    if (box) box.checked = true;
+    if (box) void this.choose(path, true);
+  }
+
   tiles(url: string | null) {
     if (url === this.groundUrl) return;
     this.ground?.remove();

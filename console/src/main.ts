@@ -5,6 +5,7 @@ import { choose } from "./choice";
 import { HelmView } from "./helm";
 import { Stop } from "./stop";
 import { $, h } from "./dom";
+import { Draw } from "./draw";
 import { Editor } from "./editor";
 import { Layers } from "./layers";
 import { ChartMap } from "./map";
@@ -17,6 +18,7 @@ import { Wall, outlook, windows } from "./outlook";
 import { type Picked, happenings, timeline } from "./timeline";
 import { Plans } from "./plans";
 import { Replacing } from "./replace";
+import { Shapes } from "./shapes";
 import { Alarms } from "./alarms";
 import { Operators, isAsked, mayAnswer } from "./operators";
 import { Dialog } from "./question";
@@ -55,8 +57,19 @@ function look(id: string) {
 }
 
 const layers = new Layers(map, tell);
-const editor = new Editor($("editor"), { changed: () => setDirty(true), checked: showFaults, save,
+const editor = new Editor($("editor"), { changed: () => { setDirty(true); shapes.changed(); }, checked: showFaults, save,
   elsewhere: (path, from, to) => attempt(async () => { if (await openOther(path)) editor.select(from, to); })() });
+
+// Who may change the program may draw it. What stands in it is on the map until a run is; then while one draws.
+const mayEdit = () => !watches && linked;
+const shapes = new Shapes(map, editor, mayEdit, tell);
+const draw = new Draw(map, editor, shapes, { may: mayEdit, tell, changed: () => { showTab("source"); changed(); },
+  stored: (paths, path) => { layers.offer(paths); layers.turnOn(path); } });
+
+function showShapes() {
+  draw.show();
+  shapes.show(!past && (draw.open || (live.transitions === 0 && !goesOn())), draw.open);
+}
 
 // A notice about a failure, which disappears by itself.
 let notice = 0;
@@ -113,6 +126,7 @@ async function openProgram() {
   verdicts.about(path, hash);
   editor.open(path, file.text);
   setDirty(false);
+  shapes.changed();
   await loadWorld();
 }
 
@@ -643,6 +657,7 @@ function changed() {
   due = true;
   setTimeout(() => requestAnimationFrame(() => {
     due = false;
+    showShapes();
     map.render(shown);
     table.show(shown, past?.steps ?? false);
     panel.show(shown, past ? [] : status?.run?.progress ?? []);

@@ -30,6 +30,7 @@ export class ChartMap {
   private fences = L.layerGroup();
   private legend = h("ul", { class: "map-legend", hidden: true, "aria-label": "Fences" });
   private ways = L.layerGroup();
+  readonly shapes = L.layerGroup();  // of the text in the editor
   private sketched = L.layerGroup();  // a plan before it runs
   private then = L.layerGroup();  // where vehicles were when something happened
   private drawn = { program: "", ways: "", fences: "" };
@@ -38,6 +39,7 @@ export class ChartMap {
   private fitted = false;  // all that is known now is in view, or somebody has chosen the view
   private chosen = false;
   private follow: string | null = null;
+  private buttons = h("div", { class: "map-buttons" });
   private clusters: Clusters;
   private latest: Run | null = null;
   private arrows = h("div", { class: "map-arrows" });  // to vehicles that are out of view
@@ -46,13 +48,14 @@ export class ChartMap {
     this.map = L.map(el, { center: [41.185, -8.706], zoom: 15, maxZoom: 21, minZoom: 2, attributionControl: false,
       zoomAnimation: false, fadeAnimation: false, preferCanvas: true });
     L.control.scale({ imperial: false }).addTo(this.map);
-    for (const layer of [this.net, this.fences, this.program, this.ways, this.sketched, this.then, this.places]) layer.addTo(this.map);
+    for (const layer of [this.net, this.fences, this.program, this.shapes, this.ways, this.sketched, this.then, this.places]) layer.addTo(this.map);
     this.clusters = new Clusters(this.map, (id) => { this.focus(id); this.select(id); }, () => { this.chosen = true; this.unfollow(); });
     this.map.on("moveend resize", () => { this.draw(); if (this.latest) this.arrange(this.latest); });
     this.map.on("dragstart", () => this.unfollow());
     for (const event of ["pointerdown", "wheel", "keydown"]) el.addEventListener(event, () => { this.chosen = true; });
     const Fit = L.Control.extend({ onAdd: () => {
-      const buttons = h("div", { class: "map-buttons" },
+      const { buttons } = this;
+      buttons.append(
         h("button", { class: "map-button", type: "button", title: "Show all vehicles, places and ways",
           click: () => { this.chosen = false; this.unfollow(); this.fit(); } }, "All"),
         h("button", { class: "map-button", type: "button", title: "Show the vehicles where they are now",
@@ -80,7 +83,15 @@ export class ChartMap {
   }
 
   // More is on the map: it comes into view, unless somebody has chosen what to see.
-  private more() { this.fitted = this.chosen; }
+  more() { this.fitted = this.chosen; }
+
+  // What is in view stays there.
+  hold() { this.chosen = true; this.unfollow(); }
+
+  // While the text in the editor is shown, the values that its variables had in a run are not.
+  hideProgram(hide: boolean) { if (hide) this.program.remove(); else this.program.addTo(this.map); }
+
+  addButton(el: HTMLElement) { this.buttons.append(el); }
 
   private unfollow() { this.follow = null; this.following.hidden = true; }
 
@@ -104,8 +115,10 @@ export class ChartMap {
     const points = [...this.shown.values()].flatMap((s) => s.track.getLatLngs() as L.LatLng[]);
     this.places.eachLayer((p) => points.push((p as L.Marker).getLatLng()));
     const bounds = L.latLngBounds(points);
-    for (const group of [this.program, this.ways, this.sketched])
-      group.eachLayer((l) => bounds.extend(l instanceof L.Marker ? l.getLatLng() : (l as L.Polyline | L.Circle).getBounds()));
+    const ofShapes = this.shapes.getLayers().flatMap((l) => (l as L.LayerGroup).getLayers());
+    const ofGroups = [...(this.map.hasLayer(this.program) ? [this.program] : []), this.ways, this.sketched].flatMap((group) => group.getLayers());
+    for (const l of [...ofShapes, ...ofGroups])
+      bounds.extend(l instanceof L.Marker ? l.getLatLng() : (l as L.Polyline | L.Circle).getBounds());
     if (bounds.isValid()) this.map.fitBounds(bounds.pad(0.25), { animate: false, maxZoom: 18 });
   }
 

@@ -43,8 +43,11 @@ export class VehiclePanel {
   private id: string | null = null;
   private key = "";
   private el = $("vehicle");
+  private pressed = false;  // a button that is drawn again between press and release is not clicked
 
   constructor(private closed: () => void) {
+    this.el.addEventListener("pointerdown", () => { this.pressed = true; });
+    for (const event of ["pointerup", "pointercancel"]) window.addEventListener(event, () => { this.pressed = false; });
     this.el.addEventListener("keydown", (e) => { if (e.key === "Escape") this.close(); });
   }
 
@@ -63,7 +66,7 @@ export class VehiclePanel {
     const age = run.moves ? run.time - v.heard : 0, mine = progress.find((p) => p.vehicle === v.id) ?? null;
     // Drawn again once a second at most by the time alone.
     const key = JSON.stringify([v.id, v.samples.length, v.samples[v.samples.length - 1], v.tasks.length, v.tasks[v.tasks.length - 1], Math.floor(run.time), run.waiting, mine]);
-    if (key === this.key) return;
+    if (key === this.key || this.pressed) return;
     this.key = key;
     const tint = colour([...run.vehicles.keys()].indexOf(v.id)), s = v.samples[v.samples.length - 1];
     const dot = h("span", { class: "dot" });

@@ -8,6 +8,7 @@ import { join } from "node:path";
 import { chromium } from "playwright-core";
 import accessibility from "./accessibility.mjs";
 import analyses from "./analyses.mjs";
+import draw from "./draw.mjs";
 import helm from "./helm.mjs";
 import imc from "./imc.mjs";
 import listen from "./listen.mjs";
@@ -69,7 +70,7 @@ function complaints(page) {
 async function open(options = {}) {
   const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
   const page = await context.newPage();
-  page.setDefaultTimeout(60000);
+  page.setDefaultTimeout(Number(process.env.PATIENCE ?? 60000));
   complaints(page);
   await page.goto(`http://127.0.0.1:${port}/`);
   await page.waitForFunction(() => document.querySelectorAll("#program option").length > 0);
@@ -287,7 +288,7 @@ async function phone(name) {
 
 const all = { folder, page, test, same, text, choose, over, picture, phone };
 const more = { ...all, home, dolphin, environment, browser, complaints, open, pictures, server: () => server };
-for (const f of [helm, truth, outlook, replace, people, analyses, maps, plans, workplace, places, accessibility, stop, listen, imc]) {
+for (const f of [helm, truth, outlook, replace, people, analyses, maps, plans, draw, workplace, places, accessibility, stop, listen, imc]) {
   part = f.name;
   if (wanted(part)) await f(more);
 }

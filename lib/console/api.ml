@@ -190,7 +190,8 @@ let table =
     (("GET", "layer"), Beside "layer"); (("GET", "tile"), Beside "tile");
     (("POST", "check"), Beside "check"); (("POST", "complete"), Beside "complete"); (("POST", "hover"), Beside "hover");
     (("POST", "signature"), Beside "signature"); (("POST", "definition"), Beside "definition");
-    (("POST", "format"), Beside "format"); (("GET", "world"), Beside "world"); (("POST", "plans"), Told plans);
+    (("POST", "format"), Beside "format"); (("POST", "shapes"), Beside "shapes");
+    (("PUT", "layer"), Save "import"); (("GET", "world"), Beside "world"); (("POST", "plans"), Told plans);
     (("POST", "run"), Later Run_commands.start); (("POST", "run/counterexample"), Command Run_commands.enact);
     (("POST", "run/stop"), Steer Run_commands.stop);
     (("POST", "run/answer"), Answer (fun h client found -> Lwt.return (Run_commands.answer h client found)));

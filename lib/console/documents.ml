@@ -1,6 +1,7 @@
 open Dolphin_service
 module Diagnostic = Dolphin_syntax.Diagnostic
 module Location = Dolphin_syntax.Location
+module On_map = Dolphin_json.On_map
 
 let service ~file ~fleet ~may_read source = Service.read ~file ?fleet ~may_read source
 
@@ -100,3 +101,39 @@ let format d =
   match Service.format d with
   | Ok text -> Ok (`Assoc [ ("text", `String text) ])
   | Error _ -> Error "the text has faults, and stays as it is"
+
+(* {1 Shapes} *)
+
+let number units (n : Map_shapes.number) : Yojson.Safe.t =
+  `Assoc (span_in units n.span @ [ ("negative", `Bool n.negative) ])
+
+let point units (p : Map_shapes.point) : Yojson.Safe.t =
+  let coordinates : (string * Yojson.Safe.t) list =
+    match p.coordinates with
+    | Some (latitude, longitude) -> [ ("latitude", number units latitude); ("longitude", number units longitude) ]
+    | None -> []
+  in
+  `Assoc (("at", On_map.pair p.at) :: coordinates)
+
+let form units : Map_shapes.form -> (string * Yojson.Safe.t) list =
+  let list points = `List (List.map (point units) points) in
+  function
+  | Spot p -> [ ("kind", `String "position"); ("points", list [ p ]) ]
+  | Way points -> [ ("kind", `String "way"); ("points", list points) ]
+  | Plan points -> [ ("kind", `String "plan"); ("points", list points) ]
+  | Rings rings ->
+    let rim, holes = match rings with rim :: holes -> (rim, holes) | [] -> ([], []) in
+    [ ("kind", `String "area"); ("points", list rim); ("holes", `List (List.map list holes)) ]
+  | Round { centre; radius; metres } ->
+    let metres = Option.fold metres ~none:[] ~some:(fun n -> [ ("metres", number units n) ]) in
+    [ ("kind", `String "circle"); ("points", list [ centre ]); ("radius", Dolphin_json.Canonical.number radius) ]
+    @ metres
+  | Computed area -> (("kind", `String "computed") :: ("points", `List []) :: On_map.area area)
+
+let shapes d =
+  let units = units (Service.source d) in
+  let shape ({ name; form = f; span } : Map_shapes.t) =
+    `Assoc (("name", `String name) :: span_in units span @ form units f) in
+  let of_list found : Yojson.Safe.t =
+    `Assoc [ ("shapes", `List (List.map shape found)); ("first", `Int (units (Service.beginning d))) ] in
+  Result.map_error (fun _ -> "the text has faults") (Result.map of_list (Service.shapes d))

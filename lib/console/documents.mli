@@ -28,3 +28,7 @@ val definition : path:(string -> Yojson.Safe.t) -> Service.t -> int -> Yojson.Sa
 
 val format : Service.t -> (Yojson.Safe.t, string) result
 (** {!Service.format}: an object with the [text]; the error is a sentence. *)
+
+val shapes : Service.t -> (Yojson.Safe.t, string) result
+(** {!Service.shapes}: an object with the [shapes] and the place of the first statement, [first]; the error is a
+    sentence. *)

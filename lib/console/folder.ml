@@ -11,7 +11,8 @@ let make path =
 type kind = Program | Fleet | Journal | Layer
 
 (* Of all files in JSON few are maps. *)
-let layers = ".mbtiles" :: List.filter (( <> ) ".json") Dolphin_maps.Map_file.formats
+let shapes = List.filter (( <> ) ".json") Dolphin_maps.Map_file.formats
+let layers = ".mbtiles" :: shapes
 
 let kind path =
   match Filename.extension path with

@@ -12,6 +12,9 @@ val root : t -> string
 (** The kind of a file, by the end of its name. *)
 type kind = Program | Fleet | Journal | Layer
 
+val shapes : string list
+(** Ends of the names of layers that are shapes, not tiles: all of {!Dolphin_maps.Map_file.formats} but [.json]. *)
+
 val kind : string -> kind option
 (** What a file is, by the end of its name: [.dol] or [.dolphin], [.fleet], [.run], and for layers
     [.mbtiles] or one of {!Dolphin_maps.Map_file.formats} but [.json]. *)

@@ -71,3 +71,41 @@ let tile w r =
   let* column = number r "column" in
   let* row = number r "row" in
   if is_tiles full then picture full ~zoom ~column ~row else bad "this layer has no tiles"
+
+(* {1 Imports} *)
+
+(* Twice as long on the wire, where a request has at most 4 MiB. *)
+let longest_import = 1024 * 1024
+
+let decoded text =
+  let byte i = Char.chr (int_of_string ("0x" ^ String.sub text (2 * i) 2)) in
+  let is_digit = function '0' .. '9' | 'a' .. 'f' -> true | _ -> false in
+  if String.length text mod 2 = 0 && String.for_all is_digit text then Ok (String.init (String.length text / 2) byte)
+  else bad "contents are hexadecimal digits, two for each byte"
+
+(* The reply to the same file twice is the same: a page may repeat its request. *)
+let store full bytes =
+  let sentences e = String.concat "; " (Dolphin_app.Error.sentences e) in
+  if not (Sys.file_exists full) then
+    Result.map_error (fun e -> refusal 422 "not-saved" (sentences e))
+      (Dolphin_app.Text_file.write full (fun channel -> output_string channel bytes))
+  else
+    match Dolphin_app.Text_file.read full with
+    | Ok there when there = bytes -> Ok ()
+    | Ok _ | Error _ -> refuse 409 "exists" (Filename.basename full ^ " is there with other contents: rename the file")
+
+let import (w : Workspace.t) found =
+  let* path = get Field.text "path" found in
+  let* text = get Field.text "contents" found in
+  let* bytes = decoded text in
+  let* full = Result.map_error (refusal 404 "not-found") (Folder.place w.folder path) in
+  if Folder.kind full <> Some Layer || is_tiles full then
+    bad (Printf.sprintf "only maps are imported, which end in %s" (String.concat " " Folder.shapes))
+  else if String.length bytes > longest_import then
+    refuse 413 "too-large" (Printf.sprintf "a map of more than %d MiB is put into the folder by hand"
+                              (longest_import / 1024 / 1024))
+  else
+    let* map = Result.map_error (no_layer full) (Map_file.read ~path:full bytes) in
+    let* () = store full bytes in
+    let names = Field.texts (List.map fst map.things) in
+    Ok (`Assoc [ ("path", `String path); ("names", names); ("notes", Field.texts map.notes) ])

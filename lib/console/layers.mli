@@ -9,3 +9,6 @@ val layer : Workspace.t -> Request.t -> (Response.t, refusal) result
 
 val tile : Workspace.t -> Request.t -> (Response.t, refusal) result
 (** [GET tile?path=P&zoom=Z&column=X&row=Y]: a picture. *)
+
+val import : Workspace.t -> Dolphin_json.Field.members -> (json, refusal) result
+(** [PUT layer]: a map that was not in the folder. *)

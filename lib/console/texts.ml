@@ -29,3 +29,7 @@ let definition (w : Workspace.t) found =
 let format w found =
   let* d = document w found in
   Result.map_error (refusal 422 "faults") (Documents.format d)
+
+let shapes w found =
+  let* d = document w found in
+  Result.map_error (refusal 422 "faults") (Documents.shapes d)

@@ -15,3 +15,6 @@ val definition : Workspace.t -> Field.members -> (json, refusal) result
 
 val format : Workspace.t -> Field.members -> (json, refusal) result
 (** [POST format]. *)
+
+val shapes : Workspace.t -> Field.members -> (json, refusal) result
+(** [POST shapes]. *)

@@ -31,6 +31,7 @@ let tasks =
     ("check", compute Texts.check); ("complete", compute (Texts.at_place Documents.complete));
     ("hover", compute (Texts.at_place Documents.hover)); ("signature", compute (Texts.at_place Documents.signature));
     ("definition", compute Texts.definition); ("format", compute Texts.format);
+    ("shapes", compute Texts.shapes); ("import", compute Layers.import);
     ("world", look Worlds.get); ("plans", compute Plans.prepare);
     ("exploration", compute (Analysis_work.prepare Exploration)); ("timing", compute (Analysis_work.prepare Timing));
     ("graph", compute (Analysis_work.prepare Graph)); ("replacement", compute (Analysis_work.prepare Replacement));

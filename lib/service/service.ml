@@ -425,3 +425,14 @@ let allocations (d : t) =
   | Some scenario, Ok (program, _, _) when not (is_fleet d.file) ->
     List.filter_map own (Allocations.of_program program scenario)
   | _ -> []
+
+let shapes (d : t) =
+  let place = Option.bind d.scenario (fun s -> s.plans_at) in
+  let of_ast ast =
+    if is_fleet d.file then [] else Map_shapes.of_program ~source:d.source ~chart:(chart d.read ast) ~place ast in
+  Result.map of_ast d.ast
+
+let beginning (d : t) =
+  match d.ast with
+  | Ok ({ at; _ } :: _) -> at.start.pos_cnum
+  | Ok [] | Error _ -> String.length d.source

@@ -81,3 +81,9 @@ val allocations : t -> (int * string list) list
 (** The tasks of the program that vehicles of its fleet start in a run without faults: the beginning of each, in the
     order of the text, and its vehicles in the order of their starts. Empty for a program without a fleet, or with
     errors. *)
+
+val shapes : t -> (Map_shapes.t list, Diagnostic.t list) result
+(** {!Map_shapes.of_program}, empty for a fleet; or the faults of a text that cannot be parsed. *)
+
+val beginning : t -> int
+(** The byte at which the first statement begins; the end of a text without any, or with faults. *)

@@ -58,6 +58,8 @@ The console of a folder, on a port of its own, and all that docs/openapi.json de
   shapes: ['quay']
   tiles: {'minimum': 1, 'maximum': 1, 'bounds': [-9, 41, -8, 42], 'attribution': ''}
   a tile: 200 404
+  drawn: ['area', 'circle']
+  imported: ['buoy']
   called: message x
   known: {'a': ['survey'], 'b': ['survey', 'deep']}
   plan: survey ['a'] by name None

@@ -100,6 +100,13 @@ def main():
     for path in ["check", "format"]:
         ask("POST", path, document)
     ask("POST", "format", {"path": "mission.dol", "text": "(("})
+    drawn = {"path": "mission.dol", "text": "a = polygon([location(1, 2), location(1, 3), location(2, 3)])\nb = a.centre ^ 9.m"}
+    print("drawn:", [s["kind"] for s in ask("POST", "shapes", drawn)[1]["shapes"]])
+    ask("POST", "shapes", {"path": "mission.dol", "text": "(("})
+    point = {"type": "Feature", "properties": {"name": "buoy"}, "geometry": {"type": "Point", "coordinates": [-8, 41]}}
+    contents = json.dumps(point).encode().hex()
+    print("imported:", ask("PUT", "layer", {"path": "imported.geojson", "contents": contents})[1]["names"])
+    ask("PUT", "layer", {"path": "imported.geojson", "contents": ""})
     for path in ["complete", "hover", "signature", "definition"]:
         ask("POST", path, {**document, "at": 5})
     ask("POST", "hover", {**document, "at": document["text"].index("message") + 1})

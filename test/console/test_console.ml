@@ -811,6 +811,41 @@ let on_the_map folder port =
   refused "is not edited" (400, "bad-request") r;
   Client.ask ~port "/api/status" >|= fun r -> text "no tiles" "null" (Yojson.Safe.to_string (member [ "tiles" ] (Client.json r)))
 
+let hexadecimal text = String.concat "" (List.map (fun c -> Printf.sprintf "%02x" (Char.code c)) (List.of_seq (String.to_seq text)))
+
+let drawn folder port =
+  let source = {|// \u00e9\nquay = location(41.0, -8.0)\nzone = quay ^ 100.m\n|} in
+  Client.ask ~body:(Printf.sprintf {|{"path": "short.dol", "text": "%s"}|} source) ~port "/api/shapes" >>= fun r ->
+  text "shapes"
+    ({|{"shapes":[{"name":"quay","from":12,"to":32,"kind":"position","points":[{"at":[41,-8],|}
+     ^ {|"latitude":{"from":21,"to":25,"negative":true},"longitude":{"from":27,"to":31,"negative":true}}]},|}
+     ^ {|{"name":"zone","from":40,"to":52,"kind":"circle","points":[{"at":[41,-8]}],"radius":100,|}
+     ^ {|"metres":{"from":47,"to":50,"negative":false}}],"first":5}|})
+    (String.trim r.body);
+  Client.ask ~body:{|{"path": "short.dol", "text": "a ="}|} ~port "/api/shapes" >>= fun r ->
+  refused "a text with faults" (422, "faults") r;
+  let import ?(path = "sub/harbour.geojson") contents =
+    Client.ask ~verb:"PUT" ~body:(Printf.sprintf {|{"path": "%s", "contents": "%s"}|} path contents) ~port "/api/layer" in
+  let buoy = {|{"type":"Feature","properties":{"name":"buoy"},"geometry":{"type":"Point","coordinates":[-8,41]}}|} in
+  import (hexadecimal buoy) >>= fun r ->
+  text "imported" {|{"path":"sub/harbour.geojson","names":["buoy"],"notes":[]}|} (String.trim r.body);
+  import (hexadecimal buoy) >>= fun r ->
+  status "the same again" 200 r.status;
+  import (hexadecimal (buoy ^ " ")) >>= fun r ->
+  refused "another file of this name" (409, "exists") r;
+  import ~path:"other.gpx" (hexadecimal buoy) >>= fun r ->
+  refused "no map" (422, "no-layer") r;
+  holds "is not kept" false (Sys.file_exists (Filename.concat folder "other.gpx"));
+  let refuse what path expected = import ~path (hexadecimal buoy) >|= refused what expected in
+  refuse "a program" "new.dol" (400, "bad-request") >>= fun () ->
+  refuse "tiles" "new.mbtiles" (400, "bad-request") >>= fun () ->
+  refuse "elsewhere" "../new.geojson" (404, "not-found") >>= fun () ->
+  refuse "hidden" ".new.geojson" (404, "not-found") >>= fun () ->
+  import "4" >>= fun r ->
+  refused "half a byte" (400, "bad-request") r;
+  import ~path:"large.geojson" (String.make (2 * 1024 * 1024 + 2) '2') >>= fun r ->
+  Lwt.return (refused "too large" (413, "too-large") r)
+
 let tiles () =
   let good url = holds url true (Access.check_tiles url = Ok url) in
   let bad url = holds url true (Result.is_error (Access.check_tiles url)) in
@@ -1495,6 +1530,6 @@ let () =
       ("runs",
        [ slow "threads" threads_interrupt_nothing; slow "a run" (console a_run); slow "journals of the folder" (console journals); slow "answers and posts" (console answers_and_posts);
          slow "what is asked" (console what_is_asked);
-         slow "open questions" (console open_questions); slow "on the map" (console on_the_map);
+         slow "open questions" (console open_questions); slow "on the map" (console on_the_map); slow "drawn" (console drawn);
          slow "stopped" (console stopped); slow "outlook" (console outlook); slow "stuck" (console stuck);
          slow "interrupted is not stuck" (console interrupted_is_not_stuck); slow "faults" (console faults) ]) ]

@@ -296,9 +296,69 @@ let timeless =
     case "watch (task('long') within 0) onError { retry() }" fails_again;
     case "watch (task('long') within 5) onError { retry() }" [] ]
 
+(* {1 Shapes} *)
+
+(* Each shape as its name, its kind, the text of each movable number, and [fixed] for each fixed point; a number that
+   cannot be negative has a plus. *)
+let shown d (shape : Map_shapes.t) =
+  let number (n : Map_shapes.number) = (if n.negative then "" else "+") ^ List.hd (texts d [ n.span ]) in
+  let point (p : Map_shapes.point) =
+    match p.coordinates with Some (x, y) -> number x ^ " " ^ number y | None -> "fixed" in
+  let kind, points =
+    match shape.form with
+    | Spot p -> "spot", [ point p ]
+    | Way ps -> "way", List.map point ps
+    | Plan ps -> "plan", List.map point ps
+    | Rings rings -> "rings", List.map (fun ps -> String.concat " / " (List.map point ps)) rings
+    | Round { centre; metres; _ } -> "round", point centre :: Option.to_list (Option.map number metres)
+    | Computed _ -> "computed", [] in
+  String.concat ", " ((shape.name ^ " " ^ kind) :: points)
+
+let shapes source expected () =
+  let d = read source in
+  Alcotest.(check (list string)) source expected (List.map (shown d) (Result.get_ok (Service.shapes d)))
+
+let shaped =
+  let case source expected = case source (shapes source expected) in
+  [ case "quay = location 41.185, -8.706" [ "quay spot, +41.185 -8.706" ];
+    case "quay = location(41.185, -8.706)" [ "quay spot, 41.185 -8.706" ];
+    case "quay = pos { lat 41; lon(-8.5) }" [ "quay spot, +41 -8.5" ];
+    case "quay = location(41.185, 8.706.west)" [ "quay spot, fixed" ];
+    case "quay = location '41 11 6 N, 8 42 24 W'" [ "quay spot, fixed" ];
+    case "x = location(95, 8)" [];
+    case "def location(a, b) { a }\nx = location(41, 8)" [];
+    case "message 'location(41, 8)' // location(41, 8)" [];
+    case "locate 41.1, -8.7" [ "locate spot, +41.1 -8.7" ];
+    case "a = polygon([location(41, 8), location(41.1, 8), location(41.1, 8).displace(0, 900)])"
+      [ "a rings, 41 8 / 41.1 8 / fixed" ];
+    case
+      ("a = polygon([location(41, 8), location(42, 8), location(42, 9)], "
+       ^ "holes: [[location(41.5, 8.1), location(41.6, 8.1), location(41.6, 8.2)]])")
+      [ "a rings, 41 8 / 42 8 / 42 9, 41.5 8.1 / 41.6 8.1 / 41.6 8.2" ];
+    case "q = location(41, 8)\nb = q ^ 200.m\nc = area(location(41, 8), 1.km)\nd = c - b"
+      [ "q spot, 41 8"; "b round, fixed, +200"; "c round, 41 8"; "d computed" ];
+    case "execute during 2 run followPath([location(41, 8), location(41, 9)])" [ " way, 41 8, 41 9" ];
+    case "def f(v) { task('a') }\nmessage(location(41, 8))" [ "location spot, 41 8" ];
+    case
+      ("p = imcPlan {\n planName 'lane'\n locate 41, 8\n goTo location: location(41.1, 8)\n move 3, 4\n"
+       ^ " surveyArea([location(1, 2), location(1, 3), location(2, 3)])\n}")
+      [ "lane plan, +41 8, 41.1 8"; "lane way, 1 2, 1 3, 2 3" ] ]
+
+let faulty_shapes () =
+  let d = read "a = location(41," in
+  Alcotest.(check bool) "faults" true (Result.is_error (Service.shapes d));
+  Alcotest.(check int) "its end" 16 (Service.beginning d);
+  Alcotest.(check int) "behind comments" 8 (Service.beginning (read "// One\n\na = 1"))
+
+let many_shapes () =
+  let list = String.concat ", " (List.init 1_500 (fun i -> Printf.sprintf "location(41.%04d, 8)" i)) in
+  let d = read (Printf.sprintf "a = [%s]\nb = [%s]\n" list list) in
+  Alcotest.(check int) "one of two" 1 (List.length (Result.get_ok (Service.shapes d)))
+
 let () =
   Alcotest.run "service"
     [ "places", [ case "there and back" positions ]; "names", names; "completion", completion; "calls", calls; "allocations", allocations;
       "arguments of the prelude", preludes; "foreseen", foreseen; "loops without time", timeless;
       "prelude", [ case "completion and hover" prelude ];
-      "reference", [ case "is whole" documented; case "is highlighted" highlighted ]; "everywhere", [ anywhere ] ]
+      "reference", [ case "is whole" documented; case "is highlighted" highlighted ]; "everywhere", [ anywhere ];
+      "shapes", shaped; "limits of shapes", [ case "faults" faulty_shapes; case "many" many_shapes ] ]

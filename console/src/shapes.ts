@@ -29,6 +29,7 @@ export class Shapes {
   private drawn = "";
   private path = "";
   private focused: string | null = null;
+  private dragged = false;  // a handle under the pointer is not made again
 
   // [may]: whether the text may be changed here.
   constructor(private map: ChartMap, private editor: Editor, private may: () => boolean, private tell: (why: string, bad?: boolean) => void) {
@@ -72,7 +73,7 @@ export class Shapes {
     const { found } = this;
     const shapes = this.visible && found && found.path === this.editor.path ? found.shapes : [];
     const key = JSON.stringify([shapes, this.above, this.may()]);
-    if (key === this.drawn) return;
+    if (key === this.drawn || this.dragged) return;
     this.drawn = key;
     const before = this.focused;  // removed, it loses the focus
     this.layer.clearLayers();
@@ -126,6 +127,7 @@ export class Shapes {
   private handle(p: Omit<Handle, "marker"> & { what: string; name: string }) {
     const marker = L.marker(p.at, { draggable: true, keyboard: true, autoPan: true, title: `${p.what}: drag it, or arrow keys and Enter`, alt: p.what,
       zIndexOffset: this.above ? 1000 : -500, icon: L.divIcon({ className: "handle", iconSize: [36, 36], html: h("span", {}, p.name) as any }) });
+    marker.on("dragstart", () => { this.dragged = true; });
     marker.on("drag", () => p.preview(marker.getLatLng()));
     // A coordinate that was not moved by a pixel stays as it is written.
     const target = () => {
@@ -137,7 +139,7 @@ export class Shapes {
       const moved = p.moves(target()).filter((m) => m.value !== m.before);
       if (moved.length) this.write(p.key, moved, back); else back();
     };
-    marker.on("dragend", commit);
+    marker.on("dragend", () => { this.dragged = false; commit(); this.draw(); });
     marker.on("add", () => {
       const el = marker.getElement()!;
       el.setAttribute("aria-label", p.what);

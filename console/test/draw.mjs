@@ -32,6 +32,8 @@ zone = quay ^ 100.m
     same(await page.locator("#map .handle").count(), 4, "handles: a position, two corners, a radius");
     same(await page.locator("#map .place.of-program >> text=west").count(), 1, "another unit is fixed");
     await page.click("#draw-open");
+    // The handles are made again, above the vehicles.
+    await page.waitForFunction(() => Number(document.querySelector("#map .handle")?.style.zIndex) > 900);
     await picture(page, "draw");
     await drag(handle("basin: corner 2"), 40, -30);
     await page.waitForFunction((was) => [...document.querySelector("#editor").shadowRoot.querySelectorAll(".cm-line")].map((l) => l.textContent).join("\n") !== was, before);

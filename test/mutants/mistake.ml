@@ -99,6 +99,9 @@ let all =
       in_file "lib/explore/order/step_footprints.ml" ~noticed_by:"reduction/test_traps"
         [
           ("ends of tasks leave no trace outside", {|Environment.endings_remember c.options|}, {|false|});
+          ( "the last of several parts does not do what they ensure",
+            {|if may_finish step then union last f|},
+            {|if may_finish step && false then union last f|} );
           ( "a branch that runs first may hold a vehicle",
             {|  | Sequence (r, _) | All_of (Some r, _) -> first_branches c around r|},
             {|  | Sequence (r, _) | All_of (Some r, _) -> first_branches c around r

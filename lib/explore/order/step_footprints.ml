@@ -217,45 +217,39 @@ let footprint ?(own = []) c { source = Step { offer; continue; _ } as source; ev
 
 let concerns_holding c = c.makes || c.asks_held
 
+(* The outcome of a step if all goes well. [Errs]: it is sure to fail. *)
+type success = Changes of Task_rules.change | Goes_on | Is_over | Errs
+
+let success (Task_rules.Step { offer; continue; _ }) =
+  match offer with
+  | Start _ -> Changes (continue ())
+  | Perform _ -> Changes (continue (Ok []))
+  | Check _ -> Changes (continue (Ok []))
+  | Guard_values _ -> Changes (continue (Ok []))
+  | End_of _ -> Changes (continue (Ok ()))
+  | Measure _ -> Changes (continue (Ok 0.))
+  | Expiry_of _ -> Changes (continue ())
+  | Answer_to _ -> Changes (continue (Ok true))
+  | Make _ | Allocate _ | Recruit_for _ -> Goes_on
+  | Guard_either _ -> Is_over
+  | Guard_false _ -> Errs
+
 (* The vehicles that the residual [r], in contexts that hold [outer], names no longer if all goes well; [failed] if an
    error is handled. *)
-let lost r outer ~failed { source = Step { offer; continue; _ }; _ } =
-  let of_change (change : Task_rules.change) =
-    match change.outcome with
-    | Next r' ->
-      let after = Residual.named r' in
-      Footprint.these (List.filter (fun v -> not (List.mem v after)) (Residual.named r))
-    | Finished -> Footprint.these (Residual.named r @ outer)
-    | Failed _ | Handling _ -> failed
-  in
-  match offer with
-  | Start _ -> of_change (continue ())
-  | Perform _ -> of_change (continue (Ok []))
-  | Check _ -> of_change (continue (Ok []))
-  | Guard_values _ -> of_change (continue (Ok []))
-  | End_of _ -> of_change (continue (Ok ()))
-  | Measure _ -> of_change (continue (Ok 0.))
-  | Expiry_of _ -> of_change (continue ())
-  | Answer_to _ -> of_change (continue (Ok true))
-  | Make _ | Allocate _ | Recruit_for _ -> Footprint.these []
-  | Guard_either _ -> Footprint.these (Residual.named r @ outer)
-  | Guard_false _ -> failed
+let lost r outer ~failed { source; _ } =
+  match success source with
+  | Changes { outcome = Next r'; _ } ->
+    let after = Residual.named r' in
+    Footprint.these (List.filter (fun v -> not (List.mem v after)) (Residual.named r))
+  | Changes { outcome = Finished; _ } | Is_over -> Footprint.these (Residual.named r @ outer)
+  | Changes { outcome = Failed _ | Handling _; _ } | Errs -> failed
+  | Goes_on -> Footprint.these []
 
 (* Whether a step may be the last of its component: the parts around it are over if nothing else is left in them. *)
-let may_finish { source = Step { offer; continue; _ }; _ } =
-  let finishes (change : Task_rules.change) =
-    match change.outcome with Finished -> true | Next _ | Failed _ | Handling _ -> false in
-  match offer with
-  | Start _ -> finishes (continue ())
-  | Perform _ -> finishes (continue (Ok []))
-  | Check _ -> finishes (continue (Ok []))
-  | Guard_values _ -> finishes (continue (Ok []))
-  | End_of _ -> finishes (continue (Ok ()))
-  | Measure _ -> finishes (continue (Ok 0.))
-  | Expiry_of _ -> finishes (continue ())
-  | Answer_to _ -> finishes (continue (Ok true))
-  | Make _ | Allocate _ | Recruit_for _ | Guard_false _ -> false
-  | Guard_either _ -> true
+let may_finish { source; _ } =
+  match success source with
+  | Changes { outcome = Finished; _ } | Is_over -> true
+  | Changes { outcome = Next _ | Failed _ | Handling _; _ } | Goes_on | Errs -> false
 
 (* [f], the footprint of [step], with the vehicles that it frees. An ignored error also frees those that it cuts off. *)
 let with_lost c ~ignoring ~failed lost step (f : Footprint.t) =

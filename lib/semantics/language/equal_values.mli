@@ -3,6 +3,7 @@
 type t
 
 val empty : t
+(** The set without values. *)
 
 val add : Value.t -> t -> t
 (** [add x xs] is [xs] with [x], in logarithmic time unless [x] has more than a thousand parts. *)

@@ -73,29 +73,29 @@ Each of them as a line: made in parts, on several machines perhaps, and counted 
 
 What is no such file, or lacks runs, is not counted.
 
-  $ cat second first | dolphin exec relay.dol --runs-from -
+  $ cat second first > other; dolphin exec relay.dol --runs-from - < other
   dolphin: standard input:153: the run with the seed 400 is to follow that with 399
   [2]
   $ grep -v '"seed":7,' first > gap; dolphin exec relay.dol --runs-from gap
   dolphin: gap:9: the run with the seed 7 is to follow that with 6
   [2]
-  $ tail -n +2 first | dolphin exec relay.dol --runs-from -
+  $ tail -n +2 first > other; dolphin exec relay.dol --runs-from - < other
   dolphin: standard input:1: before the first run there is to be the header: all that --each has printed
   [2]
-  $ head -1 first | dolphin exec relay.dol --runs-from -
+  $ head -1 first > other; dolphin exec relay.dol --runs-from - < other
   dolphin: standard input:2: it has no runs
   [2]
   $ cp relay.fleet other.fleet; echo "vehicle 'b', { type 'UUV' }" >> other.fleet
   $ dolphin exec relay.dol --fleet other.fleet --runs-from first
   dolphin: first:1: these are runs of another program, fleet or version of Dolphin, or with other parameters or answers
   [2]
-  $ head -c 300 first | dolphin exec relay.dol --runs-from -
+  $ head -c 300 first > other; dolphin exec relay.dol --runs-from - < other
   dolphin: standard input:2: this is not JSON
   [2]
-  $ sed 's/"end":"completed"/"end":"well"/' first | dolphin exec relay.dol --runs-from -
+  $ sed 's/"end":"completed"/"end":"well"/' first > other; dolphin exec relay.dol --runs-from - < other
   dolphin: standard input:2: 'well' is not an ending of a run
   [2]
-  $ sed 's/"ended":1/"ended":"one"/' first | dolphin exec relay.dol --runs-from -
+  $ sed 's/"ended":1/"ended":"one"/' first > other; dolphin exec relay.dol --runs-from - < other
   dolphin: standard input:2: "tasks" is "ended" is "one", not a whole number
   [2]
   $ dolphin exec relay.dol --runs-from none

@@ -17,6 +17,17 @@ let filled ~margin ~between words =
   in
   List.rev (List.fold_left add [] words)
 
+(* [page] with these lines instead of all that begin with their prefix. *)
+let with_lines groups page =
+  let add (lines, left) line =
+    match List.find_opt (fun (prefix, _) -> String.starts_with ~prefix line) groups with
+    | Some (prefix, made) when List.mem_assoc prefix left -> (List.rev_append made lines, List.remove_assoc prefix left)
+    | Some _ -> (lines, left)
+    | None -> (line :: lines, left)
+  in
+  let lines, _ = List.fold_left add ([], groups) (String.split_on_char '\n' page) in
+  String.concat "\n" (List.rev lines)
+
 (* {1 Rules} *)
 
 let constructor rule =
@@ -59,15 +70,7 @@ let actions page =
     Printf.sprintf {|Take_%s(ts) == \E j \in Taking("%s", ts) : Unmarked(ts[j])|} (spelt rule) rule in
   let disjunct rule = "Take_" ^ spelt rule ^ "(ts)" in
   let disjuncts = filled ~margin:{|     \/ |} ~between:{| \/ |} (List.map disjunct Construct.rules) in
-  let groups = [ ("Take_", List.map definition Construct.rules); ({|     \/ Take_|}, disjuncts) ] in
-  let add (lines, left) line =
-    match List.find_opt (fun (prefix, _) -> String.starts_with ~prefix line) groups with
-    | Some (prefix, made) when List.mem_assoc prefix left -> (List.rev_append made lines, List.remove_assoc prefix left)
-    | Some _ -> (lines, left)
-    | None -> (line :: lines, left)
-  in
-  let lines, _ = List.fold_left add ([], groups) (String.split_on_char '\n' page) in
-  String.concat "\n" (List.rev lines)
+  with_lines [ ("Take_", List.map definition Construct.rules); ({|     \/ Take_|}, disjuncts) ] page
 
 (* {1 Words} *)
 
@@ -105,19 +108,13 @@ let procedures =
   once (List.filter (fun x -> not (List.mem x task_procedures)) (names Vocabulary.procedures))
 
 let vim page =
+  let group (name, words) =
+    let keyword = "syntax keyword " ^ name ^ " " in
+    (keyword, filled ~margin:keyword ~between:" " words)
+  in
   let groups =
     [ ("dolphinOperatorWord", composing); ("dolphinTask", task_procedures); ("dolphinProcedure", procedures) ] in
-  let keyword name = "syntax keyword " ^ name ^ " " in
-  let add (lines, left) line =
-    match List.find_opt (fun (name, _) -> String.starts_with ~prefix:(keyword name) line) groups with
-    | Some (name, words) when List.mem_assoc name left ->
-      let made = filled ~margin:(keyword name) ~between:" " words in
-      (List.rev_append made lines, List.remove_assoc name left)
-    | Some _ -> (lines, left)
-    | None -> (line :: lines, left)
-  in
-  let lines, _ = List.fold_left add ([], groups) (String.split_on_char '\n' page) in
-  String.concat "\n" (List.rev lines)
+  with_lines (List.map group groups) page
 
 let rec find text part from =
   if String.length part + from > String.length text then failwith ("no " ^ part)

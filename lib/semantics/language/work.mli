@@ -4,9 +4,10 @@
 open Core
 
 val most_free : int
-(** Operands with fewer elements than this cost nothing. *)
+(** Operands with fewer elements than this, together, cost nothing. *)
 
 val of_operation : operation -> value list -> int
 (** [of_operation f xs] is the number of expressions that [f] of the operands [xs] counts as, besides itself: one for
-    every 200 elements that it looks at or copies; where it sorts [n] elements, [n log2 n / 10]. Operations that take
-    constant time count as none. *)
+    every 200 elements that it looks at or copies, of which a string that is only copied has a hundredth of its bytes;
+    where it sorts [n] elements, [n log2 n / 10]. Operations that take constant time count as none. Of an operation
+    that adds elements to a list only these are counted: if it adds one, the result shares the others. *)

@@ -86,10 +86,11 @@ class Links(Protocol):
 
 
 class Goal:
-    """A goal of a request, from the order on."""
+    """A goal of a request, from the order on. `number` is its place among those of the plan, from 0 on."""
 
-    def __init__(self, rule: PlanRule, parameters: Mapping[str, Any], action: Action, id_: uuid.UUID) -> None:
-        self.rule, self.parameters, self.action, self.id = rule, parameters, action, id_
+    def __init__(self, step: Step, number: int, action: Action, id_: uuid.UUID) -> None:
+        self.rule, self.parameters = step
+        self.number, self.action, self.id = number, action, id_
         self.reply: "Optional[asyncio.Future[bool]]" = None
         """The server's answer to the goal: accepted or rejected. `None` if an adapter before this one sent it."""
         self.sent_to: FrozenSet[Any] = frozenset()
@@ -160,8 +161,6 @@ class Robot(dolphin.Vehicle):
         self.languages = ("imcPlan",) if entry.kind.maneuvers else ()
         self._steps: Dict[str, List[Step]] = {}
         """The goals of requests, in their order; one of a plan by name."""
-        self._at: Dict[str, int] = {}
-        """The numbers of the goals that run."""
         self._doubtful: Set[str] = set()
         """Requests any of whose goals may run."""
         self._goals: Dict[str, Goal] = {}
@@ -412,7 +411,7 @@ class Robot(dolphin.Vehicle):
             return
         while True:
             await self._end_of_goal(plan, steps)
-            number = self._at[plan.request] + 1
+            number = self._goals[plan.request].number + 1
             if number == len(steps):
                 self._forget(plan)
                 return
@@ -436,7 +435,7 @@ class Robot(dolphin.Vehicle):
         if feedback is not None:
             share, remaining = goals.share(goal.rule, goal.parameters, feedback), goals.remaining(goal.rule, feedback)
             if share is not None:
-                share = (self._at[plan.request] + min(1.0, max(0.0, share))) / count
+                share = (goal.number + min(1.0, max(0.0, share))) / count
             if share is not None or remaining is not None:
                 plan.progress(share, remaining if count == 1 else None)
 
@@ -498,12 +497,12 @@ class Robot(dolphin.Vehicle):
 
     def _goal(self, plan: dolphin.Plan, number: int) -> Goal:
         """A goal of a request, which counts as running; this adapter or one before it sends it."""
-        rule, parameters = self._found(plan)[number]
-        before = self._goals.get(plan.request)
+        step, before = self._found(plan)[number], self._goals.get(plan.request)
         if before is not None:
             before.forget()
-        goal = Goal(rule, parameters, self._actions[rule.interface], goals.goal_id(self.name, plan.request, number))
-        self._goals[plan.request], self._at[plan.request] = goal, number
+        goal = Goal(
+            step, number, self._actions[step.rule.interface], goals.goal_id(self.name, plan.request, number))
+        self._goals[plan.request] = goal
         self._own.add(goal.id)
         return goal
 

@@ -129,11 +129,17 @@ class Flying(Case):
                 await until(lambda: len(self.server.begun) > before)
             self.server.end(self.server.last(), goals.SUCCEEDED)
 
+    async def under_way(self, console, goals_done):
+        """The tour is ordered, this many of its goals are done, and the next one runs."""
+        await self.ready(console)
+        console.task("start", "r-1", TOUR)
+        await until(lambda: console.words("r-1") == ["taken"])
+        await self.each_ends(goals_done)
+        await until(lambda: len(self.server.begun) == goals_done + 1)
+
     def test_goals_one_after_another(self):
         async def script(console, robot):
-            await self.ready(console)
-            console.task("start", "r-1", TOUR)
-            await until(lambda: console.words("r-1") == ["taken"])
+            await self.under_way(console, 0)
             await self.each_ends(4)
             await self.ended(console, "r-1", "taken", "done")
 
@@ -146,11 +152,7 @@ class Flying(Case):
 
     def test_a_goal_that_fails_ends_the_plan(self):
         async def script(console, robot):
-            await self.ready(console)
-            console.task("start", "r-1", TOUR)
-            await until(lambda: console.words("r-1") == ["taken"])
-            await self.each_ends(1)
-            await until(lambda: len(self.server.begun) == 2)
+            await self.under_way(console, 1)
             self.server.end(self.server.last(), goals.ABORTED)
             await self.ended(console, "r-1", "taken", "failed")
 
@@ -159,11 +161,7 @@ class Flying(Case):
 
     def test_a_stop_in_the_midst(self):
         async def script(console, robot):
-            await self.ready(console)
-            console.task("start", "r-1", TOUR)
-            await until(lambda: console.words("r-1") == ["taken"])
-            await self.each_ends(1)
-            await until(lambda: len(self.server.begun) == 2)
+            await self.under_way(console, 1)
             console.task("stop", "r-1", TOUR)
             await self.ended(console, "r-1", "taken", "stopped")
 
@@ -174,11 +172,7 @@ class Flying(Case):
     def first_life(self, goals_done):
         """An adapter dies with a goal under way; its notes, the latest first."""
         async def script(console, robot):
-            await self.ready(console)
-            console.task("start", "r-1", TOUR)
-            await until(lambda: console.words("r-1") == ["taken"])
-            await self.each_ends(goals_done)
-            await until(lambda: len(self.server.begun) == goals_done + 1)
+            await self.under_way(console, goals_done)
 
         console = self.converse(script)
         notes = [report["note"] for report in console.reports if report["kind"] == "note"]

@@ -16,24 +16,19 @@ let post connection words =
   each (fun (key, x) -> trouble (Result.map ignore (Run_socket.post connection key x))) pairs
 
 let status connection =
-  let* json = trouble (Run_socket.ask connection [ ("request", `String "status") ]) in
-  let open Yojson.Safe.Util in
-  Safe_print.printf "%s, at %s\n" (to_string (member "program" json))
-    (Dolphin_trace.Phrase.time (to_number (member "time" json)));
-  let questions = match member "questions" json with `List found -> found | _ -> [] in
-  (match to_list (member "inputs" json), questions with
-   | [], [] -> Safe_print.line "nothing can be posted: the program declares no input"
-   | keys, questions ->
-     List.iter (fun key -> Safe_print.line ("input '" ^ to_string key ^ "'")) keys;
-     List.iter (fun prompt -> Safe_print.line ("question '" ^ to_string prompt ^ "': yes or no")) questions);
+  let* { Socket_message.program; time; inputs; questions } = trouble (Run_socket.status connection) in
+  Safe_print.printf "%s, at %s\n" program (Dolphin_trace.Phrase.time time);
+  if inputs = [] && questions = [] then Safe_print.line "nothing can be posted: the program declares no input";
+  List.iter (fun key -> Safe_print.line ("input '" ^ key ^ "'")) inputs;
+  List.iter (fun prompt -> Safe_print.line ("question '" ^ prompt ^ "': yes or no")) questions;
   Ok ()
 
 let follow connection =
-  let* _ = trouble (Run_socket.ask connection [ ("request", `String "follow") ]) in
+  let* _ = trouble (Run_socket.ask connection Follow) in
   Run_socket.copy connection stdout;
   Ok ()
 
-let stop connection = trouble (Result.map ignore (Run_socket.ask connection [ ("request", `String "stop") ]))
+let stop connection = trouble (Result.map ignore (Run_socket.ask connection Stop))
 
 let run () name words ~what =
   Report.result

@@ -12,7 +12,7 @@ import sys
 
 KNOWN = {"$schema", "$defs", "$ref", "title", "type", "properties", "required", "additionalProperties", "items",
          "oneOf", "not", "enum", "const", "pattern", "minimum", "maximum", "minItems", "maxItems",
-         "minProperties", "minLength", "dependentRequired"}
+         "minProperties", "minLength", "maxLength", "dependentRequired", "allOf", "description"}
 TYPES = {"object": dict, "array": list, "string": str, "boolean": bool, "null": type(None)}
 DOCUMENTS = {}
 
@@ -67,6 +67,8 @@ def wrong(value, schema, path, at="$"):
             found += min(each, key=len)
         elif fits > 1:
             found.append(f"{at}: {fits} of the possibilities fit")
+    for one in schema.get("allOf", []):
+        found += wrong(value, one, path, at)
     if isinstance(value, dict):
         found += [f"{at}: {name} is missing" for name in schema.get("required", []) if name not in value]
         for name, others in schema.get("dependentRequired", {}).items():
@@ -93,6 +95,8 @@ def wrong(value, schema, path, at="$"):
             found.append(f"{at}: {value!r} is not like {schema['pattern']}")
         if len(value) < schema.get("minLength", 0):
             found.append(f"{at}: this is empty")
+        if len(value) > schema.get("maxLength", len(value)):
+            found.append(f"{at}: this is too long")
     elif has_type(value, "number"):
         if not schema.get("minimum", value) <= value <= schema.get("maximum", value):
             found.append(f"{at}: {value} is out of range")

@@ -2,7 +2,6 @@ open Dolphin_json
 open Dolphin_runtime
 open Lwt.Infix
 
-let version = 1
 let beside journal = journal ^ ".sock"
 let longest_request = 65_536
 let most_clients = 100
@@ -29,106 +28,66 @@ type t = {
 
 (* {1 Requests} *)
 
-type json = Yojson.Safe.t
+let post t key json : Socket_message.reply Lwt.t =
+  let program = (t.run.program ()).program and questions = Inputs.questions t.run.inputs in
+  match Typed_input.declared program ~questions key, Host_value.data_of_json json with
+  | Error why, _ -> Lwt.return (Socket_message.Wrong (Not_declared, why))
+  | Ok (), Error why -> Lwt.return (Socket_message.Wrong (Bad_value, why))
+  | Ok (), Ok x -> (
+      match Typed_input.fits program key x with
+      | Error why -> Lwt.return (Socket_message.Wrong (Bad_value, why))
+      | Ok () -> (
+          Inputs.post t.run.inputs key x >|= function
+          | true -> Socket_message.Done (Some (t.run.now ()))
+          | false when Inputs.is_closed t.run.inputs -> Wrong (Ended, "the run has ended")
+          | false -> Wrong (Not_declared, "this question is not open any more")))
 
-let reply ?id members : json =
-  `Assoc ((match id with Some id -> [ ("id", id) ] | None -> []) @ members)
-
-let wrong ?id code message =
-  reply ?id [ ("error", `Assoc [ ("code", `String code); ("message", `String message) ]) ]
-
-let done_ ?id members = reply ?id (("ok", `Bool true) :: members)
-
-let post t ?id found =
-  match List.assoc_opt "key" found, List.assoc_opt "value" found with
-  | Some (`String key), Some json -> (
-      let program = (t.run.program ()).program and questions = Inputs.questions t.run.inputs in
-      match Typed_input.declared program ~questions key, Host_value.data_of_json json with
-      | Error why, _ -> Lwt.return (wrong ?id "not-declared" why)
-      | Ok (), Error why -> Lwt.return (wrong ?id "bad-value" why)
-      | Ok (), Ok x -> (
-          match Typed_input.fits program key x with
-          | Error why -> Lwt.return (wrong ?id "bad-value" why)
-          | Ok () -> (
-              Inputs.post t.run.inputs key x >|= function
-              | true -> done_ ?id [ ("time", `Float (t.run.now ())) ]
-              | false when Inputs.is_closed t.run.inputs -> wrong ?id "ended" "the run has ended"
-              | false -> wrong ?id "not-declared" "this question is not open any more")))
-  | _, _ -> Lwt.return (wrong ?id "bad-request" "post needs a key, a text, and a value")
-
-let status t ?id () =
+let status t : Socket_message.reply =
   let { Program_file.path; program; _ } = t.run.program () in
-  done_ ?id
-    [ ("protocol", `String "dolphin-run"); ("version", `Int version); ("program", `String path);
-      ("time", `Float (t.run.now ())); ("inputs", `List (List.map (fun k -> `String k) program.inputs));
-      ("questions", `List (List.map (fun k -> `String k) (Inputs.questions t.run.inputs))) ]
+  Status_is
+    { program = path; time = t.run.now (); inputs = program.inputs; questions = Inputs.questions t.run.inputs }
 
-let code_of : Replacement.refusal -> string = function
-  | Busy -> "busy"
-  | No_journal -> "no-journal"
-  | Wrong_program _ -> "bad-program"
-  | Differs _ -> "differs"
-  | Over -> "ended"
+let code_of : Replacement.refusal -> Socket_message.code = function
+  | Busy -> Busy
+  | No_journal -> No_journal
+  | Wrong_program _ -> Bad_program
+  | Differs _ -> Differs
+  | Over -> Ended
 
-let text : Yojson.Safe.t -> string option = function `String text -> Some text | _ -> None
-
-(* The values of parameters, as on the command line. *)
-let settings : Yojson.Safe.t -> (string * string) list option = function
-  | `Assoc found ->
-    let setting (name, value) = Option.map (fun text -> (name, text)) (text value) in
-    let settings = List.filter_map setting found in
-    if List.compare_lengths settings found = 0 then Some settings else None
-  | _ -> None
-
-let replace t ?id found =
-  let optional name read =
-    match List.assoc_opt name found with
-    | None -> Some None
-    | Some json -> Option.map Option.some (read json)
-  in
-  match optional "program" text, optional "set" settings, optional "hash" text with
-  | Some (Some path), Some set, Some hash when not (Filename.is_relative path) -> (
-      t.run.replace ?set ?hash path >|= function
-      | Ok time -> done_ ?id [ ("time", `Float time) ]
-      | Error refusal -> wrong ?id (code_of refusal) (Replacement.message refusal))
-  | _, _, _ ->
-    let why = "replace needs a program, the absolute path of a file; a hash is a text, and set an object of texts" in
-    Lwt.return (wrong ?id "bad-request" why)
-
-let usage = "a request is an object with a request, as in {\"request\": \"status\"}"
+let replace t ?set ?hash path : Socket_message.reply Lwt.t =
+  t.run.replace ?set ?hash path >|= function
+  | Ok time -> Socket_message.Done (Some time)
+  | Error refusal -> Wrong (code_of refusal, Replacement.message refusal)
 
 (* The request of a line; the code that writes the reply begins [follow]. *)
 let perform t (line : Lines.line) =
-  let bad ?id code message = Lwt.return (`Reply (wrong ?id code message)) in
+  let reply ?id (content : Socket_message.reply) = `Reply { Socket_message.id; content } in
   match line with
   | End_of_input -> Lwt.return `Over
-  | Too_long -> bad "bad-request" (Printf.sprintf "the line is longer than %d bytes" longest_request)
+  | Too_long ->
+    let why = Printf.sprintf "the line is longer than %d bytes" longest_request in
+    Lwt.return (reply (Wrong (Bad_request, why)))
   | Line text -> (
-      match Host_value.parse text with
-      | Error why -> bad "no-json" ("this is not JSON: " ^ why)
-      | Ok (`Assoc found) -> (
-          let id = List.assoc_opt "id" found in
-          match List.assoc_opt "request" found with
-          | Some (`String "post") -> post t ?id found >|= fun reply -> `Reply reply
-          | Some (`String "replace") -> replace t ?id found >|= fun reply -> `Reply reply
-          | Some (`String "status") -> Lwt.return (`Reply (status t ?id ()))
-          | Some (`String "stop") ->
+      match Socket_message.request_of_string text with
+      | Error wrong -> Lwt.return (`Reply wrong)
+      | Ok { id; content } -> (
+          match content with
+          | Post { key; value } -> post t key value >|= reply ?id
+          | Replace { program; hash; set } -> replace t ?set ?hash program >|= reply ?id
+          | Status -> Lwt.return (reply ?id (status t))
+          | Stop ->
             t.run.stop ();
-            Lwt.return (`Reply (done_ ?id []))
-          | Some (`String "follow") when t.journal = None -> bad ?id "no-journal" "the journal is not a file"
-          | Some (`String "follow") -> Lwt.return (`Follow (done_ ?id []))
-          | Some (`String other) ->
-            bad ?id "unknown-request"
-              (Printf.sprintf "unknown request '%s': the requests are post, status, follow, replace and stop" other)
-          | Some _ | None -> bad ?id "bad-request" usage)
-      | Ok _ -> bad "bad-request" usage)
+            Lwt.return (reply ?id (Done None))
+          | Follow when t.journal = None ->
+            Lwt.return (reply ?id (Wrong (No_journal, "the journal is not a file")))
+          | Follow -> Lwt.return (`Follow { Socket_message.id; content = (Done None : Socket_message.reply) })))
 
 (* {1 Clients} *)
 
 type client = { socket : Lwt_unix.file_descr; lines : Lines.t; writing : Lwt_mutex.t }
 
 let write client text = Lwt_mutex.with_lock client.writing (fun () -> Writer.write client.socket text)
-let say client json = write client (Canonical.to_string json ^ "\n")
+let say client reply = write client (Codec.to_string Socket_message.reply reply ^ "\n")
 
 (* The whole lines of the journal from [offset] on, up to a number of bytes, and their end. A line that is longer
    than that is read in one piece. *)
@@ -167,8 +126,8 @@ let reply_to t client line =
   let replied () =
     perform t line >>= function
     | `Over -> Lwt.return_false
-    | `Reply json -> say client json >|= fun () -> true
-    | `Follow json -> say client json >|= fun () -> start_following t client; true
+    | `Reply reply -> say client reply >|= fun () -> true
+    | `Follow reply -> say client reply >|= fun () -> start_following t client; true
   in
   Lwt.finalize replied (fun () -> t.owed <- t.owed - 1; Lwt.return_unit)
 
@@ -183,7 +142,8 @@ let admit t socket =
   in
   t.clients <- t.clients + 1;
   let whole () =
-    if t.clients > most_clients then say client (wrong "too-many" "too many programs are connected to this run")
+    if t.clients > most_clients then
+      say client { id = None; content = Wrong (Too_many, "too many programs are connected to this run") }
     else serve t client
   in
   Lwt.async (fun () -> Lwt.finalize (fun () -> quietly whole) leave)
@@ -269,30 +229,33 @@ let connect ~journal =
 
 let ask c request =
   match
-    output_string c.output (Canonical.to_string (`Assoc request) ^ "\n");
+    output_string c.output (Codec.to_string Socket_message.request { id = None; content = request } ^ "\n");
     flush c.output;
     input_line c.input
   with
   | exception (End_of_file | Sys_error _) -> Error "the run has ended"
   | line -> (
-      match Yojson.Safe.from_string line with
-      | exception Yojson.Json_error _ -> Error ("this is not a reply: " ^ line)
-      | `Assoc [ ("error", `Assoc why) ] -> (
-          match List.assoc_opt "message" why with Some (`String text) -> Error text | Some _ | None -> Error line)
-      | json -> Ok json)
+      match Result.bind (Host_value.parse line) (Codec.read Socket_message.reply) with
+      | Error _ -> Error ("this is not a reply: " ^ line)
+      | Ok { content = Wrong (_, message); _ } -> Error message
+      | Ok { content = (Done _ | Status_is _) as reply; _ } -> Ok reply)
 
-let time_of : Yojson.Safe.t -> float = function
-  | `Assoc found -> (match List.assoc_opt "time" found with Some (`Float time) -> time | Some _ | None -> 0.)
-  | _ -> 0.
+let time_of : Socket_message.reply -> float = function
+  | Done (Some time) -> time
+  | Done None | Status_is _ | Wrong _ -> 0.
 
 let post c key x =
-  let ask json = ask c [ ("request", `String "post"); ("key", `String key); ("value", json) ] in
+  let ask value = ask c (Post { key; value }) in
   Result.map time_of (Result.bind (Host_value.to_json x) ask)
 
 let replace c ~set ~hash path =
-  let set = List.map (fun (name, value) -> (name, `String value)) set in
-  let request = [ ("program", `String path); ("set", `Assoc set); ("hash", `String hash) ] in
-  Result.map time_of (ask c (("request", `String "replace") :: request))
+  Result.map time_of (ask c (Replace { program = path; hash = Some hash; set = Some set }))
+
+let status c =
+  match ask c Status with
+  | Ok (Status_is status) -> Ok status
+  | Ok (Done _ | Wrong _) -> Error "this reply is not about a run's status"
+  | Error _ as error -> error
 
 let rec copy c out =
   match input_line c.input with

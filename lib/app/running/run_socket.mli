@@ -34,8 +34,11 @@ type connection
 val connect : journal:string -> (connection, string) result
 (** [connect ~journal] is a connection to the run with this journal, or a sentence why there is none. *)
 
-val ask : connection -> (string * Yojson.Safe.t) list -> (Yojson.Safe.t, string) result
+val ask : connection -> Socket_message.request -> (Socket_message.reply, string) result
 (** [ask c request] is the reply to [request]; the error is its error text. *)
+
+val status : connection -> (Socket_message.status, string) result
+(** [status c] is what the run is. *)
 
 val post : connection -> string -> Core.value -> (float, string) result
 (** [post c key x] posts a pair: at which time of the run it was taken. *)

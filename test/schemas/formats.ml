@@ -1,0 +1,17 @@
+open Dolphin_json
+
+type t = Format : { name : string; title : string; codec : 'a Codec.t; refuses : bool } -> t
+
+let all =
+  [ Format
+      { name = "socket"; title = "A line on the socket of a run (docs/socket.md): a request, or a reply";
+        codec = Dolphin_app.Socket_message.line; refuses = false } ]
+
+let name (Format { name; _ }) = name
+
+let find wanted =
+  match List.find_opt (fun format -> name format = wanted) all with
+  | Some format -> format
+  | None -> invalid_arg ("no format is called " ^ wanted)
+
+let schema (Format { title; codec; _ }) = Codec.schema ~title codec

@@ -146,8 +146,7 @@ let decimal ?least ?most () = within (fun x -> `Float x) ?least ?most ()
 let any = make Result.ok Fun.id (plain [])
 
 let object_ =
-  make (function `Assoc members -> Ok members | json -> not_a "an object" json) (fun members -> `Assoc members)
-    (typed "object" [])
+  make (function `Assoc _ as json -> Ok json | json -> not_a "an object" json) Fun.id (typed "object" [])
 
 let enum names =
   let all = List.map fst names in

@@ -71,8 +71,8 @@ val decimal : ?least:float -> ?most:float -> unit -> float t
 val any : json t
 (** Any JSON, as it is. *)
 
-val object_ : Field.members t
-(** Any object: its members. *)
+val object_ : json t
+(** Any object, as it is. *)
 
 val enum : (string * 'a) list -> 'a t
 (** [enum names] is one of these values, as its name. The values are constants, each with one name. *)

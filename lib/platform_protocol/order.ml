@@ -1,6 +1,6 @@
 open Dolphin_semantics
 open Dolphin_json
-open Field
+open Codec
 
 type purpose = Run | Look | Check
 
@@ -28,112 +28,110 @@ type t =
   | Refused of string
   | Close
 
-let purposes = [ ("run", Run); ("look", Look); ("check", (Check : purpose)) ]
-let name_of_purpose purpose = fst (List.find (fun (_, other) -> other = purpose) purposes)
-
+let purpose = enum [ ("run", Run); ("look", Look); ("check", (Check : purpose)) ]
 let doubts = [ ("order", Lost_order); ("notes", Lost_notes) ]
 let name_of_doubt doubt = fst (List.find (fun (_, other) -> other = doubt) doubts)
 
-(* {1 Writing} *)
+(* {1 Members} *)
 
-let text = Line.text
-let optional_text name = function Some x -> [ (name, text x) ] | None -> []
+let plan = elsewhere "plan.schema.json#" any
+let note = limited [ ("type", `String "object") ] any
+let vehicle get = field "vehicle" word get
+let vehicles = one "vehicles" (list word)
+let id = one "id" count
 
 (* A reason may quote what was not even UTF-8. *)
-let ascii = String.map (function ' ' .. '~' as c -> c | _ -> '?')
+let ascii =
+  let shown = String.map (function ' ' .. '~' as c -> c | _ -> '?') in
+  conv (fun why -> Ok (shown why)) shown text
 
-let task request vehicle plan timeout =
-  [ ("request", text request); ("vehicle", text vehicle); ("plan", plan); ("timeout", `Float timeout) ]
+(* Doubts of later versions are unknown. *)
+let doubt =
+  let names = limited [ ("enum", `List (List.map (fun (name, _) -> `String name) doubts)) ] word in
+  let+ name = optional "doubt" ~null:true names Fun.id ~doc:"what may be lost of this request, with its end" in
+  Option.bind name (fun name -> List.assoc_opt name doubts)
 
-let to_json = function
+type task = { request : string; vehicle : Core.vehicle; plan : Yojson.Safe.t; timeout : float }
+
+let task =
+  let+ request = field "request" Line.request (fun t -> t.request)
+  and+ vehicle = vehicle (fun t -> t.vehicle)
+  and+ plan = field "plan" plan (fun t -> t.plan)
+  and+ timeout = field "timeout" Line.seconds (fun t -> t.timeout) ~doc:"the connection timeout, in seconds" in
+  { request; vehicle; plan; timeout }
+
+(* {1 Kinds} *)
+
+type greeting = { version : int; dolphin : string; purpose : purpose; program : string option; resumes : bool }
+
+let hello =
+  case "hello"
+    (let+ version = field "protocol" (Line.protocol ()) (fun h -> h.version)
+     and+ dolphin = field "dolphin" text (fun h -> h.dolphin) ~doc:"the version of Dolphin"
+     and+ purpose = field "purpose" purpose (fun h -> h.purpose)
+     and+ program = optional "program" ~null:true word (fun h -> h.program)
+     and+ resumes = field "resumes" truth (fun h -> h.resumes) ~doc:"whether a run is taken up again" in
+     { version; dolphin; purpose; program; resumes })
+    (fun { version; dolphin; purpose; program; resumes } -> Hello { version; dolphin; purpose; program; resumes })
+
+let telemetry = case "telemetry" (one "on" truth) (fun on -> Telemetry on)
+let hold = case "hold" vehicles (fun vs -> Hold vs)
+let release = case "release" vehicles (fun vs -> Release vs)
+
+let timeout =
+  case "timeout"
+    (pair
+       (one "vehicles" (nullable (list word)) ~doc:"null: all of them, present and future")
+       (one "seconds" Line.seconds))
+    (fun (vehicles, seconds) -> Timeout (vehicles, seconds))
+
+let ping = case "ping" id (fun id -> Ping id)
+
+let start =
+  case "start" task (fun { request; vehicle; plan; timeout } -> Start { request; vehicle; plan; timeout })
+
+let stop =
+  case "stop"
+    (pair (one "request" Line.request) (vehicle Fun.id))
+    (fun (request, vehicle) -> Stop { request; vehicle })
+
+let resume =
+  case "resume"
+    (pair task (pair (one "notes" (list note) ~doc:"latest first") (part (Option.map name_of_doubt) doubt)))
+    (fun ({ request; vehicle; plan; timeout }, (notes, doubt)) ->
+       Resume { request; vehicle; plan; timeout; notes; doubt })
+
+let check =
+  case "check"
+    (pair id (pair (one "plan" plan) (optional "vehicle" ~null:true word Fun.id)))
+    (fun (id, (plan, vehicle)) -> Check { id; vehicle; plan })
+
+let kept = case "kept" id (fun id -> Kept id)
+let refused = case "refused" (one "why" ascii) (fun why -> Refused why)
+let close = constant "close" Close
+
+let variants =
+  [ Case hello; Case telemetry; Case hold; Case release; Case timeout; Case ping; Case start; Case stop; Case resume;
+    Case check; Case kept; Case refused; Case close ]
+
+let choose = function
   | Hello { version; dolphin; purpose; program; resumes } ->
-    Line.make "hello"
-      ([ ("protocol", `Int version); ("dolphin", text dolphin); ("purpose", text (name_of_purpose purpose)) ]
-       @ optional_text "program" program
-       @ [ ("resumes", `Bool resumes) ])
-  | Telemetry on -> Line.make "telemetry" [ ("on", `Bool on) ]
-  | Hold vehicles -> Line.make "hold" [ ("vehicles", texts vehicles) ]
-  | Release vehicles -> Line.make "release" [ ("vehicles", texts vehicles) ]
-  | Timeout (vehicles, seconds) ->
-    Line.make "timeout" [ ("vehicles", of_option texts vehicles); ("seconds", `Float seconds) ]
-  | Ping id -> Line.make "ping" [ ("id", `Int id) ]
-  | Start { request; vehicle; plan; timeout } -> Line.make "start" (task request vehicle plan timeout)
-  | Stop { request; vehicle } -> Line.make "stop" [ ("request", text request); ("vehicle", text vehicle) ]
+    Is (hello, { version; dolphin; purpose; program; resumes })
+  | Telemetry on -> Is (telemetry, on)
+  | Hold vehicles -> Is (hold, vehicles)
+  | Release vehicles -> Is (release, vehicles)
+  | Timeout (vehicles, seconds) -> Is (timeout, (vehicles, seconds))
+  | Ping id -> Is (ping, id)
+  | Start { request; vehicle; plan; timeout } -> Is (start, { request; vehicle; plan; timeout })
+  | Stop { request; vehicle } -> Is (stop, (request, vehicle))
   | Resume { request; vehicle; plan; timeout; notes; doubt } ->
-    let doubt = Option.map name_of_doubt doubt in
-    Line.make "resume" (task request vehicle plan timeout @ [ ("notes", `List notes) ] @ optional_text "doubt" doubt)
-  | Check { id; vehicle; plan } ->
-    Line.make "check" ([ ("id", `Int id); ("plan", plan) ] @ optional_text "vehicle" vehicle)
-  | Kept id -> Line.make "kept" [ ("id", `Int id) ]
-  | Refused why -> Line.make "refused" [ ("why", text (ascii why)) ]
-  | Close -> Line.make "close" []
+    Is (resume, ({ request; vehicle; plan; timeout }, (notes, doubt)))
+  | Check { id; vehicle; plan } -> Is (check, (id, (plan, vehicle)))
+  | Kept id -> Is (kept, id)
+  | Refused why -> Is (refused, why)
+  | Close -> Is (close, ())
 
-let to_line order = Canonical.to_string (to_json order) ^ "\n"
-
-(* {1 Reading} *)
-
-let absent_text = optional (nullable Line.word) ~default:None
-
-let purpose json =
-  let* name = Field.text json in
-  match List.assoc_opt name purposes with
-  | Some purpose -> Ok purpose
-  | None -> Error (Printf.sprintf "'%s', not a purpose" name)
-
-let hello members =
-  let* version = get Line.count "protocol" members in
-  let* dolphin = get Field.text "dolphin" members in
-  let* purpose = get purpose "purpose" members in
-  let* program = absent_text "program" members in
-  let* resumes = get truth "resumes" members in
-  Ok (Hello { version; dolphin; purpose; program; resumes })
-
-let vehicles name members = get (list Line.word) name members
-
-let start members =
-  let* request = get Line.request "request" members in
-  let* vehicle = get Line.word "vehicle" members in
-  let* plan = get any "plan" members in
-  let* timeout = get Line.seconds "timeout" members in
-  Ok (request, vehicle, plan, timeout)
-
-let check members =
-  let* id = get Line.count "id" members in
-  let* vehicle = absent_text "vehicle" members in
-  let* plan = get any "plan" members in
-  Ok (Check { id; vehicle; plan })
-
-let kinds =
-  [ ("hello", hello);
-    ("telemetry", fun m -> let* on = get truth "on" m in Ok (Telemetry on));
-    ("hold", fun m -> let* vs = vehicles "vehicles" m in Ok (Hold vs));
-    ("release", fun m -> let* vs = vehicles "vehicles" m in Ok (Release vs));
-    ( "timeout",
-      fun m ->
-        let* vs = optional (nullable (list Line.word)) ~default:None "vehicles" m in
-        let* seconds = get Line.seconds "seconds" m in
-        Ok (Timeout (vs, seconds)) );
-    ("ping", fun m -> let* id = get Line.count "id" m in Ok (Ping id));
-    ( "start",
-      fun m ->
-        let* request, vehicle, plan, timeout = start m in
-        Ok (Start { request; vehicle; plan; timeout }) );
-    ( "stop",
-      fun m ->
-        let* request = get Line.request "request" m in
-        let* vehicle = get Line.word "vehicle" m in
-        Ok (Stop { request; vehicle }) );
-    ( "resume",
-      fun m ->
-        let* request, vehicle, plan, timeout = start m in
-        let* notes = optional (list any) ~default:[] "notes" m in
-        let* doubt = absent_text "doubt" m in
-        (* Doubts of later versions are unknown. *)
-        let doubt = Option.bind doubt (fun name -> List.assoc_opt name doubts) in
-        Ok (Resume { request; vehicle; plan; timeout; notes; doubt }) );
-    ("check", check);
-    ("kept", fun m -> let* id = get Line.count "id" m in Ok (Kept id));
-    ("refused", fun m -> let* why = get Field.text "why" m in Ok (Refused why));
-    ("close", fun _ -> Ok Close) ]
-
-let of_line text = Line.read kinds text
+let codec = record (union ~tag:"kind" variants choose)
+let to_json = write codec
+let to_line order = to_string codec order ^ "\n"
+let of_line text = Line.read variants text

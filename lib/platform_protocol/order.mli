@@ -30,6 +30,9 @@ type t =
   | Refused of string  (** A report was not understood, and why. In JSON, bytes outside of ASCII are ["?"]. *)
   | Close
 
+val codec : t Dolphin_json.Codec.t
+(** Lines: [conformance/schema/platform-order.schema.json]. *)
+
 val to_json : t -> Yojson.Safe.t
 (** The object of the line. *)
 

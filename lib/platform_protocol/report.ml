@@ -1,6 +1,6 @@
 open Dolphin_semantics
 open Dolphin_json
-open Field
+open Codec
 
 type greeting = {
   version : int;
@@ -53,168 +53,133 @@ type t =
 
 let is_end = function Done | Failed _ | Stopped | Absent -> true | Taken | Progress _ | Unknown _ -> false
 
-(* {1 Writing} *)
+(* {1 Kinds} *)
 
-let text = Line.text
-let of_number x : Yojson.Safe.t = `Float x
-let member name write = function Some x -> [ (name, write x) ] | None -> []
+(* A member that is [null] counts as absent, if [null] does not have a meaning of its own. *)
+let absent ?doc name codec get = optional ?doc ~null:true name codec get
+let as_before ?doc name codec get = optional ?doc name (nullable codec) get
 
-let of_greeting g =
-  [ ("protocol", `Int g.version); ("name", text g.name) ]
-  @ member "version" text g.adapter
-  @ [ ("plans", texts g.plans); ("announce", of_number g.announce); ("patience", of_number g.patience) ]
-
-let of_sight s =
-  (("vehicle", text s.vehicle) :: member "type" text s.kind)
-  @ member "payload" texts s.payload
-  @ (match s.place with
-      | Some (latitude, longitude) -> [ ("latitude", of_number latitude); ("longitude", of_number longitude) ]
-      | None -> [])
-  @ member "height" of_number s.height
-  @ member "depth" (of_option of_number) s.depth
-  @ member "altitude" (of_option of_number) s.altitude
-  @ member "battery" (of_option of_number) s.battery
-  @ member "speed" (of_option of_number) s.speed
-  @ (if s.readings = [] then []
-     else [ ("readings", `Assoc (List.map (fun (name, x) -> (name, of_option of_number x)) s.readings)) ])
-  @ member "link" (fun b -> `Bool b) s.link
-  @ member "unready" (of_option text) s.unready
-
-let of_word request word =
-  let line kind members = Line.make kind (("request", text request) :: members) in
-  match word with
-  | Taken -> line "taken" []
-  | Progress { share; remaining } ->
-    line "progress" (member "share" of_number share @ member "remaining" of_number remaining)
-  | Done -> line "done" []
-  | Failed why -> line "failed" [ ("why", text why) ]
-  | Stopped -> line "stopped" []
-  | Unknown why -> line "unknown" [ ("why", text why) ]
-  | Absent -> line "absent" []
-
-let to_json = function
-  | Hello g -> Line.make "hello" (of_greeting g)
-  | Trouble why -> Line.make "error" [ ("why", text why) ]
-  | Vehicle s -> Line.make "vehicle" (of_sight s)
-  | Gone vehicle -> Line.make "gone" [ ("vehicle", text vehicle) ]
-  | Pong id -> Line.make "pong" [ ("id", `Int id) ]
-  | Request (request, word) -> of_word request word
-  | Checked { id; problems } -> Line.make "checked" [ ("id", `Int id); ("problems", texts problems) ]
-  | Note { request; note; id } ->
-    Line.make "note" ([ ("request", text request); ("note", note) ] @ member "id" (fun id -> `Int id) id)
-  | Log { vehicle; text = words } -> Line.make "log" (member "vehicle" text vehicle @ [ ("text", text words) ])
-  | Quiet -> Line.make "quiet" []
-
-let to_line report = Canonical.to_string (to_json report) ^ "\n"
-
-(* {1 Reading} *)
-
-(* [null] counts as absent. *)
-let absent read = optional (nullable read) ~default:None
-
-(* [null] is a value of its own. *)
-let as_before read name members =
-  match List.assoc_opt name members with
-  | None -> Ok None
-  | Some _ -> Result.map Option.some (get (nullable read) name members)
-
-let between least most json =
-  let* x = number json in
-  if x >= least && x <= most then Ok x else Error (Printf.sprintf "%g, not a number from %g to %g" x least most)
-
-let platform_name json =
-  let* name = Line.word json in
+let platform_name =
   let fits = function 'A' .. 'Z' | 'a' .. 'z' | '0' .. '9' | '-' | '_' -> true | _ -> false in
-  if String.for_all fits name then Ok name
-  else Error (Printf.sprintf "'%s', not a name of letters, digits, '-' and '_'" name)
-
-let greeting members =
-  let* version = get Line.count "protocol" members in
-  let* name = get platform_name "name" members in
-  let* adapter = absent Field.text "version" members in
-  let* plans = optional (list Line.word) ~default:[ "name" ] "plans" members in
-  let* announce = optional Line.seconds ~default:10. "announce" members in
-  let* patience = optional Line.seconds ~default:30. "patience" members in
-  Ok (Hello { version; name; adapter; plans; announce; patience })
-
-let place members =
-  let* latitude = absent (between (-90.) 90.) "latitude" members in
-  let* longitude = absent (between (-180.) 180.) "longitude" members in
-  match latitude, longitude with
-  | Some latitude, Some longitude -> Ok (Some (latitude, longitude))
-  | None, None -> Ok None
-  | Some _, None | None, Some _ -> Error "of latitude and longitude one is missing"
-
-let readings json =
-  let* found = Field.members json in
-  let reading (name, json) =
-    Result.map_error (Printf.sprintf "%s: %s" name) (Result.map (fun x -> (name, x)) (nullable number json))
+  let check name =
+    if String.for_all fits name then Ok name
+    else Error (Printf.sprintf "'%s', not a name of letters, digits, '-' and '_'" name)
   in
-  Dolphin_results.Results.map reading found
+  limited [ ("pattern", `String "^[A-Za-z0-9_-]+$") ] (conv check Fun.id word)
 
-let sight members =
-  let* vehicle = get Line.word "vehicle" members in
-  let* kind = absent Line.word "type" members in
-  let* payload = absent (list Field.text) "payload" members in
-  let* place = place members in
-  let* height = absent number "height" members in
-  let* depth = as_before number "depth" members in
-  let* altitude = as_before number "altitude" members in
-  let* battery = as_before (between 0. 1.) "battery" members in
-  let* speed = as_before Line.seconds "speed" members in
-  let* readings = optional (fun json -> if json = `Null then Ok [] else readings json) ~default:[] "readings" members in
-  let* link = absent truth "link" members in
-  let* unready = as_before Line.word "unready" members in
-  Ok (Vehicle { vehicle; kind; payload; place; height; depth; altitude; battery; speed; readings; link; unready })
+let hello =
+  case "hello"
+    (let+ version = field "protocol" (Line.protocol ()) (fun g -> g.version)
+     and+ name = field "name" platform_name (fun (g : greeting) -> g.name)
+     and+ adapter = absent "version" text (fun g -> g.adapter) ~doc:"the version of the adapter"
+     and+ plans =
+       default [ "name" ] "plans" (list word) (fun g -> g.plans) ~null:true ~always:true ~doc:"the kinds of plans taken"
+     and+ announce =
+       default 10. "announce" Line.seconds (fun g -> g.announce) ~null:true ~always:true
+         ~doc:"seconds after which every vehicle has been reported"
+     and+ patience =
+       default 30. "patience" Line.seconds (fun g -> g.patience) ~null:true ~always:true
+         ~doc:"seconds within which orders are answered"
+     in
+     { version; name; adapter; plans; announce; patience })
+    (fun greeting -> Hello greeting)
 
-let word make members =
-  let* request = get Line.request "request" members in
-  let* word = make members in
-  Ok (Request (request, word))
+let place =
+  let both = function
+    | Some latitude, Some longitude -> Ok (Some (latitude, longitude))
+    | None, None -> Ok None
+    | Some _, None | None, Some _ -> Error "of latitude and longitude one is missing"
+  in
+  requiring
+    [ ("latitude", [ "longitude" ]); ("longitude", [ "latitude" ]) ]
+    (check both
+       (let+ latitude = absent "latitude" (decimal ~least:(-90.) ~most:90. ()) (Option.map fst) ~doc:"degrees"
+        and+ longitude = absent "longitude" (decimal ~least:(-180.) ~most:180. ()) (Option.map snd) ~doc:"degrees" in
+        (latitude, longitude)))
 
-let progress members =
-  let* share = absent (between 0. 1.) "share" members in
-  let* remaining = absent Line.seconds "remaining" members in
-  Ok (Progress { share; remaining })
+let vehicle =
+  case "vehicle"
+    (let+ vehicle = field "vehicle" word (fun s -> s.vehicle)
+     and+ kind = absent "type" word (fun s -> s.kind)
+     and+ payload = absent "payload" (list text) (fun s -> s.payload)
+     and+ place = part (fun s -> s.place) place
+     and+ height = absent "height" (decimal ()) (fun s -> s.height) ~doc:"metres"
+     and+ depth = as_before "depth" (decimal ()) (fun s -> s.depth) ~doc:"metres; null: not known"
+     and+ altitude = as_before "altitude" (decimal ()) (fun s -> s.altitude) ~doc:"metres; null: not known"
+     and+ battery =
+       as_before "battery" (decimal ~least:0. ~most:1. ()) (fun s -> s.battery) ~doc:"a share; null: not known"
+     and+ speed = as_before "speed" (decimal ~least:0. ()) (fun s -> s.speed) ~doc:"m/s; null: not known"
+     and+ readings =
+       default [] "readings" (map (nullable (decimal ()))) (fun s -> s.readings) ~null:true
+         ~doc:"by quantity; null: not known any more"
+     and+ link = absent "link" truth (fun s -> s.link)
+     and+ unready = as_before "unready" word (fun s -> s.unready) ~doc:"null: nothing keeps it" in
+     { vehicle; kind; payload; place; height; depth; altitude; battery; speed; readings; link; unready })
+    (fun sight -> Vehicle sight)
 
-let because make members = Result.map make (get Line.word "why" members)
+let request = one "request" Line.request
+let why = one "why" word
+let on_request kind word = case kind request (fun r -> Request (r, word))
+let because kind word = case kind (pair request why) (fun (r, why) -> Request (r, word why))
+let error = case "error" why (fun why -> Trouble why)
+let gone = case "gone" (one "vehicle" word) (fun v -> Gone v)
+let pong = case "pong" (one "id" count) (fun id -> Pong id)
+let taken = on_request "taken" Taken
 
-let note members =
-  let* request = get Line.request "request" members in
-  let* note = get Field.members "note" members in
-  let* id = absent Line.count "id" members in
-  Ok (Note { request; note = `Assoc note; id })
+let progress =
+  case "progress"
+    (pair request
+       (pair
+          (absent "share" (decimal ~least:0. ~most:1. ()) Fun.id)
+          (absent "remaining" Line.seconds Fun.id ~doc:"seconds")))
+    (fun (r, (share, remaining)) -> Request (r, Progress { share; remaining }))
 
-let checked members =
-  let* id = get Line.count "id" members in
-  let* problems = get (list Line.word) "problems" members in
-  Ok (Checked { id; problems })
+let done_ = on_request "done" Done
+let failed = because "failed" (fun why -> Failed why)
+let stopped = on_request "stopped" Stopped
+let unknown = because "unknown" (fun why -> Unknown why)
+let absent_ = on_request "absent" Absent
 
-let log members =
-  let* vehicle = absent Line.word "vehicle" members in
-  let* text = get Field.text "text" members in
-  Ok (Log { vehicle; text })
+let checked =
+  case "checked"
+    (pair (one "id" count) (one "problems" (list word)))
+    (fun (id, problems) -> Checked { id; problems })
 
-let simply x _ = Ok x
+let note =
+  case "note"
+    (pair request (pair (one "note" object_) (absent "id" count Fun.id)))
+    (fun (request, (note, id)) -> Note { request; note; id })
 
-let kinds =
-  [ ("hello", greeting);
-    ("error", because (fun why -> Trouble why));
-    ("vehicle", sight);
-    ("gone", fun m -> Result.map (fun v -> Gone v) (get Line.word "vehicle" m));
-    ("pong", fun m -> Result.map (fun id -> Pong id) (get Line.count "id" m));
-    ("taken", word (simply Taken));
-    ("progress", word progress);
-    ("done", word (simply Done));
-    ("failed", word (because (fun why -> Failed why)));
-    ("stopped", word (simply Stopped));
-    ("unknown", word (because (fun why -> Unknown why)));
-    ("absent", word (simply Absent));
-    ("checked", checked);
-    ("note", note);
-    ("log", log);
-    ("quiet", simply Quiet) ]
+let log =
+  case "log" (pair (absent "vehicle" word Fun.id) (one "text" text)) (fun (vehicle, text) -> Log { vehicle; text })
 
-let of_line text = Line.read kinds text
+let quiet = constant "quiet" Quiet
+
+let variants =
+  [ Case hello; Case error; Case vehicle; Case gone; Case pong; Case taken; Case progress; Case done_; Case failed;
+    Case stopped; Case unknown; Case absent_; Case checked; Case note; Case log; Case quiet ]
+
+let choose = function
+  | Hello greeting -> Is (hello, greeting)
+  | Trouble why -> Is (error, why)
+  | Vehicle sight -> Is (vehicle, sight)
+  | Gone v -> Is (gone, v)
+  | Pong id -> Is (pong, id)
+  | Request (r, Taken) -> Is (taken, r)
+  | Request (r, Progress { share; remaining }) -> Is (progress, (r, (share, remaining)))
+  | Request (r, Done) -> Is (done_, r)
+  | Request (r, Failed why) -> Is (failed, (r, why))
+  | Request (r, Stopped) -> Is (stopped, r)
+  | Request (r, Unknown why) -> Is (unknown, (r, why))
+  | Request (r, Absent) -> Is (absent_, r)
+  | Checked { id; problems } -> Is (checked, (id, problems))
+  | Note n -> Is (note, (n.request, (n.note, n.id)))
+  | Log { vehicle; text } -> Is (log, (vehicle, text))
+  | Quiet -> Is (quiet, ())
+
+let codec = record (union ~tag:"kind" variants choose)
+let to_json = write codec
+let to_line report = to_string codec report ^ "\n"
+let of_line text = Line.read variants text
 let version = Line.version
 let longest_line = Line.longest

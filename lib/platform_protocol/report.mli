@@ -66,6 +66,9 @@ type t =
 val is_end : word -> bool
 (** Whether a request is over after this word: [Done], [Failed], [Stopped], [Absent]. *)
 
+val codec : t Dolphin_json.Codec.t
+(** Lines: [conformance/schema/platform-report.schema.json]. *)
+
 val to_json : t -> Yojson.Safe.t
 (** The object of the line. *)
 

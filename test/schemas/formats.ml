@@ -4,6 +4,12 @@ type t = Format : { name : string; title : string; codec : 'a Codec.t; refuses :
 
 let all =
   [ Format
+      { name = "platform-order"; title = "An order of the platform protocol: a line that Dolphin writes";
+        codec = Dolphin_platform_protocol.Order.codec; refuses = false };
+    Format
+      { name = "platform-report"; title = "A report of the platform protocol: a line that an adapter writes";
+        codec = Dolphin_platform_protocol.Report.codec; refuses = false };
+    Format
       { name = "socket"; title = "A line on the socket of a run (docs/socket.md): a request, or a reply";
         codec = Dolphin_app.Socket_message.line; refuses = false } ]
 

@@ -5,6 +5,7 @@ type json = Yojson.Safe.t
 (* Texts that fit the patterns of the schemas. *)
 let of_pattern = function
   | "^/" -> map (fun name -> "/" ^ name) (string_size ~gen:(char_range 'a' 'z') (int_bound 5))
+  | "^[A-Za-z0-9_-]+$" -> string_size ~gen:(oneofl [ 'a'; 'Z'; '0'; '_'; '-' ]) (int_range 1 5)
   | pattern -> invalid_arg ("no texts for " ^ pattern)
 
 let character =

@@ -377,7 +377,7 @@ let ( and+ ) a b =
     shape = lazy (both (Lazy.force a.shape) (Lazy.force b.shape)) }
 
 let part get fields = { fields with put = (fun x rest -> fields.put (get x) rest) }
-let pair a b = ( and+ ) (part fst a) (part snd b)
+let ( @& ) a b = ( and+ ) (part fst a) (part snd b)
 let one ?doc name codec = field ?doc name codec Fun.id
 let fixed name value = field name (const value) ignore
 
@@ -415,25 +415,33 @@ let read_case c members =
 let unknown name variants =
   Printf.sprintf "'%s', not one of %s" name (String.concat ", " (names variants))
 
-let union ~tag variants choose =
+let union_around ~tag common variants choose =
   let get members =
     match find tag members with
     | None -> missing tag
     | Some (`String name) -> (
         match variant_called name variants with
-        | Some (Case c) -> read_case c members
+        | Some (Case c) -> (
+            match common.get members with
+            | Error _ as fault -> fault
+            | Ok x -> ( match read_case c members with Ok y -> Ok (x, y) | Error _ as fault -> fault))
         | None -> Error { path = [ Member tag ]; why = unknown name variants })
     | Some json -> below (Member tag) (not_a "a text" json)
   in
-  let put x rest =
-    let (Is (c, content)) = choose x in
-    (tag, `String c.name) :: c.fields.put content rest
+  let put (x, y) rest =
+    let (Is (c, content)) = choose y in
+    (tag, `String c.name) :: common.put x (c.fields.put content rest)
   in
   let possibility (Case c) =
     let tagged = (tag, plain [ ("const", `String c.name) ]) in
     both { no_members with properties = [ tagged ]; required = [ tag ] } (Lazy.force c.fields.shape)
   in
-  { get; put; shape = lazy { no_members with alternatives = [ List.map possibility variants ] } }
+  let alternatives = [ List.map possibility variants ] in
+  { get; put; shape = lazy (both (Lazy.force common.shape) { no_members with alternatives }) }
+
+let union ~tag variants choose =
+  let+ (), x = part (fun x -> ((), x)) (union_around ~tag (return ()) variants choose) in
+  x
 
 let keyed variants choose =
   let get = function

@@ -146,8 +146,8 @@ val ( and+ ) : ('o, 'a) fields -> ('o, 'b) fields -> ('o, 'a * 'b) fields
 val part : ('p -> 'o) -> ('o, 'a) fields -> ('p, 'a) fields
 (** [part get fields] is [fields], written from the part [get x] of the whole [x]. *)
 
-val pair : ('a, 'a) fields -> ('b, 'b) fields -> ('a * 'b, 'a * 'b) fields
-(** [pair a b] is the members of [a], then those of [b]. *)
+val ( @& ) : ('a, 'a) fields -> ('b, 'b) fields -> ('a * 'b, 'a * 'b) fields
+(** [a @& b] is the members of [a], then those of [b]; [a @& b @& c] are for [(x, (y, z))]. *)
 
 val one : ?doc:string -> string -> 'a t -> ('a, 'a) fields
 (** [one name codec] is [field name codec Fun.id]: objects with one member. *)
@@ -181,6 +181,10 @@ val constant : string -> 'a -> ('a, unit) case
 
 val union : tag:string -> 'a variant list -> ('a -> 'a chosen) -> ('a, 'a) fields
 (** [union ~tag variants choose] is objects whose member [tag] has the variant's name; its members follow. *)
+
+val union_around :
+  tag:string -> ('c, 'c) fields -> 'a variant list -> ('a -> 'a chosen) -> ('c * 'a, 'c * 'a) fields
+(** [union_around ~tag common variants choose] is {!union} with the members [common] of all variants after the tag. *)
 
 val keyed : 'a variant list -> ('a -> 'a chosen) -> 'a t
 (** [keyed variants choose] is objects whose first member has the variant's name; it is the first of its fields. *)

@@ -80,9 +80,8 @@ let release = case "release" vehicles (fun vs -> Release vs)
 
 let timeout =
   case "timeout"
-    (pair
-       (one "vehicles" (nullable (list word)) ~doc:"null: all of them, present and future")
-       (one "seconds" Line.seconds))
+    (one "vehicles" (nullable (list word)) ~doc:"null: all of them, present and future"
+     @& one "seconds" Line.seconds)
     (fun (vehicles, seconds) -> Timeout (vehicles, seconds))
 
 let ping = case "ping" id (fun id -> Ping id)
@@ -92,18 +91,18 @@ let start =
 
 let stop =
   case "stop"
-    (pair (one "request" Line.request) (vehicle Fun.id))
+    (one "request" Line.request @& vehicle Fun.id)
     (fun (request, vehicle) -> Stop { request; vehicle })
 
 let resume =
   case "resume"
-    (pair task (pair (one "notes" (list note) ~doc:"latest first") (part (Option.map name_of_doubt) doubt)))
+    (task @& one "notes" (list note) ~doc:"latest first" @& part (Option.map name_of_doubt) doubt)
     (fun ({ request; vehicle; plan; timeout }, (notes, doubt)) ->
        Resume { request; vehicle; plan; timeout; notes; doubt })
 
 let check =
   case "check"
-    (pair id (pair (one "plan" plan) (optional "vehicle" ~null:true word Fun.id)))
+    (id @& one "plan" plan @& optional "vehicle" ~null:true word Fun.id)
     (fun (id, (plan, vehicle)) -> Check { id; vehicle; plan })
 
 let kept = case "kept" id (fun id -> Kept id)

@@ -2,252 +2,284 @@ open Dolphin_plans
 open Dolphin_semantics
 open Dolphin_geo
 open Dolphin_json
-open Field
-module Results = Dolphin_results.Results
+open Codec
 
-type json = Yojson.Safe.t
+(* {1 Places} *)
 
-let of_text x : json = `String x
-let of_float x : json = `Float x
-let of_truth x : json = `Bool x
+let metres = decimal ()
 
-(* Names of constructors without parts, in both directions. *)
-let speed_units = [ (Plan.Metres_per_second, "m/s"); (Revolutions_per_minute, "rpm"); (Percent, "percent") ]
-let z_units = [ (Plan.Depth, "depth"); (Altitude, "altitude"); (Height, "height"); (Unspecified, "unspecified") ]
+let location get =
+  let of_parts (latitude, (longitude, height)) =
+    Result.map_error (Format.asprintf "%a" Position.pp_error) (Position.make ~latitude ~longitude ~height)
+  in
+  part get
+    (check of_parts
+       (part
+          (fun (p : Position.t) -> (p.latitude, (p.longitude, p.height)))
+          (one "latitude" (decimal ~least:(-90.) ~most:90. ()) ~doc:"degrees"
+           @& one "longitude" (decimal ~least:(-180.) ~most:180. ()) ~doc:"degrees"
+           @& one "height" metres ~doc:"metres")))
 
-let directions =
-  [ (Plan.Vehicle_dependent, "vehicle-dependent"); (Clockwise, "clockwise"); (Counter_clockwise, "counter-clockwise");
-    (Into_wind_or_current, "into-wind-or-current") ]
+let place = named "position" (record (location Fun.id))
 
-let name_of names x = of_text (List.assoc x names)
+(* {1 Maneuvers} *)
 
-let named names json =
-  let* name = Field.text json in
-  match List.find_opt (fun (_, other) -> String.equal name other) names with
-  | Some (x, _) -> Ok x
-  | None -> Error (Printf.sprintf "'%s', not one of %s" name (String.concat ", " (List.map snd names)))
+let speed_unit = enum [ ("m/s", Plan.Metres_per_second); ("rpm", Revolutions_per_minute); ("percent", Percent) ]
 
-(* {1 Writing} *)
+let z_unit =
+  enum [ ("depth", Plan.Depth); ("altitude", Altitude); ("height", Height); ("unspecified", Unspecified) ]
 
-let of_kind : Plan.kind -> string * (string * json) list = function
-  | Go_to -> ("goTo", [])
-  | Launch -> ("launch", [])
-  | Loiter { radius; duration; direction } ->
-    ( "loiter",
-      [ ("radius", of_float radius); ("duration", of_float duration); ("direction", name_of directions direction) ] )
-  | Yo_yo { amplitude; pitch } -> ("yoyo", [ ("amplitude", of_float amplitude); ("pitch", of_float pitch) ])
+let direction =
+  one "direction"
+    (named "direction"
+       (enum
+          [ ("vehicle-dependent", Plan.Vehicle_dependent); ("clockwise", Clockwise);
+            ("counter-clockwise", Counter_clockwise); ("into-wind-or-current", Into_wind_or_current) ]))
+
+let is_whole x = if Float.is_integer x then Ok x else Error (Printf.sprintf "%g, not a whole number" x)
+
+let duration =
+  one "duration" (limited [ ("multipleOf", `Int 1) ] (conv is_whole Fun.id (decimal ~least:0. ()))) ~doc:"seconds"
+
+let radius = one "radius" metres
+let amplitude = one "amplitude" metres
+let degrees name = one name (decimal ()) ~doc:"degrees"
+let flag name = one name truth
+
+let point =
+  let of_list = function
+    | [ north; east; down ] -> Ok (north, east, down)
+    | _ -> Error "not a point: [north, east, down]"
+  in
+  conv of_list (fun (north, east, down) -> [ north; east; down ]) (list ~least:3 ~most:3 metres)
+
+let go_to = constant "goTo" Plan.Go_to
+let launch = constant "launch" Plan.Launch
+
+let loiter =
+  case "loiter" (radius @& duration @& direction) (fun (radius, (duration, direction)) ->
+      Plan.Loiter { radius; duration; direction })
+
+let yo_yo =
+  case "yoyo" (amplitude @& degrees "pitch") (fun (amplitude, pitch) -> Plan.Yo_yo { amplitude; pitch })
+
+let pop_up =
+  case "popup" (duration @& flag "currentPosition" @& flag "waitAtSurface" @& flag "stationKeep")
+    (fun (duration, (current_position, (wait_at_surface, station_keep))) ->
+       Plan.Pop_up { duration; current_position; wait_at_surface; station_keep })
+
+let station_keeping =
+  case "skeeping" (radius @& duration) (fun (radius, duration) -> Plan.Station_keeping { radius; duration })
+
+let compass_calibration =
+  case "compassCalibration" (amplitude @& radius @& degrees "pitch" @& duration @& direction)
+    (fun (amplitude, (radius, (pitch, (duration, direction)))) ->
+       Plan.Compass_calibration { amplitude; radius; pitch; duration; direction })
+
+let rows =
+  case "rows"
+    (degrees "bearing" @& degrees "crossAngle" @& one "width" metres @& one "length" metres
+     @& one "horizontalStep" metres @& one "curveOffset" metres @& one "alternation" (decimal ()) ~doc:"percent"
+     @& flag "squareCurve" @& flag "firstCurveRight")
+    (fun (bearing,
+          (cross_angle,
+           (width, (length, (horizontal_step, (curve_offset, (alternation, (square_curve, first_curve_right)))))))) ->
+      Plan.Rows
+        { bearing; cross_angle; width; length; horizontal_step; curve_offset; alternation; square_curve;
+          first_curve_right })
+
+let follow_path =
+  case "followPath" (one "points" (list point) ~doc:"metres north, east and down") (fun points ->
+      Plan.Follow_path points)
+
+let kinds =
+  [ Case go_to; Case launch; Case loiter; Case yo_yo; Case pop_up; Case station_keeping; Case compass_calibration;
+    Case rows; Case follow_path ]
+
+let choose : Plan.kind -> _ = function
+  | Go_to -> Is (go_to, ())
+  | Launch -> Is (launch, ())
+  | Loiter { radius; duration; direction } -> Is (loiter, (radius, (duration, direction)))
+  | Yo_yo { amplitude; pitch } -> Is (yo_yo, (amplitude, pitch))
   | Pop_up { duration; current_position; wait_at_surface; station_keep } ->
-    ( "popup",
-      [ ("duration", of_float duration); ("currentPosition", of_truth current_position);
-        ("waitAtSurface", of_truth wait_at_surface); ("stationKeep", of_truth station_keep) ] )
-  | Station_keeping { radius; duration } ->
-    ("skeeping", [ ("radius", of_float radius); ("duration", of_float duration) ])
+    Is (pop_up, (duration, (current_position, (wait_at_surface, station_keep))))
+  | Station_keeping { radius; duration } -> Is (station_keeping, (radius, duration))
   | Compass_calibration { amplitude; radius; pitch; duration; direction } ->
-    ( "compassCalibration",
-      [ ("amplitude", of_float amplitude); ("radius", of_float radius); ("pitch", of_float pitch);
-        ("duration", of_float duration); ("direction", name_of directions direction) ] )
+    Is (compass_calibration, (amplitude, (radius, (pitch, (duration, direction)))))
   | Rows r ->
-    ( "rows",
-      [ ("bearing", of_float r.bearing); ("crossAngle", of_float r.cross_angle); ("width", of_float r.width);
-        ("length", of_float r.length); ("horizontalStep", of_float r.horizontal_step);
-        ("curveOffset", of_float r.curve_offset); ("alternation", of_float r.alternation);
-        ("squareCurve", of_truth r.square_curve); ("firstCurveRight", of_truth r.first_curve_right) ] )
-  | Follow_path points ->
-    let point (north, east, down) : json = `List [ of_float north; of_float east; of_float down ] in
-    ("followPath", [ ("points", `List (List.map point points)) ])
+    Is
+      ( rows,
+        ( r.bearing,
+          ( r.cross_angle,
+            ( r.width,
+              ( r.length,
+                ( r.horizontal_step,
+                  (r.curve_offset, (r.alternation, (r.square_curve, r.first_curve_right))) ) ) ) ) ) )
+  | Follow_path points -> Is (follow_path, points)
 
-let of_place (p : Position.t) : json =
-  `Assoc
-    [ ("latitude", of_float p.latitude); ("longitude", of_float p.longitude); ("height", of_float p.height) ]
+let payload =
+  record
+    (let+ name = field "name" word (fun (p : Plan.payload) -> p.name)
+     and+ parameters = field "parameters" (map text) (fun (p : Plan.payload) -> p.parameters) in
+     { Plan.name; parameters })
 
-let of_payload (d : Plan.payload) : json =
-  `Assoc [ ("name", of_text d.name); ("parameters", `Assoc (List.map (fun (k, x) -> (k, of_text x)) d.parameters)) ]
+let maneuver =
+  let common =
+    let+ location = location (fun (m : Plan.maneuver) -> m.location)
+    and+ z = field "z" metres (fun m -> fst m.Plan.z)
+    and+ z_unit = field "zUnit" z_unit (fun m -> snd m.Plan.z)
+    and+ speed = field "speed" (decimal ()) (fun m -> fst m.Plan.speed)
+    and+ speed_unit = field "speedUnit" speed_unit (fun m -> snd m.Plan.speed)
+    and+ payloads = field "payload" (list payload) (fun m -> m.Plan.payloads) in
+    { Plan.id = ""; kind = Go_to; location; z = (z, z_unit); speed = (speed, speed_unit); payloads }
+  in
+  named "maneuver"
+    (record
+       (let+ id = field "id" word (fun (m : Plan.maneuver) -> m.id)
+        and+ m, kind =
+          part (fun (m : Plan.maneuver) -> (m, m.kind)) (union_around ~tag:"maneuver" common kinds choose) in
+        { m with id; kind }))
 
-let of_maneuver (m : Plan.maneuver) : json =
-  let kind, members = of_kind m.kind in
-  let speed, speed_unit = m.speed and z, z_unit = m.z in
-  `Assoc
-    ([ ("id", of_text m.id); ("maneuver", of_text kind); ("latitude", of_float m.location.latitude);
-       ("longitude", of_float m.location.longitude); ("height", of_float m.location.height); ("z", of_float z);
-       ("zUnit", name_of z_units z_unit); ("speed", of_float speed); ("speedUnit", name_of speed_units speed_unit);
-       ("payload", `List (List.map of_payload m.payloads)) ]
-     @ members)
+(* The names of both are beside their language. *)
+let imc_plan =
+  named "imcPlan"
+    (record
+       (let+ description = field "description" text (fun (p : Plan.t) -> p.description)
+        and+ vehicles = field "vehicles" (list word) (fun (p : Plan.t) -> p.vehicles)
+        and+ maneuvers = field "maneuvers" (list ~least:1 maneuver) (fun (p : Plan.t) -> p.maneuvers) in
+        { Plan.name = ""; description; vehicles; maneuvers }))
 
-let of_plan (p : Plan.t) : json =
-  `Assoc
-    [ ("description", of_text p.description); ("vehicles", Field.texts p.vehicles);
-      ("maneuvers", `List (List.map of_maneuver p.maneuvers)) ]
+(* {1 Missions} *)
 
-let of_argument : Mission_plan.argument -> json = function
-  | Number x -> of_float x
-  | Truth b -> of_truth b
-  | Text text -> of_text text
-  | Place p -> of_place p
-  | Places ps -> `List (List.map of_place ps)
+let argument =
+  let number = form (decimal ()) (fun x -> Mission_plan.Number x)
+  and truth = form truth (fun b -> Mission_plan.Truth b)
+  and text = form text (fun text -> Mission_plan.Text text)
+  and a_place = form place (fun p -> Mission_plan.Place p)
+  and places = form (list place) (fun ps -> Mission_plan.Places ps) in
+  let recognise : json -> _ = function
+    | `Bool _ -> Form truth
+    | `String _ -> Form text
+    | `Assoc _ -> Form a_place
+    | `List _ -> Form places
+    | _ -> Form number
+  in
+  let choose : Mission_plan.argument -> _ = function
+    | Number x -> As (number, x)
+    | Truth b -> As (truth, b)
+    | Text s -> As (text, s)
+    | Place p -> As (a_place, p)
+    | Places ps -> As (places, ps)
+  in
+  named "argument" (either recognise choose [ Form number; Form truth; Form text; Form a_place; Form places ])
 
-let of_item (i : Mission_plan.item) : json =
-  let named = List.map (fun (name, x) -> (name, of_argument x)) i.arguments in
-  `Assoc [ ("item", of_text i.word); ("arguments", `List []); ("named", `Assoc named) ]
+(* Dolphin names every argument. *)
+let unnamed codec =
+  let none = function [] -> Ok [] | _ :: _ -> Error "not empty: arguments have names" in
+  field "arguments" (conv none Fun.id (list codec)) (fun _ -> [])
 
-let of_mission (m : Mission_plan.t) : json =
-  `Assoc [ ("vehicles", Field.texts m.vehicles); ("items", `List (List.map of_item m.items)) ]
+(* The two items that permit something have one argument, of their own name. *)
+let permission word codec make =
+  let one_argument =
+    let+ () = fixed "item" (`String word)
+    and+ _ = unnamed codec
+    and+ x = field "named" (closed (optional word codec Fun.id)) Fun.id in
+    x
+  in
+  let argument x = (word, make x) in
+  form (record one_argument) (fun x -> { Mission_plan.word; arguments = List.map argument (Option.to_list x) })
+
+let item =
+  let arm = permission "arm" truth (fun b -> Mission_plan.Truth b)
+  and stored = permission "stored" word (fun text -> Mission_plan.Text text)
+  and other =
+    let others = `Assoc [ ("enum", `List [ `String "arm"; `String "stored" ]) ] in
+    let fields =
+      let+ word = field "item" (limited [ ("not", others) ] word) (fun (i : Mission_plan.item) -> i.word)
+      and+ _ = unnamed argument
+      and+ arguments = field "named" (map argument) (fun (i : Mission_plan.item) -> i.arguments) in
+      { Mission_plan.word; arguments }
+    in
+    form (record fields) Fun.id
+  in
+  let recognise : json -> _ = function
+    | `Assoc members when List.assoc_opt "item" members = Some (`String "arm") -> Form arm
+    | `Assoc members when List.assoc_opt "item" members = Some (`String "stored") -> Form stored
+    | _ -> Form other
+  in
+  let choose (i : Mission_plan.item) =
+    match i.word, i.arguments with
+    | "arm", [ ("arm", Truth b) ] -> As (arm, Some b)
+    | "arm", [] -> As (arm, None)
+    | "stored", [ ("stored", Text name) ] -> As (stored, Some name)
+    | "stored", [] -> As (stored, None)
+    | _, _ -> As (other, i)
+  in
+  named "item" (either recognise choose [ Form arm; Form stored; Form other ])
+
+let mission =
+  named "mission"
+    (record
+       (let+ vehicles = field "vehicles" (list word) (fun (m : Mission_plan.t) -> m.vehicles)
+        and+ items = field "items" (list ~least:1 item) (fun (m : Mission_plan.t) -> m.items) in
+        { Mission_plan.name = ""; vehicles; items }))
+
+(* {1 Plans} *)
+
+let name () = one "name" text
+
+let by_name =
+  let without = [ ("not", `Assoc [ ("required", `List [ `String "language" ]) ]) ] in
+  form (limited without (record (name ()))) (fun name -> { Core.name; plan = None; task_site = 0 })
+
+let in_language language body make =
+  let fields =
+    let+ name = part fst (name ())
+    and+ () = fixed "language" (`String language)
+    and+ body = field "body" body snd in
+    (name, body)
+  in
+  form (record fields) (fun (name, body) -> { Core.name; plan = Some (make name body); task_site = 0 })
+
+let maneuvers = in_language "imcPlan" imc_plan (fun name (p : Plan.t) -> Inline_plan.Maneuvers { p with name })
+let items = in_language "mission" mission (fun name (m : Mission_plan.t) -> Inline_plan.Mission { m with name })
+
+(* Those of other programs, which adapters may know. *)
+let other =
+  let not_known language = Error (Printf.sprintf "'%s', a language of plans that is not known here" language) in
+  let known = `Assoc [ ("enum", `List [ `String "imcPlan"; `String "mission" ]) ] in
+  let language = limited [ ("not", known) ] (conv not_known Fun.id word) in
+  let fields =
+    let+ name = part fst (name ())
+    and+ language = field "language" language snd
+    and+ _ = field "body" any (fun _ -> `Null) in
+    (name, language)
+  in
+  form (record fields) (fun (name, _) -> { Core.name; plan = None; task_site = 0 })
+
+let codec =
+  let recognise : json -> _ = function
+    | `Assoc members -> (
+        match List.assoc_opt "language" members with
+        | None | Some `Null -> Form by_name
+        | Some (`String "imcPlan") -> Form maneuvers
+        | Some (`String "mission") -> Form items
+        | Some _ -> Form other)
+    | _ -> Form by_name
+  in
+  let choose (task : Core.platform_task) =
+    match task.plan with
+    | None -> As (by_name, task.name)
+    | Some (Maneuvers p) -> As (maneuvers, (task.name, p))
+    | Some (Mission m) -> As (items, (task.name, m))
+  in
+  either recognise choose [ Form by_name; Form maneuvers; Form items; Form other ]
+
+let to_json = write codec
+let of_json = read codec
 
 let language (task : Core.platform_task) =
   match task.plan with
   | None -> "name"
   | Some (Maneuvers _) -> "imcPlan"
   | Some (Mission _) -> "mission"
-
-let to_json (task : Core.platform_task) : json =
-  let described =
-    match task.plan with
-    | None -> []
-    | Some plan ->
-      let body = match plan with Maneuvers p -> of_plan p | Mission m -> of_mission m in
-      [ ("language", of_text (language task)); ("body", body) ]
-  in
-  `Assoc (("name", of_text task.name) :: described)
-
-(* {1 Reading} *)
-
-let point = function
-  | `List [ north; east; down ] ->
-    let* north = number north in
-    let* east = number east in
-    let* down = number down in
-    Ok (north, east, down)
-  | _ -> Error "a point is [north, east, down]"
-
-let rows members : (Plan.kind, string) result =
-  let* bearing = get number "bearing" members in
-  let* cross_angle = get number "crossAngle" members in
-  let* width = get number "width" members in
-  let* length = get number "length" members in
-  let* horizontal_step = get number "horizontalStep" members in
-  let* curve_offset = get number "curveOffset" members in
-  let* alternation = get number "alternation" members in
-  let* square_curve = get Field.truth "squareCurve" members in
-  let* first_curve_right = get Field.truth "firstCurveRight" members in
-  Ok
-    (Plan.Rows
-       { bearing; cross_angle; width; length; horizontal_step; curve_offset; alternation; square_curve;
-         first_curve_right })
-
-let pop_up members : (Plan.kind, string) result =
-  let* duration = get number "duration" members in
-  let* current_position = get Field.truth "currentPosition" members in
-  let* wait_at_surface = get Field.truth "waitAtSurface" members in
-  let* station_keep = get Field.truth "stationKeep" members in
-  Ok (Plan.Pop_up { duration; current_position; wait_at_surface; station_keep })
-
-let calibration members : (Plan.kind, string) result =
-  let* amplitude = get number "amplitude" members in
-  let* radius = get number "radius" members in
-  let* pitch = get number "pitch" members in
-  let* duration = get number "duration" members in
-  let* direction = get (named directions) "direction" members in
-  Ok (Plan.Compass_calibration { amplitude; radius; pitch; duration; direction })
-
-let circle members =
-  let* radius = get number "radius" members in
-  let* duration = get number "duration" members in
-  Ok (radius, duration)
-
-let kind members : (Plan.kind, string) result =
-  let* name = get Field.text "maneuver" members in
-  match name with
-  | "goTo" -> Ok Plan.Go_to
-  | "launch" -> Ok Plan.Launch
-  | "loiter" ->
-    let* radius, duration = circle members in
-    let* direction = get (named directions) "direction" members in
-    Ok (Plan.Loiter { radius; duration; direction })
-  | "skeeping" ->
-    let* radius, duration = circle members in
-    Ok (Plan.Station_keeping { radius; duration })
-  | "yoyo" ->
-    let* amplitude = get number "amplitude" members in
-    let* pitch = get number "pitch" members in
-    Ok (Plan.Yo_yo { amplitude; pitch })
-  | "popup" -> pop_up members
-  | "compassCalibration" -> calibration members
-  | "rows" -> rows members
-  | "followPath" ->
-    let* points = get (list point) "points" members in
-    Ok (Plan.Follow_path points)
-  | name -> Error (Printf.sprintf "unknown maneuver '%s'" name)
-
-let payload json : (Plan.payload, string) result =
-  let* payload = members json in
-  let* name = get Field.text "name" payload in
-  let* parameters = get members "parameters" payload in
-  let* parameters = Results.map_values Field.text parameters in
-  Ok { Plan.name; parameters }
-
-let location members =
-  let* latitude = get number "latitude" members in
-  let* longitude = get number "longitude" members in
-  let* height = get number "height" members in
-  Result.map_error (fun _ -> "a position out of range") (Position.make ~latitude ~longitude ~height)
-
-let maneuver json : (Plan.maneuver, string) result =
-  let* m = members json in
-  let* id = get Field.text "id" m in
-  let within what = Result.map_error (fun why -> Printf.sprintf "maneuver %s: %s" id why) what in
-  within
-    (let* kind = kind m in
-     let* location = location m in
-     let* speed = get number "speed" m in
-     let* speed_unit = get (named speed_units) "speedUnit" m in
-     let* z = get number "z" m in
-     let* z_unit = get (named z_units) "zUnit" m in
-     let* payloads = get (list payload) "payload" m in
-     Ok { Plan.id; kind; location; speed = (speed, speed_unit); z = (z, z_unit); payloads })
-
-let plan ~name json : (Plan.t, string) result =
-  let* body = members json in
-  let* description = get Field.text "description" body in
-  let* vehicles = get (list Field.text) "vehicles" body in
-  let* maneuvers = get (list maneuver) "maneuvers" body in
-  if maneuvers = [] then Error "a plan has one maneuver at least"
-  else Ok { Plan.name; description; vehicles; maneuvers }
-
-let argument json : (Mission_plan.argument, string) result =
-  let place json = Result.bind (members json) location in
-  match json with
-  | `Bool b -> Ok (Mission_plan.Truth b)
-  | `String text -> Ok (Mission_plan.Text text)
-  | `Assoc _ -> Result.map (fun p -> Mission_plan.Place p) (place json)
-  | `List places -> Result.map (fun ps -> Mission_plan.Places ps) (Results.map place places)
-  | _ -> Result.map (fun x -> Mission_plan.Number x) (number json)
-
-(* Dolphin names every argument. *)
-let item json : (Mission_plan.item, string) result =
-  let* members' = members json in
-  let* word = get Field.text "item" members' in
-  let within what = Result.map_error (fun why -> Printf.sprintf "item %s: %s" word why) what in
-  within
-    (let* unnamed = get (list argument) "arguments" members' in
-     let* named = get members "named" members' in
-     let* arguments = Results.map_values argument named in
-     if unnamed = [] then Ok { Mission_plan.word; arguments } else Error "its arguments have no names")
-
-let mission ~name json : (Mission_plan.t, string) result =
-  let* body = members json in
-  let* vehicles = get (list Field.text) "vehicles" body in
-  let* items = get (list item) "items" body in
-  if items = [] then Error "a mission has one item at least" else Ok { Mission_plan.name; vehicles; items }
-
-let of_json json : (Core.platform_task, string) result =
-  let* members = members json in
-  let* name = get Field.text "name" members in
-  match List.assoc_opt "language" members with
-  | None | Some `Null -> Ok { Core.name; plan = None; task_site = 0 }
-  | Some (`String "imcPlan") ->
-    let* plan = get (plan ~name) "body" members in
-    Ok { Core.name; plan = Some (Maneuvers plan); task_site = 0 }
-  | Some (`String "mission") ->
-    let* mission = get (mission ~name) "body" members in
-    Ok { Core.name; plan = Some (Mission mission); task_site = 0 }
-  | Some (`String language) -> Error (Printf.sprintf "plans in the language '%s' are not known here" language)
-  | Some _ -> Error "the language of a plan is a text"

@@ -120,7 +120,7 @@ let vehicle =
 let request = one "request" Line.request
 let why = one "why" word
 let on_request kind word = case kind request (fun r -> Request (r, word))
-let because kind word = case kind (pair request why) (fun (r, why) -> Request (r, word why))
+let because kind word = case kind (request @& why) (fun (r, why) -> Request (r, word why))
 let error = case "error" why (fun why -> Trouble why)
 let gone = case "gone" (one "vehicle" word) (fun v -> Gone v)
 let pong = case "pong" (one "id" count) (fun id -> Pong id)
@@ -128,10 +128,9 @@ let taken = on_request "taken" Taken
 
 let progress =
   case "progress"
-    (pair request
-       (pair
-          (absent "share" (decimal ~least:0. ~most:1. ()) Fun.id)
-          (absent "remaining" Line.seconds Fun.id ~doc:"seconds")))
+    (request
+     @& absent "share" (decimal ~least:0. ~most:1. ()) Fun.id
+     @& absent "remaining" Line.seconds Fun.id ~doc:"seconds")
     (fun (r, (share, remaining)) -> Request (r, Progress { share; remaining }))
 
 let done_ = on_request "done" Done
@@ -142,16 +141,16 @@ let absent_ = on_request "absent" Absent
 
 let checked =
   case "checked"
-    (pair (one "id" count) (one "problems" (list word)))
+    (one "id" count @& one "problems" (list word))
     (fun (id, problems) -> Checked { id; problems })
 
 let note =
   case "note"
-    (pair request (pair (one "note" object_) (absent "id" count Fun.id)))
+    (request @& one "note" object_ @& absent "id" count Fun.id)
     (fun (request, (note, id)) -> Note { request; note; id })
 
 let log =
-  case "log" (pair (absent "vehicle" word Fun.id) (one "text" text)) (fun (vehicle, text) -> Log { vehicle; text })
+  case "log" (absent "vehicle" word Fun.id @& one "text" text) (fun (vehicle, text) -> Log { vehicle; text })
 
 let quiet = constant "quiet" Quiet
 

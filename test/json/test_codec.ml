@@ -12,7 +12,7 @@ let shape =
         case "line"
           (check
              (fun (from, until) -> if from < until then Ok (from, until) else Error "a line that has no length")
-             (pair (one "from" count) (one "until" count)))
+             (one "from" count @& one "until" count))
           (fun (from, until) -> Line { from; until })
       and group = case "group" (one "shapes" (list ~most:2 shape)) (fun shapes -> Group shapes) in
       let choose = function

@@ -4,6 +4,9 @@ type t = Format : { name : string; title : string; codec : 'a Codec.t; refuses :
 
 let all =
   [ Format
+      { name = "plan"; title = "A plan, as the platform protocol has it"; codec = Dolphin_platform_protocol.Plan_body.codec;
+        refuses = true };
+    Format
       { name = "platform-order"; title = "An order of the platform protocol: a line that Dolphin writes";
         codec = Dolphin_platform_protocol.Order.codec; refuses = false };
     Format

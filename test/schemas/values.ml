@@ -35,7 +35,7 @@ let real schema : json t =
   let whole x : json = `Int (int_of_float x) in
   let inside x = x >= least && x <= most in
   oneof
-    [ map (fun x : json -> `Float x) (float_range least (Float.min most (least +. 1e9)));
+    [ map (fun x : json -> `Float (if member "multipleOf" schema = None then x else Float.round x)) (float_range least (Float.min most (least +. 1e9)));
       oneofl (List.map (fun x : json -> `Float x) [ least; most ]);
       oneofl (List.map whole (List.filter inside [ -7.; 0.; 1.; 2.; 30.; Float.ceil least ])) ]
 

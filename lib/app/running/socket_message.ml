@@ -43,7 +43,7 @@ let path =
 let status = constant "status" Status
 let follow = constant "follow" Follow
 let stop = constant "stop" Stop
-let post = case "post" (pair (one "key" text) (one "value" any)) (fun (key, value) -> Post { key; value })
+let post = case "post" (one "key" text @& one "value" any) (fun (key, value) -> Post { key; value })
 
 let replace =
   case "replace"
@@ -104,7 +104,7 @@ let status_reply =
 let wrong =
   record
     (let+ id = id ()
-     and+ error = field "error" (record (pair (one "code" code) (one "message" text))) (fun x -> x.content) in
+     and+ error = field "error" (record (one "code" code @& one "message" text)) (fun x -> x.content) in
      { id; content = error })
 
 let done_ = form (named "done" done_) (fun x -> { x with content = Done x.content })

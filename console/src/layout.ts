@@ -7,13 +7,13 @@ type Name = "plan" | "run" | "review";
 interface Cell { panel: string; width: number }
 interface Row { height: number; cells: Cell[] }
 
-const panels: Record<string, string> = { editor: "Program", map: "Map", now: "Now", vehicles: "Vehicles", timeline: "Timeline", log: "Log" };
+const panels: Record<string, string> = { editor: "Program", map: "Map", now: "Now", vehicles: "Vehicles", timeline: "Timeline", log: "Log", readings: "Readings" };
 
 const row = (height: number, ...cells: [string, number][]): Row => ({ height, cells: cells.map(([panel, width]) => ({ panel, width })) });
 const usual: Record<Name, Row[]> = {
   plan: [row(6, ["editor", 10], ["map", 10], ["now", 8]), row(5, ["timeline", 10], ["vehicles", 10], ["log", 8])],
   run: [row(8, ["map", 20], ["now", 8]), row(5, ["timeline", 10], ["vehicles", 10], ["log", 8])],
-  review: [row(5, ["timeline", 18], ["now", 8]), row(6, ["editor", 9], ["map", 9], ["log", 8])],
+  review: [row(6, ["timeline", 15], ["readings", 11]), row(5, ["editor", 8], ["map", 9], ["now", 4], ["log", 5])],
 };
 const least = 0.12;  // of the two panels that a bar is between
 

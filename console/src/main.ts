@@ -8,14 +8,17 @@ import { $, h } from "./dom";
 import { Draw } from "./draw";
 import { Editor } from "./editor";
 import { Layers } from "./layers";
-import { ChartMap } from "./map";
-import { type Message, Run, clock } from "./model";
+import { ChartMap, tintOf } from "./map";
+import { Run, clock } from "./model";
 import { Layout } from "./layout";
+import { Readings } from "./readings";
+import { Reel, Tape } from "./tape";
+import { compare } from "./compare";
 import { VehiclePanel } from "./vehicle";
 import { VehicleTable } from "./vehicles";
 import { beside, inWords, read as readPlace } from "./place";
 import { Wall, outlook, windows } from "./outlook";
-import { type Picked, happenings, timeline } from "./timeline";
+import { type Picked, type View, happenings, timeline } from "./timeline";
 import { Plans } from "./plans";
 import { Replacing } from "./replace";
 import { Shapes } from "./shapes";
@@ -27,9 +30,8 @@ import { Verdicts } from "./verdicts";
 
 // A run that was, or one that explore found: gone through by steps.
 interface Past {
-  title: string; program: string | null; messages: Message[]; index: number; steps: boolean; found: boolean;
-  of?: { run?: string; path?: string }; notes?: Note[];  // of a journal
-  reading?: AbortController;  // its messages are still coming
+  tape: Tape; index: number; steps: boolean; found: boolean;
+  reading?: AbortController;  // messages are still coming
 }
 
 let status: Status | null = null;
@@ -37,6 +39,7 @@ let live = new Run();
 let heard: Heard | null = null;  // of a network, while no run goes on
 let past: Past | null = null;
 let shown = live;
+let second: Run | null = null;  // of a second run that was, at the same time
 let hash: string | null = null;
 let dirty = false;
 let linked = false;
@@ -49,6 +52,7 @@ const map = new ChartMap($("map"), (id) => { $<HTMLSelectElement>("about").value
 const table = new VehicleTable($("vehicles"), (id) => { map.focus(id); look(id); });
 const panel = new VehiclePanel(changed);
 new Layout(changed);
+const readings = new Readings(tintOf, { changed, mark: (spots) => map.tracks.mark(spots), seek: (time) => { if (past) seek(past.tape.placeOf(time)); } });
 
 // The panel of this vehicle.
 function look(id: string) {
@@ -293,67 +297,104 @@ async function analyse(subject: (typeof subjects)[number]) {
 
 // A run that was found, step by step, from where the fleet stands.
 function showFound(cx: Json, program: string | null) {
-  const messages: Message[] = [];
+  const what = cx.property ? `Counterexample: ${cx.property}` : "A run that ends last";
+  const reel = new Reel(what, undefined, program);
   for (const v of live.vehicles.values()) {
     const s = v.samples[0];
-    if (s) messages.push({ kind: "journal", line: { kind: "vehicle", vehicle: v.id, type: v.kind, payload: v.payload,
+    if (s) reel.add({ kind: "journal", line: { kind: "vehicle", vehicle: v.id, type: v.kind, payload: v.payload,
       time: 0, latitude: s.latitude, longitude: s.longitude, battery: s.battery, connected: true } });
   }
   for (const step of cx.steps) {
-    messages.push({ kind: "journal", line: step });
-    messages.push({ kind: "log", line: { time: step.time, severity: "ordinary", about: Object.keys(step.A ?? {}),
+    reel.add({ kind: "journal", line: step });
+    reel.add({ kind: "log", line: { time: step.time, severity: "ordinary", about: Object.keys(step.A ?? {}),
       text: `${(cx.dated ? clock(step.time) : String(step.i + 1)).padStart(7)}  ${step.words || step.label}` } });
   }
-  const what = cx.property ? `Counterexample: ${cx.property}` : "A run that ends last";
-  openPast({ title: what, program, messages, index: messages.length, steps: !cx.dated, found: true });
+  openPast({ tape: new Tape(reel), index: reel.messages.length, steps: !cx.dated, found: true });
   showTab("source");
 }
 
 const dated = (name: string) => `${name.slice(0, 10)} ${name.slice(11, 13)}:${name.slice(13, 15)} UTC`;
 
-async function openReplay(of: { run?: string; path?: string }, title: string) {
-  const query = new URLSearchParams(of as Record<string, string>).toString();
-  const messages: Message[] = [], reading = new AbortController();
-  const p: Past = { title, program: null, messages, index: 0, steps: false, found: false, reading, of };
-  const piece = () => { if (past === p) grow(p); else { leavePast(); p.index = messages.length; openPast(p); } };
+type Journal = { run?: string; path?: string };
+const queryOf = (of: Journal) => new URLSearchParams(of as Record<string, string>).toString();
+
+// Reads a journal, piece by piece, until [reading] is aborted.
+async function fill(reel: Reel, reading: AbortController, piece: () => void) {
   try {
-    await replay(query, {
-      program: (path) => { p.program = path; },
-      journal: (line) => messages.push({ kind: "journal", line }),
-      log: (line) => messages.push({ kind: "log", line }),
-      waiting: (waiting) => messages.push({ kind: "waiting", waiting }),
-      places: ({ places }) => messages.push({ kind: "places", places }),
-      way: ({ way }) => messages.push({ kind: "way", way }),
+    await replay(queryOf(reel.of!), {
+      program: (path) => { reel.program = path; },
+      journal: (line) => reel.add({ kind: "journal", line }),
+      log: (line) => reel.add({ kind: "log", line }),
+      waiting: (waiting) => reel.add({ kind: "waiting", waiting }),
+      places: ({ places }) => reel.add({ kind: "places", places }),
+      way: ({ way }) => reel.add({ kind: "way", way }),
       piece,
     }, reading.signal);
   } catch (e) {
     if (!reading.signal.aborted) throw e;
-  } finally {
-    p.reading = undefined;
-    if (past === p) { renderBanner(); attempt(() => showNotes(p, get("notes?" + query)))(); }
   }
 }
 
-const replayRun = (run: string, what: string) => openReplay({ run }, `${what} of ${dated(run)}`);
-const replayJournal = (path: string) => openReplay({ path }, path);
+async function openReplay(of: Journal, title: string) {
+  const reel = new Reel(title, of), reading = new AbortController();
+  const p: Past = { tape: new Tape(reel), index: 0, steps: false, found: false, reading };
+  const piece = () => { if (past === p) grow(p); else { leavePast(); p.index = reel.messages.length; openPast(p); } };
+  try { await fill(reel, reading, piece); }
+  finally {
+    p.reading = undefined;
+    if (past === p) { renderBanner(); attempt(() => showNotes(p, reel, get("notes?" + queryOf(of))))(); }
+  }
+}
 
-async function showNotes(p: Past, reply: Promise<{ notes: Note[] }>) {
-  p.notes = (await reply).notes;
+// A second run, on the same clock as the one that is shown.
+async function openBeside(of: Journal, title: string) {
+  const p = past;
+  if (!p?.tape.first.of) return;
+  if (p.reading) throw new Error("The first run is still being read.");
+  const reel = new Reel(title, of), reading = new AbortController(), time = shown.time, atEnd = p.index === p.tape.length;
+  p.reading = reading;
+  renderBanner();
+  try { await fill(reel, reading, () => {}); }
+  finally {
+    p.reading = undefined;
+    if (past === p) renderBanner();
+  }
+  if (past !== p || reading.signal.aborted) return;
+  p.tape.second = reel;
+  openPast(p, atEnd ? p.tape.length : p.tape.placeOf(time));
+  attempt(() => showNotes(p, reel, get("notes?" + queryOf(of))))();
+}
+
+function leaveBeside() {
+  if (!past?.tape.second) return;
+  past.tape.second = null;
+  openPast(past, past.tape.placeOf(shown.time));
+}
+
+const titleOf = (run: string, what: string) => `${what} of ${dated(run)}`;
+const replayRun = (run: string, what: string) => openReplay({ run }, titleOf(run, what));
+
+async function showNotes(p: Past, reel: Reel, reply: Promise<{ notes: Note[] }>) {
+  reel.notes = (await reply).notes;
   if (past === p) seek(p.index);
 }
 
 async function writeNote() {
-  const p = past, text = $<HTMLInputElement>("note").value.trim();
-  if (!p?.of || !text) return;
-  await showNotes(p, post("notes", { ...p.of, time: shown.time, text }));
+  const p = past, text = $<HTMLInputElement>("note").value.trim(), reel = p?.tape.first;
+  if (!p || !reel?.of || !text) return;
+  await showNotes(p, reel, post("notes", { ...reel.of, time: shown.time, text }));
   $<HTMLInputElement>("note").value = "";
 }
+
+// Beside the run that is shown, if it has a journal.
+const besideButton = (of: Journal, title: string) => h("button", { class: "beside", "aria-label": `${title} beside it`,
+  title: "Both runs, below one another, on one clock", click: attempt(() => openBeside(of, title)) }, "Beside");
 
 async function renderRuns() {
   const [{ runs }, { journals }] = await Promise.all([get("runs"), get("files")]);
   const row = (r: Json) => h("tr", {}, h("td", {}, r.program), h("td", {}, r.started.replace("T", " ").slice(0, 16)),
     h("td", { class: "number" }, clock(r.time)), h("td", { class: r.state === "completed" ? "" : "trouble" }, r.state),
-    h("td", {}, h("button", { click: attempt(() => replayRun(r.run, r.program)) }, "Replay"),
+    h("td", {}, h("button", { click: attempt(() => replayRun(r.run, r.program)) }, "Replay"), besideButton({ run: r.run }, titleOf(r.run, r.program)),
       r.state === "broken off" && !goesOn() ? h("button", { class: "main", click: attempt(() => resume(r)) }, "Resume") : null));
   $("runs").replaceChildren(runs.length
     ? h("table", {}, h("thead", {}, h("tr", {}, ...["program", "started (UTC)", "time", "end", ""].map((t) => h("th", { scope: "col" }, t)))),
@@ -361,7 +402,7 @@ async function renderRuns() {
     : h("p", { class: "empty" }, "No run of a program of this folder was kept yet."),
     journals.length ? h("table", { id: "journals" }, h("thead", {}, h("tr", {}, h("th", { scope: "col" }, "journals in this folder"), h("th", {}))),
       h("tbody", {}, ...journals.map((path: string) => h("tr", {}, h("td", {}, path),
-        h("td", {}, h("button", { "aria-label": "Replay " + path, click: attempt(() => replayJournal(path)) }, "Replay")))))) : "");
+        h("td", {}, h("button", { "aria-label": "Replay " + path, click: attempt(() => openReplay({ path }, path)) }, "Replay"), besideButton({ path }, path)))))) : "");
   return runs;
 }
 
@@ -382,25 +423,25 @@ async function offerToResume() {
 
 // {1 Replays}
 
-function openPast(p: Past) {
-  past?.reading?.abort();
+function openPast(p: Past, index = p.index) {
+  if (past !== p) past?.reading?.abort();
   past = p;
   unpick();
   map.reset();
-  const slider = $<HTMLInputElement>("slider");
-  slider.max = String(p.messages.length);
-  seek(p.index);
+  $<HTMLInputElement>("slider").max = String(p.tape.length);
+  seek(index);
   $("slider-row").hidden = false;
-  $("note-form").hidden = !p.of || (watches && !answers);
+  $("note-form").hidden = !p.tape.first.of || (watches && !answers);
+  document.body.classList.toggle("replays", p.tape.first.of !== undefined);
   renderBanner();
 }
 
 // More of it has come: a slider at its end stays there.
 function grow(p: Past) {
   const slider = $<HTMLInputElement>("slider"), follows = p.index === Number(slider.max);
-  slider.max = String(p.messages.length);
+  slider.max = String(p.tape.length);
   if (!follows) return;
-  for (; p.index < p.messages.length; p.index++) shown.add(p.messages[p.index]);
+  for (; p.index < p.tape.length; p.index++) shown.add(p.tape.message(p.index));
   slider.value = slider.max;
   $("step").textContent = clock(shown.time);
   changed();
@@ -410,6 +451,8 @@ function leavePast() {
   if (!past) return;
   past.reading?.abort();
   past = null;
+  second = null;
+  document.body.classList.remove("replays");
   unpick();
   shown = live;
   map.reset();
@@ -421,14 +464,14 @@ function leavePast() {
 
 function seek(index: number) {
   if (!past) return;
-  past.index = Math.max(0, Math.min(index, past.messages.length));
-  shown = new Run();
-  shown.moves = !past.found;
-  for (let i = 0; i < past.index; i++) shown.add(past.messages[i]);
-  for (const n of past.notes ?? []) if (n.time <= shown.time) shown.note(n.time, n.by ? `${n.by}: ${n.text}` : n.text);
+  const { tape, found, steps } = past;
+  past.index = Math.max(0, Math.min(index, tape.length));
+  const [a, b] = tape.counts(past.index);
+  shown = tape.first.run(a, !found);
+  second = tape.second?.run(b, true) ?? null;
   $<HTMLInputElement>("slider").value = String(past.index);
-  $("step").textContent = past.steps ? `step ${shown.transitions}: ${shown.label}` : clock(shown.time);
-  showLine(shown.at, past.program);
+  $("step").textContent = steps ? `step ${shown.transitions}: ${shown.label}` : clock(Math.max(shown.time, second?.time ?? 0));
+  showLine(shown.at, tape.first.program);
   renderLog(true);
   changed();
 }
@@ -436,15 +479,15 @@ function seek(index: number) {
 // To the next transition, or the one before.
 function step(by: number) {
   if (!past) return;
-  const isStep = (m: Message) => m.kind === "journal" && m.line.kind === "transition";
+  const { tape } = past, isStep = (i: number) => { const m = tape.message(i); return m.kind === "journal" && m.line.kind === "transition"; };
   let i = past.index;
   if (by > 0) {
-    while (i < past.messages.length && !isStep(past.messages[i])) i++;
+    while (i < tape.length && !isStep(i)) i++;
     i++;
-    while (i < past.messages.length && past.messages[i].kind !== "journal") i++;
+    while (i < tape.length && tape.message(i).kind !== "journal") i++;
   } else {
     i--;
-    while (i > 0 && !isStep(past.messages[i])) i--;
+    while (i > 0 && !isStep(i)) i--;
   }
   seek(i);
 }
@@ -456,7 +499,7 @@ function list(name: string, items: (Node | string)[], empty: string) {
 }
 
 // The program of the run on the screen.
-const shownProgram = () => (past ? past.program : status?.run?.program ?? null);
+const shownProgram = () => (past ? past.tape.first.program : status?.run?.program ?? null);
 
 // The line of [at] if its file is in the editor; else none.
 function showLine(at: string | null, of: string | null) {
@@ -481,13 +524,15 @@ function goTo(at: string | undefined, of: string | null) {
 
 let picked: Picked | null = null;
 
+const programOf = (p: Picked) => (p.second ? past?.tape.second?.program ?? null : shownProgram());
+
 function pick(p: Picked) {
   picked = p;
-  const button = p.at === undefined ? "" : h("button", { class: "link", click: () => goTo(p.at, shownProgram()) }, inWords(p.at));
+  const button = p.at === undefined ? "" : h("button", { class: "link", click: () => goTo(p.at, programOf(p)) }, inWords(p.at));
   $("picked").replaceChildren(h("span", { class: "what" }, p.text), button, h("button", { "aria-label": "leave it", click: unpick }, "✕"));
   $("picked").hidden = false;
-  if (p.at !== undefined) goTo(p.at, shownProgram());
-  map.past(shown, past?.found ? null : p.time, p.vehicle);
+  if (p.at !== undefined) goTo(p.at, programOf(p));
+  map.past(p.second && second ? second : shown, past?.found ? null : p.time, p.vehicle);
   changed();
 }
 
@@ -622,7 +667,10 @@ function renderBanner() {
   const banner = $("banner");
   banner.className = past ? "past" : "";
   banner.hidden = !past;
-  if (past) banner.replaceChildren(past.title + (past.reading ? " (is being read) " : " "), h("button", { click: leavePast }, "Back to now"));
+  if (!past) return;
+  const { tape, reading } = past;
+  banner.replaceChildren(tape.first.title + (tape.second ? `, beside ${tape.second.title}` : "") + (reading ? " (is being read) " : " "),
+    tape.second ? h("button", { click: leaveBeside }, "Leave the second run") : "", " ", h("button", { click: leavePast }, "Back to now"));
 }
 
 // What may still happen, while a run goes on.
@@ -650,6 +698,14 @@ function renderHead() {
   helm.show(linked ? status?.helm ?? null : null, me, answers ? "answers" : watches ? "watches" : "steers");
 }
 
+function renderTimeline() {
+  const tape = past?.tape, found = compare($("compared"), tape ?? null, (time) => { if (past) seek(past.tape.placeOf(time)); });
+  const first: View = { run: shown, steps: past?.steps ?? false, windows: windows(ahead()) };
+  const views = !tape?.second || !second || !found ? [first]
+    : [{ ...first, title: tape.first.title, only: found.only[0] }, { run: second, steps: false, windows: new Map(), title: tape.second.title, only: found.only[1], second: true }];
+  timeline($("timeline"), views, picked?.key ?? null, pick);
+}
+
 // Changes within a tenth of a second are drawn together.
 let due = false;
 function changed() {
@@ -658,7 +714,9 @@ function changed() {
   setTimeout(() => requestAnimationFrame(() => {
     due = false;
     showShapes();
-    map.render(shown);
+    map.render(shown, second);
+    const { quantity, vehicles } = readings.show(shown, second);
+    map.tracks.colour(quantity, vehicles);
     table.show(shown, past?.steps ?? false);
     panel.show(shown, past ? [] : status?.run?.progress ?? []);
     renderNow();
@@ -667,7 +725,7 @@ function changed() {
     renderLog();
     renderHead();
     alarms.show(status?.run?.id ?? "", live);
-    timeline($("timeline"), shown, past?.steps ?? false, picked?.key ?? null, pick, windows(ahead()));
+    renderTimeline();
   }), 100);
 }
 

@@ -8,12 +8,18 @@ import { type Run, type Vehicle, clock, trouble, whereabouts } from "./model";
 import { h } from "./dom";
 import { Clusters, pressed } from "./clusters";
 import { Measure } from "./measure";
+import { Tracks } from "./tracks";
 
 export interface PlanPlace { plan: string; latitude: number; longitude: number }
 
 const fenceColour = "#c0271a";
 const colours = ["#1769aa", "#b3470b", "#1b7f3b", "#8a3ab9", "#a8123e", "#00737d", "#7a5c00", "#5a5f66"];
 export const colour = (index: number) => colours[index % colours.length];
+// Of a vehicle of this run; grey for one of another run alone.
+export function tintOf(run: Run, id: string): string {
+  const index = [...run.vehicles.keys()].indexOf(id);
+  return index < 0 ? "#5a5f66" : colour(index);
+}
 
 interface Shown { marker: L.Marker; track: L.Polyline; key: string; size: { width: number; height: number } | null }
 
@@ -42,6 +48,7 @@ export class ChartMap {
   private buttons = h("div", { class: "map-buttons" });
   private clusters: Clusters;
   private latest: Run | null = null;
+  readonly tracks: Tracks;
   private arrows = h("div", { class: "map-arrows" });  // to vehicles that are out of view
 
   constructor(el: HTMLElement, private select: (id: string) => void) {
@@ -67,6 +74,7 @@ export class ChartMap {
     } });
     new Fit({ position: "topright" }).addTo(this.map);
     new (L.Control.extend({ onAdd: () => this.legend }))({ position: "bottomleft" }).addTo(this.map);
+    this.tracks = new Tracks(this.map);
     L.DomEvent.disableClickPropagation(this.arrows);
     el.append(this.arrows);
     this.map.on("move", () => this.point());
@@ -112,7 +120,7 @@ export class ChartMap {
   }
 
   fit() {
-    const points = [...this.shown.values()].flatMap((s) => s.track.getLatLngs() as L.LatLng[]);
+    const points = [...this.shown.values()].flatMap((s) => s.track.getLatLngs() as L.LatLng[]).concat(this.tracks.points());
     this.places.eachLayer((p) => points.push((p as L.Marker).getLatLng()));
     const bounds = L.latLngBounds(points);
     const ofShapes = this.shapes.getLayers().flatMap((l) => (l as L.LayerGroup).getLayers());
@@ -160,7 +168,9 @@ export class ChartMap {
     return [...this.shown.values()].some((s) => !bounds.contains(s.marker.getLatLng()));
   }
 
-  render(run: Run) {
+  // A second run beside it has the colours of the first one.
+  render(run: Run, second: Run | null = null) {
+    if (this.tracks.show(second, (id) => tintOf(run, id))) this.more();
     const ids = [...run.vehicles.keys()];
     for (const [id, s] of this.shown)
       if (!run.vehicles.get(id)?.samples.length) { s.marker.remove(); s.track.remove(); this.shown.delete(id); }
@@ -303,12 +313,12 @@ export class ChartMap {
   past(run: Run, time: number | null, first: string | null) {
     this.then.clearLayers();
     if (time === null) return;
-    [...run.vehicles.values()].forEach((v, i) => {
+    [...run.vehicles.values()].forEach((v) => {
       const s = whereabouts(v, time);
       if (!s) return;
       const at = L.latLng(s.latitude, s.longitude), says = `${v.id}, ${clock(time)}`;
       L.marker(at, { interactive: false, keyboard: false, icon: L.divIcon({ className: "then", iconSize: [0, 0],
-        html: h("span", {}, v.id === first ? says : "") as any }) }).addTo(this.then).getElement()!.style.setProperty("--tint", colour(i));
+        html: h("span", {}, v.id === first ? says : "") as any }) }).addTo(this.then).getElement()!.style.setProperty("--tint", tintOf(this.latest ?? run, v.id));
       if (v.id === first && !this.map.getBounds().contains(at)) { this.chosen = true; this.unfollow(); this.map.panTo(at, { animate: false }); }
     });
   }

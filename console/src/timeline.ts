@@ -6,7 +6,7 @@ import { type Mark, type Run, type Task, type Vehicle, clock } from "./model";
 import { h, svg } from "./dom";
 
 // What was picked; vehicles are where they were then.
-export interface Picked { key: string; time: number; vehicle: string | null; text: string; at?: string; step: number }
+export interface Picked { key: string; time: number; vehicle: string | null; text: string; at?: string; step: number; second?: boolean }
 
 const row = 26, left = 118, top = 22;
 
@@ -35,12 +35,31 @@ export function happenings(run: Run, steps: boolean): Picked[] {
   return [...tasks, ...run.marks.map((m, i) => ofMark(m, i, steps))].sort((a, b) => a.time - b.time || a.step - b.step);
 }
 
-export function timeline(el: HTMLElement, run: Run, steps: boolean, picked: string | null, pick: (p: Picked) => void, windows: Map<string, Window>) {
-  const vehicles = [...run.vehicles.values()].filter((v) => v.tasks.length > 0 || run.bound.has(v.id));
-  const windowOf = (v: Vehicle, t: Task) => (t.until === null && windows.get(v.id)?.plan === t.plan ? windows.get(v.id) : undefined);
-  const due = vehicles.flatMap((v) => v.tasks.map((t) => windowOf(v, t)?.latest ?? 0));
-  // What is due has at most as much room as what has been.
-  const width = Math.max(320, el.clientWidth - 4), length = Math.max(run.time, 1, Math.min(2 * run.time, ...[Math.max(0, ...due)]));
+// A run as it is drawn: [only] has the steps that the run beside it lacks.
+export interface View { run: Run; steps: boolean; windows: Map<string, Window>; title?: string; only?: Set<number>; second?: boolean }
+
+// One run, or two below one another on one scale.
+export function timeline(el: HTMLElement, views: View[], picked: string | null, pick: (p: Picked) => void) {
+  const length = Math.max(...views.map(extent));
+  const isEmpty = views.every(({ run }) => run.marks.length + rows(run).length === 0);
+  el.replaceChildren(...(isEmpty ? [h("p", { class: "empty" }, "Nothing has happened yet.")]
+    : views.flatMap((view) => [view.title ? h("h3", {}, view.title) : "", draw(el, view, length, picked, pick)])));
+}
+
+const rows = (run: Run) => [...run.vehicles.values()].filter((v) => v.tasks.length > 0 || run.bound.has(v.id));
+const windowIn = (windows: Map<string, Window>, v: Vehicle, t: Task) =>
+  (t.until === null && windows.get(v.id)?.plan === t.plan ? windows.get(v.id) : undefined);
+
+// What is due has at most as much room as what has been.
+function extent({ run, windows }: View): number {
+  const due = rows(run).flatMap((v) => v.tasks.map((t) => windowIn(windows, v, t)?.latest ?? 0));
+  return Math.max(run.time, 1, Math.min(2 * run.time, ...[Math.max(0, ...due)]));
+}
+
+function draw(el: HTMLElement, { run, steps, windows, only, second }: View, length: number, picked: string | null, pick: (p: Picked) => void): Node {
+  const vehicles = rows(run), width = Math.max(320, el.clientWidth - 4);
+  const here = (p: Picked): Picked => (second ? { ...p, key: "second " + p.key, text: "second run: " + p.text, second } : p);
+  const alone = (at: number) => (only?.has(at) ? " only" : ""), inWords = (at: number) => (only?.has(at) ? "; not in the other run" : "");
   const x = (time: number) => left + 9 + (time / length) * (width - left - 24);
   const height = top + row * (vehicles.length + 1) + 6;
   const parts: Node[] = [];
@@ -58,15 +77,15 @@ export function timeline(el: HTMLElement, run: Run, steps: boolean, picked: stri
       parts.push(svg("rect", { x: x(gap.from), y: y + 1, width: Math.max(2, x(gap.until ?? run.time) - x(gap.from)), height: row - 3, class: "gap" },
         svg("title", {}, `${v.id}: no link`)));
     v.tasks.forEach((t, n) => {
-      const window = windowOf(v, t), isLate = window !== undefined && run.time > window.latest;
-      const from = x(t.from), to = x(t.until ?? run.time), wide = Math.max(3, to - from), one = ofTask(v, t, n, steps, window, run.time);
+      const window = windowIn(windows, v, t), isLate = window !== undefined && run.time > window.latest;
+      const from = x(t.from), to = x(t.until ?? run.time), wide = Math.max(3, to - from), one = here(ofTask(v, t, n, steps, window, run.time));
       // Dark until it may be over, light until it has to be.
       if (window && !isLate) for (const [kind, start, end] of [["ahead", run.time, window.earliest], ["ahead maybe", Math.max(run.time, window.earliest), window.latest]] as const)
         if (Math.min(end, length) > start)
           parts.push(svg("rect", { x: x(start), y: y + 4, width: x(Math.min(end, length)) - x(start), height: row - 9, class: kind }));
-      parts.push(svg("rect", { x: from, y: y + 4, width: wide, height: row - 9, rx: 3, class: "task " + t.how + (isLate ? " late" : "") + (one.key === picked ? " picked" : ""),
+      parts.push(svg("rect", { x: from, y: y + 4, width: wide, height: row - 9, rx: 3, class: "task " + t.how + (isLate ? " late" : "") + alone(t.step) + (one.key === picked ? " picked" : ""),
         // Pressing, and not clicking: the picture may be drawn anew in between.
-        pointerdown: () => pick(one) }, svg("title", {}, one.text)));
+        pointerdown: () => pick(one) }, svg("title", {}, one.text + inWords(t.step))));
       if (wide > 30) parts.push(svg("text", { x: from + 5, y: y + 17, class: "plan " + t.how }, short(t.plan, Math.floor((wide - 8) / 6.4))));
     });
   });
@@ -76,16 +95,15 @@ export function timeline(el: HTMLElement, run: Run, steps: boolean, picked: stri
   parts.push(svg("text", { x: left - 8, y: y + 17, class: "who" }, "program"));
   let last = -99;
   run.marks.forEach((mark, i) => {
-    const at = x(mark.time), one = ofMark(mark, i, steps);
+    const at = x(mark.time), one = here(ofMark(mark, i, steps));
     if (at - last < 3 && mark.kind !== "failed" && mark.kind !== "note" && one.key !== picked) return;
     last = at;
-    parts.push(svg("g", { class: "mark " + mark.kind + (one.key === picked ? " picked" : ""), transform: `translate(${at} ${y + 13})`,
+    parts.push(svg("g", { class: "mark " + mark.kind + (mark.kind === "note" ? "" : alone(mark.step)) + (one.key === picked ? " picked" : ""), transform: `translate(${at} ${y + 13})`,
       pointerdown: () => pick(one) },
-      svg("circle", { r: 8 }), svg("text", { y: 4 }, letter[mark.kind]), svg("title", {}, one.text)));
+      svg("circle", { r: 8 }), svg("text", { y: 4 }, letter[mark.kind]), svg("title", {}, one.text + (mark.kind === "note" ? "" : inWords(mark.step)))));
   });
-  const picture = svg("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img",
+  return svg("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "img",
     "aria-label": `${vehicles.length} vehicles, ${clock(run.time)}` }, ...parts);
-  el.replaceChildren(vehicles.length + run.marks.length ? picture : h("p", { class: "empty" }, "Nothing has happened yet."));
 }
 
 function short(text: string, n: number): string {

@@ -3,9 +3,8 @@
 import { $, h, svg } from "./dom";
 import { colour, courseOf } from "./map";
 import { type Run, type Sample, type Vehicle, clock, trouble } from "./model";
+import { brief, quantities } from "./quantities";
 import type { Progress } from "./api";
-
-const two = (x: number) => (Math.abs(x) >= 100 ? x.toFixed(0) : Math.abs(x) >= 10 ? x.toFixed(1) : x.toFixed(2));
 
 // Percent of an hour, by a line through the samples of the last ten minutes; null: they are too few, or too close.
 export function trend(samples: Sample[]): number | null {
@@ -20,12 +19,8 @@ export function trend(samples: Sample[]): number | null {
 
 // The quantities that it has reported, each with its values over time.
 export function series(v: Vehicle): { name: string; unit: string; points: { time: number; value: number }[] }[] {
-  const of = (name: string, unit: string, f: (s: Sample) => number | null | undefined) => ({ name, unit,
-    points: v.samples.flatMap((s) => { const value = f(s); return typeof value === "number" ? [{ time: s.time, value }] : []; }) });
-  const names = [...new Set(v.samples.flatMap((s) => Object.keys(s.readings ?? {})))].sort();
-  return [of("battery", "%", (s) => (s.battery === null ? null : s.battery * 100)), of("speed", "m/s", (s) => s.speed),
-    of("depth", "m", (s) => s.depth), of("altitude", "m", (s) => s.altitude),
-    ...names.map((name) => of(name, "", (s) => s.readings?.[name]))].filter((s) => s.points.length > 0);
+  return quantities([v]).map(({ name, unit, of }) => ({ name, unit,
+    points: v.samples.flatMap((s) => { const value = of(s); return typeof value === "number" ? [{ time: s.time, value }] : []; }) }));
 }
 
 const width = 120, height = 28;
@@ -36,7 +31,7 @@ export function plot(points: { time: number; value: number }[], tint: string, na
   const at = points.map((p) => `${(((p.time - from) / length) * width).toFixed(1)},${(height - 2 - ((p.value - least) / range) * (height - 4)).toFixed(1)}`);
   const line = svg("polyline", { points: at.join(" "), fill: "none", stroke: tint, "stroke-width": 1.5 });
   return svg("svg", { class: "plot", viewBox: `0 0 ${width} ${height}`, width, height, role: "img",
-    "aria-label": `${name}: from ${two(least)} to ${two(most)}` }, line, svg("title", {}, `${two(least)} to ${two(most)}`));
+    "aria-label": `${name}: from ${brief(least)} to ${brief(most)}` }, line, svg("title", {}, `${brief(least)} to ${brief(most)}`));
 }
 
 export class VehiclePanel {
@@ -77,7 +72,7 @@ export class VehiclePanel {
       h("dl", {}, ...this.facts(run, v, s, age).flatMap(([name, text]) => [h("dt", {}, name), h("dd", {}, text)])),
       this.task(run, v, mine),
       h("table", { class: "plots" }, h("tbody", {}, ...series(v).map(({ name, unit, points }) => h("tr", {}, h("th", { scope: "row" }, name),
-        h("td", {}, plot(points, tint, name)), h("td", { class: "number" }, `${two(points[points.length - 1].value)} ${unit}`))))));
+        h("td", {}, plot(points, tint, name)), h("td", { class: "number" }, `${brief(points[points.length - 1].value)} ${unit}`))))));
     if (focused) close.focus();
   }
 
@@ -92,9 +87,9 @@ export class VehiclePanel {
       const left = drain !== null && drain < -0.05 ? `, ${drain.toFixed(1)} % an hour: empty in ${clock((s.battery * 100 / -drain) * 3600)}` : drain !== null && drain > 0.05 ? `, +${drain.toFixed(1)} % an hour` : "";
       facts.push(["battery", `${Math.round(s.battery * 100)} %${left}`]);
     }
-    if (typeof s.depth === "number") facts.push(["depth", `${two(s.depth)} m`]);
-    if (typeof s.altitude === "number") facts.push(["altitude", `${two(s.altitude)} m`]);
-    if (typeof s.speed === "number") facts.push(["speed", `${two(s.speed)} m/s`]);
+    if (typeof s.depth === "number") facts.push(["depth", `${brief(s.depth)} m`]);
+    if (typeof s.altitude === "number") facts.push(["altitude", `${brief(s.altitude)} m`]);
+    if (typeof s.speed === "number") facts.push(["speed", `${brief(s.speed)} m/s`]);
     const course = courseOf(v);
     if (course !== null) facts.push(["course", `${((course % 360) + 360) % 360}°`]);
     facts.push(["position", `${s.latitude.toFixed(5)}, ${s.longitude.toFixed(5)}`]);

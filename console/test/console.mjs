@@ -16,6 +16,7 @@ import maps from "./maps.mjs";
 import places from "./places.mjs";
 import people from "./people.mjs";
 import plans from "./plans.mjs";
+import review from "./review.mjs";
 import stop from "./stop.mjs";
 import truth from "./truth.mjs";
 import outlook from "./outlook.mjs";
@@ -49,9 +50,11 @@ const only = process.env.ONLY?.split(" ");
 const wanted = (part) => !only || only.includes(part);
 let part = "newcomer", passed = 0, failed = 0;
 const problems = [];
+// Also fails if the browser complains meanwhile.
 async function test(name, f) {
   if (!wanted(part)) return;
-  try { await f(); passed++; console.log("ok  ", name); }
+  const before = problems.length;
+  try { await f(); same([...new Set(problems.slice(before))].join("\n"), "", "complaints"); passed++; console.log("ok  ", name); }
   catch (e) { failed++; console.log("FAIL", name, "\n    ", String(e.message).split("\n").slice(0, 6).join("\n     ")); }
 }
 
@@ -62,16 +65,29 @@ function same(found, wanted, what) {
 await serve();
 const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox"] });
 
-function complaints(page) {
-  page.on("console", (m) => { if (m.type() === "error" && !/Failed to load resource|ERR_/.test(m.text())) problems.push(m.text()); });
-  page.on("pageerror", (e) => problems.push(String(e)));
-}
+// Errors of scripts and of the console, and violations of the page's policy with the element and the line. A reply that
+// refuses is an error for the browser, too: "Failed to load resource". Every page of every part is listened to.
+const violations = () => addEventListener("securitypolicyviolation", (e) => {
+  const { violatedDirective, blockedURI, sourceFile, lineNumber, columnNumber, sample, target } = e;
+  console.error("policy:", JSON.stringify({ violatedDirective, blockedURI, sourceFile, lineNumber, columnNumber, sample,
+    target: String(target?.outerHTML ?? target?.nodeName).slice(0, 300) }));
+});
+const newContext = browser.newContext.bind(browser);
+browser.newContext = async (options) => {
+  const context = await newContext(options);
+  context.on("console", (m) => {
+    const { url, lineNumber } = m.location();
+    if (m.type() === "error" && !/Failed to load resource|ERR_/.test(m.text())) problems.push(`${m.text()} (${url}:${lineNumber})`);
+  });
+  context.on("weberror", (e) => problems.push(String(e.error().stack ?? e.error())));
+  await context.addInitScript(violations);
+  return context;
+};
 
 async function open(options = {}) {
   const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
   const page = await context.newPage();
   page.setDefaultTimeout(Number(process.env.PATIENCE ?? 60000));
-  complaints(page);
   await page.goto(`http://127.0.0.1:${port}/`);
   await page.waitForFunction(() => document.querySelectorAll("#program option").length > 0);
   return page;
@@ -287,8 +303,8 @@ async function phone(name) {
 }
 
 const all = { folder, page, test, same, text, choose, over, picture, phone };
-const more = { ...all, home, dolphin, environment, browser, complaints, open, pictures, server: () => server };
-for (const f of [helm, truth, outlook, replace, people, analyses, maps, plans, draw, workplace, places, accessibility, stop, listen, imc]) {
+const more = { ...all, home, dolphin, openapi: join(examples, "..", "docs", "openapi.json"), environment, browser, open, pictures, server: () => server };
+for (const f of [helm, truth, outlook, replace, people, analyses, maps, plans, draw, workplace, review, places, accessibility, stop, listen, imc]) {
   part = f.name;
   if (wanted(part)) await f(more);
 }

@@ -12,7 +12,7 @@ async function until(process, wanted) {
   throw new Error("it ended, and said only: " + said);
 }
 
-export default async function imc({ pictures, home, dolphin, environment, browser, test, same, text, over, complaints }) {
+export default async function imc({ pictures, home, dolphin, environment, browser, test, same, text, over }) {
   const folder = join(home, "real"), children = [];
   mkdirSync(folder);
   writeFileSync(join(folder, "lost.dol"), `input 'over'
@@ -36,7 +36,6 @@ execute until { poll over: true } run (watch task('survey')[v] onError { ignore(
     const [, port] = await until(server, /127\.0\.0\.1:(\d+)/);
     const page = await (await browser.newContext({ viewport: { width: 1440, height: 900 } })).newPage();
     page.setDefaultTimeout(120000);
-    complaints(page);
     await page.goto(`http://127.0.0.1:${port}/`);
     await page.waitForFunction(() => location.hash === "#lost.dol");
     same(await page.locator("#speed").isDisabled(), true, "vehicles of a network have no speed to choose");

@@ -3,7 +3,7 @@ import { spawn } from "node:child_process";
 import { chmodSync, existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
-export default async function listen({ pictures, dolphin, home, folder, environment, browser, test, same, complaints }) {
+export default async function listen({ pictures, dolphin, home, folder, environment, browser, test, same }) {
   const server = spawn(dolphin, ["console", folder, "--port", "0", "--listen", "127.0.0.1", "--no-browser"],
     { env: environment, stdio: ["ignore", "pipe", "inherit"] });
   let said = "";
@@ -36,7 +36,6 @@ export default async function listen({ pictures, dolphin, home, folder, environm
   async function open(name, address) {
     const page = pages[name] = await (await browser.newContext({ viewport: { width: 1440, height: 900 }, ignoreHTTPSErrors: true })).newPage();
     page.setDefaultTimeout(60000);
-    complaints(page);
     await page.goto(address);
     return page;
   }

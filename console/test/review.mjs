@@ -16,7 +16,7 @@ field 'Temperature', 18, at(41.185, -8.7060)
 field 'Temperature', 12, at(41.195, -8.7000)
 `;
 
-export default async function review({ home, folder, dolphin, environment, page, test, same, text, picture }) {
+export default async function review({ home, folder, dolphin, environment, page, open, pictures, test, same, text, picture }) {
   const apart = join(home, "review");
   mkdirSync(apart);
   writeFileSync(join(folder, "two.dol"), program);
@@ -100,4 +100,24 @@ export default async function review({ home, folder, dolphin, environment, page,
     await page.selectOption("#layout", "plan");
     await page.click("#tab-source");
   });
+
+  // All of them where somebody looks at pictures.
+  for (const [size, width, height] of [["phone", 390, 844], ...(pictures ? [["laptop", 1366, 768], ["large", 1920, 1080]] : [])])
+    for (const colorScheme of pictures ? ["light", "dark"] : ["light"]) await test(`two runs fit each layout, ${size}, ${colorScheme}`, async () => {
+      const other = await open({ viewport: { width, height }, colorScheme });
+      await other.selectOption("#layout", "review");
+      await other.click("#tab-runs");
+      await other.click("[aria-label='Replay calm.run']");
+      await other.click("[aria-label='rough.run beside it']");
+      await other.waitForSelector("#compared");
+      for (const layout of ["plan", "run", "review"]) {
+        await other.selectOption("#layout", layout);
+        same(await other.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth), true, `the width of ${layout}`);
+        same(await other.locator("#stop").isVisible(), true, "Stop is there");
+        if (!pictures) continue;
+        await other.waitForTimeout(400);
+        await other.screenshot({ path: join(pictures, `${layout}-${size}-${colorScheme}.png`), fullPage: size === "phone" });
+      }
+      await other.context().close();
+    });
 }

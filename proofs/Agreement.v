@@ -55,10 +55,12 @@ Section Agreement.
       try (destruct (timer_eq i i); [|congruence]);
       try (left; reflexivity).
     - (* ALLOCATE-ERR *)
-      destruct (alloc_made (world_of K) (free K S) t q (taken_numbers K)) as [(vs & r) | m'] eqn:Hf.
+      destruct (alloc_made (world_of K) (held K) S (free K S) t q (taken_numbers K)) as [(vs & r) | m'] eqn:Hf.
       + exfalso. unfold alloc_made in *.
-        destruct (assign (world_of K) (free K S) (allowed q) t) eqn:Ha; [|discriminate].
-        destruct (assign (world_of K) (its_bound K S) (allowed q) t) eqn:Hb; [discriminate|].
+        destruct (opened (world_of K) (held K) S (fresh (place q) (taken_numbers K)) q t 0) as [(t' & n)|];
+          [|discriminate].
+        destruct (assign (world_of K) (free K S) (allowed q) t') eqn:Ha; [|discriminate].
+        destruct (assign (world_of K) (its_bound K S) (allowed q) t') eqn:Hb; [discriminate|].
         eapply assign_more_law; [exact Ha | apply free_of_bound | exact Hb].
       + left. reflexivity.
     - (* RECRUIT *)
@@ -158,9 +160,9 @@ Section Agreement.
       + is_only H. eapply HALT; [left; reflexivity | eassumption].
     - (* unallocated *)
       destruct e; [contradiction|].
-      destruct (alloc_made (world_of K) (free K S) t q (taken_numbers K)) as [(vs & r) | m'] eqn:Hf.
+      destruct (alloc_made (world_of K) (held K) S (free K S) t q (taken_numbers K)) as [(vs & r) | m'] eqn:Hf.
       + is_only H. apply ALLOCATE. exact Hf.
-      + destruct (alloc_made (world_of K) (its_bound K S) t q (taken_numbers K)) eqn:Hb; [contradiction|].
+      + destruct (alloc_made (world_of K) (held K) S (its_bound K S) t q (taken_numbers K)) eqn:Hb; [contradiction|].
         is_only H. apply ALLOCATE_ERR. exact Hb.
     - (* recruit *)
       destruct e as [[]|]; try contradiction. destruct (timer_eq i0 i) as [->|]; [|contradiction].
@@ -184,7 +186,8 @@ Section Agreement.
       + apply REPEAT_1; assumption.
       + apply HOLD_1; assumption.
       + apply RECRUIT_1; assumption.
-    - destruct f; [..|destruct g|idtac|idtac]; is_only Hin; cbn [plug].
+      + apply FRESH_1; assumption.
+    - destruct f as [| | | | | | ? g ? | | |]; [..|destruct g|idtac|idtac|idtac]; is_only Hin; cbn [plug].
       + apply SEQ_2; assumption.
       + apply PAR_2; assumption.
       + apply ALLOF_2; assumption.
@@ -195,6 +198,7 @@ Section Agreement.
       + apply REPEAT_2; assumption.
       + apply HOLD_2; assumption.
       + apply RECRUIT_2; assumption.
+      + apply FRESH_2; assumption.
     - destruct f; cbn [lift on_err plug] in Hin |- *; try (is_only Hin).
       + apply SEQ_ERR; assumption.
       + apply PAR_ERR; assumption.
@@ -221,6 +225,7 @@ Section Agreement.
       + apply REPEAT_ERR; assumption.
       + apply HOLD_ERR; assumption.
       + apply RECRUIT_ERR; assumption.
+      + apply FRESH_ERR; assumption.
     - is_only Hin. apply ENDS. exact H.
   Qed.
 

@@ -29,6 +29,9 @@ Section Bisimilarity.
     intros H. unfold without. f_equal. apply functional_extensionality. intros v. rewrite (mem_alike v H). reflexivity.
   Qed.
 
+  Lemma clear_alike ks ks' S : alike ks ks' -> clear ks S = clear ks' S.
+  Proof. intros H. unfold clear. rewrite (forget_law ks ks' (space S) H). reflexivity. Qed.
+
   (** Which numbers are taken matters as a set. *)
   Lemma after_spec used fuel : forall i, exists k,
     after_ used fuel i = (i + N.of_nat (Datatypes.S k) * generation)%N /\
@@ -82,12 +85,12 @@ Section Bisimilarity.
   Lemma fresh_alike i used used' n : alike used used' -> fresh i used n = fresh i used' n.
   Proof. intros H. induction n as [|n IH]; cbn [fresh]; [|rewrite IH]; apply after_alike; exact H. Qed.
 
-  Lemma alloc_made_alike w B t q used used' : alike used used' -> alloc_made w B t q used = alloc_made w B t q used'.
+  Lemma alloc_made_alike w h S B t q used used' :
+    alike used used' -> alloc_made w h S B t q used = alloc_made w h S B t q used'.
   Proof.
-    intros H. unfold alloc_made. destruct (assign w B (allowed q) t) as [f|m]; [|reflexivity].
-    replace (made_at q used f) with (made_at q used' f); [reflexivity|].
-    unfold made_at. f_equal. apply functional_extensionality. intros a. apply functional_extensionality. intros _.
-    symmetry. apply fresh_alike. exact H.
+    intros H. assert (E : fresh (place q) used = fresh (place q) used')
+      by (apply functional_extensionality; intros n; apply fresh_alike; exact H).
+    unfold alloc_made, made_at. rewrite E. reflexivity.
   Qed.
 
   Record similar (K K' : context) : Prop := {
@@ -106,7 +109,7 @@ Section Bisimilarity.
   Proof.
     destruct K, K'. intros []. cbn in *. subst. destruct r; try reflexivity.
     cbn. destruct e; [reflexivity|].
-    rewrite !(alloc_made_alike _ _ _ _ same_numbers0). reflexivity.
+    rewrite !(alloc_made_alike _ _ _ _ _ _ same_numbers0). reflexivity.
   Qed.
 
   Lemma lift_similar f K K' t : similar K K' -> lift f K t = lift f K' t.
@@ -169,13 +172,15 @@ Section Bisimilarity.
 
   (** {1 Bisimilarity} *)
 
-  (** What is seen of a part from beside it: the vehicles that it names, those that it runs, and its numbers. *)
+  (** What is seen of a part from beside it: the vehicles that it names, those that it runs, its numbers, and the
+      keys of what is active in it. *)
   Record face (r r' : residual) : Prop := {
     face_names : alike (names r) (names r');
     face_run : alike (run_of r) (run_of r');
     face_numbers : alike (numbers r) (numbers r');
     face_normal : normal r = true;
-    face_normal' : normal r' = true
+    face_normal' : normal r' = true;
+    face_keys : alike (keys r) (keys r')
   }.
 
   (** The same label, the same S, and the same outcome. *)

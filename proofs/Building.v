@@ -88,6 +88,7 @@ Section Building.
     - destruct (IHt ok k0 a0 b0 Hf) as (W & Q & N). split; [apply Wf_repeat; assumption | split].
       + unfold repeat_. destruct (option_map pred n) as [[|m]|]; cbn; rewrite ?Q; reflexivity.
       + intros v Hv. apply names_repeat in Hv. destruct Hv; auto.
+    - destruct (IHt ok k0 a0 b0 Hf) as (W & Q & N). split; [constructor; exact W | split; assumption].
   Qed.
 
   Lemma feasible_chosen B f t :
@@ -108,27 +109,30 @@ Section Building.
     - eauto.
     - eauto.
     - eauto.
+    - eauto.
   Qed.
 
   (** What EXECUTE begins. *)
-  Theorem alloc_built w B t r :
-    alloc w B t = inl r ->
-    Wf (fun v => In v B) r /\ quiet r = true /\ forall v, In v (names r) -> In v B.
+  Theorem alloc_built w S t r :
+    alloc w S t = inl r ->
+    Wf (fun v => In v (bound S)) r /\ quiet r = true /\ forall v, In v (names r) -> In v (bound S).
   Proof.
-    unfold alloc. destruct (assign w B None t) as [f|m] eqn:A; [|discriminate]. intros H. injection H as <-.
-    apply assign_law in A. destruct (build_built (top f) B t None 0 0 0 A) as (W & Q & N).
+    unfold alloc. destruct (opened _ _ _ _ _ t 0) as [(t' & n)|]; [|discriminate].
+    destruct (assign w (bound S) None t') as [f|m] eqn:A; [|discriminate]. intros H. injection H as <-.
+    apply assign_law in A. destruct (build_built (top f) (bound S) t' None 0 n 0 A) as (W & Q & N).
     split; [exact W | split; [exact Q|]]. intros v Hv. apply N in Hv. cbn [choice top] in Hv.
     eapply feasible_chosen; eauto.
   Qed.
 
   (** What ALLOCATE begins: its vehicles are of B, and it names no others. *)
-  Theorem alloc_made_built w B t q used vs r :
-    alloc_made w B t q used = inl (vs, r) ->
+  Theorem alloc_made_built w h S B t q used vs r :
+    alloc_made w h S B t q used = inl (vs, r) ->
     Wf (fun v => In v B) r /\ quiet r = true /\ (forall v, In v (names r) -> In v B) /\ incl vs B.
   Proof.
-    unfold alloc_made. destruct (assign w B (allowed q) t) as [f|m] eqn:A; [|discriminate]. intros H.
+    unfold alloc_made. destruct (opened _ _ _ _ _ t 0) as [(t' & n)|]; [|discriminate].
+    destruct (assign w B (allowed q) t') as [f|m] eqn:A; [|discriminate]. intros H.
     injection H as <- <-. apply assign_law in A.
-    destruct (build_built (made_at q used f) B t (allowed q) 0 0 0 A) as (W & Q & N).
+    destruct (build_built (made_at q used f) B t' (allowed q) 0 n 0 A) as (W & Q & N).
     split; [exact W | split; [exact Q | split]].
     - intros v Hv. apply N in Hv. eapply feasible_chosen; eauto.
     - intros v. unfold used_of. rewrite filter_In, nodup_In. tauto.

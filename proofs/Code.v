@@ -18,13 +18,13 @@ Section Allocation.
   Fixpoint feasible (B : list vehicle) (ok : option (list vehicle)) (t : task) (f : nat -> vehicle) (k : nat) : Prop :=
     match t with
     | TPlan _ => In (f k) B /\ match ok with None => True | Some vs => In (f k) vs end
-    | TAction _ | TCondition _ | TIdle _ | TConfirm _ _ | TMade _ | TRecruit _ _ => True
+    | TAction _ | TCondition _ | TIdle _ | TConfirm _ _ | TMade _ | TRecruit _ _ | TFresh _ => True
     | TSequence a b => feasible B ok a f k /\ feasible B ok b f (k + leaves a)
     | TParallel a b =>
         feasible B ok a f k /\ feasible B ok b f (k + leaves a) /\
         forall v, In v (chosen a f k) -> ~ In v (chosen b f (k + leaves a))
     | TAllocated a vs => feasible B (restrict ok vs) a f k
-    | TUntil _ _ a | TDuring _ _ a | TWatch a _ | TRepeat _ _ a => feasible B ok a f k
+    | TUntil _ _ a | TDuring _ _ a | TWatch a _ | TRepeat _ _ a | TKeys _ _ a => feasible B ok a f k
     | TAll_of bs | TOne_of bs =>
         (fix branches (bs : list (code * task)) (k : nat) : Prop :=
            match bs with
@@ -79,9 +79,14 @@ Class Code {L : Names} := {
   task_of : value -> option task;                      (* a task, or code in the place of one *)
   task_law : forall x t, task_of x = Some t -> solid t = true;
   takes : code -> list value -> bool;                  (* whether the code has enough values *)
-  has_parameters : code -> bool;
+  parameters : code -> nat;
   may_recover : code -> bool;
   vehicle_value : vehicle -> value;                    (* {v} *)
+  key_value : timer -> value;                          (* #i *)
+  forget : list timer -> tuples -> tuples;             (* N without the pairs of these keys *)
+  forget_law : forall ks ks' N, (forall i, In i ks <-> In i ks') -> forget ks N = forget ks' N;
+  forget_twice_law : forall ks ks' N, forget ks' (forget ks N) = forget (ks ++ ks') N;
+  forget_all : tuples -> tuples;                       (* N without the pairs of such keys *)
 
   fit : filter -> world -> list vehicle -> list vehicle;
   fit_law : forall q w B v, In v (fit q w B) -> ~ In v B;
@@ -100,6 +105,7 @@ Class Code {L : Names} := {
   not_answered : site -> prompt -> message -> message; (* no answer to 'x': m *)
   plan_failed : plan -> vehicle -> message -> message;
   no_task : code -> list value -> nat -> store -> value -> store -> list deed -> message;  (* the stores before, after *)
+  no_opened_task : code -> list value -> nat -> store -> result -> message;  (* of the code of a fresh *)
   too_deep : code -> message;
   foreign_retry : code -> message;
 
@@ -121,10 +127,59 @@ Class Code {L : Names} := {
 }.
 
 (** Closures in tasks that closures made, and tasks in the place of tasks that failed, nest so deep. *)
-Definition deepest : nat := 100.
+Definition deepest : nat.
+Proof. exact 100. Qed.
 
 Section Building.
   Context {L : Names} {C : Code}.
+
+  (** [S] where [r] begins: N has no pairs of its keys. *)
+  Definition clear (ks : list timer) (S : shared) : shared := with_space (forget ks (space S)) S.
+
+  Definition has_parameters (c : code) : bool := 0 <? parameters c.
+
+  (** {1 Fresh keys}
+
+      [open(t)]: the code of each [fresh] runs, from left to right, and each gets the next keys; [n] were given
+      before. *)
+
+  Section Opening.
+    Variable inside : code -> nat -> (task * nat) + message.
+
+    Fixpoint open_each (t : task) (n : nat) : (task * nat) + message :=
+      let one (f : task -> task) a := match open_each a n with inl (a', n') => inl (f a', n') | inr m => inr m end in
+      let two (f : task -> task -> task) a b :=
+        match open_each a n with
+        | inl (a', n1) => match open_each b n1 with inl (b', n2) => inl (f a' b', n2) | inr m => inr m end
+        | inr m => inr m
+        end in
+      let branches (f : list (code * task) -> task) bs :=
+        match
+          (fix each (bs : list (code * task)) (n : nat) : (list (code * task) * nat) + message :=
+             match bs with
+             | [] => inl ([], n)
+             | (g, a) :: bs =>
+                 match open_each a n with
+                 | inl (a', n1) => match each bs n1 with inl (bs', n2) => inl ((g, a') :: bs', n2) | inr m => inr m end
+                 | inr m => inr m
+                 end
+             end) bs n
+        with inl (bs', n') => inl (f bs', n') | inr m => inr m end in
+      match t with
+      | TPlan _ | TAction _ | TCondition _ | TIdle _ | TConfirm _ _ | TMade _ | TRecruit _ _ => inl (t, n)
+      | TSequence a b => two TSequence a b
+      | TParallel a b => two TParallel a b
+      | TAllocated a vs => one (fun a => TAllocated a vs) a
+      | TAll_of bs => branches TAll_of bs
+      | TOne_of bs => branches TOne_of bs
+      | TUntil k g a => one (TUntil k g) a
+      | TDuring k d a => one (TDuring k d) a
+      | TWatch a h => one (fun a => TWatch a h) a
+      | TRepeat m g a => one (TRepeat m g) a
+      | TFresh c => inside c n
+      | TKeys ks c a => inside c n
+      end.
+  End Opening.
 
   (** {1 The residual of a task whose vehicles are chosen}
 
@@ -140,10 +195,10 @@ Section Building.
 
   Fixpoint timers (t : task) : nat :=
     match t with
-    | TPlan _ | TAction _ | TCondition _ | TMade _ => 0
+    | TPlan _ | TAction _ | TCondition _ | TMade _ | TFresh _ => 0
     | TIdle _ | TConfirm _ _ | TRecruit _ _ => 1
     | TSequence a b | TParallel a b => timers a + timers b
-    | TAllocated a _ | TUntil _ _ a | TWatch a _ | TRepeat _ _ a => timers a
+    | TAllocated a _ | TUntil _ _ a | TWatch a _ | TRepeat _ _ a | TKeys _ _ a => timers a
     | TDuring _ _ a => 1 + timers a
     | TAll_of bs | TOne_of bs => list_sum (map (fun b => timers (snd b)) bs)
     end.
@@ -151,11 +206,27 @@ Section Building.
   Fixpoint places (t : task) : nat :=
     match t with
     | TPlan _ | TAction _ | TCondition _ | TIdle _ | TConfirm _ _ => 0
-    | TMade _ | TRecruit _ _ => 1
+    | TMade _ | TRecruit _ _ | TFresh _ => 1
     | TSequence a b | TParallel a b => places a + places b
-    | TAllocated a _ | TUntil _ _ a | TRepeat _ _ a | TDuring _ _ a => places a
+    | TAllocated a _ | TUntil _ _ a | TRepeat _ _ a | TDuring _ _ a | TKeys _ _ a => places a
     | TWatch a h => (if may_recover h then 1 else 0) + places a
     | TAll_of bs | TOne_of bs => list_sum (map (fun b => places (snd b)) bs)
+    end.
+
+  (** A handler that retries its task opens it again. *)
+  Fixpoint unopened (t : task) : task :=
+    match t with
+    | TPlan _ | TAction _ | TCondition _ | TIdle _ | TConfirm _ _ | TMade _ | TRecruit _ _ | TFresh _ => t
+    | TSequence a b => TSequence (unopened a) (unopened b)
+    | TParallel a b => TParallel (unopened a) (unopened b)
+    | TAllocated a vs => TAllocated (unopened a) vs
+    | TAll_of bs => TAll_of (map (fun b => (fst b, unopened (snd b))) bs)
+    | TOne_of bs => TOne_of (map (fun b => (fst b, unopened (snd b))) bs)
+    | TUntil k g a => TUntil k g (unopened a)
+    | TDuring k d a => TDuring k d (unopened a)
+    | TWatch a h => TWatch (unopened a) h
+    | TRepeat n g a => TRepeat n g (unopened a)
+    | TKeys _ c _ => TFresh c
     end.
 
   Fixpoint build (p : supply) (ok : option (list vehicle)) (t : task) (k a b : nat) : residual :=
@@ -190,16 +261,18 @@ Section Building.
     | TWatch t h =>
         if may_recover h then
           Watch (build p ok t k a (S b))
-            {| handles := h; anew := Some (t, {| allowed := ok; place := spot p a b; depth := deep p |}) |}
+            {| handles := h; anew := Some (unopened t, {| allowed := ok; place := spot p a b; depth := deep p |}) |}
         else Watch (build p ok t k a b) {| handles := h; anew := None |}
     | TRepeat n g t => let r := build p ok t k a b in repeat_ r (option_map pred n) g r
-    | TMade c => Made c [] {| allowed := ok; place := spot p a b; depth := deep p |}
+    | TKeys ks _ t => Fresh ks (build p ok t k a b)
+    (* No opened task has a fresh that is not. *)
+    | TMade c | TFresh c => Made c [] {| allowed := ok; place := spot p a b; depth := deep p |}
     | TRecruit q c => Recruit (number p a b) q c (spot p (S a) b) (deep p)
     end.
 
-  (** EXECUTE numbers timers and places together, from 1. *)
-  Definition top (f : nat -> vehicle) : supply :=
-    let next a b := N.of_nat (a + b + 1) in {| choice := f; number := next; spot := next; deep := 0 |}.
+  (** EXECUTE numbers keys, timers and places together, from 1. *)
+  Definition next (a b : nat) : timer := N.of_nat (a + b + 1).
+  Definition top (f : nat -> vehicle) : supply := {| choice := f; number := next; spot := next; deep := 0 |}.
 
   (** Timers of tasks that are made at place [i] have the numbers [i] + 1,000,000, [i] + 2,000,000 and so on, the first
       ones that are not used. [fresh i used n] is the [n]-th of them, from 0. *)
@@ -222,10 +295,51 @@ Section Building.
   Definition made_at (q : request) (used : list timer) (f : nat -> vehicle) : supply :=
     {| choice := f; number := fun a _ => fresh (place q) used a; spot := fun _ _ => place q; deep := depth q |}.
 
-  (** [alloc(t, B)], for EXECUTE. *)
-  Definition alloc (w : world) (B : list vehicle) (t : task) : residual + message :=
-    match assign w B None t with
-    | inl f => inl (build (top f) None t 0 0 0)
+  (** The task that code made: it only computed. *)
+  Definition made_task (a : code) (ys : list value) (q : request) (S : shared) (x : value) (s : store) (ds : list deed)
+    : option task :=
+    if negb (takes a ys) then None
+    else if deepest <=? depth q then None
+    else match ds with
+         | [] => if store_eq s (variables S) then task_of x else None
+         | _ => None
+         end.
+
+  (** [open(t)] in a part that sees [h] as held, with the keys that [key] numbers; [q] is as deep as [t] is. Tasks that
+      are made inside of it are deeper, so the [fuel] suffices. *)
+  Fixpoint opened_with (fuel : nat) (w : world) (h : vehicle -> bool) (S : shared) (key : nat -> timer) (q : request)
+      (t : task) (n : nat) : (task * nat) + message :=
+    open_each (fun c n =>
+      let ks := map key (seq n (parameters c)) in
+      let ys := map key_value ks in
+      let fails x := inr (no_opened_task c ys (depth q) (variables S) x) in
+      match run c ys w h S with
+      | Gives x s N ds =>
+          match made_task c ys q S x s ds, fuel with
+          | Some t, S fuel =>
+              match opened_with fuel w h S key {| allowed := allowed q; place := place q; depth := 1 + depth q |}
+                t (n + parameters c) with
+              | inl (t, n) => inl (TKeys ks c t, n)
+              | inr m => inr m
+              end
+          | _, _ => fails (Gives x s N ds)
+          end
+      | x => fails x
+      end) t n.
+  Definition opened := opened_with deepest.
+
+  (** The code of the [fresh]s that stand in [t] runs alike in all tasks. *)
+  Lemma opened_each w h S key q : exists inside, forall t n, opened w h S key q t n = open_each inside t n.
+  Proof. unfold opened. destruct deepest; eexists; intros t n0; reflexivity. Qed.
+
+  (** [alloc(open(t), B)], for EXECUTE. *)
+  Definition alloc (w : world) (S : shared) (t : task) : residual + message :=
+    match opened w (fun _ => false) S (fun n => next n 0) {| allowed := None; place := 0%N; depth := 0 |} t 0 with
+    | inl (t, n) =>
+        match assign w (bound S) None t with
+        | inl f => inl (build (top f) None t 0 n 0)
+        | inr m => inr m
+        end
     | inr m => inr m
     end.
 
@@ -233,11 +347,17 @@ Section Building.
   Definition used_of (B : list vehicle) (t : task) (f : nat -> vehicle) : list vehicle :=
     List.filter (fun v => mem v (chosen t f 0)) (nodup vehicle_eq B).
 
-  (** [alloc(t[V], B)] for a task that is made at its turn, with the vehicles that it uses. *)
-  Definition alloc_made (w : world) (B : list vehicle) (t : task) (q : request) (used : list timer)
-    : (list vehicle * residual) + message :=
-    match assign w B (allowed q) t with
-    | inl f => inl (used_of B t f, build (made_at q used f) (allowed q) t 0 0 0)
+  (** [alloc(open(t)[V], B)] for a task that is made at its turn, with the vehicles that it uses. *)
+  Definition alloc_made (w : world) (h : vehicle -> bool) (S : shared) (B : list vehicle) (t : task) (q : request)
+      (used : list timer) : (list vehicle * residual) + message :=
+    match opened w h S (fresh (place q) used) q t 0 with
+    | inl (t, n) =>
+        match assign w B (allowed q) t with
+        | inl f => inl (used_of B t f, build (made_at q used f) (allowed q) t 0 n 0)
+        | inr m => inr m
+        end
     | inr m => inr m
     end.
 End Building.
+
+Global Opaque opened.

@@ -160,7 +160,8 @@ Section Configurations.
   (** Of the deeds of faulty code, what it said. *)
   Definition said (ds : list deed) : list deed := List.filter is_said ds.
 
-  (** The values of the pairs that a guard took. *)
-  Definition taken (ds : list deed) : list value :=
-    flat_map (fun d => match d with Consumed ks => map snd ks | _ => [] end) ds.
+  (** The pairs that a guard took, and their values. *)
+  Definition taken_pairs (ds : list deed) : list (key * value) :=
+    flat_map (fun d => match d with Consumed ks => ks | _ => [] end) ds.
+  Definition taken (ds : list deed) : list value := map snd (taken_pairs ds).
 End Configurations.

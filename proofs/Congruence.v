@@ -53,9 +53,9 @@ Section Congruence.
 
   Lemma face_plug f r r' : simple f = true -> normal (plug f r) = true -> face r r' -> face (plug f r) (plug f r').
   Proof.
-    intros Hf Hn [H1 H2 H3 H4 H5].
+    intros Hf Hn [H1 H2 H3 H4 H5 H6].
     split; [ | | | exact Hn | destruct f; try discriminate Hf; cbn [plug normal] in *; rewrite ?andb_true_iff in *;
-      tauto].
+      tauto | ].
     - destruct f; try discriminate Hf; cbn [plug names]; try assumption;
         try (apply alike_app; [assumption | apply alike_refl]).
       + apply alike_app; [apply alike_refl | assumption].
@@ -63,7 +63,10 @@ Section Congruence.
     - destruct f; try discriminate Hf; exact H2.
     - destruct f; try discriminate Hf; cbn [plug numbers]; try assumption;
         try (apply alike_app; [assumption | apply alike_refl]).
-      intros j. cbn. rewrite (H3 j). reflexivity.
+      + intros j. cbn. rewrite (H3 j). reflexivity.
+      + apply alike_app; [apply alike_refl | assumption].
+    - destruct f; try discriminate Hf; cbn [plug keys]; try assumption.
+      apply alike_app; [apply alike_refl | assumption].
   Qed.
 
   (** The steps of the node itself: cuts. *)
@@ -108,7 +111,7 @@ Section Congruence.
   Qed.
 
   (** [until], [assure], [during], [within], [watch], rounds, running branches, [holding],
-    [recruited]: for the part that
+    [recruited], [fresh]: for the part that
       is active. *)
   Theorem frames_congruent f r r' :
     simple f = true -> normal (plug f r) = true -> bisimilar r r' -> bisimilar (plug f r) (plug f r').
@@ -164,7 +167,7 @@ Section Congruence.
   Proof.
     destruct u as [l S1 o E]. destruct o; cbn; try reflexivity.
     - rewrite sequence_assoc. reflexivity.
-    - rewrite begun_sequence. reflexivity.
+    - rewrite begun_sequence, keys_sequence. reflexivity.
   Qed.
 
   Lemma enter_sequences b c K :
@@ -211,6 +214,7 @@ Section Congruence.
     - eapply alike_trans; [apply alike_numbers_sequence|]. eapply alike_trans;
       [|apply alike_sym, alike_numbers_sequence].
       apply alike_app; assumption.
+    - rewrite !keys_sequence. assumption.
   Qed.
 
   Theorem sequences_congruent r r' t t' :
@@ -229,7 +233,7 @@ Section Congruence.
       destruct v as [l S1 o E], v' as [l' S1' o' E']. destruct Ha as (<- & <- & Ho).
       destruct o as [x | | m | x], o' as [x' | | m' | x']; try contradiction; destruct Hu as [<- | []];
         (eexists; split; [apply goes_sequence; eexists; split; [exact Hv' | left; reflexivity]|]);
-        (split; [reflexivity | split; [reflexivity|]]); auto.
+        (split; [reflexivity | split; [try reflexivity; apply clear_alike, face_keys, F'|]]); auto.
       + left. exists x, x', t, t'. auto.
       + right. exact Ht.
     - exists r, r', t, t'. auto.
@@ -250,7 +254,8 @@ Section Congruence.
       destruct H as [(-> & ->) | (g' & -> & -> & ->)]; [left; auto | right; exists g'; auto].
     - clear. intros a b (r & r' & more & t & t' & Hm & Hr & Ht & Hab).
       assert (F := bisimilar_face Hr). assert (F' := bisimilar_face Ht).
-      pose proof F as [F1 F2 F3 F4 F5]. pose proof F' as [G1 G2 G3 G4 G5].
+      pose proof F as [F1 F2 F3 F4 F5 F6]. pose proof F' as [G1 G2 G3 G4 G5 G6].
+      assert (Clear : forall S, clear (keys t) S = clear (keys t') S) by (intros; apply clear_alike; exact G6).
       assert (Next_round : forall g0, (g0 = g) ->
         up (fun a b => exists r r' more t t', some_left more = true /\ bisimilar r r' /\ bisimilar t t' /\
              ((a = Repeat r more g t /\ b = Repeat r' more g t') \/
@@ -263,7 +268,7 @@ Section Congruence.
       destruct Hab as [(-> & ->) | (g' & -> & -> & ->)].
       + split.
         { split; try (cbn [normal]; rewrite ?F4, ?F5, ?Hm, ?G4, ?G5; reflexivity); cbn [names numbers];
-            try (apply alike_app; assumption). exact F2. }
+            try (apply alike_app; assumption); [exact F2 | exact F6]. }
         intros e K S u Hu. change (Repeat r more g t) with (plug (Round_of more g t) r) in Hu.
         apply goes_plug in Hu; [|reflexivity]. destruct Hu as [[] | (v & Hv & Hu)].
         destruct (bisimilar_steps Hr (goes_similar Hv (K' := enter (Round_of more g t') K)
@@ -277,14 +282,14 @@ Section Congruence.
           split; [reflexivity | split; [reflexivity|]]. left. exists x, x', more, t, t'.
           split; [exact Hm | split; [exact Ho | split; [exact Ht | left; split; reflexivity]]].
         * destruct g as [g|]; destruct Hu as [<- | []]; (eexists; split; [apply Step; left; reflexivity|]);
-            (split; [reflexivity | split; [reflexivity|]]).
+            (split; [reflexivity | split; [try reflexivity; apply Clear|]]).
           -- left. exists r, r', more, t, t'. split; [exact Hm | split; [exact Hr | split; [exact Ht|]]].
              right. exists g. auto.
           -- apply Next_round. reflexivity.
         * destruct Hu as [<- | []]. eexists. split; [apply Step; left; reflexivity|]. cbn. auto.
         * destruct Hu as [<- | []]. eexists. split; [apply Step; left; reflexivity|]. cbn. auto.
       + split.
-        { split; try (cbn [normal]; rewrite ?Hm, ?G4, ?G5; reflexivity); try assumption. apply alike_refl. }
+        { split; try (cbn [normal]; rewrite ?Hm, ?G4, ?G5; reflexivity); try assumption; apply alike_refl. }
         intros e K S u Hu. apply goes_parts in Hu. destruct Hu as [Hu | (f & r1 & v & [] & _)].
         cbn [own] in Hu. unfold guarded, coded, breaks in Hu.
         assert (Step : forall u', In u' (own e K S (Asked more g' t')) -> goes e K S (Asked more g' t') u')
@@ -293,7 +298,8 @@ Section Congruence.
         destruct e; [contradiction|].
         destruct (runs g' [] K S) as [x s N0 ds | m ds | m ds | m s N0 ds |]; try contradiction;
           [destruct (truth x) as [[]|] | destruct (is_unknown m) | |]; try contradiction; destruct Hu as [<- | []];
-          (eexists; split; [apply Step; left; reflexivity|]); (split; [reflexivity | split; [reflexivity|]]); auto.
+          (eexists; split; [apply Step; left; reflexivity|]);
+          (split; [reflexivity | split; [try reflexivity; apply Clear|]]); auto.
     - exists r, r', more, t, t'. split; [exact Hm | split; [exact Hr | split; [exact Ht | left; split; reflexivity]]].
   Qed.
   (** {1 Side by side} *)
@@ -501,10 +507,11 @@ Section Congruence.
 
   Lemma face_hole B x x' A : around B A -> face x x' -> face (hole B x A) (hole B x' A).
   Proof.
-    intros HB [H1 H2 H3 H4 H5]. split; try (apply normal_hole; assumption); unfold hole.
+    intros HB [H1 H2 H3 H4 H5 H6]. split; try (apply normal_hole; assumption); unfold hole.
     - apply (alike_hole (f := names)); [apply through_names | exact H1].
     - rewrite !through_run_of. apply alike_hole; [apply through_run_of | exact H2].
     - apply (alike_hole (f := numbers)); [apply through_numbers | exact H3].
+    - apply (alike_hole (f := keys)); [apply through_keys | exact H6].
   Qed.
 
   Definition in_hole (p q : residual) : Prop :=
@@ -538,7 +545,7 @@ Section Congruence.
   Lemma holes_step p q : in_hole p q -> simulates (up in_hole) p q.
   Proof.
     intros (B & x & x' & A & HB & Hx & -> & ->) e K S u Hu.
-    pose proof (bisimilar_face Hx) as [F1 F2 F3 F4 F5].
+    pose proof (bisimilar_face Hx) as [F1 F2 F3 F4 F5 F6].
     assert (Hnp := normal_hole HB F4). assert (Nu := goes_normal Hu Hnp).
     apply goes_parts in Hu. destruct Hu as [[] | (f & r & v & Hp & Hv & Hu)].
     assert (Nr : normal r = true).
@@ -626,17 +633,17 @@ Section Congruence.
   Definition plain (r : residual) : bool := match r with Made a _ _ => negb (has_parameters a) | _ => true end.
 
   Lemma given_plain ds r : plain r = true -> given ds r = r.
-  Proof. destruct r; auto. cbn. destruct (has_parameters a); [discriminate | reflexivity]. Qed.
+  Proof. destruct r; auto. cbn [plain given]. destruct (has_parameters a); [discriminate | reflexivity]. Qed.
 
   Lemma choose_agree (R : residual -> residual -> Prop) e K S around around' b y a b' y' a' t :
-    fst y = fst y' ->
+    fst y = fst y' -> alike (keys (snd y)) (keys (snd y')) ->
     (forall ds, R (around (b ++ a) (given ds (snd y))) (around' (b' ++ a') (given ds (snd y')))) ->
     In t (choose e K S around b y a) -> exists t', In t' (choose e K S around' b' y' a') /\ agree R t t'.
   Proof.
-    intros Hg HR. unfold choose, guarded, coded, breaks. rewrite <- Hg. destruct e; [intros []|].
+    intros Hg Hk HR. unfold choose, guarded, coded, breaks. rewrite <- Hg. destruct e; [intros []|].
     destruct (runs (fst y) [] K S) as [x s N0 ds | m ds | m ds | m s N0 ds |]; try (intros []; fail);
       [destruct (truth x) as [[]|] | destruct (is_unknown m) | |]; try (intros []; fail); intros [<- | []];
-      eexists; (split; [left; reflexivity|]); cbn; auto.
+      eexists; (split; [left; reflexivity|]); cbn; rewrite ?(clear_alike _ Hk); auto.
   Qed.
 
   Definition branch_hole (before : list branch) (g : code) (x : residual) (after : list branch) : list branch :=
@@ -668,7 +675,7 @@ Section Congruence.
 
   Lemma face_branch p q : in_branch p q -> face p q.
   Proof.
-    intros (before & g & x & x' & after & Hx & _ & _ & Hn & H). destruct (bisimilar_face Hx) as [F1 F2 F3 F4 F5].
+    intros (before & g & x & x' & after & Hx & _ & _ & Hn & H). destruct (bisimilar_face Hx) as [F1 F2 F3 F4 F5 F6].
     assert (N1 := normal_branch_hole g F4 Hn). assert (N2 := normal_branch_hole g F5 Hn).
     assert (L1 : forall y, 1 <=? length (branch_hole before g y after) = true).
     { intros y. apply Nat.leb_le. unfold branch_hole. rewrite app_length. cbn. lia. }
@@ -723,18 +730,20 @@ Section Congruence.
     In t (each (choose e K S surrounds) [] (branch_hole before g x after)) ->
     exists t', In t' (each (choose e K S surrounds) [] (branch_hole before g x' after)) /\ agree (up in_branch) t t'.
   Proof.
-    intros Hx P P' Hn Hs Ht. destruct (bisimilar_face Hx) as [F1 F2 F3 F4 F5].
+    intros Hx P P' Hn Hs Ht. destruct (bisimilar_face Hx) as [F1 F2 F3 F4 F5 F6].
     apply in_each in Ht. destruct Ht as (b & y & a & Hb & Ht). cbn [app] in Ht.
     assert (Found : forall b' y' a', branch_hole before g x' after = b' ++ y' :: a' -> fst y = fst y' ->
+      alike (keys (snd y)) (keys (snd y')) ->
       (forall ds, up in_branch (surrounds (b ++ a) (given ds (snd y))) (surrounds (b' ++ a') (given ds (snd y')))) ->
       exists t', In t' (each (choose e K S surrounds) [] (branch_hole before g x' after)) /\ agree (up in_branch) t t').
-    { intros b' y' a' E Hf HR. destruct (choose_agree (b' := b') (a' := a') Hf HR Ht) as (t' & Ht' & Hag).
+    { intros b' y' a' E Hf Hk HR. destruct (choose_agree (b' := b') (a' := a') Hf Hk HR Ht) as (t' & Ht' & Hag).
       exists t'. split; [|exact Hag]. apply in_each. exists b', y', a'. auto. }
     assert (Parts : forall z, In z (before ++ after) -> normal (snd z) = true) by (apply forallb_forall; exact Hn).
     unfold branch_hole in Hb. change ((g, x) :: after) with ([(g, x)] ++ after) in Hb. symmetry in Hb.
     destruct (three_ways Hb) as [(c & -> & ->) | [(b1 & a1 & E & -> & ->) | (c & -> & ->)]].
     - assert (Ny : normal (snd y) = true) by (apply Parts, in_app_iff; left; apply in_elt).
-      apply (Found b y (c ++ (g, x') :: after)); [unfold branch_hole; rewrite <- app_assoc; reflexivity | reflexivity|].
+      apply (Found b y (c ++ (g, x') :: after)); [unfold branch_hole; rewrite <- app_assoc; reflexivity |
+        reflexivity | apply alike_refl |].
       intros ds. assert (Ng : normal (given ds (snd y)) = true) by (apply normal_given; exact Ny).
       destruct Hs as [-> | ->]; [left | apply up_refl; exact Ng].
       assert (Nbc : forallb (fun b => normal (snd b)) ((b ++ c) ++ after) = true)
@@ -742,12 +751,12 @@ Section Congruence.
       assert (Q := branch_of_hole g Hx P P' Ng Nbc). unfold branch_hole in Q. rewrite <- !app_assoc in Q. exact Q.
     - destruct b1 as [|z b1]; [|destruct b1; discriminate]. injection E as <- <-. rewrite app_nil_r in *.
       cbn [app] in *.
-      apply (Found before (g, x') after); [reflexivity | reflexivity|]. intros ds. cbn [snd].
+      apply (Found before (g, x') after); [reflexivity | reflexivity | exact F6 |]. intros ds. cbn [snd].
       rewrite !given_plain by assumption. right. destruct Hs as [-> | ->]; [|exact Hx].
       apply branch_of_congruent; [exact Hx | exact Hn].
     - assert (Ny : normal (snd y) = true) by (apply Parts, in_app_iff; right; apply in_elt).
       apply (Found (before ++ (g, x') :: c) y a); [unfold branch_hole; rewrite <- app_assoc;
-        reflexivity | reflexivity|].
+        reflexivity | reflexivity | apply alike_refl |].
       intros ds. assert (Ng : normal (given ds (snd y)) = true) by (apply normal_given; exact Ny).
       destruct Hs as [-> | ->]; [left | apply up_refl; exact Ng].
       assert (Nca : forallb (fun b => normal (snd b)) (before ++ c ++ a) = true)
@@ -766,7 +775,7 @@ Section Congruence.
   Proof.
     apply by_symmetric_relation; [exact in_branch_sym|]. intros a b H. split; [apply face_branch; exact H|].
     pose proof H as (before & g & x & x' & after & Hx & P & P' & Hn & Hab).
-      destruct (bisimilar_face Hx) as [F1 F2 F3 F4 F5].
+      destruct (bisimilar_face Hx) as [F1 F2 F3 F4 F5 F6].
     intros e K S t Ht. assert (Nt := goes_normal Ht (face_normal (face_branch H))).
     destruct Hab as [(-> & ->) | [(Hne & -> & ->) | (r & Hr & -> & ->)]].
     - apply goes_parts in Ht. destruct Ht as [Ht | (f & r1 & u & [] & _)]. cbn [own] in Ht.
@@ -800,7 +809,7 @@ Section Congruence.
     intros Hr. apply (@by_symmetric_relation _ _ (fun a b => exists r r', bisimilar r r' /\
       a = During_code k i d r /\ b = During_code k i d r')).
     - intros a b (x & x' & H & -> & ->). exists x', x. auto using bisimilar_sym.
-    - clear. intros a b (r & r' & Hr & -> & ->). destruct (bisimilar_face Hr) as [F1 F2 F3 F4 F5]. split.
+    - clear. intros a b (r & r' & Hr & -> & ->). destruct (bisimilar_face Hr) as [F1 F2 F3 F4 F5 F6]. split.
       { split; auto; try apply alike_refl. intros j. cbn. rewrite (F3 j). reflexivity. }
       intros e K S t Ht. apply goes_parts in Ht. destruct Ht as [Ht | (f & r1 & u & [] & _)].
       assert (Step : forall u', In u' (own e K S (During_code k i d r')) -> goes e K S (During_code k i d r') u')
@@ -808,7 +817,8 @@ Section Congruence.
       cbn [own] in Ht, Step. unfold coded, breaks in Ht, Step. destruct e; [contradiction|].
       destruct (runs d [] K S) as [x s N0 ds | m ds | m ds | m s N0 ds |]; try contradiction;
         [destruct (time_of d x) as [n|m] | | |]; destruct Ht as [<- | []];
-        (eexists; split; [apply Step; left; reflexivity|]); (split; [reflexivity | split; [reflexivity|]]); auto.
+        (eexists; split; [apply Step; left; reflexivity|]);
+        (split; [reflexivity | split; [try reflexivity; apply clear_alike; exact F6|]]); auto.
       right. change (bisimilar (plug (Body_during k i n) r) (plug (Body_during k i n) r')).
       apply frames_congruent; auto.
     - exists r, r'. auto.

@@ -72,6 +72,7 @@ Section Deadlocks.
           match whole with
           | Sequence r ?t => pose (f := In_sequence t)
           | Branch r ?bs => pose (f := Branch_of bs)
+          | Fresh ?ks r => pose (f := With_keys ks)
           | Watch r ?h => pose (f := In_watch h)
           | Repeat r ?n ?g ?t => pose (f := Round_of n g t)
           | Holding ?vs r => pose (f := Held_by vs)

@@ -31,7 +31,8 @@ Section Derivations.
         | Made _ _ _ => or_error "MAKE" "MAKE-ERR"
         | Unallocated _ _ => or_error "ALLOCATE" "ALLOCATE-ERR"
         | Recruit _ _ _ _ _ => "RECRUIT"
-        | Sequence _ _ | Parallel _ | Branch _ _ | Watch _ _ | Repeat _ _ _ _ | Holding _ _ | Recruited _ _ => ""
+        | Sequence _ _ | Parallel _ | Branch _ _ | Watch _ _ | Repeat _ _ _ _ | Holding _ _ | Recruited _ _
+        | Fresh _ _ => ""
         end
     end.
 
@@ -53,6 +54,7 @@ Section Derivations.
     | Round_of _ _ _ => by_outcome "REPEAT-1" "REPEAT-2" "REPEAT-ERR"
     | Held_by _ => by_outcome "HOLD-1" "HOLD-2" "HOLD-ERR"
     | In_recruited _ => by_outcome "RECRUIT-1" "RECRUIT-2" "RECRUIT-ERR"
+    | With_keys _ => by_outcome "FRESH-1" "FRESH-2" "FRESH-ERR"
     | In_watch _ =>
         by_outcome "WATCH-1" "WATCH-2"
           match t' with

@@ -19,14 +19,15 @@ Section Function.
   (** The part is done. *)
   Definition on_ok (f : frame) (l : label) (S' : shared) (E : list effect) : transition :=
     match f with
-    | In_sequence t => By l S' (Next t) (E ++ begun t)
+    | In_sequence t => By l (clear (keys t) S') (Next t) (E ++ begun t)
     | Beside before after => By l S' (Next (parallel (before ++ after))) E
     | Branch_of bs => By l S' (Next (all_of bs)) E
     | Body_until _ _ | In_watch _ | Held_by _ => By l S' Ok E
     | Body_during _ i _ => By l S' Ok (E ++ [Cancel_timer i])
-    | Round_of more None t => By l S' (Next (repeat_ t (option_map pred more) None t)) (E ++ begun t)
+    | Round_of more None t => By l (clear (keys t) S') (Next (repeat_ t (option_map pred more) None t)) (E ++ begun t)
     | Round_of more (Some g) t => By l S' (Next (Asked more g t)) E
     | In_recruited v => By l S' Ok (E ++ [Release [v]])
+    | With_keys ks => By l (clear ks S') Ok E
     end.
 
   (** An error comes to a [watch]. *)
@@ -54,11 +55,13 @@ Section Function.
     : list transition :=
     match f with
     | Beside before after =>
-        [By l (without (flat_map run_of (before ++ after)) S') (Err m) (E ++ cut (before ++ after))]
+        [By l (without (flat_map run_of (before ++ after)) S') (Err m)
+           (E ++ cut (before ++ after))]
     | In_watch h => on_error h K l S' m E
     | In_sequence _ | Branch_of _ | Body_until _ _ | Round_of _ _ _ | Held_by _ => [By l S' (Err m) E]
     | Body_during _ i _ => [By l S' (Err m) (E ++ [Cancel_timer i])]
     | In_recruited v => [By l S' (Err m) (E ++ [Release [v]])]
+    | With_keys ks => [By l (clear ks S') (Err m) E]
     end.
 
   Definition lift (f : frame) (K : context) (t : transition) : list transition :=
@@ -108,7 +111,8 @@ Section Function.
   Definition choose (e : option event) (K : context) (S : shared) (around : list branch -> residual -> residual)
       (before : list branch) (b : branch) (after : list branch) : list transition :=
     guarded e (fst b) K S
-      (fun s N ds => [By (LCheck ds) (with_code s N S) (Next (around (before ++ after) (given ds (snd b))))
+      (fun s N ds => [By (LCheck ds) (clear (keys (snd b)) (with_code s N S))
+                        (Next (around (before ++ after) (given ds (snd b))))
                         (effects_of ds ++ begun (snd b))])
       [] (breaks S).
 
@@ -133,14 +137,17 @@ Section Function.
         guarded e g K S
           (fun s N ds =>
              match k with
-             | Completes => [By (LCut ds) (without (run_of r) (with_code s N S)) Ok (effects_of ds ++ cut [r])]
+             | Completes => [By (LCut ds) (without (run_of r) (with_code s N S)) Ok
+                                (effects_of ds ++ cut [r])]
              | Fails _ => []
              end)
           match k with
           | Completes => []
-          | Fails at_site => [By (LCut []) (without (run_of r) S) (Err (not_assured at_site g)) (cut [r])]
+          | Fails at_site =>
+              [By (LCut []) (without (run_of r) S) (Err (not_assured at_site g)) (cut [r])]
           end
-          (fun m ds => [By (LBroken m) (without (run_of r) S) (Err m) (effects_of (said ds) ++ cut [r])])
+          (fun m ds => [By (LBroken m) (without (run_of r) S) (Err m)
+                          (effects_of (said ds) ++ cut [r])])
     | Idle i _ =>
         match e with Some (Expired j) => if timer_eq j i then [By LTimeout S Ok []] else [] | _ => [] end
     | Confirm i x at_site =>
@@ -162,7 +169,7 @@ Section Function.
         coded e d [] K S
           (fun x s N ds =>
              match time_of d x with
-             | inl n => [By (LSet_time n) (with_code s N S) (Next (During k i n r))
+             | inl n => [By (LSet_time n) (clear (keys r) (with_code s N S)) (Next (During k i n r))
                            (effects_of ds ++ Set_timer i n :: begun r)]
              | inr m => breaks S m ds
              end)
@@ -170,7 +177,7 @@ Section Function.
     | Asked more g t =>
         guarded e g K S
           (fun s N ds => [By (LCheck ds) (with_code s N S) Ok (effects_of ds)])
-          [By (LCheck []) S (Next (repeat_ t (option_map pred more) (Some g) t)) (begun t)]
+          [By (LCheck []) (clear (keys t) S) (Next (repeat_ t (option_map pred more) (Some g) t)) (begun t)]
           (breaks S)
     | Made a ys q =>
         coded e a ys K S
@@ -184,10 +191,10 @@ Section Function.
         match e with
         | Some _ => []
         | None =>
-            match alloc_made (world_of K) (free K S) t q (taken_numbers K) with
-            | inl (vs, r) => [By (LAllocate vs) S (Next (holding vs r)) (begun r)]
+            match alloc_made (world_of K) (held K) S (free K S) t q (taken_numbers K) with
+            | inl (vs, r) => [By (LAllocate vs) (clear (keys r) S) (Next (holding vs r)) (begun r)]
             | inr _ =>
-                match alloc_made (world_of K) (its_bound K S) t q (taken_numbers K) with
+                match alloc_made (world_of K) (held K) S (its_bound K S) t q (taken_numbers K) with
                 | inl _ => []
                 | inr m => [By (LCannot_execute m) S (Err m) []]
                 end
@@ -206,7 +213,8 @@ Section Function.
             else []
         | _ => []
         end
-    | Sequence _ _ | Parallel _ | Branch _ _ | Watch _ _ | Repeat _ _ _ _ | Holding _ _ | Recruited _ _ => []
+    | Sequence _ _ | Parallel _ | Branch _ _ | Watch _ _ | Repeat _ _ _ _ | Holding _ _ | Recruited _ _
+    | Fresh _ _ => []
     end.
 
   (** {1 The function} *)
@@ -237,6 +245,7 @@ Section Function.
       | Repeat r more g t => within (Round_of more g t) r
       | Holding vs r => within (Held_by vs) r
       | Recruited v r => within (In_recruited v) r
+      | Fresh ks r => within (With_keys ks) r
       | _ => []
       end.
   End Walk.
@@ -300,6 +309,7 @@ Section Function.
     | Repeat r more g t => [(Round_of more g t, r)]
     | Holding vs r => [(Held_by vs, r)]
     | Recruited v r => [(In_recruited v, r)]
+    | Fresh ks r => [(With_keys ks, r)]
     | _ => []
     end.
 

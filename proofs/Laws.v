@@ -81,7 +81,7 @@ Section Laws.
 
   Lemma transparent f : simple f = true -> is_around f [] [] ->
     (forall r, normal r = true -> normal (plug f r) = true) ->
-    (forall r, names (plug f r) = names r /\ numbers (plug f r) = numbers r) ->
+    (forall r, names (plug f r) = names r /\ numbers (plug f r) = numbers r /\ keys (plug f r) = keys r) ->
     (forall e K S r t, ~ In t (own e K S (plug f r))) ->
     (forall K v, exists t, lift f K v = [t] /\ agree (fun a b => a = plug f b) t v) ->
     forall r, normal r = true -> bisimilar (plug f r) r.
@@ -90,9 +90,9 @@ Section Laws.
     apply (@by_relation _ _ (fun a b => normal b = true /\ a = plug f b)); [|auto].
     clear r Hr. intros a r (Hr & ->).
     assert (F : face (plug f r) r).
-    { destruct (Hs r) as [N1 N2].
+    { destruct (Hs r) as (N1 & N2 & N3).
       split; auto; [rewrite N1; apply alike_refl | destruct f; try discriminate Hf; apply alike_refl | rewrite N2;
-        apply alike_refl]. }
+        apply alike_refl | rewrite N3; apply alike_refl]. }
     split; [exact F | split; intros e K S t Ht].
     - apply goes_plug in Ht; [|apply simple_not_beside, Hf]. destruct Ht as [Ht | (v & Hv & Ht)].
       { exfalso. eapply Hown. exact Ht. }
@@ -156,6 +156,7 @@ Section Laws.
     assert (Nrest : normal rest = true) by (apply normal_repeat; exact Ht).
     assert (A1 : alike (names rest) (names t)) by (apply (alike_repeat (f := names)); intros; apply alike_refl).
     assert (A3 : alike (numbers rest) (numbers t)) by (apply (alike_repeat (f := numbers)); intros; apply alike_refl).
+    assert (A4 : keys rest = keys t) by apply keys_repeat.
     apply (@by_relation _ _ (fun a b => exists r, normal r = true /\ a = Repeat r more None t /\ b = sequence r rest));
       [|exists r; auto].
     clear r Hr. intros a b (r & Hr & -> & ->).
@@ -167,7 +168,8 @@ Section Laws.
       - eapply alike_trans; [|apply alike_sym, alike_numbers_sequence].
         apply alike_app; [apply alike_refl | apply alike_sym, A3].
       - cbn [normal]. rewrite Hr, Hm, Ht. reflexivity.
-      - apply normal_sequence; assumption. }
+      - apply normal_sequence; assumption.
+      - rewrite keys_sequence. apply alike_refl. }
     assert (Ctx : forall K, similar (enter (Round_of more None t) K) (enter (In_sequence rest) K)).
     { intros K. apply enter_alike; [reflexivity | apply alike_sym, A1 | apply alike_sym, A3]. }
     split; [exact F | split; intros e K S u Hu].
@@ -176,7 +178,7 @@ Section Laws.
       assert (Nv := goes_normal Hv Hr). eapply goes_similar in Hv; [|apply Ctx].
       destruct v as [l S1 [x | | m | x] E]; destruct Hu as [<- | []];
         (eexists; split; [apply goes_sequence; eexists; split; [exact Hv | left; reflexivity]|]);
-        (split; [reflexivity | split; [reflexivity|]]); auto.
+        (split; [reflexivity | split; [rewrite ?A4; reflexivity|]]); auto.
       + left. exists x. auto.
       + right. apply bisimilar_refl. exact Nrest.
     - apply goes_sequence in Hu. destruct Hu as (v & Hv & Hu).
@@ -186,7 +188,7 @@ Section Laws.
       { intros u' Hu'. change (Repeat r more None t) with (plug (Round_of more None t) r). eapply Within; eassumption. }
       destruct v as [l S1 [x | | m | x] E]; destruct Hu as [<- | []];
         (eexists; split; [apply Step; left; reflexivity|]);
-        (split; [reflexivity | split; [reflexivity|]]); auto.
+        (split; [reflexivity | split; [rewrite ?A4; reflexivity|]]); auto.
       + left. exists x. auto.
       + right. apply bisimilar_refl. exact Nrest.
   Qed.
@@ -205,9 +207,10 @@ Section Laws.
     assert (Ns : normal (sequence r t) = true) by (apply normal_sequence; assumption).
     assert (F : face (Until (Fails at_site) g (sequence r t)) (Sequence (Until (Fails at_site) g r) (Until (Fails
       at_site) g t))).
-    { split; [exact (alike_names_sequence r t) | | exact (alike_numbers_sequence r t) | exact Ns |].
+    { split; [exact (alike_names_sequence r t) | | exact (alike_numbers_sequence r t) | exact Ns | |].
       - change (alike (run_of (sequence r t)) (run_of r)). rewrite run_of_sequence. apply alike_refl.
-      - cbn [normal is_sequence negb andb]. rewrite Hr, Ht. reflexivity. }
+      - cbn [normal is_sequence negb andb]. rewrite Hr, Ht. reflexivity.
+      - change (alike (keys (sequence r t)) (keys r)). rewrite keys_sequence. apply alike_refl. }
     assert (A0 : forall x, is_around (Body_until (Fails at_site) x) [] []) by (intros x; repeat split;
       apply alike_refl).
     assert (A1 : forall x, is_around (In_sequence x) (names x) (numbers x)) by (intros x; repeat split;
@@ -301,7 +304,7 @@ Section Laws.
     (forall r, normal (plug f r) = normal r /\ normal (plug f' r) = normal r /\
        names (plug f r) = names r /\ names (plug f' r) = names r /\ run_of (plug f r) = run_of r /\
        run_of (plug f' r) = run_of r /\ numbers (plug f r) = is ++ numbers r /\
-         numbers (plug f' r) = is ++ numbers r) ->
+         numbers (plug f' r) = is ++ numbers r /\ keys (plug f r) = keys r /\ keys (plug f' r) = keys r) ->
     (forall r, replug f r = plug f r /\ replug f' r = plug f' r) ->
     (forall K l S1 E, (exists E1, lift f K (By l S1 Ok E) = [By l S1 Ok E1]) /\
        (exists E1, lift f' K (By l S1 Ok E) = [By l S1 Ok E1]) /\
@@ -317,15 +320,16 @@ Section Laws.
       b = plug f' (Watch r h)));
       [|exists r; auto].
     clear r Hr. intros a b (r & Hr & -> & ->).
-    destruct (Hface r) as (N1 & _ & N3 & _ & N5 & _ & N7 & _).
-    destruct (Hface (Watch r h)) as (_ & N2 & _ & N4 & _ & N6 & _ & N8).
+    destruct (Hface r) as (N1 & _ & N3 & _ & N5 & _ & N7 & _ & N9 & _).
+    destruct (Hface (Watch r h)) as (_ & N2 & _ & N4 & _ & N6 & _ & N8 & _ & N10).
     assert (F : face (Watch (plug f r) h) (plug f' (Watch r h))).
     { split.
       - cbn [names]. rewrite N3, N4. apply alike_refl.
       - change (alike (run_of (plug f r)) (run_of (plug f' (Watch r h)))). rewrite N5, N6. apply alike_refl.
       - cbn [numbers]. rewrite N7, N8. apply alike_refl.
       - cbn [normal]. rewrite N1, Hr, Hs. reflexivity.
-      - rewrite N2. cbn [normal]. rewrite Hr, Hs. reflexivity. }
+      - rewrite N2. cbn [normal]. rewrite Hr, Hs. reflexivity.
+      - change (alike (keys (plug f r)) (keys (plug f' (Watch r h)))). rewrite N9, N10. apply alike_refl. }
     assert (Hw : forall K l S1 m E, on_error h K l S1 m E = [By l S1 Ok (E ++ [])]).
     { intros. unfold on_error. rewrite Hh. cbn. rewrite after_nothing. reflexivity. }
     assert (Aw : is_around (In_watch h) [] []) by (repeat split; apply alike_refl).
@@ -462,7 +466,8 @@ Section Laws.
       assert (Nb : normal (Parallel ys) = true).
       { cbn [normal] in *. rewrite <- (Permutation_length Hp), <- (forallb_permuted _ Hp). exact Na. }
       split.
-      { split; auto; [apply (alike_permuted names Hp) | | apply (alike_permuted numbers Hp)].
+      { split; auto; [apply (alike_permuted names Hp) | | apply (alike_permuted numbers Hp) | apply (alike_permuted
+        keys Hp)].
         rewrite !through_run_of. apply alike_permuted. exact Hp. }
       intros e K S u Hu. assert (Nu := goes_normal Hu Na).
       apply goes_parts in Hu. destruct Hu as [[] | (f & r & v & Hin & Hv & Hu)].
@@ -554,6 +559,7 @@ Section Laws.
           destruct (permuted_split Hp) as (b' & a' & -> & Hp'). destruct y as [g x].
           destruct (@choose_agree _ _ (up Q) e K S surrounds surrounds b0 (g, x) a0 b' (g, x) a' t) as (t' & Ht' & Hag).
           - reflexivity.
+          - apply alike_refl.
           - intros ds. eapply Hs; [exact Hp' | reflexivity].
           - exact Ht.
           - exists t'. split; [|exact Hag]. apply in_each. exists b', (g, x), a'. auto. }
@@ -629,7 +635,8 @@ Section Laws.
       - apply (Names _ numbers alike_numbers_sequence).
       - cbn [normal is_sequence negb andb]. rewrite !andb_true_iff. auto.
       - cbn [normal]. apply andb_true_iff. split; [rewrite map_length; exact Hl|]. apply forallb_forall. intros y Hy.
-        apply in_map_iff in Hy. destruct Hy as (z & <- & Hz). apply Hb'. exact Hz. }
+        apply in_map_iff in Hy. destruct Hy as (z & <- & Hz). apply Hb'. exact Hz.
+      - apply alike_refl. }
     assert (Plain : forall y ds, In y bs -> given ds (snd y) = snd y).
     { intros y ds Hy. apply given_plain. rewrite forallb_forall in Hp. auto. }
     assert (Plain' : forall y ds, In y bs -> given ds (sequence (snd y) t) = sequence (snd y) t).
@@ -649,7 +656,7 @@ Section Laws.
       destruct (runs (fst y) [] K S) as [x s N0 ds | m ds | m ds | m s N0 ds |]; try contradiction;
         [destruct (truth x) as [[]|] | destruct (is_unknown m) | |]; try contradiction; destruct Hv as [<- | []];
         destruct Hu as [<- | []]; (eexists; split; [apply Step; left; reflexivity|]); try (cbn; auto; fail).
-      split; [reflexivity | split; [reflexivity|]].
+      split; [reflexivity | split; [rewrite keys_sequence; reflexivity|]].
       change (up (fun a b => a = Sequence (One_of (b0 ++ y :: a0)) t /\ b = One_of (map ext (b0 ++ y :: a0)))
                 (sequence (given ds (snd y)) t) (given ds (sequence (snd y) t))).
       rewrite (Plain y ds Hy), (Plain' y ds Hy). apply up_refl, Hb', Hy.
@@ -667,7 +674,7 @@ Section Laws.
       destruct (runs (fst y) [] K S) as [x s N0 ds | m ds | m ds | m s N0 ds |]; try contradiction;
         [destruct (truth x) as [[]|] | destruct (is_unknown m) | |]; try contradiction; destruct Hu as [<- | []];
         (eexists; split; [eapply Step; [left; reflexivity | left; reflexivity]|]); try (cbn; auto; fail).
-      split; [reflexivity | split; [reflexivity|]].
+      split; [reflexivity | split; [rewrite keys_sequence; reflexivity|]].
       change (up (fun b a => a = Sequence (One_of (b1 ++ y :: a1)) t /\ b = One_of (map ext (b1 ++ y :: a1)))
                 (given ds (sequence (snd y) t)) (sequence (given ds (snd y)) t)).
       rewrite (Plain y ds Hy), (Plain' y ds Hy). apply up_refl, Hb', Hy.
@@ -811,7 +818,8 @@ Section Laws.
       - apply Through; [apply through_run_of | reflexivity].
       - apply Through; [apply through_numbers | reflexivity].
       - exact (N2 a b Ha Hb).
-      - apply N2; assumption. }
+      - apply N2; assumption.
+      - apply Through; [apply through_keys | reflexivity]. }
     assert (CutA : forall S, without (run_of (cutting b)) (without (run_of a) S) = without (run_of (parallel [a;
       b])) S).
     { intros S. change (run_of (cutting b)) with (run_of b). rewrite without_both. apply without_alike, alike_sym.
@@ -948,7 +956,8 @@ Section Laws.
       - intros i. cbn [numbers]. rewrite !in_app_iff, (alike_numbers_sequence x u i), in_app_iff. specialize (A3 i).
         rewrite in_app_iff in A3. tauto.
       - cbn [normal some_left]. rewrite Nxu, Ntu. reflexivity.
-      - cbn [normal some_left]. rewrite Hx, Nut. reflexivity. }
+      - cbn [normal some_left]. rewrite Hx, Nut. reflexivity.
+      - change (alike (keys (sequence x u)) (keys x)). rewrite keys_sequence. apply alike_refl. }
     assert (Ctx : forall K, similar (enter (In_sequence u) (enter (Round_of None None tu) K)) (enter (Round_of None
       None ut) K)).
     { intros K.
@@ -967,7 +976,8 @@ Section Laws.
       { intros u' Hu'. change (Repeat x None None ut) with (plug (Round_of None None ut) x). eapply Within;
         eassumption. }
       destruct v as [l S1 [y | | m | y] E]; destruct Hw1 as [<- | []]; destruct Hw as [<- | []];
-        (eexists; split; [apply Step; left; reflexivity|]); (split; [reflexivity | split; [reflexivity|]]); auto.
+        (eexists; split; [apply Step; left; reflexivity|]); (split; [reflexivity | split; [unfold tu, ut; rewrite
+          ?keys_sequence; reflexivity|]]); auto.
       + left. left. exists y. auto.
       + left. right. exact Turn.
     - change (Repeat x None None ut) with (plug (Round_of None None ut) x) in Hw.
@@ -980,7 +990,7 @@ Section Laws.
         eapply Within; [apply goes_sequence; exists v; split; [exact Hv | exact Hv1] | exact Hu']. }
       destruct v as [l S1 [y | | m | y] E]; destruct Hw as [<- | []];
         (eexists; split; [eapply Step; [left; reflexivity | left; reflexivity]|]);
-        (split; [reflexivity | split; [reflexivity|]]); auto.
+        (split; [reflexivity | split; [unfold tu, ut; rewrite ?keys_sequence; reflexivity|]]); auto.
       + left. left. exists y. auto.
       + left. right. exact Turn.
   Qed.
@@ -1007,7 +1017,7 @@ Section Laws.
     (forall v, In v (frame_names f) -> In v (names t)) -> (forall i, In i (frame_numbers f) -> In i (numbers t)) ->
     (forall r, normal r = true -> normal (plug f (Repeat r None None t)) = true) ->
     (forall r, alike (names (plug f r)) (names r ++ frame_names f) /\ run_of (plug f r) = run_of r /\
-       alike (numbers (plug f r)) (numbers r ++ frame_numbers f)) ->
+       alike (numbers (plug f r)) (numbers r ++ frame_numbers f) /\ keys (plug f r) = keys r) ->
     (forall e K S r x, ~ In x (own e K S (plug f r))) ->
     (forall r, replug f (Repeat r None None t) = plug f (Repeat r None None t)) ->
     (forall K l S1 m E, lift f K (By l S1 (Err m) E) = [By l S1 (Err m) E]) ->
@@ -1017,10 +1027,10 @@ Section Laws.
     apply (@by_relation _ _ (fun a b => exists r, normal r = true /\ a = plug f (Repeat r None None t) /\
       b = Repeat r None None t)); [|exists r; auto].
     clear r Hr. intros a b (r & Hr & -> & ->). set (R := Repeat r None None t).
-    destruct (Hface R) as (F1 & F2 & F3).
+    destruct (Hface R) as (F1 & F2 & F3 & F4).
     assert (NR : normal R = true) by (cbn [R normal some_left]; rewrite Hr, Ht; reflexivity).
     assert (F : face (plug f R) R).
-    { split; [| rewrite F2; apply alike_refl | | apply Nf; exact Hr | exact NR].
+    { split; [| rewrite F2; apply alike_refl | | apply Nf; exact Hr | exact NR | rewrite F4; apply alike_refl].
       - eapply alike_trans; [exact F1|]. intros v. rewrite in_app_iff. cbn [R names]. rewrite in_app_iff.
         specialize (Hn v). tauto.
       - eapply alike_trans; [exact F3|]. intros v. rewrite in_app_iff. cbn [R numbers]. rewrite in_app_iff.
@@ -1044,7 +1054,8 @@ Section Laws.
         destruct Hu as [<- | []].
         eexists. split; [apply Step; left; reflexivity|]. split; [reflexivity | split;
           [reflexivity|]]. left. exists x. auto.
-      + change (In u [By l S1 (Next (replug f (Repeat t None None t))) (E ++ begun t)]) in Hu. rewrite Hre in Hu.
+      + change (In u [By l (clear (keys t) S1) (Next (replug f (Repeat t None None t))) (E ++ begun t)]) in Hu.
+        rewrite Hre in Hu.
         destruct Hu as [<- | []].
         eexists. split; [apply Step; left; reflexivity|]. split; [reflexivity | split;
           [reflexivity|]]. left. exists t. auto.
@@ -1077,5 +1088,52 @@ Section Laws.
     - intros v. cbn. rewrite in_app_iff. tauto.
     - intros x Hx. cbn [plug normal some_left]. rewrite Hx, Ht, Hm. reflexivity.
     - intros x. repeat split; apply alike_refl.
+  Qed.
+
+  (** {1 Fresh keys} *)
+
+  Lemma clear_twice ks ks' S : clear ks (clear ks' S) = clear (ks ++ ks') S.
+  Proof.
+    unfold clear, with_space, with_code. cbn. f_equal. rewrite forget_twice_law. apply forget_law.
+    intros i. rewrite !in_app_iff. tauto.
+  Qed.
+
+  (** [fresh { k -> fresh { k' -> t } } = fresh { k, k' -> t }] *)
+  Theorem fresh_twice ks ks' r : normal r = true -> bisimilar (Fresh ks (Fresh ks' r)) (Fresh (ks ++ ks') r).
+  Proof.
+    intros Hr.
+    apply (@by_relation _ _ (fun a b => exists r, normal r = true /\ a = Fresh ks (Fresh ks' r) /\
+      b = Fresh (ks ++ ks') r)); [|exists r; auto].
+    clear r Hr. intros a b (r & Hr & -> & ->).
+    assert (F : face (Fresh ks (Fresh ks' r)) (Fresh (ks ++ ks') r)).
+    { split; try exact Hr; cbn [names numbers keys]; try (rewrite app_assoc); apply alike_refl. }
+    assert (Ctx : forall K, similar (enter (With_keys ks') (enter (With_keys ks) K)) (enter (With_keys (ks ++ ks')) K)).
+    { intros K.
+      assert (P : forall is, is_around (With_keys is) [] is) by (intros is; repeat split; apply alike_refl).
+      assert (P3 : is_around (With_keys (ks ++ ks')) ([] ++ []) (ks' ++ ks)).
+      { repeat split; try apply alike_refl; cbn [frame_numbers]; rewrite !in_app_iff; tauto. }
+      eapply enter_two; [apply P | apply P | exact P3]. }
+    split; [exact F | split; intros e K S u Hu].
+    - change (Fresh ks (Fresh ks' r)) with (plug (With_keys ks) (plug (With_keys ks') r)) in Hu.
+      apply goes_plug in Hu; [|reflexivity]. destruct Hu as [[] | (w & Hw & Hu)].
+      apply goes_plug in Hw; [|reflexivity]. destruct Hw as [[] | (v & Hv & Hw)].
+      assert (Nv := goes_normal Hv Hr). eapply goes_similar in Hv; [|apply Ctx].
+      assert (Step : forall u', In u' (lift (With_keys (ks ++ ks')) K v) -> goes e K S (Fresh (ks ++ ks') r) u').
+      { intros u' Hu'. change (Fresh (ks ++ ks') r) with (plug (With_keys (ks ++ ks')) r). eapply Within; eassumption. }
+      destruct v as [l S1 [x | | m | x] E]; destruct Hw as [<- | []]; destruct Hu as [<- | []];
+        (eexists; split; [apply Step; left; reflexivity|]);
+        (split; [reflexivity | split; [rewrite ?clear_twice; reflexivity|]]); auto.
+      left. exists x. auto.
+    - change (Fresh (ks ++ ks') r) with (plug (With_keys (ks ++ ks')) r) in Hu.
+      apply goes_plug in Hu; [|reflexivity]. destruct Hu as [[] | (v & Hv & Hu)].
+      assert (Nv := goes_normal Hv Hr). eapply goes_similar in Hv; [|apply similar_sym, Ctx].
+      assert (Step : forall w u', In w (lift (With_keys ks') (enter (With_keys ks) K) v) ->
+        In u' (lift (With_keys ks) K w) -> goes e K S (Fresh ks (Fresh ks' r)) u').
+      { intros w u' Hw Hu'. change (Fresh ks (Fresh ks' r)) with (plug (With_keys ks) (plug (With_keys ks') r)).
+        eapply Within; [eapply Within; [exact Hv | exact Hw] | exact Hu']. }
+      destruct v as [l S1 [x | | m | x] E]; destruct Hu as [<- | []];
+        (eexists; split; [eapply Step; [left; reflexivity | left; reflexivity]|]);
+        (split; [reflexivity | split; [rewrite ?clear_twice; reflexivity|]]); auto.
+      left. exists x. auto.
   Qed.
 End Laws.

@@ -23,7 +23,7 @@ Section Normal_forms.
     | Holding vs r => (1 <=? length vs) && normal r
     | Watch r h => normal r && solid_handler h
     | Unallocated t _ => solid t
-    | Until _ _ r | During _ _ _ r | During_code _ _ _ r | Recruited _ r => normal r
+    | Until _ _ r | During _ _ _ r | During_code _ _ _ r | Recruited _ r | Fresh _ r => normal r
     | Ready _ _ | Running _ _ | Action _ | Condition _ | Idle _ _ | Confirm _ _ _ | Made _ _ _
     | Recruit _ _ _ _ _ => true
     end.
@@ -88,10 +88,87 @@ Section Normal_forms.
   Proof. intros H1 H2. destruct bs; [exact H1|]. cbn [branch_of normal length Nat.leb]. bools. auto. Qed.
 
   Lemma normal_given ds r : normal r = true -> normal (given ds r) = true.
-  Proof. destruct r; cbn; auto. destruct (has_parameters a); auto. Qed.
+  Proof. intros H. destruct r; try exact H. cbn [given]. destruct (has_parameters a); [reflexivity | exact H]. Qed.
 
   Lemma normal_holding vs r : normal r = true -> normal (holding vs r) = true.
   Proof. destruct vs; cbn; auto. Qed.
+
+  (** {1 What is opened is as good} *)
+
+  Lemma solid_open_each inside t :
+    (forall c n t' n', inside c n = inl (t', n') -> solid t' = true) ->
+    forall n t' n', open_each inside t n = inl (t', n') -> solid t = true -> solid t' = true.
+  Proof.
+    intros Hi. assert (Branches : forall bs, Forall (fun b => forall n t' n',
+      open_each inside (snd b) n = inl (t', n') -> solid (snd b) = true -> solid t' = true) bs ->
+      forall n bs' n',
+      (fix each (bs : list (code * task)) (n : nat) : (list (code * task) * nat) + message :=
+         match bs with
+         | [] => inl ([], n)
+         | (g, a) :: bs =>
+             match open_each inside a n with
+             | inl (a', n1) => match each bs n1 with inl (bs', n2) => inl ((g, a') :: bs', n2) | inr m => inr m end
+             | inr m => inr m
+             end
+         end) bs n = inl (bs', n') ->
+      forallb (fun b => solid (snd b)) bs = true ->
+      forallb (fun b => solid (snd b)) bs' = true /\ (bs <> [] -> bs' <> [])).
+    { induction 1 as [|(g, a) bs Hb _ IH]; intros n bs' n' H Hs.
+      - injection H as <- <-. auto.
+      - cbn [forallb snd] in *. bools. destruct (open_each inside a n) as [(a' & n1)|] eqn:A; [|discriminate].
+        destruct (_ bs n1) as [(bs1 & n2)|] eqn:B; [|discriminate]. injection H as <- <-. cbn [forallb snd]. bools.
+        split; [split; [eapply Hb; [exact A | tauto] | eapply IH; [exact B | tauto]] | discriminate]. }
+    induction t using task_rect'; intros n0 t' n' Ho Hs; cbn [open_each solid] in *; bools;
+      try (injection Ho as <- <-; exact Hs);
+      try (eapply Hi; exact Ho);
+      try (destruct (open_each inside t n0) as [(a' & n1)|] eqn:A; [|discriminate]; injection Ho as <- <-;
+           cbn [solid]; bools; first [eapply IHt; [exact A | tauto] | split; [eapply IHt; [exact A | tauto] | tauto]]).
+    - destruct (open_each inside t1 n0) as [(a' & n1)|] eqn:A; [|discriminate].
+      destruct (open_each inside t2 n1) as [(b' & n2)|] eqn:B; [|discriminate]. injection Ho as <- <-. cbn [solid].
+      bools. split; [eapply IHt1; [exact A | tauto] | eapply IHt2; [exact B | tauto]].
+    - destruct (open_each inside t1 n0) as [(a' & n1)|] eqn:A; [|discriminate].
+      destruct (open_each inside t2 n1) as [(b' & n2)|] eqn:B; [|discriminate]. injection Ho as <- <-. cbn [solid].
+      bools. split; [eapply IHt1; [exact A | tauto] | eapply IHt2; [exact B | tauto]].
+    - destruct (_ bs n0) as [(bs' & n1)|] eqn:B; [|discriminate]. injection Ho as <- <-. cbn [solid]. bools.
+      destruct (Branches bs H _ _ _ B) as [H1 H2]; [tauto|]. split; [|exact H1].
+      destruct bs; [destruct Hs; discriminate|]. destruct bs'; [exfalso; apply H2; [discriminate | reflexivity] |
+        reflexivity].
+    - destruct (_ bs n0) as [(bs' & n1)|] eqn:B; [|discriminate]. injection Ho as <- <-. cbn [solid]. bools.
+      destruct (Branches bs H _ _ _ B) as [H1 H2]; [tauto|]. split; [|exact H1].
+      destruct bs; [destruct Hs; discriminate|]. destruct bs'; [exfalso; apply H2; [discriminate | reflexivity] |
+        reflexivity].
+  Qed.
+
+  Lemma made_solid a ys q S x s ds t : made_task a ys q S x s ds = Some t -> solid t = true.
+  Proof.
+    unfold made_task. intros M. destruct (negb (takes a ys)); [discriminate|].
+    destruct (deepest <=? depth q); [discriminate|]. destruct ds; [|discriminate].
+    destruct (store_eq s (variables S)); [|discriminate]. eapply task_law. exact M.
+  Qed.
+
+  Lemma solid_opened_with fuel w h S key : forall q t n t' n',
+    opened_with fuel w h S key q t n = inl (t', n') -> solid t = true -> solid t' = true.
+  Proof.
+    induction fuel as [|fuel IH]; intros q t n t' n'; cbn [opened_with]; apply solid_open_each; clear t n t' n';
+      intros c n t' n' H;
+      destruct (run c _ w h S) as [x s N ds | m ds | m ds | m s N ds |]; try discriminate;
+      destruct (made_task c _ q S x s ds) as [t1|] eqn:M; try discriminate.
+    destruct (opened_with fuel w h S key _ t1 _) as [(t2 & n2)|] eqn:O; [|discriminate]. injection H as <- <-.
+    cbn [solid]. eapply IH; [exact O | eapply made_solid; exact M].
+  Qed.
+
+  Lemma solid_opened w h S key q t n t' n' : opened w h S key q t n = inl (t', n') -> solid t = true -> solid t' = true.
+  Proof. Transparent opened. apply solid_opened_with. Qed.
+  Opaque opened.
+
+  Lemma solid_unopened t : solid t = true -> solid (unopened t) = true.
+  Proof.
+    induction t using task_rect'; cbn [unopened solid]; bools; try tauto.
+    - intros [H1 H2]. split; [destruct bs; [discriminate | reflexivity]|]. rewrite forallb_forall in *.
+      rewrite Forall_forall in H. intros b Hb. apply in_map_iff in Hb. destruct Hb as (b0 & <- & Hb). cbn. auto.
+    - intros [H1 H2]. split; [destruct bs; [discriminate | reflexivity]|]. rewrite forallb_forall in *.
+      rewrite Forall_forall in H. intros b Hb. apply in_map_iff in Hb. destruct Hb as (b0 & <- & Hb). cbn. auto.
+  Qed.
 
   (** {1 What is built is in normal form} *)
 
@@ -123,8 +200,10 @@ Section Normal_forms.
       split; [|exact H3]. apply Nat.leb_le. destruct bs as [|(g, t) bs]; [discriminate | cbn; lia].
     - apply IHt. exact Hs.
     - destruct d; apply IHt; exact Hs.
-    - destruct (may_recover h); cbn [normal solid_handler anew]; bools; split; auto.
+    - destruct (may_recover h); cbn [normal]; unfold solid_handler; cbn [anew]; bools; split; auto.
+      apply solid_unopened. exact Hs.
     - apply normal_repeat; apply IHt; exact Hs.
+    - apply IHt. exact Hs.
   Qed.
 
   (** {1 Every step keeps the normal form} *)
@@ -186,10 +265,11 @@ Section Normal_forms.
         destruct (store_eq s (variables S)); [|discriminate]. eapply task_law. exact M.
       + is_only H. exact I.
     - destruct e; [contradiction|].
-      destruct (alloc_made (world_of K) (free K S) t0 q (taken_numbers K)) as [(vs & r) | m] eqn:A.
-      + is_only Ht. unfold alloc_made in A. destruct (assign _ _ _ _); [|discriminate]. injection A as <- <-.
-        apply normal_holding, normal_build. exact Hn.
-      + destruct (alloc_made (world_of K) (its_bound K S) t0 q (taken_numbers K)); [contradiction|].
+      destruct (alloc_made (world_of K) (held K) S (free K S) t0 q (taken_numbers K)) as [(vs & r) | m] eqn:A.
+      + is_only Ht. unfold alloc_made in A. destruct (opened _ _ _ _ _ _ _) as [(t' & n)|] eqn:O; [|discriminate].
+        destruct (assign _ _ _ _); [|discriminate]. injection A as <- <-.
+        apply normal_holding, normal_build. eapply solid_opened; [exact O | exact Hn].
+      + destruct (alloc_made (world_of K) (held K) S (its_bound K S) t0 q (taken_numbers K)); [contradiction|].
         is_only Ht. exact I.
     - destruct e as [[]|]; try contradiction. destruct (timer_eq i0 i); [|contradiction].
       destruct (mem v (fit q (world_of K) (bound S)) && negb (named K v)); [|contradiction]. is_only Ht. reflexivity.
@@ -253,8 +333,9 @@ Section Normal_forms.
   Proof.
     induction 1 as [|w e c l c' E _ IH Hs]; intros M' r Hr; [discriminate|].
     destruct Hs; cbn in Hr; try discriminate; try (eapply IH; exact Hr; fail).
-    - injection Hr as -> ->. unfold alloc in H0. destruct (assign _ _ _ _); [|discriminate]. injection H0 as <-.
-      apply normal_build. eapply script_task_law. exact H.
+    - injection Hr as -> ->. unfold alloc in H0. destruct (opened _ _ _ _ _ _ _) as [(t' & n)|] eqn:O; [|discriminate].
+      destruct (assign _ _ _ _); [|discriminate]. injection H0 as <-.
+      apply normal_build. eapply solid_opened; [exact O|]. eapply script_task_law. exact H.
     - injection Hr as -> ->. eapply steps_keep_normal_forms; [|exact H]. eapply IH. reflexivity.
   Qed.
 
@@ -295,7 +376,7 @@ Section Normal_forms.
         destruct x as [ | [ks | ks | x | vs | vs n] | [q | x | n | cl | t] | | | m | m]; try discriminate.
         - destruct (take ks (space S)) eqn:T; [discriminate|]. exfalso. eapply H1; [exact R | exact T].
         - destruct (both (bound S) vs) eqn:T; [|discriminate]. exfalso. eapply H2; [exact R | exact T].
-        - destruct (alloc w (bound S) t); discriminate. }
+        - destruct (alloc w (with_store s1 S) t); discriminate. }
       destruct (some_of _ _ H) as [[l c' E] Hin]. exists l, c', E. apply configurations_agree. exact Hin.
     - assert (Hf : full r = true) by (apply normal_full; eapply always_normal; [exact Hr | reflexivity]).
       destruct (residuals_progress r Hc (alone w) S Hf) as [(l & S' & o & E & H) | H]; [left | right; exact H].

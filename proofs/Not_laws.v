@@ -128,12 +128,13 @@ Section Not_laws.
                   (Parallel [Ready p v; Sequence (Confirm i x at_site) (Ready p u)]).
   Proof.
     intros Hv H. apply alike_back in H.
-    answer H (Some (Answered i true)) (alone w) S (By (LAnswered true) S (Next (Parallel [Ready p v;
+    answer H (Some (Answered i true)) (alone w) S (By (LAnswered true) (clear [] S) (Next (Parallel [Ready p v;
       Ready p u])) []) T A;
       [done_by|].
     sole T A. destruct A as (_ & _ & H1).
-    answer H1 (@None event) (alone w) S
-      (By (LStart u p) (start_on u p S) (Next (Parallel [Ready p v; Running p u])) [Start p u]) T1 A1; [done_by|].
+    answer H1 (@None event) (alone w) (clear [] S)
+      (By (LStart u p) (start_on u p (clear [] S)) (Next (Parallel [Ready p v; Running p u])) [Start p u]) T1 A1;
+        [done_by|].
     sole T1 A1.
   Qed.
 

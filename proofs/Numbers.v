@@ -1,5 +1,5 @@
-(** No two timers, questions or recruits of a residual have one number, but for those of the rounds of one [repeat]. So
-    each number that is cancelled, expires or is answered is that of one wait. *)
+(** No two timers, questions, recruits or keys of a residual have one number, but for those of the rounds of one
+    [repeat]. So each number that is cancelled, expires or is answered is that of one wait. *)
 From Dolphin Require Export Once Congruence.
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -66,6 +66,7 @@ Section Numbers.
   | N_asked : forall more g t, Numbered t -> Numbered (Asked more g t)
   | N_holding : forall vs r, Numbered r -> Numbered (Holding vs r)
   | N_recruited : forall v r, Numbered r -> Numbered (Recruited v r)
+  | N_fresh : forall ks r, NoDup ks -> Numbered r -> disjoint ks (numbers r) -> Numbered (Fresh ks r)
   | N_atom : forall r, atom r = true -> Numbered r.
 
   (** {1 Open waits} *)
@@ -156,10 +157,10 @@ Section Numbers.
     assumption]. Qed.
 
   Lemma numbers_given ds r : numbers (given ds r) = numbers r.
-  Proof. destruct r; cbn; auto. destruct (has_parameters a); reflexivity. Qed.
+  Proof. destruct r; try reflexivity. cbn [given]. destruct (has_parameters a); reflexivity. Qed.
 
   Lemma numbered_given ds r : Numbered r -> Numbered (given ds r).
-  Proof. intros H. destruct r; cbn; auto. destruct (has_parameters a); constructor; reflexivity. Qed.
+  Proof. intros H. destruct r; try exact H. cbn [given]. destruct (has_parameters a); constructor; reflexivity. Qed.
 
   (** {1 What is built} *)
 
@@ -167,99 +168,207 @@ Section Numbers.
   Definition increasing (p : supply) : Prop :=
     forall a b a' b', a < a' -> b <= b' -> number p a b <> number p a' b'.
 
-  Definition within_numbers (p : supply) (a b : nat) (t : task) (is : list timer) : Prop :=
-    forall i, In i is -> exists a' b', a <= a' < a + timers t /\ b <= b' <= b + places t /\ i = number p a' b'.
+  Lemma increasing_apart p a b a' b' : increasing p -> number p a b = number p a' b' ->
+    ~ (a < a' /\ b <= b') /\ ~ (a' < a /\ b' <= b).
+  Proof. intros Hp E. split; intros [H1 H2]; [apply (Hp a b a' b') | apply (Hp a' b' a b)]; auto. Qed.
 
-  Lemma numbered_build (p : supply) t : increasing p -> forall ok k a b,
-    Numbered (build p ok t k a b) /\ within_numbers p a b t (numbers (build p ok t k a b)).
+  (** The keys of [t], which is open, are those from [n] to before [n'], each of one [fresh]. *)
+  Fixpoint keyed (key : nat -> timer) (t : task) (n n' : nat) : Prop :=
+    match t with
+    | TPlan _ | TAction _ | TCondition _ | TIdle _ | TConfirm _ _ | TMade _ | TRecruit _ _ | TFresh _ => n <= n'
+    | TSequence t1 t2 | TParallel t1 t2 => exists m, keyed key t1 n m /\ keyed key t2 m n'
+    | TAllocated t _ | TUntil _ _ t | TDuring _ _ t | TWatch t _ | TRepeat _ _ t => keyed key t n n'
+    | TAll_of bs | TOne_of bs =>
+        (fix branches (bs : list (code * task)) (n : nat) : Prop :=
+           match bs with
+           | [] => n <= n'
+           | (_, t) :: bs => exists m, keyed key t n m /\ branches bs m
+           end) bs n
+    | TKeys ks _ t => exists m, n <= m /\ ks = map key (seq n (m - n)) /\ keyed key t m n'
+    end.
+
+  Lemma keyed_later key t : forall n n', keyed key t n n' -> n <= n'.
+  Proof.
+    induction t using task_rect'; cbn [keyed]; intros n0 n' K0; auto.
+    - destruct K0 as (m & H1 & H2). apply IHt1 in H1. apply IHt2 in H2. lia.
+    - destruct K0 as (m & H1 & H2). apply IHt1 in H1. apply IHt2 in H2. lia.
+    - revert n0 K0. induction H as [|(g, t) bs Hb _ IH]; intros n0 K0; [exact K0|].
+      destruct K0 as (m & H1 & H2). apply Hb in H1. apply IH in H2. lia.
+    - revert n0 K0. induction H as [|(g, t) bs Hb _ IH]; intros n0 K0; [exact K0|].
+      destruct K0 as (m & H1 & H2). apply Hb in H1. apply IH in H2. lia.
+    - destruct K0 as (m & H1 & _ & H2). apply IHt in H2. lia.
+  Qed.
+
+  Lemma keyed_open_each key inside t :
+    (forall c n t' n', inside c n = inl (t', n') -> keyed key t' n n') ->
+    forall n t' n', open_each inside t n = inl (t', n') -> keyed key t' n n'.
+  Proof.
+    intros Hi.
+    assert (Branches : forall bs,
+      Forall (fun x => forall n t' n', open_each inside (snd x) n = inl (t', n') -> keyed key t' n n') bs ->
+      forall n bs' n',
+      (fix each (bs : list (code * task)) (n : nat) : (list (code * task) * nat) + message :=
+         match bs with
+         | [] => inl ([], n)
+         | (g, a) :: bs =>
+             match open_each inside a n with
+             | inl (a', n1) => match each bs n1 with inl (bs', n2) => inl ((g, a') :: bs', n2) | inr m => inr m end
+             | inr m => inr m
+             end
+         end) bs n = inl (bs', n') ->
+      (fix branches (bs : list (code * task)) (n : nat) : Prop :=
+         match bs with
+         | [] => n <= n'
+         | (_, t) :: bs => exists m, keyed key t n m /\ branches bs m
+         end) bs' n).
+    { induction 1 as [|(g, a) bs Hb _ IH]; intros n bs' n' H.
+      - injection H as <- <-. apply le_n.
+      - destruct (open_each inside a n) as [(a' & n1)|] eqn:A; [|discriminate].
+        destruct (_ bs n1) as [(bs1 & n2)|] eqn:B; [|discriminate]. injection H as <- <-.
+        exists n1. split; [apply Hb; exact A | apply IH; exact B]. }
+    induction t using task_rect'; intros n0 t' n' Ho; cbn [open_each] in Ho;
+      try (injection Ho as <- <-; apply le_n);
+      try (apply Hi with (1 := Ho));
+      try (destruct (open_each inside t n0) as [(a' & n1)|] eqn:A; [|discriminate]; injection Ho as <- <-;
+           apply (IHt _ _ _ A)).
+    - destruct (open_each inside t1 n0) as [(a' & n1)|] eqn:A; [|discriminate].
+      destruct (open_each inside t2 n1) as [(b' & n2)|] eqn:B; [|discriminate]. injection Ho as <- <-. exists n1. eauto.
+    - destruct (open_each inside t1 n0) as [(a' & n1)|] eqn:A; [|discriminate].
+      destruct (open_each inside t2 n1) as [(b' & n2)|] eqn:B; [|discriminate]. injection Ho as <- <-. exists n1. eauto.
+    - destruct (_ bs n0) as [(bs' & n1)|] eqn:B; [|discriminate]. injection Ho as <- <-. apply (Branches bs H _ _ _ B).
+    - destruct (_ bs n0) as [(bs' & n1)|] eqn:B; [|discriminate]. injection Ho as <- <-. apply (Branches bs H _ _ _ B).
+  Qed.
+
+  Lemma keyed_opened_with fuel w h S key : forall q t n t' n',
+    opened_with fuel w h S key q t n = inl (t', n') -> keyed key t' n n'.
+  Proof.
+    induction fuel as [|fuel IH]; intros q t n t' n'; cbn [opened_with]; apply keyed_open_each; clear t n t' n';
+      intros c n t' n' H;
+      destruct (run c _ w h S) as [x s N ds | m ds | m ds | m s N ds |]; try discriminate;
+      destruct (made_task c _ q S x s ds) as [t1|]; try discriminate.
+    destruct (opened_with fuel w h S key _ t1 _) as [(t2 & n2)|] eqn:O; [|discriminate]. injection H as <- <-.
+    exists (n + parameters c). split; [lia | split].
+    - replace (n + parameters c - n) with (parameters c) by lia. reflexivity.
+    - eapply IH. exact O.
+  Qed.
+
+  Lemma keyed_opened w h S key q t n t' n' : opened w h S key q t n = inl (t', n') -> keyed key t' n n'.
+  Proof. Transparent opened. apply keyed_opened_with. Qed.
+  Opaque opened.
+
+  (** Keys come first, from [n] to before [n']; then timers, from [a]. *)
+  Definition within_numbers (p : supply) (n n' a b : nat) (ts ps : nat) (is : list timer) : Prop :=
+    forall i, In i is -> exists a' b', i = number p a' b' /\
+      ((n <= a' < n' /\ b' = 0) \/ (a <= a' < a + ts /\ b <= b' <= b + ps)).
+
+  Lemma numbered_build (p : supply) t : increasing p -> forall ok n n' k a b,
+    keyed (fun j => number p j 0) t n n' -> n' <= a ->
+    Numbered (build p ok t k a b) /\
+    within_numbers p n n' a b (timers t) (places t) (numbers (build p ok t k a b)).
   Proof.
     intros Hp.
+    assert (Apart : forall n m n' a b ts ps ts' ps' is js, n <= m <= n' -> n' <= a ->
+      within_numbers p n m a b ts ps is -> within_numbers p m n' (a + ts) (b + ps) ts' ps' js -> disjoint is js).
+    { intros n m n' a b ts ps ts' ps' is js Hm Ha W1 W2 i Hi Hj.
+      destruct (W1 i Hi) as (a1 & b1 & -> & D1). destruct (W2 _ Hj) as (a2 & b2 & E & D2).
+      apply (increasing_apart Hp) in E. lia. }
+    assert (Both : forall n m n' a b ts ps ts' ps' is js, n <= m <= n' ->
+      within_numbers p n m a b ts ps is -> within_numbers p m n' (a + ts) (b + ps) ts' ps' js ->
+      within_numbers p n n' a b (ts + ts') (ps + ps') (is ++ js)).
+    { intros n m n' a b ts ps ts' ps' is js Hm W1 W2 i Hi. apply in_app_iff in Hi. destruct Hi as [Hi | Hi].
+      - destruct (W1 i Hi) as (a1 & b1 & -> & D1). exists a1, b1. split; [reflexivity | lia].
+      - destruct (W2 i Hi) as (a1 & b1 & -> & D1). exists a1, b1. split; [reflexivity | lia]. }
     assert (Branches : forall ok bs,
-      Forall (fun x => forall ok k a b, Numbered (build p ok (snd x) k a b) /\
-                within_numbers p a b (snd x) (numbers (build p ok (snd x) k a b))) bs ->
-      forall k a b,
+      Forall (fun x => forall ok n n' k a b, keyed (fun j => number p j 0) (snd x) n n' -> n' <= a ->
+                Numbered (build p ok (snd x) k a b) /\
+                within_numbers p n n' a b (timers (snd x)) (places (snd x)) (numbers (build p ok (snd x) k a b))) bs ->
+      forall n n' k a b,
+      (fix branches (bs : list (code * task)) (n : nat) : Prop :=
+         match bs with
+         | [] => n <= n'
+         | (_, t) :: bs => exists m, keyed (fun j => number p j 0) t n m /\ branches bs m
+         end) bs n ->
+      n' <= a ->
       let rs :=
         (fix branches (bs : list (code * task)) (k a b : nat) : list branch :=
            match bs with
            | [] => []
            | (g, t) :: bs => (g, build p ok t k a b) :: branches bs (k + leaves t) (a + timers t) (b + places t)
            end) bs k a b in
-      (forall b, In b rs -> Numbered (snd b)) /\ separate (map of_branch rs) /\
-      forall i, In i (concat (map of_branch rs)) -> exists a' b',
-        a <= a' < a + list_sum (map (fun b => timers (snd b)) bs) /\
-        b <= b' <= b + list_sum (map (fun b => places (snd b)) bs) /\ i = number p a' b').
-    { intros ok bs. induction 1 as [|(g, t0) bs Hb _ IH]; intros k a b.
-      - split; [intros x [] | split; [exact I | intros i []]].
-      - destruct (Hb ok k a b) as [B1 B2]. cbn [snd] in B1, B2.
-        destruct (IH (k + leaves t0) (a + timers t0) (b + places t0)) as (I1 & I2 & I3).
+      n <= n' /\ (forall b, In b rs -> Numbered (snd b)) /\ separate (map of_branch rs) /\
+      within_numbers p n n' a b (list_sum (map (fun b => timers (snd b)) bs))
+        (list_sum (map (fun b => places (snd b)) bs)) (concat (map of_branch rs))).
+    { intros ok bs. induction 1 as [|(g, t0) bs Hb _ IH]; intros n n' k a b Hk Ha.
+      - split; [exact Hk | split; [intros x [] | split; [exact I | intros i []]]].
+      - destruct Hk as (m & K1 & K2). assert (Hm := keyed_later K1).
+        destruct (IH m n' (k + leaves t0) (a + timers t0) (b + places t0) K2) as (I0 & I1 & I2 & I3); [lia|].
+        destruct (Hb ok n m k a b K1) as [B1 B2]; [lia|]. cbn [snd] in B1, B2.
         change (list_sum (map (fun b => timers (snd b)) ((g, t0) :: bs)))
           with (timers t0 + list_sum (map (fun b => timers (snd b)) bs)).
         change (list_sum (map (fun b => places (snd b)) ((g, t0) :: bs)))
           with (places t0 + list_sum (map (fun b => places (snd b)) bs)).
-        split; [|split].
+        split; [lia | split; [|split]].
         + intros x [<- | Hx]; [exact B1 | apply I1; exact Hx].
-        + cbn [map separate of_branch snd]. split; [|exact I2]. intros i Hi Hj.
-          destruct (B2 i Hi) as (a1 & b1 & A1 & A2 & ->). destruct (I3 _ Hj) as (a2 & b2 & A3 & A4 & E).
-          apply (Hp a1 b1 a2 b2); [lia | lia | exact E].
-        + cbn [map concat of_branch snd]. intros i Hi. apply in_app_iff in Hi. destruct Hi as [Hi | Hi].
-          * destruct (B2 i Hi) as (a1 & b1 & A1 & A2 & ->). exists a1, b1. split; [lia | split; [lia | reflexivity]].
-          * destruct (I3 i Hi) as (a1 & b1 & A1 & A2 & ->). exists a1, b1. split; [lia | split; [lia | reflexivity]]. }
-    assert (Two : forall t1 t2 r1 r2 a b, within_numbers p a b t1 (numbers r1) ->
-      within_numbers p (a + timers t1) (b + places t1) t2 (numbers r2) ->
-      disjoint (numbers r1) (numbers r2) /\
-      forall i, In i (numbers r1 ++ numbers r2) -> exists a' b', a <= a' < a + (timers t1 + timers t2) /\
-        b <= b' <= b + (places t1 + places t2) /\ i = number p a' b').
-    { intros t1 t2 r1 r2 a b W1 W2. split.
-      - intros i Hi Hj. destruct (W1 i Hi) as (a1 & b1 & A1 & A2 & ->). destruct (W2 _ Hj) as (a2 & b2 & A3 & A4 & E).
-        apply (Hp a1 b1 a2 b2); [lia | lia | exact E].
-      - intros i Hi. apply in_app_iff in Hi. destruct Hi as [Hi | Hi].
-        + destruct (W1 i Hi) as (a1 & b1 & A1 & A2 & ->). exists a1, b1. split; [lia | split; [lia | reflexivity]].
-        + destruct (W2 i Hi) as (a1 & b1 & A1 & A2 & ->). exists a1, b1. split; [lia | split; [lia | reflexivity]]. }
-    assert (Inner : forall t1 r a b, within_numbers p (Datatypes.S a) b t1 (numbers r) ->
-      ~ In (number p a b) (numbers r) /\
-      forall i, In i (number p a b :: numbers r) -> exists a' b', a <= a' < a + (1 + timers t1) /\
-        b <= b' <= b + places t1 /\ i = number p a' b').
-    { intros t1 r a b W. split.
-      - intros Hi. destruct (W _ Hi) as (a1 & b1 & A1 & A2 & E). apply (Hp a b a1 b1); [lia | lia | exact E].
-      - intros i [<- | Hi]; [exists a, b; split; [lia | split; [lia | reflexivity]]|].
-        destruct (W i Hi) as (a1 & b1 & A1 & A2 & ->). exists a1, b1. split; [lia | split; [lia | reflexivity]]. }
-    induction t using task_rect'; intros ok k0 a0 b0; unfold within_numbers in *; cbn [build timers places];
+        + cbn [map separate of_branch snd]. split; [|exact I2].
+          eapply Apart; [split; [exact Hm | exact I0] | exact Ha | exact B2 | exact I3].
+        + cbn [map concat of_branch snd]. eapply Both; [split; [exact Hm | exact I0] | exact B2 | exact I3]. }
+    assert (Inner : forall n n' a b ts ps is, n' <= a -> within_numbers p n n' (Datatypes.S a) b ts ps is ->
+      ~ In (number p a b) is /\ within_numbers p n n' a b (1 + ts) ps (number p a b :: is)).
+    { intros n n' a b ts ps is Ha W. split.
+      - intros Hi. destruct (W _ Hi) as (a1 & b1 & E & D). apply (increasing_apart Hp) in E. lia.
+      - intros i [<- | Hi]; [exists a, b; split; [reflexivity | lia]|].
+        destruct (W i Hi) as (a1 & b1 & -> & D). exists a1, b1. split; [reflexivity | lia]. }
+    induction t using task_rect'; intros ok n0 n' k0 a0 b0 Hk Ha; cbn [build timers places keyed] in *;
       try (split; [constructor; reflexivity | intros i []]; fail);
-      try (split; [constructor; reflexivity | intros i [<- | []]; exists a0, b0; split; [lia | split;
-        [lia | reflexivity]]]; fail).
-    - destruct (IHt1 ok k0 a0 b0) as [N1 W1].
-      destruct (IHt2 ok (k0 + leaves t1) (a0 + timers t1) (b0 + places t1)) as [N2 W2].
-      destruct (Two _ _ _ _ _ _ W1 W2) as [D W]. split; [apply numbered_sequence; assumption|].
-      intros i Hi. apply alike_numbers_sequence in Hi. exact (W i Hi).
-    - destruct (IHt1 ok k0 a0 b0) as [N1 W1].
-      destruct (IHt2 ok (k0 + leaves t1) (a0 + timers t1) (b0 + places t1)) as [N2 W2].
-      destruct (Two _ _ _ _ _ _ W1 W2) as [D W]. split.
+      try (split; [constructor; reflexivity | intros i [<- | []]; exists a0, b0; split; [reflexivity | lia]]; fail).
+    - destruct Hk as (m & K1 & K2). assert (M1 := keyed_later K1). assert (M2 := keyed_later K2).
+      destruct (IHt1 ok n0 m k0 a0 b0 K1) as [N1 W1]; [lia|].
+      destruct (IHt2 ok m n' (k0 + leaves t1) (a0 + timers t1) (b0 + places t1) K2) as [N2 W2]; [lia|].
+      split.
+      + apply numbered_sequence; [exact N1 | exact N2 |]. eapply Apart; [split; [exact M1 | exact M2] | exact Ha |
+        exact W1 | exact W2].
+      + intros i Hi. apply alike_numbers_sequence in Hi. revert i Hi.
+        eapply Both; [split; [exact M1 | exact M2] | exact W1 | exact W2].
+    - destruct Hk as (m & K1 & K2). assert (M1 := keyed_later K1). assert (M2 := keyed_later K2).
+      destruct (IHt1 ok n0 m k0 a0 b0 K1) as [N1 W1]; [lia|].
+      destruct (IHt2 ok m n' (k0 + leaves t1) (a0 + timers t1) (b0 + places t1) K2) as [N2 W2]; [lia|].
+      split.
       + apply numbered_parallel; [intros x [<- | [<- | []]]; assumption|].
-        cbn [map separate concat]. rewrite app_nil_r. split; [exact D | split; [intros i _ [] | exact I]].
-      + rewrite numbers_parallel. cbn [flat_map]. rewrite app_nil_r. exact W.
-    - apply IHt.
-    - destruct (Branches ok bs H k0 a0 b0) as (B1 & B2 & B3).
+        cbn [map separate concat]. rewrite app_nil_r. split; [|split; [intros i _ [] | exact I]].
+        eapply Apart; [split; [exact M1 | exact M2] | exact Ha | exact W1 | exact W2].
+      + rewrite numbers_parallel. cbn [flat_map]. rewrite app_nil_r.
+        eapply Both; [split; [exact M1 | exact M2] | exact W1 | exact W2].
+    - apply IHt; assumption.
+    - destruct (Branches ok bs H n0 n' k0 a0 b0 Hk Ha) as (_ & B1 & B2 & B3).
       assert (E : forall rs, numbers (all_of rs) = concat (map of_branch rs)).
       { intros rs. rewrite concat_branches. destruct rs as [|x [|y rs]]; reflexivity. }
       rewrite E. split; [|exact B3]. unfold all_of. destruct (_ bs k0 a0 b0) as [|x [|y rs]]; constructor; assumption.
-    - destruct (Branches ok bs H k0 a0 b0) as (B1 & B2 & B3).
+    - destruct (Branches ok bs H n0 n' k0 a0 b0 Hk Ha) as (_ & B1 & B2 & B3).
       cbn [numbers]. rewrite <- concat_branches. split; [constructor; assumption | exact B3].
-    - destruct (IHt ok k0 a0 b0) as [N1 W1]. split; [constructor; exact N1 | exact W1].
-    - destruct d as [n | d]; destruct (IHt ok k0 (Datatypes.S a0) b0) as [N1 W1]; destruct (Inner _ _ _ _ W1) as [D W];
-        (split; [constructor; assumption | exact W]).
+    - destruct (IHt ok n0 n' k0 a0 b0 Hk Ha) as [N1 W1]. split; [constructor; exact N1 | exact W1].
+    - destruct d as [d | d]; destruct (IHt ok n0 n' k0 (Datatypes.S a0) b0 Hk) as [N1 W1]; try lia;
+        destruct (Inner _ _ _ _ _ _ _ Ha W1) as [D W]; (split; [constructor; assumption | exact W]).
     - destruct (may_recover h).
-      + destruct (IHt ok k0 a0 (Datatypes.S b0)) as [N1 W1]. split; [constructor; exact N1|].
-        intros i Hi. destruct (W1 i Hi) as (a1 & b1 & A1 & A2 & ->). exists a1, b1. split; [lia | split;
-          [lia | reflexivity]].
-      + destruct (IHt ok k0 a0 b0) as [N1 W1]. split; [constructor; exact N1|].
-        intros i Hi. destruct (W1 i Hi) as (a1 & b1 & A1 & A2 & ->). exists a1, b1. split; [lia | split;
-          [lia | reflexivity]].
-    - destruct (IHt ok k0 a0 b0) as [N1 W1]. split; [apply numbered_repeat; assumption|].
+      + destruct (IHt ok n0 n' k0 a0 (Datatypes.S b0) Hk Ha) as [N1 W1]. split; [constructor; exact N1|].
+        intros i Hi. destruct (W1 i Hi) as (a1 & b1 & -> & D). exists a1, b1. split; [reflexivity | lia].
+      + destruct (IHt ok n0 n' k0 a0 b0 Hk Ha) as [N1 W1]. split; [constructor; exact N1|].
+        intros i Hi. destruct (W1 i Hi) as (a1 & b1 & -> & D). exists a1, b1. split; [reflexivity | lia].
+    - destruct (IHt ok n0 n' k0 a0 b0 Hk Ha) as [N1 W1]. split; [apply numbered_repeat; assumption|].
       intros i Hi. apply numbers_repeat in Hi. destruct Hi as [Hi | Hi]; apply W1; exact Hi.
+    - destruct Hk as (m & M1 & -> & K2). assert (M2 := keyed_later K2).
+      destruct (IHt ok m n' k0 a0 b0 K2 Ha) as [N1 W1]. split.
+      + constructor; [|exact N1|].
+        * apply Injective_map_NoDup; [|apply seq_NoDup]. intros x y E. apply (increasing_apart Hp) in E. lia.
+        * intros i Hi Hj. apply in_map_iff in Hi. destruct Hi as (j & <- & Hi). apply in_seq in Hi.
+          destruct (W1 _ Hj) as (a1 & b1 & E & D). apply (increasing_apart Hp) in E. lia.
+      + intros i Hi. cbn [numbers] in Hi. apply in_app_iff in Hi. destruct Hi as [Hi | Hi].
+        * apply in_map_iff in Hi. destruct Hi as (j & <- & Hi). apply in_seq in Hi. exists j, 0.
+          split; [reflexivity | lia].
+        * destruct (W1 i Hi) as (a1 & b1 & -> & D). exists a1, b1. split; [reflexivity | lia].
   Qed.
 
   Lemma top_increasing f : increasing (top f).
-  Proof. intros a b a' b' Ha Hb. cbn. lia. Qed.
+  Proof. intros a b a' b' Ha Hb. cbn. unfold next. lia. Qed.
 
   Lemma fresh_above i used n : (i < fresh i used n)%N.
   Proof.
@@ -367,16 +476,19 @@ Section Numbers.
       + destruct (made_task a ys q S x s ds); is_only H; [|exact I]. split; [constructor; reflexivity | intros i []].
       + is_only H. exact I.
     - destruct e; [contradiction|].
-      destruct (alloc_made (world_of K) (free K S) t q (taken_numbers K)) as [(vs & r) | m] eqn:A.
-      + is_only Hu. unfold alloc_made in A. destruct (assign _ _ _ _) as [f|]; [|discriminate]. injection A as <- <-.
+      destruct (alloc_made (world_of K) (held K) S (free K S) t q (taken_numbers K)) as [(vs & r) | m] eqn:A.
+      + is_only Hu. unfold alloc_made in A. destruct (opened _ _ _ _ _ _ _) as [(t' & n)|] eqn:O; [|discriminate].
+        destruct (assign _ _ _ _) as [f|]; [|discriminate]. injection A as <- <-.
         assert (Inc : increasing (made_at q (taken_numbers K) f)) by apply made_increasing.
-        destruct (numbered_build t Inc (allowed q) 0 0 0) as [N1 N2].
+        destruct (numbered_build Inc (allowed q) 0 0 (keyed_opened O : keyed (fun j => number (made_at q
+          (taken_numbers K) f) j 0) t' 0 n) (le_n _)) as [N1 N2].
         set (r := build _ _ _ _ _ _) in *.
-        assert (E : numbers (holding (used_of (free K S) t f) r) = numbers r)
-          by (destruct (used_of (free K S) t f); reflexivity).
-        split; [destruct (used_of (free K S) t f); [exact N1 | constructor; exact N1]|].
-        intros i Hi. rewrite E in Hi. right. destruct (N2 i Hi) as (a & b & _ & _ & ->). apply fresh_unused.
-      + destruct (alloc_made (world_of K) (its_bound K S) t q (taken_numbers K)); [contradiction|]. is_only Hu. exact I.
+        assert (E : numbers (holding (used_of (free K S) t' f) r) = numbers r)
+          by (destruct (used_of (free K S) t' f); reflexivity).
+        split; [destruct (used_of (free K S) t' f); [exact N1 | constructor; exact N1]|].
+        intros i Hi. rewrite E in Hi. right. destruct (N2 i Hi) as (a & b & -> & _). apply fresh_unused.
+      + destruct (alloc_made (world_of K) (held K) S (its_bound K S) t q (taken_numbers K)); [contradiction|].
+        is_only Hu. exact I.
     - destruct e as [[]|]; try contradiction. destruct (timer_eq i0 i); [|contradiction].
       destruct (mem v (fit q (world_of K) (bound S)) && negb (named K v)); [|contradiction]. is_only Hu.
       split; [apply N_recruited, N_atom; reflexivity | intros ? []].
@@ -446,6 +558,11 @@ Section Numbers.
         destruct H as [H | H]; auto. destruct (New i H); auto.
       + split; [constructor; exact Hn' | exact New].
       + split; [constructor; exact Hn' | exact New].
+      + split.
+        * constructor; auto. apply disjoint_sym. eapply (apart_from_frame (f := With_keys ks));
+            [apply disjoint_sym; eassumption | apply incl_refl | exact Hi].
+        * intros i H. cbn [numbers] in *. rewrite in_app_iff in *. destruct H as [H | H]; auto. destruct (New i H);
+          auto.
     - destruct Hu as [<- | []]. destruct f; cbn [plug on_ok keeps_numbers] in *; try exact I; inversion Hn; subst;
         try discriminate.
       + split; [assumption|]. intros i H. left. cbn. apply in_app_iff. auto.
@@ -483,8 +600,9 @@ Section Numbers.
   Proof.
     induction 1 as [|w x c l c' E R IH Hs]; intros M1 r Hr; [discriminate|].
     destruct Hs; cbn in Hr; try discriminate; try (eapply IH; exact Hr; fail).
-    - injection Hr as -> ->. unfold alloc in H0. destruct (assign _ _ _ _) as [f|]; [|discriminate]. injection H0 as <-.
-      apply numbered_build, top_increasing.
+    - injection Hr as -> ->. unfold alloc in H0. destruct (opened _ _ _ _ _ _ _) as [(t' & n)|] eqn:O; [|discriminate].
+      destruct (assign _ _ _ _) as [f|]; [|discriminate]. injection H0 as <-. apply keyed_opened in O.
+      exact (proj1 (numbered_build (top_increasing (f := f)) None 0 0 O (le_n n))).
     - injection Hr as -> ->. apply step_goes in H. apply (goes_numbers H). eapply IH. reflexivity.
   Qed.
 

@@ -202,14 +202,14 @@ Section Once.
     - eapply guarded_conserves; [exact Hu | | |]; cbv beta; intros; subst e; try contradiction; is_only H0; intros t;
       counts; cbn; rewrite ?cnt_nil; lia.
     - apply in_each in Hu. destruct Hu as (b & (g & r) & after & Hbs & Hu). cbn [app] in Hu.
-      inversion W as [| | | | | | |X' bs' Wb Qb| | | | | | | | | | | | | |]; subst X' bs'.
+      inversion W as [| | | | | | |X' bs' Wb Qb| | | | | | | | | | | | | | |]; subst X' bs'.
       destruct (branches_split _ _ _ _ _ _ Hbs Wb Qb) as (Wr & Qr & _). unfold choose in Hu. cbn [fst snd] in Hu.
       eapply guarded_conserves; [exact Hu | | |]; cbv beta; intros; subst e; try contradiction; is_only H0; intros t;
         counts.
       + rewrite tokens_branch_of, tokens_given, (tokens_quiet Qr). cbn. rewrite ?cnt_nil. lia.
       + cbn. rewrite ?cnt_nil. lia.
     - apply in_each in Hu. destruct Hu as (b & (g & r) & after & Hbs & Hu). cbn [app] in Hu.
-      inversion W as [| | | | | | | |X' bs' Wb Qb| | | | | | | | | | | | |]; subst X' bs'.
+      inversion W as [| | | | | | | |X' bs' Wb Qb| | | | | | | | | | | | | |]; subst X' bs'.
       destruct (branches_split _ _ _ _ _ _ Hbs Wb Qb) as (Wr & Qr & _). unfold choose in Hu. cbn [fst snd] in Hu.
       eapply guarded_conserves; [exact Hu | | |]; cbv beta; intros; subst e; try contradiction; is_only H0; intros t;
         counts.
@@ -229,7 +229,7 @@ Section Once.
         rewrite !cnt_app. change (Timer i :: map token_of (waits r)) with ([Timer i] ++ map token_of (waits r)).
         rewrite cnt_app. lia. }
       destruct k; cbn [time_out]; counts; rewrite T; cbn [flat_map ends_token]; rewrite app_nil_r; lia.
-    - inversion W as [| | | | | | | | | | | | |X' k' i' d' r' Wr Qr| | | | | | | |]; subst.
+    - inversion W as [| | | | | | | | | | | | |X' k' i' d' r' Wr Qr| | | | | | | | |]; subst.
       assert (T : tokens (During_code k i d r) = []) by reflexivity.
       eapply coded_conserves; [exact Hu | |]; cbv beta; intros; subst e.
       + destruct (time_of d x) as [n|m]; is_only H0; intros t; counts; rewrite T.
@@ -240,7 +240,7 @@ Section Once.
           rewrite T'. counts. cbn. rewrite ?cnt_nil. lia.
         * cbn. rewrite ?cnt_nil. lia.
       + is_only H0. intros t. counts. rewrite T. cbn. rewrite ?cnt_nil. lia.
-    - inversion W as [| | | | | | | | | | | | | | | |X' more' g' t' Wt Qt| | | | |]; subst.
+    - inversion W as [| | | | | | | | | | | | | | | |X' more' g' t' Wt Qt| | | | | |]; subst.
       eapply guarded_conserves; [exact Hu | | |]; cbv beta; intros; subst e; (is_only H || is_only H0); intros t0;
         counts.
       + cbn. rewrite ?cnt_nil. lia.
@@ -250,11 +250,12 @@ Section Once.
       + destruct (made_task a ys q S x s ds); is_only H0; intros t1; cbn; rewrite ?cnt_nil; lia.
       + is_only H0. intros t. counts. cbn. rewrite ?cnt_nil. lia.
     - destruct e; [contradiction|].
-      destruct (alloc_made (world_of K) (free K S) t q (taken_numbers K)) as [(vs & r) | m] eqn:A.
+      destruct (alloc_made (world_of K) (held K) S (free K S) t q (taken_numbers K)) as [(vs & r) | m] eqn:A.
       + is_only Hu. apply alloc_made_built in A. destruct A as (_ & Qr & _). intros t0. counts.
         assert (T : tokens (holding vs r) = tokens r) by (destruct vs; reflexivity).
         rewrite T, (tokens_quiet Qr). cbn. rewrite ?cnt_nil. lia.
-      + destruct (alloc_made (world_of K) (its_bound K S) t q (taken_numbers K)); [contradiction|]. is_only Hu.
+      + destruct (alloc_made (world_of K) (held K) S (its_bound K S) t q (taken_numbers K)); [contradiction|].
+        is_only Hu.
         intros t0. cbn. rewrite ?cnt_nil. lia.
     - destruct e as [[]|]; try contradiction. destruct (timer_eq i0 i); [|contradiction].
       destruct (mem v (fit q (world_of K) (bound S)) && negb (named K v)); [|contradiction]. is_only Hu.
@@ -298,7 +299,8 @@ Section Once.
     destruct o as [r' | | m | e].
     - cbn in Hu. destruct Hu as [<- | []]. intros t. specialize (Hc t). rewrite tokens_plug, tokens_replug. lia.
     - cbn [lift] in Hu. destruct Hu as [<- | []].
-      destruct f; [..|destruct g|idtac|idtac]; cbn [on_ok conserves]; intros t0; specialize (Hc t0);
+      destruct f as [| | | | | | ? g ? | | |]; [..|destruct g|idtac|idtac|idtac]; cbn [on_ok conserves]; intros t0;
+        specialize (Hc t0);
         rewrite tokens_plug; cbn [frame_tokens]; rewrite ?cnt_nil; counts.
       + rewrite (tokens_quiet Q). rewrite cnt_nil. lia.
       + rewrite tokens_parallel_of. lia.
@@ -310,6 +312,7 @@ Section Once.
       + rewrite tokens_repeat, (tokens_quiet Q), cnt_nil. lia.
       + lia.
       + cbn. rewrite ?cnt_nil. lia.
+      + lia.
     - destruct f; cbn [lift on_err] in Hu;
         try (destruct Hu as [<- | []]; cbn [conserves]; intros t0; specialize (Hc t0); rewrite tokens_plug;
              cbn [frame_tokens]; rewrite ?cnt_nil; counts; cbn; rewrite ?cnt_nil; lia).
@@ -437,8 +440,9 @@ Section Once.
       + destruct (made_task a ys q S x s ds); is_only H0; [exact I | apply loses_nothing; try reflexivity; no_plan].
       + is_only H0. apply loses_nothing; try reflexivity; no_plan.
     - destruct e; [contradiction|].
-      destruct (alloc_made (world_of K) (free K S) t q (taken_numbers K)) as [(vs & r) | m]; [is_only Hu; exact I|].
-      destruct (alloc_made (world_of K) (its_bound K S) t q (taken_numbers K)); [contradiction|]. is_only Hu.
+      destruct (alloc_made (world_of K) (held K) S (free K S) t q (taken_numbers K)) as [(vs & r) | m];
+        [is_only Hu; exact I|].
+      destruct (alloc_made (world_of K) (held K) S (its_bound K S) t q (taken_numbers K)); [contradiction|]. is_only Hu.
       apply loses_nothing; try reflexivity; no_plan.
     - destruct e as [[]|]; try contradiction. destruct (timer_eq i0 i); [|contradiction].
       destruct (mem v (fit q (world_of K) (bound S)) && negb (named K v)); [|contradiction]. is_only Hu. exact I.
@@ -455,7 +459,7 @@ Section Once.
   Proof.
     intros Hl Hu. destruct u as [l S1 o E]. destruct o as [r' | | m | e].
     - destruct Hu as [<- | []]. exact I.
-    - destruct Hu as [<- | []]. destruct f; [..|destruct g|idtac|idtac]; exact I.
+    - destruct Hu as [<- | []]. destruct f as [| | | | | | ? g ? | | |]; [..|destruct g|idtac|idtac|idtac]; exact I.
     - destruct f; cbn [lift on_err] in Hu; try (destruct Hu as [<- | []]; exact Hl).
       + destruct Hu as [<- | []]. cbn [loses] in *. intros v. cbn [without with_allocation allocation]. rewrite Hl.
         assert (H : In (Plan_of v) (closes (E ++ cut (before ++ after)) ++ ends_token x) <->

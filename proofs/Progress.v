@@ -11,7 +11,7 @@ Section Progress.
     | Parallel rs => match rs with [] => false | _ => true end && forallb full rs
     | All_of bs | One_of bs => match bs with [] => false | _ => true end
     | Sequence r _ | Branch r _ | Until _ _ r | During _ _ _ r | Watch r _ | Repeat r _ _ _ | Holding _ r
-    | Recruited _ r => full r
+    | Recruited _ r | Fresh _ r => full r
     | Ready _ _ | Running _ _ | Action _ | Condition _ | Idle _ _ | Confirm _ _ _ | During_code _ _ _ _ | Asked _ _ _
     | Made _ _ _ | Unallocated _ _ | Recruit _ _ _ _ _ => true
     end.
@@ -27,7 +27,8 @@ Section Progress.
     | Recruit i _ _ _ _ => [Its_recruit i]
     | During _ i _ r => Its_expiry i :: awaits r
     | Parallel rs => flat_map awaits rs
-    | Sequence r _ | Branch r _ | Until _ _ r | Watch r _ | Repeat r _ _ _ | Holding _ r | Recruited _ r => awaits r
+    | Sequence r _ | Branch r _ | Until _ _ r | Watch r _ | Repeat r _ _ _ | Holding _ r | Recruited _ r
+    | Fresh _ r => awaits r
     | Ready _ _ | Action _ | Condition _ | All_of _ | One_of _ | During_code _ _ _ _ | Asked _ _ _ | Made _ _ _
     | Unallocated _ _ => []
     end.
@@ -62,8 +63,8 @@ Section Progress.
   | K_one_of : forall K S bs, (forall b, In b bs -> guard_waits true (fst b) K S) -> stuck K S (One_of bs)
   | K_asked : forall K S more g t, guard_unknown g K S -> stuck K S (Asked more g t)
   | K_unallocated : forall K S t q m x,
-      alloc_made (world_of K) (free K S) t q (taken_numbers K) = inr m ->
-      alloc_made (world_of K) (its_bound K S) t q (taken_numbers K) = inl x ->
+      alloc_made (world_of K) (held K) S (free K S) t q (taken_numbers K) = inr m ->
+      alloc_made (world_of K) (held K) S (its_bound K S) t q (taken_numbers K) = inl x ->
       stuck K S (Unallocated t q)
   | K_until : forall K S k g r,
       guard_waits (wanted k) g K S -> stuck (enter (Body_until k g) K) S r -> stuck K S (Until k g r)
@@ -74,7 +75,8 @@ Section Progress.
   | K_watch : forall K S r h, stuck (enter (In_watch h) K) S r -> stuck K S (Watch r h)
   | K_repeat : forall K S r more g t, stuck (enter (Round_of more g t) K) S r -> stuck K S (Repeat r more g t)
   | K_holding : forall K S vs r, stuck (enter (Held_by vs) K) S r -> stuck K S (Holding vs r)
-  | K_recruited : forall K S v r, stuck (enter (In_recruited v) K) S r -> stuck K S (Recruited v r).
+  | K_recruited : forall K S v r, stuck (enter (In_recruited v) K) S r -> stuck K S (Recruited v r)
+  | K_fresh : forall K S ks r, stuck (enter (With_keys ks) K) S r -> stuck K S (Fresh ks r).
 
   (** In a closed world what a part does is a step of the whole. *)
   Lemma lift_some f K t : closed_world -> lift f K t <> [].
@@ -193,6 +195,7 @@ Section Progress.
             | Repeat r ?n ?g ?t => pose (f := Round_of n g t)
             | Holding ?vs r => pose (f := Held_by vs)
             | Recruited ?v r => pose (f := In_recruited v)
+            | Fresh ?ks r => pose (f := With_keys ks)
             end;
             destruct (IH (enter f K) S Q) as [Hs | [Ha | Hk]];
             [left; apply (inside_steps None f r K S Hc Hs) | right; left; exact Ha | right; right; constructor; exact Hk]
@@ -223,7 +226,7 @@ Section Progress.
       - left. destruct (coded_some d [] K S
           (fun x s N ds =>
              match time_of d x with
-             | inl n => [By (LSet_time n) (with_code s N S) (Next (During k i n r))
+             | inl n => [By (LSet_time n) (clear (keys r) (with_code s N S)) (Next (During k i n r))
                            (effects_of ds ++ Set_timer i n :: begun r)]
              | inr m => breaks S m ds
              end) (breaks S) Hc) as [t Ht]; try discriminate.
@@ -252,9 +255,9 @@ Section Progress.
         + intros x s N ds. destruct (made_task a ys q S x s ds); discriminate.
         + exists t. apply Itself. exact Ht.
       - (* unallocated *)
-        destruct (alloc_made (world_of K) (free K S) t q (taken_numbers K)) as [(vs & r)|m] eqn:Hf.
+        destruct (alloc_made (world_of K) (held K) S (free K S) t q (taken_numbers K)) as [(vs & r)|m] eqn:Hf.
         + left. eexists. apply Itself. cbn. rewrite Hf. left. reflexivity.
-        + destruct (alloc_made (world_of K) (its_bound K S) t q (taken_numbers K)) as [x|m'] eqn:Hb.
+        + destruct (alloc_made (world_of K) (held K) S (its_bound K S) t q (taken_numbers K)) as [x|m'] eqn:Hb.
           * right. right. econstructor; eauto.
           * left. eexists. apply Itself. cbn. rewrite Hf, Hb. left. reflexivity. }
     intros K S Q. destruct (H K S Q) as [[[l S' o E] Ht] | Hr]; [|auto].
@@ -292,7 +295,7 @@ Section Progress.
         destruct f; cbn in Hp; try contradiction; destruct Hp as [Hp | []]; injection Hp as <- <-; eapply Hs; exact Hg'. }
     induction 1 as [K S g Hw | K S bs Hw | K S bs Hw | K S more g t Hw | K S t q m x Hf Hb | K S k g r Hw Hs IH
       | K S r t Hs IH | K S rs Hs IH | K S r bs Hs IH | K S r h Hs IH | K S r more g t Hs IH | K S vs r Hs IH
-      | K S v r Hs IH]; intros e u.
+      | K S v r Hs IH | K S ks r Hs IH]; intros e u.
     - intros Hg. apply goes_are_steps, steps_parts in Hg. destruct Hg as [Hg | (f & p & [] & _)]. cbn in Hg.
       rewrite (guard_waits_nothing true) in Hg; auto. discriminate.
     - intros Hg. apply goes_are_steps, steps_parts in Hg. destruct Hg as [Hg | (f & p & [] & _)]. cbn in Hg.
@@ -318,6 +321,7 @@ Section Progress.
     - apply (One (Round_of more g t)); auto.
     - apply (One (Held_by vs)); auto.
     - apply (One (In_recruited v)); auto.
+    - apply (One (With_keys ks)); auto.
   Qed.
 
   Lemma stuck_awaits_nothing K S r : stuck K S r -> awaits r = [].

@@ -81,6 +81,10 @@ Class Deeds {L : Names} {C : Code} := {
   normal_pair : pair_of -> pair_of;
   post_law : forall ks N, bag_run (of_deeds normal_pair [Posted ks]) (pairs N) (pairs (post ks N));
   take_law : forall ks N N', take ks N = Some N' -> bag_run (of_deeds normal_pair [Consumed ks]) (pairs N) (pairs N');
+  forget_events_law : forall ks N, exists xs, bag_run (of_deeds normal_pair [Consumed xs]) (pairs N)
+    (pairs (forget ks N));
+  forget_all_events_law : forall N, exists xs, bag_run (of_deeds normal_pair [Consumed xs]) (pairs N)
+    (pairs (forget_all N));
   (** Code changes N by its deeds alone, and releases no vehicle; a handler releases those of B that it dismisses. *)
   gives_law : forall c ys w held S x s N ds, run c ys w held S = Gives x s N ds ->
     releases ds = [] /\ bag_run (of_deeds normal_pair ds) (pairs (space S)) (pairs N);
@@ -405,7 +409,7 @@ Section Refinement.
         rewrite left_effects. apply releases_said.
     - (* ALLOF-WHEN *)
       apply in_each in Ht. destruct Ht as (b & (g & r) & after & Hbs & Ht). cbn [app] in Ht.
-      inversion W as [| | | | | | |X0 bs' Wb Qb| | | | | | | | | | | | | |]; subst X0 bs'.
+      inversion W as [| | | | | | |X0 bs' Wb Qb| | | | | | | | | | | | | | |]; subst X0 bs'.
       destruct (branches_split _ _ _ _ _ _ Hbs Wb Qb) as (Wr & Qr & _). unfold choose in Ht. cbn [fst snd] in Ht.
       eapply guarded_fits; [exact HP | exact Hb | exact Ht | | |]; cbv beta.
       + intros s N0 ds -> Hr H. is_only H. destruct (given_same ds r) as (_ & _ & G3 & _ & _).
@@ -418,7 +422,7 @@ Section Refinement.
         rewrite left_effects. apply releases_said.
     - (* ONEOF-WHEN *)
       apply in_each in Ht. destruct Ht as (b & (g & r) & after & Hbs & Ht). cbn [app] in Ht.
-      inversion W as [| | | | | | | |X0 bs' Wb Qb| | | | | | | | | | | | |]; subst X0 bs'.
+      inversion W as [| | | | | | | |X0 bs' Wb Qb| | | | | | | | | | | | | |]; subst X0 bs'.
       destruct (branches_split _ _ _ _ _ _ Hbs Wb Qb) as (Wr & Qr & _). unfold choose in Ht. cbn [fst snd] in Ht.
       eapply guarded_fits; [exact HP | exact Hb | exact Ht | | |]; cbv beta.
       + intros s N0 ds -> Hr H. is_only H. destruct (given_same ds r) as (_ & _ & G3 & _ & _).
@@ -476,12 +480,12 @@ Section Refinement.
         rewrite left_effects. apply releases_said.
     - (* ALLOCATE *)
       destruct e; [contradiction|].
-      destruct (alloc_made (world_of K) (free K S) t0 q (taken_numbers K)) as [(vs & r) | m] eqn:A.
+      destruct (alloc_made (world_of K) (held K) S (free K S) t0 q (taken_numbers K)) as [(vs & r) | m] eqn:A.
       + is_only Ht. apply alloc_made_built in A. destruct A as (Wr & Qr & _ & _).
         apply fits_still; auto; [intros v; apply proj_begun | apply left_begun|].
         assert (Hr : recruits (holding vs r) = recruits r) by (destruct vs; reflexivity).
         cbn [rest]. rewrite Hr, quiet_recruits by exact Qr. reflexivity.
-      + destruct (alloc_made (world_of K) (its_bound K S) t0 q (taken_numbers K)); [contradiction|].
+      + destruct (alloc_made (world_of K) (held K) S (its_bound K S) t0 q (taken_numbers K)); [contradiction|].
         is_only Ht. apply fits_still; auto.
     - (* RECRUIT *)
       destruct e as [[]|]; try contradiction. destruct (timer_eq i0 i); [|contradiction].
@@ -924,6 +928,16 @@ Section Refinement.
     - intros m ds Hin. destruct (is_unknown m); [contradiction | eauto].
   Qed.
 
+  Lemma bag_more S l S1 o E S2 o' E' ds :
+    bag_moves S (By l S1 o E) -> bag_run (of_deeds normal_pair ds) (pairs (space S1)) (pairs (space S2)) ->
+    bag_moves S (By l S2 o' E').
+  Proof.
+    intros (hidden & H) H'. exists (hidden ++ ds). rewrite app_assoc, of_deeds_app. eapply bag_run_app; eassumption.
+  Qed.
+
+  Lemma bag_clear S l S1 o E ks o' E' : bag_moves S (By l S1 o E) -> bag_moves S (By l (clear ks S1) o' E').
+  Proof. intros H. destruct (forget_events_law ks (space S1)) as (xs & Hx). eapply bag_more; [exact H | exact Hx]. Qed.
+
   Lemma own_bag e K S r t : In t (own e K S r) -> bag_moves S t.
   Proof.
     intros Ht. destruct r; cbn [own] in Ht; try contradiction.
@@ -939,12 +953,14 @@ Section Refinement.
       + intros m ds H. is_only H. apply bag_still; reflexivity.
     - apply in_each in Ht. destruct Ht as (b & y & after & _ & Ht). unfold choose in Ht.
       eapply guarded_bag; [exact Ht | | |]; cbv beta.
-      + intros s N ds R H. is_only H. eapply bag_shown; [reflexivity | exact R].
+      + intros s N ds R H. is_only H. eapply (bag_clear S _ (with_code s N S) Ok []), bag_shown;
+        [reflexivity | exact R].
       + intros [].
       + intros m ds H. is_only H. apply bag_still; reflexivity.
     - apply in_each in Ht. destruct Ht as (b & y & after & _ & Ht). unfold choose in Ht.
       eapply guarded_bag; [exact Ht | | |]; cbv beta.
-      + intros s N ds R H. is_only H. eapply bag_shown; [reflexivity | exact R].
+      + intros s N ds R H. is_only H. eapply (bag_clear S _ (with_code s N S) Ok []), bag_shown;
+        [reflexivity | exact R].
       + intros [].
       + intros m ds H. is_only H. apply bag_still; reflexivity.
     - eapply guarded_bag; [exact Ht | | |]; cbv beta.
@@ -959,31 +975,24 @@ Section Refinement.
       apply bag_still; reflexivity.
     - eapply coded_bag; [exact Ht | |]; cbv beta.
       + intros x s N ds R H. destruct (time_of d x); is_only H.
-        * eapply bag_hidden; [reflexivity | exact R].
+        * eapply (bag_clear S _ (with_code s N S) Ok []), bag_hidden; [reflexivity | exact R].
         * apply bag_still; reflexivity.
       + intros m ds H. is_only H. apply bag_still; reflexivity.
     - eapply guarded_bag; [exact Ht | | |]; cbv beta.
       + intros s N ds R H. is_only H. eapply bag_shown; [reflexivity | exact R].
-      + intros H. is_only H. apply bag_still; reflexivity.
+      + intros H. is_only H. apply (bag_clear S _ S Ok []), bag_still; reflexivity.
       + intros m ds H. is_only H. apply bag_still; reflexivity.
     - eapply coded_bag; [exact Ht | |]; cbv beta.
       + intros x s N ds R H. destruct (made_task a ys q S x s ds); is_only H; apply bag_still; reflexivity.
       + intros m ds H. is_only H. apply bag_still; reflexivity.
     - destruct e; [contradiction|].
-      destruct (alloc_made (world_of K) (free K S) t0 q (taken_numbers K)) as [(vs & r) | m].
-      + is_only Ht. apply bag_still; reflexivity.
-      + destruct (alloc_made (world_of K) (its_bound K S) t0 q (taken_numbers K)); [contradiction|]. is_only Ht.
-        apply bag_still; reflexivity.
+      destruct (alloc_made (world_of K) (held K) S (free K S) t0 q (taken_numbers K)) as [(vs & r) | m].
+      + is_only Ht. apply (bag_clear S _ S Ok []), bag_still; reflexivity.
+      + destruct (alloc_made (world_of K) (held K) S (its_bound K S) t0 q (taken_numbers K)); [contradiction|].
+        is_only Ht. apply bag_still; reflexivity.
     - destruct e as [[]|]; try contradiction. destruct (timer_eq i0 i); [|contradiction].
       destruct (mem v (fit q (world_of K) (bound S)) && negb (named K v)); [|contradiction]. is_only Ht.
       apply bag_still; reflexivity.
-  Qed.
-
-  Lemma bag_more S l S1 o E S2 o' E' ds :
-    bag_moves S (By l S1 o E) -> bag_run (of_deeds normal_pair ds) (pairs (space S1)) (pairs (space S2)) ->
-    bag_moves S (By l S2 o' E').
-  Proof.
-    intros (hidden & H) H'. exists (hidden ++ ds). rewrite app_assoc, of_deeds_app. eapply bag_run_app; eassumption.
   Qed.
 
   Lemma goes_bag x K S r t : goes x K S r t -> bag_moves S t.
@@ -991,8 +1000,10 @@ Section Refinement.
     induction 1 as [K S r t H | K S f r t t' _ IH Hl]; [eapply own_bag; exact H|].
     destruct t as [l S1 [r' | | m | y] E].
     - is_only Hl. exact IH.
-    - cbn [lift] in Hl. destruct Hl as [<- | []]. destruct f; [..|destruct g|idtac|idtac]; exact IH.
-    - destruct f; cbn [lift on_err] in Hl; try (is_only Hl; exact IH).
+    - cbn [lift] in Hl. destruct Hl as [<- | []]. destruct f as [| | | | | | ? g ? | | |];
+        [..|destruct g|idtac|idtac|idtac]; try exact IH; eapply bag_clear; exact IH.
+    - destruct f; cbn [lift on_err] in Hl; try (is_only Hl; exact IH);
+        try (is_only Hl; eapply bag_clear; exact IH).
       unfold on_error, handles_error in Hl.
       destruct (run_handler (handles h) m (world_of K) (held K) (needed K) S1)
         as [z s gone N0 ds | m' ds | m' ds | m' s gone N0 ds |] eqn:Hh; try contradiction; try (is_only Hl; exact IH).
@@ -1196,7 +1207,8 @@ Section Refinement.
       apply mem_spec, fit_law in Mm. rewrite (proj2 (mem_false v (bound S)) Mm). reflexivity.
     - (* EXECUTE *)
       assert (Ha : allocation S v = None) by apply Hi. apply alloc_built in H0. destruct H0 as (_ & Q & _).
-      rewrite proj_begun. cbn [with_store allocation bound]. rewrite Ha, (quiet_recruits r Q). reflexivity.
+      rewrite proj_begun. cbn [clear with_space with_code with_store allocation bound].
+      rewrite Ha, (quiet_recruits r Q). reflexivity.
     - (* EXECUTE-DONE *)
       destruct (step_fits _ _ _ _ _ _ _ _ _ Hi H) as ((Hf & _) & _). specialize (Hf v).
       rewrite !here_nowhere in Hf. exact Hf.
@@ -1238,7 +1250,8 @@ Section Refinement.
     - (* ON-INTERRUPT *)
       rewrite proj_app, proj_script_waits. cbn [app]. unfold stops. rewrite proj_app, proj_ceases. cbn [app].
       rewrite proj_stops by (apply NoDup_filter; exact F3).
-      cbn [with_bound with_allocation nothing allocation bound]. rewrite mem_app. cbn [mem]. rewrite orb_false_r.
+      cbn [gone_home task_over with_space with_code with_bound with_allocation nothing allocation bound].
+      rewrite mem_app. cbn [mem]. rewrite orb_false_r.
       destruct (mem v (still S (run_of (residual_of k)))) eqn:Mm.
       + apply mem_spec, still_in in Mm. destruct Mm as [M1 M2]. rewrite (F6 v M1).
         destruct (allocation S v); [reflexivity | congruence].
@@ -1251,8 +1264,18 @@ Section Refinement.
       bag_run (of_deeds normal_pair (deeds_of l ++ hidden)) (pairs (space (shared_of c))) (pairs (space (shared_of c'))).
   Proof.
     intros Hi Hs.
-    destruct Hs; try (exists []; constructor; apply Permutation_refl);
-      try (destruct (step_fits _ _ _ _ _ _ _ _ _ Hi H) as (_ & _ & Hb); exact Hb).
+    assert (Over : forall S S' l hidden,
+      bag_run (of_deeds normal_pair (deeds_of l ++ hidden)) (pairs (space S)) (pairs (space S')) ->
+      exists hidden,
+        bag_run (of_deeds normal_pair (deeds_of l ++ hidden)) (pairs (space S)) (pairs (forget_all (space S')))).
+    { intros S S' l0 hidden H. destruct (forget_all_events_law (space S')) as (xs & Hx).
+      exists (hidden ++ [Consumed xs]). rewrite app_assoc, of_deeds_app. eapply bag_run_app; eassumption. }
+    destruct Hs; cbn [deeds_of app];
+      try (exists []; constructor; apply Permutation_refl);
+      try (destruct (forget_all_events_law (space S)) as (xs & Hx); exists [Consumed xs]; exact Hx);
+      try (destruct (forget_events_law (keys r) (space S)) as (xs & Hx); exists [Consumed xs]; exact Hx);
+      try (destruct (step_fits _ _ _ _ _ _ _ _ _ Hi H) as (_ & _ & hidden & Hb);
+           first [exact (ex_intro _ hidden Hb) | exact (Over S S' l hidden Hb)]).
     - exists []. apply post_law.
     - exists []. apply take_law. assumption.
     - exists []. apply post_law.

@@ -24,6 +24,8 @@ Section Facts.
     Hypothesis on_repeat : forall n g t, P t -> P (TRepeat n g t).
     Hypothesis on_made : forall a, P (TMade a).
     Hypothesis on_recruit : forall q a, P (TRecruit q a).
+    Hypothesis on_fresh : forall a, P (TFresh a).
+    Hypothesis on_keys : forall ks a t, P t -> P (TKeys ks a t).
 
     Fixpoint task_rect' (t : task) : P t :=
       let fix branches (bs : list (code * task)) : Forall (fun b => P (snd b)) bs :=
@@ -48,6 +50,8 @@ Section Facts.
       | TRepeat n g t => on_repeat n g t (task_rect' t)
       | TMade a => on_made a
       | TRecruit q a => on_recruit q a
+      | TFresh a => on_fresh a
+      | TKeys ks a t => on_keys ks a t (task_rect' t)
       end.
   End Induction.
 
@@ -87,7 +91,7 @@ Section Facts.
     | Parallel rs => forallb quiet rs
     | Branch r bs => quiet r && forallb (fun b => quiet (snd b)) bs
     | All_of bs | One_of bs => forallb (fun b => quiet (snd b)) bs
-    | Until _ _ r | During _ _ _ r | During_code _ _ _ r | Watch r _ | Asked _ _ r => quiet r
+    | Until _ _ r | During _ _ _ r | During_code _ _ _ r | Watch r _ | Asked _ _ r | Fresh _ r => quiet r
     | Ready _ _ | Action _ | Condition _ | Idle _ _ | Confirm _ _ _ | Made _ _ _ | Unallocated _ _
     | Recruit _ _ _ _ _ => true
     end.
@@ -184,6 +188,7 @@ Section Facts.
   Lemma through_names : through names. Proof. intros rs. reflexivity. Qed.
   Lemma through_running : through running. Proof. intros rs. reflexivity. Qed.
   Lemma through_recruits : through recruits. Proof. intros rs. reflexivity. Qed.
+  Lemma through_keys : through keys. Proof. intros rs. reflexivity. Qed.
   Lemma through_waits : through waits. Proof. intros rs. reflexivity. Qed.
 
   Lemma names_repeat r more g t v :
@@ -198,6 +203,18 @@ Section Facts.
 
   Lemma waits_repeat r more g t : waits (repeat_ r more g t) = waits r.
   Proof. unfold repeat_. destruct more as [[|n]|]; reflexivity. Qed.
+
+  Lemma keys_sequence r t : keys (sequence r t) = keys r.
+  Proof. induction r; cbn [sequence keys]; auto. Qed.
+
+  Lemma keys_repeat r more g t : keys (repeat_ r more g t) = keys r.
+  Proof. unfold repeat_. destruct more as [[|n]|]; reflexivity. Qed.
+
+  Lemma keys_branch_of r bs : keys (branch_of r bs) = keys r.
+  Proof. destruct bs; reflexivity. Qed.
+
+  Lemma keys_all_of bs : keys (all_of bs) = [].
+  Proof. destruct bs as [|b [|b' bs]]; reflexivity. Qed.
 
   Lemma names_branch_of r bs v :
     In v (names (branch_of r bs)) <-> In v (names r) \/ In v (flat_map (fun b => names (snd b)) bs).
@@ -227,7 +244,12 @@ Section Facts.
   Lemma given_same ds r :
     names (given ds r) = names r /\ running (given ds r) = running r /\ recruits (given ds r) = recruits r /\
     waits (given ds r) = waits r /\ quiet (given ds r) = quiet r.
-  Proof. destruct r; cbn; auto. destruct (has_parameters a); cbn; auto. Qed.
+  Proof.
+    destruct r; try (repeat split; reflexivity). cbn [given]. destruct (has_parameters a); repeat split; reflexivity.
+  Qed.
+
+  Lemma keys_given ds r : keys (given ds r) = keys r.
+  Proof. destruct r; try reflexivity. cbn [given]. destruct (has_parameters a); reflexivity. Qed.
 
   (** {1 Well-formed residuals} *)
 
@@ -277,7 +299,8 @@ Section Facts.
   | W_holding : forall (X : vehicle -> Prop) vs r, Wf X r -> Wf X (Holding vs r)
   | W_recruit : forall (X : vehicle -> Prop) i q a j d, Wf X (Recruit i q a j d)
   | W_recruited : forall (X : vehicle -> Prop) v r,
-      ~ In v (recruits r) -> Wf (fun u => X u \/ u = v) r -> Wf X (Recruited v r).
+      ~ In v (recruits r) -> Wf (fun u => X u \/ u = v) r -> Wf X (Recruited v r)
+  | W_fresh : forall (X : vehicle -> Prop) ks r, Wf X r -> Wf X (Fresh ks r).
 
   Lemma Wf_more X r : Wf X r -> forall Y : vehicle -> Prop, (forall v, In v (names r) -> X v -> Y v) -> Wf Y r.
   Proof.
@@ -348,7 +371,10 @@ Section Facts.
   Qed.
 
   Lemma Wf_given X ds r : Wf X r -> Wf X (given ds r).
-  Proof. destruct r; cbn; auto. destruct (has_parameters a); auto. intros _. constructor. Qed.
+  Proof.
+    induction r; cbn [given]; auto.
+    - destruct (has_parameters a); auto. intros _. constructor.
+  Qed.
 
   Lemma flat_map_nodup (f : residual -> list vehicle) rs :
     (forall r v, In r rs -> In v (f r) -> In v (names r)) -> (forall r, In r rs -> NoDup (f r)) -> apart rs ->

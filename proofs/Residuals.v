@@ -33,7 +33,8 @@ Section Residuals.
   | Unallocated (t : task) (q : request)
   | Holding (vs : list vehicle) (r : residual)
   | Recruit (i : timer) (q : filter) (a : code) (j : timer) (deep : nat)
-  | Recruited (v : vehicle) (r : residual).
+  | Recruited (v : vehicle) (r : residual)
+  | Fresh (ks : list timer) (r : residual).                          (* r has the keys of these numbers *)
 
   Definition branch := (code * residual)%type.
 
@@ -62,6 +63,7 @@ Section Residuals.
     Hypothesis on_holding : forall vs r, P r -> P (Holding vs r).
     Hypothesis on_recruit : forall i q a j d, P (Recruit i q a j d).
     Hypothesis on_recruited : forall v r, P r -> P (Recruited v r).
+    Hypothesis on_fresh : forall ks r, P r -> P (Fresh ks r).
 
     Fixpoint residual_rect' (r : residual) : P r :=
       let fix all (rs : list residual) : Forall P rs :=
@@ -94,6 +96,7 @@ Section Residuals.
       | Holding vs r => on_holding vs r (residual_rect' r)
       | Recruit i q a j d => on_recruit i q a j d
       | Recruited v r => on_recruited v r (residual_rect' r)
+      | Fresh ks r => on_fresh ks r (residual_rect' r)
       end.
   End Induction.
 
@@ -134,9 +137,21 @@ Section Residuals.
     | Confirm i x _ => [(i, Answer_to x)]
     | During _ i n r => (i, Time n) :: waits r
     | Parallel rs => flat_map waits rs
-    | Sequence r _ | Branch r _ | Until _ _ r | Watch r _ | Repeat r _ _ _ | Holding _ r | Recruited _ r => waits r
+    | Sequence r _ | Branch r _ | Until _ _ r | Watch r _ | Repeat r _ _ _ | Holding _ r | Recruited _ r
+    | Fresh _ r => waits r
     | Ready _ _ | Running _ _ | Action _ | Condition _ | All_of _ | One_of _ | During_code _ _ _ _ | Asked _ _ _
     | Made _ _ _ | Unallocated _ _ | Recruit _ _ _ _ _ => []
+    end.
+
+  (** The keys of what is active: N has none of their pairs when it begins. *)
+  Fixpoint keys (r : residual) : list timer :=
+    match r with
+    | Fresh ks r => ks ++ keys r
+    | Parallel rs => flat_map keys rs
+    | Sequence r _ | Branch r _ | Until _ _ r | During _ _ _ r | Watch r _ | Repeat r _ _ _ | Holding _ r
+    | Recruited _ r => keys r
+    | Ready _ _ | Running _ _ | Action _ | Condition _ | All_of _ | One_of _ | Idle _ _ | Confirm _ _ _
+    | During_code _ _ _ _ | Asked _ _ _ | Made _ _ _ | Unallocated _ _ | Recruit _ _ _ _ _ => []
     end.
 
   (** {1 What is active} *)
@@ -147,7 +162,7 @@ Section Residuals.
     | Running p v => [(v, p)]
     | Parallel rs => flat_map running rs
     | Sequence r _ | Branch r _ | Until _ _ r | During _ _ _ r | Watch r _ | Repeat r _ _ _ | Holding _ r
-    | Recruited _ r => running r
+    | Recruited _ r | Fresh _ r => running r
     | Ready _ _ | Action _ | Condition _ | All_of _ | One_of _ | Idle _ _ | Confirm _ _ _ | During_code _ _ _ _
     | Asked _ _ _ | Made _ _ _ | Unallocated _ _ | Recruit _ _ _ _ _ => []
     end.
@@ -159,7 +174,8 @@ Section Residuals.
     match r with
     | Recruited v r => v :: recruits r
     | Parallel rs => flat_map recruits rs
-    | Sequence r _ | Branch r _ | Until _ _ r | During _ _ _ r | Watch r _ | Repeat r _ _ _ | Holding _ r => recruits r
+    | Sequence r _ | Branch r _ | Until _ _ r | During _ _ _ r | Watch r _ | Repeat r _ _ _ | Holding _ r
+    | Fresh _ r => recruits r
     | Ready _ _ | Running _ _ | Action _ | Condition _ | All_of _ | One_of _ | Idle _ _ | Confirm _ _ _
     | During_code _ _ _ _ | Asked _ _ _ | Made _ _ _ | Unallocated _ _ | Recruit _ _ _ _ _ => []
     end.
@@ -175,15 +191,16 @@ Section Residuals.
     | Parallel rs => flat_map names rs
     | Branch r bs => names r ++ flat_map (fun b => names (snd b)) bs
     | All_of bs | One_of bs => flat_map (fun b => names (snd b)) bs
-    | Until _ _ r | During _ _ _ r | During_code _ _ _ r | Watch r _ | Asked _ _ r => names r
+    | Until _ _ r | During _ _ _ r | During_code _ _ _ r | Watch r _ | Asked _ _ r | Fresh _ r => names r
     | Action _ | Condition _ | Idle _ _ | Confirm _ _ _ | Made _ _ _ | Unallocated _ _ | Recruit _ _ _ _ _ => []
     end.
 
-  (** The numbers of timers, questions and recruits, also of parts to come. *)
+  (** The numbers of timers, questions, recruits and keys, also of parts to come. *)
   Fixpoint numbers (r : residual) : list timer :=
     match r with
     | Idle i _ | Confirm i _ _ | Recruit i _ _ _ _ => [i]
     | During _ i _ r | During_code _ i _ r => i :: numbers r
+    | Fresh ks r => ks ++ numbers r
     | Sequence r t | Repeat r _ _ t => numbers r ++ numbers t
     | Parallel rs => flat_map numbers rs
     | Branch r bs => numbers r ++ flat_map (fun b => numbers (snd b)) bs
@@ -204,7 +221,8 @@ Section Residuals.
   | In_watch (h : handler)
   | Round_of (more : option nat) (g : option code) (t : residual)
   | Held_by (vs : list vehicle)
-  | In_recruited (v : vehicle).
+  | In_recruited (v : vehicle)
+  | With_keys (ks : list timer).
 
   Definition plug (f : frame) (r : residual) : residual :=
     match f with
@@ -217,6 +235,7 @@ Section Residuals.
     | Round_of more g t => Repeat r more g t
     | Held_by vs => Holding vs r
     | In_recruited v => Recruited v r
+    | With_keys ks => Fresh ks r
     end.
 
   Definition frame_names (f : frame) : list vehicle :=
@@ -226,7 +245,7 @@ Section Residuals.
     | Branch_of bs => flat_map (fun b => names (snd b)) bs
     | Held_by vs => vs
     | In_recruited v => [v]
-    | Body_until _ _ | Body_during _ _ _ | In_watch _ => []
+    | Body_until _ _ | Body_during _ _ _ | In_watch _ | With_keys _ => []
     end.
 
   Definition frame_numbers (f : frame) : list timer :=
@@ -235,6 +254,7 @@ Section Residuals.
     | Beside before after => flat_map numbers (before ++ after)
     | Branch_of bs => flat_map (fun b => numbers (snd b)) bs
     | Body_during _ i _ => [i]
+    | With_keys ks => ks
     | Held_by _ | In_recruited _ | Body_until _ _ | In_watch _ => []
     end.
 End Residuals.

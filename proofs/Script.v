@@ -6,9 +6,12 @@ Section Script.
 
   (** {1 The end} *)
 
+  (** N has no pairs of fresh keys when the executed task is over. *)
+  Definition task_over (S : shared) : shared := with_space (forget_all (space S)) S.
+
   (** [ended(S, e)]. *)
   Definition ended (S : shared) (e : ending) : configuration :=
-    {| control_of := End e; shared_of := with_bound [] (with_allocation nothing S) |}.
+    {| control_of := End e; shared_of := task_over (with_bound [] (with_allocation nothing S)) |}.
 
   Definition ceased (E : list effect) : list timer :=
     flat_map (fun x => match x with Cancel_timer i | Withdraw_question i => [i] | _ => [] end) E.
@@ -89,6 +92,10 @@ Section Script.
   Definition script_waits (k : control) : list effect :=
     match k with Wait _ (For_pick _) | Wait _ (For_pause _) => [Cancel_timer script_timer] | _ => [] end.
   Definition recruited_by (k : control) : list vehicle := recruits (residual_of k).
+
+  (** [S] where M(T) begins. *)
+  Definition gone_home (k : control) (S : shared) : shared :=
+    task_over (with_bound (bound S ++ recruited_by k) (with_allocation nothing S)).
 
   (** The machine that an interruption goes on with, and its B. *)
   Definition home (k : control) (S : shared) : option machine :=
@@ -178,14 +185,14 @@ Section Script.
 
   (* Executing tasks *)
   | EXECUTE : forall M S M' s t r,
-      run_script M w S = (Asks (Execute t), M', s) -> alloc w (bound S) t = inl r ->
-      cstep w None (script_at M S) LExecute (executes M' r (with_store s S)) (begun r)
+      run_script M w S = (Asks (Execute t), M', s) -> alloc w (with_store s S) t = inl r ->
+      cstep w None (script_at M S) LExecute (executes M' r (clear (keys r) (with_store s S))) (begun r)
   | ALLOC_ERR : forall M S M' s t m,
-      run_script M w S = (Asks (Execute t), M', s) -> alloc w (bound S) t = inr m ->
+      run_script M w S = (Asks (Execute t), M', s) -> alloc w (with_store s S) t = inr m ->
       cstep w None (script_at M S) (LCannot_execute m) (ended (with_store s S) (Failed m)) (end_here [] S (Failed m))
   | EXECUTE_DONE : forall e M S r l S' E,
       step e (alone w) S r l S' Ok E ->
-      cstep w e (executes M r S) l (script_at (give null M) S') E
+      cstep w e (executes M r S) l (script_at (give null M) (task_over S')) E
   | EXECUTE_ERR : forall e M S r l S' m E,
       step e (alone w) S r l S' (Err m) E ->
       cstep w e (executes M r S) l (ended S' (Failed m)) (end_by_error r E S' (Failed m))
@@ -213,12 +220,13 @@ Section Script.
       cstep w e (executes M r S) l (ended S' x) (end_of e r E S' x)
   | INTERRUPT : forall k S,
       (forall e, k <> End e) -> home k S = None ->
-      cstep w (Some Interruption) {| control_of := k; shared_of := S |} LInterrupt (ended S Interrupted)
+      cstep w (Some Interruption) {| control_of := k; shared_of := S |} LInterrupt
+        (ended S Interrupted)
         (end_of None (residual_of k) (script_waits k) S Interrupted)
   | ON_INTERRUPT : forall k S M,
       (forall e, k <> End e) -> home k S = Some M ->
       cstep w (Some Interruption) {| control_of := k; shared_of := S |} LInterrupt
-        (script_at M (with_bound (bound S ++ recruited_by k) (with_allocation nothing S)))
+        (script_at M (gone_home k S))
         (script_waits k ++ stops None (residual_of k) [] S).
 
   (** {1 The function} *)
@@ -248,8 +256,8 @@ Section Script.
         | Asks (Pause n) => wait (For_pause n) (LPause n) [Set_timer script_timer n]
         | Asks (Call c) => wait (For_reply c) (LCall c) [Call_ c]
         | Asks (Execute t) =>
-            match alloc w (bound S) t with
-            | inl r => [To LExecute (executes M' r (with_store s S)) (begun r)]
+            match alloc w (with_store s S) t with
+            | inl r => [To LExecute (executes M' r (clear (keys r) (with_store s S))) (begun r)]
             | inr m => ending (LCannot_execute m) (Failed m)
             end
         | Finished => ending LEnd Completed
@@ -262,7 +270,7 @@ Section Script.
   Definition conclude (x : option event) (M : machine) (r : residual) (t : transition) : ctransition :=
     match t with
     | By l S' (Next r') E => To l (executes M r' S') E
-    | By l S' Ok E => To l (script_at (give null M) S') E
+    | By l S' Ok E => To l (script_at (give null M) (task_over S')) E
     | By l S' (Err m) E => To l (ended S' (Failed m)) (end_by_error r E S' (Failed m))
     | By l S' (Ends e) E => To l (ended S' e) (end_of x r E S' e)
     end.
@@ -286,9 +294,10 @@ Section Script.
     | k, Some Interruption =>
         match home k S with
         | Some M =>
-            [To LInterrupt (script_at M (with_bound (bound S ++ recruited_by k) (with_allocation nothing S)))
+            [To LInterrupt (script_at M (gone_home k S))
                (script_waits k ++ stops None (residual_of k) [] S)]
-        | None => [To LInterrupt (ended S Interrupted) (end_of None (residual_of k) (script_waits k) S Interrupted)]
+        | None => [To LInterrupt (ended S Interrupted)
+                     (end_of None (residual_of k) (script_waits k) S Interrupted)]
         end
     | Exec M r, Some (Input key x) =>
         (if declares key then
@@ -357,8 +366,9 @@ Section Script.
         * apply ON_INTERRUPT; [apart | exact Hh].
         * apply INTERRUPT; [apart | exact Hh].
       + unfold script_steps in H. destruct (run_script M w S) as [[x M'] s] eqn:R.
-        destruct x as [ | [ks | ks | x | vs | vs n] | [q | x | n | cl | t] | | | m | m]; cbn in H;
-          try (destruct H as [H | []]; injection H as <- <- <-).
+        destruct x as [ | [ks | ks | x | vs | vs n] | [q | x | n | cl | t] | | | m | m];
+          try (destruct (alloc w (with_store s S) t) eqn:A);
+          cbn in H; try (destruct H as [H | []]; injection H as <- <- <-).
         * eapply SCRIPT; eauto.
         * eapply POST; eauto.
         * destruct (take ks (space S)) eqn:T; [|contradiction]. destruct H as [H | []]; injection H as <- <- <-.
@@ -371,9 +381,8 @@ Section Script.
         * eapply ASK; eauto.
         * eapply PAUSE; eauto.
         * eapply CALL; eauto.
-        * destruct (alloc w (bound S) t) eqn:A; destruct H as [H | []]; injection H as <- <- <-.
-          -- eapply EXECUTE; eauto.
-          -- eapply ALLOC_ERR; eauto.
+        * eapply EXECUTE; eauto.
+        * eapply ALLOC_ERR; eauto.
         * eapply END; eauto.
         * eapply END_interrupted; eauto.
         * eapply HALT_script; eauto.
@@ -401,7 +410,7 @@ Section Script.
           apply INPUT; [exact D | apart].
         * assert (H' : In (To l c' E) match home (Wait M q) S with
             | Some M0 => [To LInterrupt
-                (script_at M0 (with_bound (bound S ++ recruited_by (Wait M q)) (with_allocation nothing S)))
+                (script_at M0 (gone_home (Wait M q) S))
                 (script_waits (Wait M q) ++ stops None (residual_of (Wait M q)) [] S)]
             | None => [To LInterrupt (ended S Interrupted)
                 (end_of None (residual_of (Wait M q)) (script_waits (Wait M q)) S Interrupted)] end)

@@ -25,15 +25,17 @@ Section Syntax.
   | TWatch (t : task) (h : code)
   | TRepeat (n : option nat) (g : option code) (t : task)  (* n rounds; None: without end *)
   | TMade (a : code)                                       (* { a }: the task that this code gives *)
-  | TRecruit (q : filter) (a : code).
+  | TRecruit (q : filter) (a : code)
+  | TFresh (a : code)
+  | TKeys (ks : list timer) (a : code) (t : task)          (* fresh { a } that was opened: a gave t of these keys *).
 
   (** Platform tasks, timers (with questions and recruits) and places in a task: how many numbers it takes. *)
   Fixpoint leaves (t : task) : nat :=
     match t with
     | TPlan _ => 1
-    | TAction _ | TCondition _ | TIdle _ | TConfirm _ _ | TMade _ | TRecruit _ _ => 0
+    | TAction _ | TCondition _ | TIdle _ | TConfirm _ _ | TMade _ | TRecruit _ _ | TFresh _ => 0
     | TSequence a b | TParallel a b => leaves a + leaves b
-    | TAllocated a _ | TUntil _ _ a | TDuring _ _ a | TWatch a _ | TRepeat _ _ a => leaves a
+    | TAllocated a _ | TUntil _ _ a | TDuring _ _ a | TWatch a _ | TRepeat _ _ a | TKeys _ _ a => leaves a
     | TAll_of bs | TOne_of bs => list_sum (map (fun b => leaves (snd b)) bs)
     end.
 
@@ -42,7 +44,7 @@ Section Syntax.
     match t with
     | TAll_of bs | TOne_of bs => negb (match bs with [] => true | _ => false end) && forallb (fun b => solid (snd b)) bs
     | TSequence a b | TParallel a b => solid a && solid b
-    | TAllocated a _ | TUntil _ _ a | TDuring _ _ a | TWatch a _ | TRepeat _ _ a => solid a
-    | TPlan _ | TAction _ | TCondition _ | TIdle _ | TConfirm _ _ | TMade _ | TRecruit _ _ => true
+    | TAllocated a _ | TUntil _ _ a | TDuring _ _ a | TWatch a _ | TRepeat _ _ a | TKeys _ _ a => solid a
+    | TPlan _ | TAction _ | TCondition _ | TIdle _ | TConfirm _ _ | TMade _ | TRecruit _ _ | TFresh _ => true
     end.
 End Syntax.

@@ -53,16 +53,6 @@ Section Tasks.
   Definition deeper (q : request) : request :=
     {| allowed := allowed q; place := place q; depth := Datatypes.S (depth q) |}.
 
-  (** The task that code made: it only computed. *)
-  Definition made_task (a : code) (ys : list value) (q : request) (S : shared) (x : value) (s : store) (ds : list deed)
-    : option task :=
-    if negb (takes a ys) then None
-    else if deepest <=? depth q then None
-    else match ds with
-         | [] => if store_eq s (variables S) then task_of x else None
-         | _ => None
-         end.
-
   (** Code that runs in a step of the node itself. *)
   Definition own_code (r : residual) : list (code * list value) :=
     match r with
@@ -121,7 +111,7 @@ Section Tasks.
       step e K S (Sequence r t) l S' (Next (sequence r' t)) E
   | SEQ_2 : forall e K S r t l S' E,
       step e (enter (In_sequence t) K) S r l S' Ok E ->
-      step e K S (Sequence r t) l S' (Next t) (E ++ begun t)
+      step e K S (Sequence r t) l (clear (keys t) S') (Next t) (E ++ begun t)
   | SEQ_ERR : forall e K S r t l S' m E,
       step e (enter (In_sequence t) K) S r l S' (Err m) E ->
       step e K S (Sequence r t) l S' (Err m) E
@@ -135,13 +125,14 @@ Section Tasks.
       step e K S (Parallel (before ++ r :: after)) l S' (Next (parallel (before ++ after))) E
   | PAR_ERR : forall e K S before r after l S' m E,
       step e (enter (Beside before after) K) S r l S' (Err m) E ->
-      step e K S (Parallel (before ++ r :: after)) l (without (flat_map run_of (before ++ after)) S') (Err m)
+      step e K S (Parallel (before ++ r :: after)) l
+        (without (flat_map run_of (before ++ after)) S') (Err m)
         (E ++ cut (before ++ after))
 
   (* Branches with guards *)
   | ALLOF_WHEN : forall K S before g r after x s N ds,
       runs g [] K S = Gives x s N ds -> truth x = Some true ->
-      step None K S (All_of (before ++ (g, r) :: after)) (LCheck ds) (with_code s N S)
+      step None K S (All_of (before ++ (g, r) :: after)) (LCheck ds) (clear (keys r) (with_code s N S))
         (Next (branch_of (given ds r) (before ++ after))) (effects_of ds ++ begun r)
   | ALLOF_1 : forall e K S r bs l S' r' E,
       step e (enter (Branch_of bs) K) S r l S' (Next r') E ->
@@ -157,7 +148,7 @@ Section Tasks.
       step None K S (All_of (before ++ (g, r) :: after)) (LBroken m) S (Err m) (effects_of (said ds))
   | ONEOF_WHEN : forall K S before g r after x s N ds,
       runs g [] K S = Gives x s N ds -> truth x = Some true ->
-      step None K S (One_of (before ++ (g, r) :: after)) (LCheck ds) (with_code s N S)
+      step None K S (One_of (before ++ (g, r) :: after)) (LCheck ds) (clear (keys r) (with_code s N S))
         (Next (given ds r)) (effects_of ds ++ begun r)
   | ONEOF_ERR : forall K S before g r after m ds,
       runs g [] K S = Faulty m ds -> is_unknown m = false ->
@@ -170,7 +161,8 @@ Section Tasks.
         (effects_of ds ++ cut [r])
   | ASSURE_CUT : forall K S at_site g r x s N ds,
       runs g [] K S = Gives x s N ds -> truth x = Some false ->
-      step None K S (Until (Fails at_site) g r) (LCut []) (without (run_of r) S) (Err (not_assured at_site g)) (cut [r])
+      step None K S (Until (Fails at_site) g r) (LCut []) (without (run_of r) S)
+        (Err (not_assured at_site g)) (cut [r])
   | UNTIL_1 : forall e K S k g r l S' r' E,
       step e (enter (Body_until k g) K) S r l S' (Next r') E ->
       step e K S (Until k g r) l S' (Next (Until k g r')) E
@@ -182,14 +174,15 @@ Section Tasks.
       step e K S (Until k g r) l S' (Err m) E
   | UNTIL_ERR_guard : forall K S k g r m ds,
       runs g [] K S = Faulty m ds -> is_unknown m = false ->
-      step None K S (Until k g r) (LBroken m) (without (run_of r) S) (Err m) (effects_of (said ds) ++ cut [r])
+      step None K S (Until k g r) (LBroken m) (without (run_of r) S) (Err m)
+        (effects_of (said ds) ++ cut [r])
 
   (* Time *)
   | IDLE_END : forall K S i n,
       step (Some (Expired i)) K S (Idle i n) LTimeout S Ok []
   | DURING_SET : forall K S k i d r x s N ds n,
       runs d [] K S = Gives x s N ds -> time_of d x = inl n ->
-      step None K S (During_code k i d r) (LSet_time n) (with_code s N S) (Next (During k i n r))
+      step None K S (During_code k i d r) (LSet_time n) (clear (keys r) (with_code s N S)) (Next (During k i n r))
         (effects_of ds ++ Set_timer i n :: begun r)
   | DURING_CUT : forall K S i n r,
       step (Some (Expired i)) K S (During Completes i n r) LTimeout (without (run_of r) S) Ok (cut [r])
@@ -280,7 +273,8 @@ Section Tasks.
       step e K S (Repeat r more g t) l S' (Next (Repeat r' more g t)) E
   | REPEAT_2 : forall e K S r more t l S' E,
       step e (enter (Round_of more None t) K) S r l S' Ok E ->
-      step e K S (Repeat r more None t) l S' (Next (repeat_ t (option_map pred more) None t)) (E ++ begun t)
+      step e K S (Repeat r more None t) l (clear (keys t) S') (Next (repeat_ t (option_map pred more) None t))
+        (E ++ begun t)
   | REPEAT_2_condition : forall e K S r more g t l S' E,
       step e (enter (Round_of more (Some g) t) K) S r l S' Ok E ->
       step e K S (Repeat r more (Some g) t) l S' (Next (Asked more g t)) E
@@ -289,7 +283,8 @@ Section Tasks.
       step None K S (Asked more g t) (LCheck ds) (with_code s N S) Ok (effects_of ds)
   | REPEAT_AGAIN : forall K S more g t x s N ds,
       runs g [] K S = Gives x s N ds -> truth x = Some false ->
-      step None K S (Asked more g t) (LCheck []) S (Next (repeat_ t (option_map pred more) (Some g) t)) (begun t)
+      step None K S (Asked more g t) (LCheck []) (clear (keys t) S)
+        (Next (repeat_ t (option_map pred more) (Some g) t)) (begun t)
   | REPEAT_ERR : forall e K S r more g t l S' m E,
       step e (enter (Round_of more g t) K) S r l S' (Err m) E ->
       step e K S (Repeat r more g t) l S' (Err m) E
@@ -309,10 +304,10 @@ Section Tasks.
       step None K S (Made a ys q) (LBroken (no_task a ys (depth q) (variables S) x s ds)) S
         (Err (no_task a ys (depth q) (variables S) x s ds)) []
   | ALLOCATE : forall K S t q vs r,
-      alloc_made (world_of K) (free K S) t q (taken_numbers K) = inl (vs, r) ->
-      step None K S (Unallocated t q) (LAllocate vs) S (Next (holding vs r)) (begun r)
+      alloc_made (world_of K) (held K) S (free K S) t q (taken_numbers K) = inl (vs, r) ->
+      step None K S (Unallocated t q) (LAllocate vs) (clear (keys r) S) (Next (holding vs r)) (begun r)
   | ALLOCATE_ERR : forall K S t q m,
-      alloc_made (world_of K) (its_bound K S) t q (taken_numbers K) = inr m ->
+      alloc_made (world_of K) (held K) S (its_bound K S) t q (taken_numbers K) = inr m ->
       step None K S (Unallocated t q) (LCannot_execute m) S (Err m) []
   | HOLD_1 : forall e K S vs r l S' r' E,
       step e (enter (Held_by vs) K) S r l S' (Next r') E ->
@@ -337,5 +332,16 @@ Section Tasks.
       step e K S (Recruited v r) l S' Ok (E ++ [Release [v]])
   | RECRUIT_ERR : forall e K S v r l S' m E,
       step e (enter (In_recruited v) K) S r l S' (Err m) E ->
-      step e K S (Recruited v r) l S' (Err m) (E ++ [Release [v]]).
+      step e K S (Recruited v r) l S' (Err m) (E ++ [Release [v]])
+
+  (* Fresh keys *)
+  | FRESH_1 : forall e K S ks r l S' r' E,
+      step e (enter (With_keys ks) K) S r l S' (Next r') E ->
+      step e K S (Fresh ks r) l S' (Next (Fresh ks r')) E
+  | FRESH_2 : forall e K S ks r l S' E,
+      step e (enter (With_keys ks) K) S r l S' Ok E ->
+      step e K S (Fresh ks r) l (clear ks S') Ok E
+  | FRESH_ERR : forall e K S ks r l S' m E,
+      step e (enter (With_keys ks) K) S r l S' (Err m) E ->
+      step e K S (Fresh ks r) l (clear ks S') (Err m) E.
 End Tasks.

@@ -6,6 +6,7 @@ From Coq Require Import List NArith.
 
 Extraction Language OCaml.
 Set Extraction AccessOpaque.
+Set Warnings "-extraction-opaque-accessed".  (* [deepest] *)
 
 Extract Constant deepest => "100".
 Extract Constant generation => "1_000_000".

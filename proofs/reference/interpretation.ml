@@ -83,6 +83,11 @@ let task_of : Core.value -> I.task option = function
 
 let takes (code : Core.closure) given = code.lambda.implicit || code.lambda.parameters <= List.length given
 
+let only_computes (code : Core.closure) =
+  let { Core.label; lambda_site; _ } = code.lambda in
+  Fault.make lambda_site
+    (Printf.sprintf "{ %s } makes a task, so it may only compute: it must not post, consume, assign or print" label)
+
 (* The reason is the first that holds. *)
 let no_task (code : Core.closure) given depth before x after deeds =
   let { Core.parameters; label; lambda_site; _ } = code.lambda in
@@ -93,9 +98,17 @@ let no_task (code : Core.closure) given depth before x after deeds =
     fault "{ %s } takes %s, and its guard took %s" label (many parameters) (if n = 0 then "none" else many n)
   else if depth >= deepest then
     fault "closures in tasks that closures give nest more than %d deep: write an endless loop as repeat" deepest
-  else if deeds <> [] || Store.compare before after <> 0 then
-    fault "{ %s } makes a task, so it may only compute: it must not post, consume, assign or print" label
+  else if deeds <> [] || Store.compare before after <> 0 then only_computes code
   else fault "{ %s }: %s" label (Operators.instead_of "a task" x)
+
+(* Of the code of a fresh: also where it does not end with a value. *)
+let no_opened_task (code : Core.closure) given depth before : I.result -> Fault.t = function
+  | Gives (x, after, _, deeds) -> no_task code given depth before x after deeds
+  | Faulty (fault, _) | Asserts (fault, _) -> Fault.make fault.site fault.message
+  | Halts _ -> only_computes code
+  | Unclear -> invalid_arg "the code of a fresh is unclear in a closed world"
+
+let forget keys n = List.fold_left (fun n i -> Tuples.without (Residual.key i) n) n keys
 
 (* {1 Vehicles} *)
 
@@ -112,7 +125,7 @@ let rec assigned (r : Residual.t) : Core.vehicle list =
 let rec from n () = Seq.Cons (n, from (n + 1))
 
 let assign world bound allowed t : (int -> Core.vehicle, Fault.t) Either.t =
-  let opened = { Allocation.tasks = []; numbers = from 1 } in
+  let opened = { Allocation.tasks = Terms.opened t; numbers = from 1 } in
   match Allocation.allocate_made world bound opened { allowed; place = 0; depth = 0 } (Terms.to_task t) with
   | Ok (Ok (_, r)) -> Left (Array.get (Array.of_list (assigned r)))
   | Ok (Error fault) -> Right fault
@@ -199,11 +212,13 @@ let code (program : Core.program) ~vehicles ~machine ~answer : I.code0 =
       Fault.make site (Printf.sprintf "%s: %s" (Machine.name_of_call ~subject ~member) why.message)
     | Pick _ | Ask _ | Pause _ | Execute _ -> why
   in
+  let forget_all tuples = (Shared.without_fresh { (Shared.initial program) with tuples }).tuples in
   let interrupted lambda vs = Machine.call { lambda; captured = [||] } [ Core.Vehicles vs ] in
   { run = run program ~vehicles; run_handler = run_handler program ~vehicles; truth; is_unknown = Fault.is_unknown;
-    time_of; task_of; takes; has_parameters = (fun c -> c.lambda.parameters > 0);
-    may_recover = (fun c -> Recovery.possible c.lambda); vehicle_value = (fun v -> Vehicles [ v ]); fit = fit program;
-    assign; not_assured; not_in_time; answered_no; not_answered; plan_failed; no_task; too_deep;
+    time_of; task_of; takes; parameters = (fun c -> c.lambda.parameters);
+    may_recover = (fun c -> Recovery.possible c.lambda); vehicle_value = (fun v -> Vehicles [ v ]);
+    key_value = (fun i -> String (Residual.key i)); forget; forget_all; fit = fit program;
+    assign; not_assured; not_in_time; answered_no; not_answered; plan_failed; no_task; no_opened_task; too_deep;
     foreign_retry; run_script = run_script program; give = Machine.give; null = Null;
     vehicles_value = (fun vs -> Vehicles vs); post; take; answer_of = answer_of program answer;
     no_pick = no_pick program machine; no_text; no_reply; declares = (fun k -> List.mem k program.inputs);

@@ -5,7 +5,7 @@ module R = Residual
 let names : I.names =
   { vehicle_eq = String.equal; store_eq = (fun s s' -> Store.compare s s' = 0) }
 
-let outside = "the calculus of proofs/ has neither fresh nor ensure"
+let outside = "the calculus of proofs/ does not have ensure"
 let not_there () = invalid_arg outside
 
 (* {1 Tasks} *)
@@ -36,7 +36,8 @@ let rec task : Core.task -> I.task = function
   | Repeat { rounds; until; body; site = _ } -> TRepeat (rounds, until, task body)
   | Made a -> TMade a
   | Recruit { asked; code; site = _ } -> TRecruit (of_filter asked, code)
-  | Fresh _ | Ensure _ -> not_there ()
+  | Fresh code -> TFresh code
+  | Ensure _ -> not_there ()
 
 and branch { guard; body } = (guard, task body)
 
@@ -57,8 +58,16 @@ let rec to_task : I.task -> Core.task = function
   | TRepeat (rounds, until, t) -> Repeat { rounds; until; body = to_task t; site = Fault.unknown_site }
   | TMade a -> Made a
   | TRecruit (asked, code) -> Recruit { asked = asked.filter; code; site = Fault.unknown_site }
+  | TFresh code | TKeys (_, code, _) -> Fresh code
 
 and to_branch (guard, t) = { guard; body = to_task t }
+
+let rec opened : I.task -> (R.timer list * Core.task) list = function
+  | TKeys (ns, _, t) -> (ns, to_task t) :: opened t
+  | TSequence (t, t') | TParallel (t, t') -> opened t @ opened t'
+  | TAllocated (t, _) | TUntil (_, _, t) | TDuring (_, _, t) | TWatch (t, _) | TRepeat (_, _, t) -> opened t
+  | TAll_of bs | TOne_of bs -> List.concat_map (fun (_, t) -> opened t) bs
+  | TPlan _ | TAction _ | TCondition _ | TIdle _ | TConfirm _ | TMade _ | TRecruit _ | TFresh _ -> []
 
 (* {1 Residuals} *)
 
@@ -92,7 +101,8 @@ let rec residual : R.t -> I.residual = function
   | Hold (vs, r) -> Holding (vs, residual r)
   | Recruit { number; asked; code; place; depth; site = _ } -> Recruit (number, of_filter asked, code, place, depth)
   | Recruited (v, r) -> Recruited (v, residual r)
-  | Fresh _ | Ensure _ -> not_there ()
+  | Fresh (ns, r) -> Fresh (ns, residual r)
+  | Ensure _ -> not_there ()
 
 and residual_branch { guard; body } = (guard, residual body)
 
@@ -134,6 +144,7 @@ let rec to_residual ~begun : I.residual -> R.t =
   | Recruit (number, asked, code, place, depth) ->
     Recruit { number; asked = asked.filter; code; place; depth; site = Fault.unknown_site }
   | Recruited (v, r) -> Recruited (v, here r)
+  | Fresh (ns, r) -> Fresh (ns, here r)
 
 and parts later : I.residual -> R.t list = function
   | Sequence (r, t) -> later r :: parts later t

@@ -8,15 +8,19 @@ val names : Interpreter.names
 (** Equality of vehicles and stores. *)
 
 val outside : string
-(** The argument of [Invalid_argument] for a task with a [fresh] or an [ensure]. *)
+(** The argument of [Invalid_argument] for a task with an [ensure]. *)
 
 val task : Core.task -> Interpreter.task
 (** The same task.
 
-    @raise Invalid_argument {!outside} if it has a [fresh] or an [ensure]. *)
+    @raise Invalid_argument {!outside} if it has an [ensure]. *)
 
 val to_task : Interpreter.task -> Core.task
-(** The same task. *)
+(** The same task; a [fresh] that was opened is its code again. *)
+
+val opened : Interpreter.task -> (Residual.timer list * Core.task) list
+(** The numbers of the keys and the task of each [fresh] that was opened, as {!Dolphin_semantics.Allocation.opened} has
+    them. *)
 
 val deeds : Code.deed list -> Interpreter.deed list
 (** The same deeds. *)
@@ -36,7 +40,7 @@ val to_shared : vehicles:Core.vehicle list -> Interpreter.shared -> Shared.t
 val configuration : Configuration.t -> Interpreter.configuration
 (** The same configuration.
 
-    @raise Invalid_argument if its residual has a [fresh]. *)
+    @raise Invalid_argument {!outside} if its residual has an [ensure]. *)
 
 val to_configuration : vehicles:Core.vehicle list -> Interpreter.configuration -> Configuration.t
 (** The same configuration; [vehicles] may run tasks. *)

@@ -1,6 +1,9 @@
-// A hostile client that watches: node test/abuse.mjs ORIGIN TOKEN. It keeps doing, in parallel, all that a watcher may,
-// and prints a line for each thing that it has begun.
-const [origin, token] = process.argv.slice(2);
+// Hostile clients that watch: node test/abuse.mjs ORIGIN TOKEN OPENAPI WALKERS. They keep doing, in parallel, what costs a
+// server most; and as many walkers as given make each request of docs/openapi.json in turn, but that of Stop, with values
+// of its schema, with hostile ones, and without a token. It prints a line for each thing that it has begun.
+import { readFileSync } from "node:fs";
+
+const [origin, token, openapi, walkers] = process.argv.slice(2);
 const authorization = { Authorization: "Bearer " + token };
 
 async function post(client, path, body) {
@@ -43,3 +46,57 @@ for (const [i, attack] of attacks.entries())
       }
     })();
   }
+
+// {1 Each request}
+
+const file = JSON.parse(readFileSync(openapi, "utf8"));
+const operations = Object.entries(file.paths).flatMap(([path, verbs]) => Object.entries(verbs)
+  .filter(([verb]) => ["get", "put", "post", "delete", "patch"].includes(verb)).map(([verb, { parameters = [], requestBody }]) =>
+    ({ verb: verb.toUpperCase(), path, parameters, schema: requestBody?.content?.["application/json"]?.schema })))
+  .filter(({ path }) => path !== "/api/run/stop");
+
+const names = ["mission.dol", "long.run", "pipe.dol", "mission.fleet", "../mission.dol", "-rf.dol", "", "a".repeat(5000), "\u0000", "${1}"];
+const texts = [assignments, "x = " + "(".repeat(20000), "'", "while (true) { }", "v = pick { count 100000 }", "\u2028".repeat(1000)];
+const draw = (list) => list[Math.floor(Math.random() * list.length)];
+
+// A value of the schema; its texts are hostile.
+function valueOf(schema, name, depth = 0) {
+  if (!schema || depth > 8) return null;
+  if (schema.$ref) return valueOf(file.components.schemas[schema.$ref.split("/").pop()], name, depth + 1);
+  const choices = schema.oneOf ?? schema.anyOf;
+  if (choices) return valueOf(draw(choices), name, depth + 1);
+  if (schema.allOf) return Object.assign({}, ...schema.allOf.map((part) => valueOf(part, name, depth + 1)));
+  if (schema.enum) return draw(schema.enum);
+  if (schema.const !== undefined) return schema.const;
+  const type = Array.isArray(schema.type) ? draw(schema.type) : schema.type;
+  if (type === "object" || schema.properties)
+    return Object.fromEntries(Object.entries(schema.properties ?? {}).map(([key, part]) => [key, valueOf(part, key, depth + 1)]));
+  if (type === "array") return Array.from({ length: 3 }, () => valueOf(schema.items, name, depth + 1));
+  if (type === "integer" || type === "number") return draw([0, 1, -1, 1e9, 0.5, 2 ** 53, 1e308]);
+  if (type === "boolean") return Math.random() < 0.5;
+  if (type === "null") return null;
+  return draw(/text|content/.test(name ?? "") ? texts : names);
+}
+
+const hostile = [() => "[".repeat(50000), () => JSON.stringify({ path: { path: [] }, program: 1, text: [] }), () => "", () => "{\"text\":\"" + "x".repeat(300000) + "\"}", () => "null"];
+
+async function request({ verb, path, parameters, schema }) {
+  const headers = { "Content-Type": "application/json", "X-Dolphin-Client": "walker-" + Math.floor(Math.random() * 50) };
+  if (Math.random() < 0.8) Object.assign(headers, authorization);
+  const query = new URLSearchParams(parameters.filter((p) => p.in === "query").map((p) => [p.name, String(valueOf(p.schema, p.name))]));
+  const body = verb === "GET" ? undefined : Math.random() < 0.6 ? JSON.stringify(valueOf(schema)) : draw(hostile)();
+  const reply = await fetch(`${origin}${path}?${query}`, { method: verb, headers, body, signal: AbortSignal.timeout(1500) });
+  let length = 0;
+  for await (const piece of reply.body) if ((length += piece.length) > 200000) break;
+}
+
+for (let walker = 0; walker < Number(walkers); walker++) (async () => {
+  for (let i = walker; ; i++) {
+    const operation = operations[i % operations.length];
+    const done = request(operation).catch(() => {});
+    console.log(`${operation.verb} ${operation.path}`);
+    await done;
+    await new Promise((go) => setTimeout(go, 5));
+  }
+})();
+console.log(`operations ${operations.length}`);

@@ -504,7 +504,7 @@ Forgetting(s, numbers) ==
 
 (* s, by which the executed task is over: no key of fresh has a pair. *)
 ForgettingAll(s) ==
-  LET keys == { pair[1] : pair \in { pair \in DOMAIN s.S.N.bag : IsKeyText(pair[1]) } }
+  LET keys == { k \in { pair[1] : pair \in DOMAIN s.S.N.bag } \cup DOMAIN s.S.N.queue : IsKeyText(k) }
   IN IF keys = { } THEN s
      ELSE [ s EXCEPT !.S.N = WithoutKeys(@, keys),
                      !.deeds = Append(@, [ did |-> "forget", pairs |-> PairsWith(s.S.N, keys) ]) ]

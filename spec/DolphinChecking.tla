@@ -246,7 +246,7 @@ InOrder(set) == IF set = { } THEN << >> ELSE LET x == CHOOSE x \in set : TRUE IN
 StateText(kappa, S, environment) ==
   Only({ IF state = state THEN ToString(state) ELSE "" : state \in {
     << kappa, S.store, Each(S.B, LAMBDA v : IF v \in DOMAIN S.A THEN << S.A[v] >> ELSE << >>), S.B,
-       Each(InOrder(OrderedKeys), LAMBDA k : S.N.queue[k]),
+       Each(InOrder(DOMAIN S.N.queue), LAMBDA k : << k, S.N.queue[k] >>),
        Each(InOrder(DOMAIN S.N.bag), LAMBDA pair : << pair, S.N.bag[pair] >>),
        environment.failed, environment.losses, InOrder(environment.lost), InOrder(environment.late),
        Each(InOrder(Prompts), LAMBDA prompt : environment.asked[prompt]),
@@ -315,8 +315,8 @@ PrintMarks ==
   /\ control.at = "end" => PrintEnd
   /\ B # << >> => PrintMark("B " \o Join(B, ", "))
   /\ \A v \in DOMAIN A : PrintMark("A " \o v \o ": " \o A[v].name)
-  /\ \A k \in OrderedKeys :
-       N.queue[k] # << >> => PrintMark("N " \o PairsText(Each(N.queue[k], LAMBDA x : << k, x >>)) \o " in order")
+  /\ \A k \in DOMAIN N.queue :
+       PrintMark("N " \o PairsText(Each(N.queue[k], LAMBDA x : << k, x >>)) \o " in order")
   /\ \A pair \in DOMAIN N.bag :
        PrintMark("N " \o PairText(<< pair[1], Listed(pair[2]) >>) \o " * " \o ToString(N.bag[pair]))
 

@@ -326,10 +326,10 @@ HasEnded == control.at = "end"
 (* How a run may end. NoHalt and NoLeftover are asked for by name only: a program may mean to halt, or to leave pairs
    in N. *)
 EndsSo(how, why) == HasEnded /\ control.ending.how = how /\ control.ending.why = why
-NothingLeft == (\A k \in OrderedKeys : N.queue[k] = << >>) /\ DOMAIN N.bag = { }
+NothingLeft == DOMAIN N.queue = { } /\ DOMAIN N.bag = { }
 (* The program cannot know which inputs come, or take them all. *)
 OnlyInputsLeft ==
-  /\ \A k \in OrderedKeys \ InputKeys : N.queue[k] = << >>
+  /\ DOMAIN N.queue \subseteq InputKeys
   /\ \A pair \in DOMAIN N.bag : pair[1] \in InputKeys
 
 NoError == ~EndsSo("failed", "error")
@@ -351,7 +351,7 @@ TypeOK ==
   /\ DOMAIN A \subseteq Identifiers
   /\ Range(B) \subseteq Identifiers
   /\ Cardinality(Range(B)) = Len(B)
-  /\ DOMAIN N.queue = OrderedKeys
+  /\ \A k \in DOMAIN N.queue : IsOrdered(k) /\ N.queue[k] # << >>
   /\ \A pair \in DOMAIN N.bag : N.bag[pair] \in Nat \ { 0 }
   /\ outside.failed \in Nat
   /\ outside.date \in Nat \cup { AnyDate }
@@ -383,7 +383,7 @@ Tally(pairs) ==
 PairsOf(deeds, kind) == Flatten(Each(SelectSeq(deeds, LAMBDA d : d.did = kind), LAMBDA d : d.pairs))
 
 AllPairs(n) ==
-  LET queued == UNION { { << k, j >> : j \in DOMAIN n.queue[k] } : k \in OrderedKeys }
+  LET queued == UNION { { << k, j >> : j \in DOMAIN n.queue[k] } : k \in DOMAIN n.queue }
       value(q) == Normal(n.queue[q[1]][q[2]])
       pairs == { << q[1], value(q) >> : q \in queued }
       count(pair) == Cardinality({ q \in queued : q[1] = pair[1] /\ value(q) = pair[2] })

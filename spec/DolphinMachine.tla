@@ -11,6 +11,7 @@ CONSTANTS
   Lambdas,      \* its closures and functions, by number
   GlobalNames,  \* the names of its global variables, by number
   OrderedKeys,  \* the keys of which some "consume k:_" takes the oldest pair
+  OrderedPrefixes, \* how keys begin of which some "consume k:_" may take the oldest pair, that computes its key
   OnInterrupt,  \* the closure that an interruption calls with the vehicles of B, if there is one: << it >>, or << >>
   Fleet,        \* the vehicles around, in the order in which they were heard of; position: what it may show, anything
                 \* if it is nothing; sensors: likewise of those that the program reads, with names and texts;
@@ -24,7 +25,7 @@ CONSTANTS
 ProgramOK ==
   /\ \A n \in DOMAIN Code : Code[n].is \in STRING
   /\ \A i \in DOMAIN Lambdas : Lambdas[i].code \in DOMAIN Code /\ Lambdas[i].parameters <= Lambdas[i].slots
-  /\ OrderedKeys \subseteq STRING
+  /\ OrderedKeys \cup OrderedPrefixes \subseteq STRING
   /\ \A i \in DOMAIN Plans : IsFiniteSet(Plans[i].devices)
   /\ { ScriptFuel, AtomicFuel, MaximumCalls } \subseteq Nat \ { 0 }
 
@@ -38,22 +39,30 @@ ASSUME FleetOK
 
 (* {1 The tuple space N} *)
 
-(* A queue for each key whose order can matter, of values as they were posted; for all others a bag of pairs, whose
-   values are normal. *)
-NoTuples == [ queue |-> [ k \in OrderedKeys |-> << >> ], bag |-> EmptyBag ]
+(* A queue for each key that has a pair and whose order can matter, of values as they were posted; for all others a bag
+   of pairs, whose values are normal. *)
+NoTuples == [ queue |-> << >>, bag |-> EmptyBag ]
+
+IsOrdered(k) ==
+  k \in OrderedKeys \/ \E prefix \in OrderedPrefixes : Len(prefix) <= Len(k) /\ SubSeq(k, 1, Len(prefix)) = prefix
+
+QueueOf(N, k) == IF k \in DOMAIN N.queue THEN N.queue[k] ELSE << >>
+WithQueue(N, k, xs) ==
+  LET others == [ l \in DOMAIN N.queue \ { k } |-> N.queue[l] ]
+  IN [ N EXCEPT !.queue = IF xs = << >> THEN others ELSE (k :> xs) @@ others ]
 
 Post(N, k, x) ==
-  IF k \in OrderedKeys THEN [ N EXCEPT !.queue[k] = Append(@, x) ]
+  IF IsOrdered(k) THEN WithQueue(N, k, Append(QueueOf(N, k), x))
   ELSE [ N EXCEPT !.bag = @ (+) SetToBag({ << k, Normal(x) >> }) ]
 
 RECURSIVE PostAll(_, _)
 PostAll(N, pairs) == IF pairs = << >> THEN N ELSE PostAll(Post(N, Head(pairs)[1], Head(pairs)[2]), Tail(pairs))
 
 HasPair(N, k, x) ==
-  IF k \in OrderedKeys THEN Normal(x) \in Range(Each(N.queue[k], Normal)) ELSE BagIn(<< k, Normal(x) >>, N.bag)
+  IF IsOrdered(k) THEN Normal(x) \in Range(Each(QueueOf(N, k), Normal)) ELSE BagIn(<< k, Normal(x) >>, N.bag)
 
 HasKeyIn(N, k) ==
-  IF k \in OrderedKeys THEN N.queue[k] # << >> ELSE \E pair \in BagToSet(N.bag) : pair[1] = k
+  IF IsOrdered(k) THEN k \in DOMAIN N.queue ELSE \E pair \in BagToSet(N.bag) : pair[1] = k
 
 IsThere(N, k, x) == IF x = Wildcard THEN HasKeyIn(N, k) ELSE HasPair(N, k, x)
 
@@ -61,7 +70,8 @@ IsThere(N, k, x) == IF x = Wildcard THEN HasKeyIn(N, k) ELSE HasPair(N, k, x)
 Taken(N, k, x) == IF x = Wildcard THEN Head(N.queue[k]) ELSE x
 
 WithoutPair(N, k, x) ==
-  IF k \in OrderedKeys THEN [ N EXCEPT !.queue[k] = Without(@, IndexOf(Each(@, Normal), Normal(x))) ]
+  IF IsOrdered(k)
+  THEN LET xs == QueueOf(N, k) IN WithQueue(N, k, Without(xs, IndexOf(Each(xs, Normal), Normal(x))))
   ELSE [ N EXCEPT !.bag = @ (-) SetToBag({ << k, Normal(x) >> }) ]
 
 (* All of the pairs, one after the other, or none: the pairs taken, and the rest. *)
@@ -74,17 +84,26 @@ TakeAll(N, pairs, taken) ==
           THEN LET y == Taken(N, k, x) IN TakeAll(WithoutPair(N, k, y), Tail(pairs), Append(taken, << k, y >>))
           ELSE << >>
 
-(* N without the pairs of these keys, none of which is ordered; and those pairs. *)
+(* N without the pairs of these keys; and those pairs. *)
 WithoutKeys(N, keys) ==
-  LET bag == N.bag IN [ N EXCEPT !.bag = [ pair \in { pair \in DOMAIN bag : pair[1] \notin keys } |-> bag[pair] ] ]
+  LET bag == N.bag
+      queue == N.queue
+  IN [ bag |-> [ pair \in { pair \in DOMAIN bag : pair[1] \notin keys } |-> bag[pair] ],
+       queue |-> [ k \in DOMAIN queue \ keys |-> queue[k] ] ]
 
 RECURSIVE OneByOne(_)
 OneByOne(bag) ==
   IF DOMAIN bag = { } THEN << >>
   ELSE LET pair == CHOOSE pair \in DOMAIN bag : TRUE IN << pair >> \o OneByOne(bag (-) SetToBag({ pair }))
 
+RECURSIVE QueuedWith(_, _)
+QueuedWith(N, keys) ==
+  IF keys = { } THEN << >>
+  ELSE LET k == CHOOSE k \in keys : TRUE IN Each(QueueOf(N, k), LAMBDA x : << k, x >>) \o QueuedWith(N, keys \ { k })
+
 PairsWith(N, keys) ==
-  LET bag == N.bag IN OneByOne([ pair \in { pair \in DOMAIN bag : pair[1] \in keys } |-> bag[pair] ])
+  LET bag == N.bag
+  IN OneByOne([ pair \in { pair \in DOMAIN bag : pair[1] \in keys } |-> bag[pair] ]) \o QueuedWith(N, keys)
 
 (* The key of this number. *)
 KeyText(i) == "#" \o ToString(i)
@@ -852,7 +871,7 @@ InSomeOrder(bag) ==
 
 (* The values of the pairs of k: those of a queue in their order. *)
 ValuesOf(N, k) ==
-  IF k \in OrderedKeys THEN N.queue[k]
+  IF IsOrdered(k) THEN QueueOf(N, k)
   ELSE InSomeOrder([ pair \in { p \in BagToSet(N.bag) : p[1] = k } |-> N.bag[pair] ])
 
 DoPost(m, pairs) ==

@@ -154,7 +154,7 @@ let are_in_order t (d : Core.ensured) (d' : Core.ensured) =
   | Variable (i, _, x), Variable (j, _, y) -> i = j && Value.compare x y <> 0
   | Pair (k, x), Pair (k', x') -> String.equal k k' && is_ordered t k && Value.compare x x' <> 0
   | Pair (k, _), Taken | Taken, Pair (k, _) -> is_ordered t k
-  | Taken, Taken -> t.options.program.ordered_keys <> No_key
+  | Taken, Taken -> t.options.program.ordered_keys <> Tuple_space.no_key
   | Variable _, (Pair _ | Taken) | (Pair _ | Taken), Variable _ -> false
 
 (* Whether it matters which of [rs], which stand side by side, comes first if a step cuts them off. *)

@@ -43,7 +43,7 @@ let value program world e =
   in
   let context : Code.context =
     { program; world; allocation = Vehicle_map.empty; bound = []; held = lazy []; needed = lazy [];
-      store = Store.empty; tuples = Tuples.empty No_key; mode = Task_code; deeds = [] }
+      store = Store.empty; tuples = Tuples.empty Tuple_space.no_key; mode = Task_code; deeds = [] }
   in
   match Machine.run ~fuel context (Machine.call { lambda; captured = [||] } []) with
   | Decided (Finished x, _, _) -> Ok x

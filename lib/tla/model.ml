@@ -154,7 +154,7 @@ let inputs translation (program : Core.program) (environment : Environment.optio
 let tables = [ "Fleet"; "Code"; "Lambdas"; "LambdaNames"; "Places"; "Distances"; "Plans" ]
 
 let small =
-  [ "Main"; "OnInterrupt"; "GlobalNames"; "OrderedKeys"; "Prompts"; "Failures"; "Losses"; "Latecomers"; "MayBeLate";
+  [ "Main"; "OnInterrupt"; "GlobalNames"; "OrderedKeys"; "OrderedPrefixes"; "Prompts"; "Failures"; "Losses"; "Latecomers"; "MayBeLate";
     "Calls"; "Inputs"; "InputKeys"; "SiteOf"; "Ending"; "Answers"; "Confirmations"; "HostReplies" ]
 
 let definition ppf name e = Format.fprintf ppf "%s == %a@.@." name Tla.pp e
@@ -195,8 +195,9 @@ let text program world (environment : Environment.options) plans prompts calls t
   let closure number = Tla.Tuple [ String "closure"; Integer number; Tuple [] ] in
   definition ppf "MCOnInterrupt" (Tla.Tuple (List.map closure on_interrupt));
   definition ppf "MCGlobalNames" (Tla.strings (Array.to_list program.global_names));
-  let ordered = match program.ordered_keys with Keys keys -> keys | No_key | Every_key -> [] in
-  definition ppf "MCOrderedKeys" (Tla.Set (List.map (fun k -> Tla.String k) ordered));
+  let texts of_order = Tla.Set (List.map (fun k -> Tla.String k) of_order) in
+  definition ppf "MCOrderedKeys" (texts program.ordered_keys.named);
+  definition ppf "MCOrderedPrefixes" (texts program.ordered_keys.prefixes);
   definition ppf "MCPlaces" (Translation.places translation);
   definition ppf "MCDistances" (Translation.distances translation);
   definition ppf "MCPlans" (Translation.plans translation);

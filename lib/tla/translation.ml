@@ -210,9 +210,6 @@ and procedure t site builtin : Tla.t =
   let plain name = record name [] in
   let keyed name keys =
     let key = function Some k -> Tla.Tuple [ Tla.String k ] | None -> Tla.Tuple [] in
-    if List.mem None keys && t.program.ordered_keys = Every_key then
-      refuse t site "a computed key, where some consume takes the oldest pair of one"
-        ~hint:"the models know which keys are queues: name the key where _ or a pattern takes a pair";
     record name [ ("keys", Tuple (List.map key keys)) ]
   in
   let ensured_form : ensured_form -> Tla.t = function

@@ -155,6 +155,7 @@ ModelPlans == << >>
 ModelNames == << "v", "w" >>
 ModelLambdaNames == LambdaNameTable
 ModelOrderedKeys == { "oldest" }
+ModelOrderedPrefixes == { }
 
 V == Variable(1)
 W == Variable(2)

@@ -75,10 +75,20 @@ let all =
       replacement = {|Taken(N, k, x) == IF x = Wildcard THEN Last(N.queue[k]) ELSE x|} };
     { name = "a pattern takes the newest pair";
       file = machine;
-      pattern = {|  IF k \in OrderedKeys THEN N.queue[k]
+      pattern = {|  IF IsOrdered(k) THEN QueueOf(N, k)
   ELSE InSomeOrder|};
-      replacement = {|  IF k \in OrderedKeys THEN << >> \o [ i \in DOMAIN N.queue[k] |-> N.queue[k][Len(N.queue[k]) + 1 - i] ]
+      replacement =
+        {|  IF IsOrdered(k)
+  THEN LET xs == QueueOf(N, k) IN << >> \o [ i \in DOMAIN xs |-> xs[Len(xs) + 1 - i] ]
   ELSE InSomeOrder|} };
+    { name = "a key of fresh has no queue";
+      file = machine;
+      pattern = {|SubSeq(k, 1, Len(prefix)) = prefix|};
+      replacement = {|k = prefix|} };
+    { name = "the queue of a key of fresh is not forgotten";
+      file = machine;
+      pattern = {|queue |-> [ k \in DOMAIN queue \ keys |-> queue[k] ] ]|};
+      replacement = {|queue |-> queue ]|} };
     { name = "a computed key is the first one";
       file = machine;
       pattern = {|<< << Text(Canonical(Head(xs))), Canonical(xs[2]) >> >>|};
@@ -582,8 +592,8 @@ let all =
       replacement = {|BagIn(<< k, x >>, N.bag)|} };
     { name = "a queue's values are taken in their own order only";
       file = machine;
-      pattern = {|Normal(x) \in Range(Each(N.queue[k], Normal))|};
-      replacement = {|x \in Range(N.queue[k])|} };
+      pattern = {|Normal(x) \in Range(Each(QueueOf(N, k), Normal))|};
+      replacement = {|x \in Range(QueueOf(N, k))|} };
     { name = "the end cancels timers twice";
       file = rules;
       pattern = {|running == SelectSeq(CancelTimers(timers), LAMBDA cancel : cancel \notin Range(s.effects))|};

@@ -112,6 +112,13 @@ let tasks =
       ("a task whose keys are new each time that it is tried, while another is made",
        two ^ "execute { (watch fresh { k -> action { post((k): 1) } >> task('p')[a] } onError { consume(again: 1) ? retry() : ignore() }) \
               | (task('q')[b] >> { fresh { k -> condition { !poll((k): 1) } >> idle(1.seconds) } }) } | action { post again: 1 }");
+      ("the oldest pair of a fresh key is taken, beside another key; what is left of both is forgotten",
+       "execute fresh { k, l -> (action { post((k): 2, (l): 2, x: 2) } >> action { post((k): 1, (l): 1, x: 1) }) \
+        | (waitFor { consume((k): _) } then { n -> action { post x: 10 + n } }) }\n\
+        execute waitFor { poll(x: { it > 10 }) && consume(x: 12) } then action { message count(x: _) }");
+      ("the oldest pair of a key that is computed otherwise",
+       "post x: 2, x: 1, y: 3\nks = ['x', 'y']\n\
+        execute (condition { consume((ks[0]): _) } | action { post y: 4 }) >> condition { consume((ks[1]): { it < 5 }) }");
       ("code of fresh that fails, and that does something",
        "def f() { post x: 1; idle(1.seconds) }\n\
         execute watch { fresh { k -> 1 / 0 } } onError { e -> message e; fresh { k -> f() } }");

@@ -199,7 +199,7 @@ let check ?limit ?(reductions = [ Reduction.Partial_order; Symmetry; All ]) envi
 (* Texts of ends may name vehicles, and only the emptiness of N matters at the end. *)
 let without_text (c : Configuration.t) =
   let ended ending =
-    let none = Tuples.empty No_key in
+    let none = Tuples.empty Tuple_space.no_key in
     let tuples = if Tuples.is_empty c.shared.tuples then none else Tuples.post "left" Core.Null none in
     { Configuration.control = Ended ending; shared = { c.shared with tuples } }
   in

@@ -69,6 +69,32 @@ let source =
         def visit(goal) { watch task(\"visit_$goal\") onError { post goal: goal; ignore() } }\n\
         for (i in [%s]) { post goal: i }\nexecute %s[va] |\n        %s[vb]\n%s" goals first second after)
 
+(* The same with a key of [fresh] for goals, in code that a function is given. *)
+let of_fresh text =
+  let computed = [ ("post goal: g, lost: v", "post((goal): g, lost: v)"); ("post goal: g", "post((goal): g)"); ("consume goal: _, lost: _", "consume((goal): _, lost: _)");
+                   ("consume goal: _", "consume((goal): _)"); ("consume goal: 1", "consume((goal): 1)");
+                   ("consume goal: { x -> x == 2 }", "consume((goal): { x -> x == 2 })");
+                   ("consume(goal: _)", "consume((goal): _)"); ("count(goal: _)", "count((goal): _)");
+                   ("poll('goal')", "poll((goal): _)") ]
+  in
+  let replace text (found, by) = Str.global_replace (Str.regexp_string found) by text in
+  List.fold_left replace text computed
+
+let source_of_fresh =
+  let open QCheck2.Gen in
+  let* first = worker and* second = worker and* after = after in
+  let* goals = oneofl [ "1"; "1, 2"; "1, 2, 3"; "2, 2" ] in
+  let* task = oneofl [ "visit"; "{ g -> task(\"work_$g\") }"; "{ g -> task(\"work_$g\") >> action { post over: g } }" ] in
+  return
+    (Printf.sprintf
+       "va = pick { id 'a' }\nvb = pick { id 'b' }\nlast = 0\n\
+        def visit(g) { watch task(\"visit_$g\") onError { ignore() } }\n\
+        def pool(make) { fresh { goal ->\ndef take = { consume((goal): _) }\n\
+        def given = waitFor { consume((goal): _) } then { g -> make(g) }\n\
+        action { for (i in [%s]) { post((goal): i) } } >> (given[va] | %s[va] |\n  %s[vb]) } }\n\
+        execute pool(%s) during 100\n%s"
+       goals (of_fresh first) (of_fresh second) task after)
+
 let by_name name ending =
   let endings _ p = if p = name then ending else Environment.Succeeds in
   { Environment.default with plans = [ name ]; endings }
@@ -103,7 +129,7 @@ let test_agreement () =
   let print (source, (name, _)) = name ^ ":\n" ^ source in
   let test =
     QCheck2.Test.make ~count:programs ~print ~name:"reduced and plain search agree"
-      QCheck2.Gen.(pair source (oneofl environments)) agrees
+      QCheck2.Gen.(pair (frequency [ (2, source); (1, source_of_fresh) ]) (oneofl environments)) agrees
   in
   Test_support.Property.on_each_seed ~usual:20_261_124 ~programs test;
   Printf.printf "%d skipped; values were alike in %d, %d had fewer states\n" !skipped !used !fewer;
@@ -128,6 +154,19 @@ let test_pool () =
   in
   Alcotest.(check int) "states" (states "1, 1, 1, 1, 1, 1") (states "1, 2, 3, 4, 5, 6")
 
+let test_team () =
+  let states goals =
+    let source =
+      Printf.sprintf "include 'prelude'\nva = pick { id 'a' }\nvb = pick { id 'b' }\n\
+                      execute team(1, 2, va + vb, [%s]) { g -> task(\"s_$g\") }" goals
+    in
+    let environment = Environment.failing Environment.default in
+    let o = Search.run { Search.default with environment; reduction = All } (Pure_run.compile_exn source) world in
+    Alcotest.(check bool) "alike" true o.alike_values;
+    o.states
+  in
+  Alcotest.(check int) "states" (states "1, 1, 1, 1") (states "1, 2, 3, 4")
+
 let uses ?(environment = Environment.default) source =
   let program = Pure_run.compile_exn source in
   Alike_values.unify environment program <> None
@@ -141,6 +180,14 @@ let bringing key =
   let input = { (List.hd Test_support.Posts.inputs) with key } in
   { Environment.default with inputs = [ input ] }
 
+(* A pool of a key of [fresh]; [made] is the task of its goal [g], and [make] is code for it. *)
+let fresh ?(other = "") ?(before = "") made =
+  Printf.sprintf
+    "%s\ndef pool(goals, make) { fresh { goal ->\naction { for (i in goals) { post((goal): i) } } >>\n\
+     (waitFor { consume((goal): _) } then { g -> watch %s onError { post((goal): g); ignore() } })%s } }\n\
+     execute pool([1, 2]) { g -> task(\"s_$g\") }"
+    before made other
+
 let alike, apart =
   let is expected name ?environment source =
     Alcotest.test_case name `Quick (fun () -> Alcotest.(check bool) name expected (uses ?environment source))
@@ -153,6 +200,7 @@ let alike, apart =
             if (e.vehicle) { dismiss e.vehicle; retry() } else fail \"$g: $e\" } }");
       is true "a vehicle is recruited for it"
         (pool "{ g -> recruit { type 'UUV' } then { v -> watch task(\"s_$g\") onError { post goal: g; ignore() } } }");
+      is true "a key of fresh, and code that a function is given" (fresh "make(g)");
       is true "an input brings something else" ~environment:(bringing "x") (pool posting);
       is true "other plans are named" ~environment:(by_name "home" Fails) (pool posting) ],
     [ is false "a plan of such a name ends otherwise" ~environment:(by_name "s_2" Fails) (pool posting);
@@ -161,6 +209,16 @@ let alike, apart =
         (pool "{ g -> recruit { } then { v -> action { if (g == 1) { halt 'x' } } } }");
       is false "compared" (pool "{ g -> action { if (g == 1) { halt 'x' } } }");
       is false "asked for" (pool ~after:"if (poll(goal: 2)) { halt 'x' }" posting);
+      is false "a key of fresh that is asked for" (fresh ~other:" | condition { !poll((goal): 2) }" "make(g)");
+      is false "a key of fresh, counted by a pattern" (fresh ~other:" | condition { count((goal): { it > 1 }) == 0 }" "make(g)");
+      is false "code that a function is given compares"
+        (fresh ~other:" >> pool([3]) { g -> action { if (g == 1) { halt 'x' } } }" "make(g)");
+      is false "code that a variable holds" (fresh ~before:"chosen = { g -> task(\"s_$g\") }" "chosen(g)");
+      is false "a key of fresh, or another: a function is given both"
+        (fresh ~before:"def asks(k) { condition { poll((k): 2) } }\nexecute watch asks('x') within 1 onError { ignore() }"
+           ~other:" | asks(goal)" "make(g)");
+      is false "a key of fresh that a variable holds"
+        (fresh ~before:"kept = null" ~other:" >> action { kept = goal } >> condition { !poll((kept): 2) }" "make(g)");
       is false "asked for by a pattern" (pool ~after:"if (poll(goal: { it == 2 })) { halt 'x' }" posting);
       is false "posted where it is asked for"
         (pool ~after:"if (poll(seen: 2)) { halt 'x' }" "{ g -> action { post seen: g } }");
@@ -184,5 +242,6 @@ let alike, apart =
 let () =
   Alcotest.run "alike values"
     [ ("alike", alike); ("apart", apart);
-      ("pool", [ Alcotest.test_case "different goals are as good as equal ones" `Quick test_pool ]);
+      ("pool", [ Alcotest.test_case "different goals are as good as equal ones" `Quick test_pool;
+                Alcotest.test_case "of a team of the prelude, too" `Quick test_team ]);
       ("random programs", [ Alcotest.test_case "reduced and plain search agree" `Quick test_agreement ]) ]

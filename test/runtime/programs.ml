@@ -51,7 +51,7 @@ let program ?(reads_sensors = false) ?(reads_now = false) ?(globals = 0) script 
     global_names = Array.init globals (Printf.sprintf "g%d");
     functions = [];
     main = lambda "script" 0 (block script);
-    ordered_keys = No_key;
+    ordered_keys = Dolphin_semantics.Tuple_space.no_key;
     inputs = [];
     on_interrupt = None;
     recruits = false;

@@ -19,7 +19,7 @@ let posted order pairs = List.fold_left (fun n (k, x) -> Space.post k x n) (Spac
 (* {1 Examples} *)
 
 let a_multiset () =
-  let n = posted No_key [ ("b", 2); ("a", 1); ("b", 1); ("b", 2) ] in
+  let n = posted Tuple_space.no_key [ ("b", 2); ("a", 1); ("b", 1); ("b", 2) ] in
   Alcotest.check bindings "sorted" [ ("a", [ 1 ]); ("b", [ 1; 2; 2 ]) ] (Space.bindings n);
   Alcotest.(check int) "cardinal" 4 (Space.cardinal n);
   Alcotest.(check string) "printed" "{a:1, b:1, b:2, b:2}" (Fmt.str "%a" Space.pp n);
@@ -28,7 +28,7 @@ let a_multiset () =
   Alcotest.(check bool) "none left" true (Space.consume "a" 7 n = None)
 
 let the_order_is_kept_where_it_shows () =
-  let order = Tuple_space.Keys [ "b" ] in
+  let order = Tuple_space.keys [ "b" ] in
   let first = posted order [ ("b", 2); ("a", 1); ("a", 2); ("b", 1) ] in
   let second = posted order [ ("a", 2); ("b", 1); ("b", 2); ("a", 1) ] in
   Alcotest.check bindings "oldest first" [ ("a", [ 1; 2 ]); ("b", [ 2; 1 ]) ] (Space.bindings first);
@@ -41,8 +41,8 @@ let the_order_is_kept_where_it_shows () =
     (fun () -> ignore (Space.consume_oldest "a" first))
 
 let history_is_forgotten () =
-  let direct = posted Every_key [ ("k", 5); ("k", 6) ] in
-  let roundabout = posted Every_key [ ("k", 4); ("k", 5); ("k", 9); ("k", 6); ("l", 1) ] in
+  let direct = posted Tuple_space.every_key [ ("k", 5); ("k", 6) ] in
+  let roundabout = posted Tuple_space.every_key [ ("k", 4); ("k", 5); ("k", 9); ("k", 6); ("l", 1) ] in
   let roundabout =
     snd (Option.get (Space.consume_oldest "k" roundabout))
     |> Space.consume "k" 9 |> Option.get |> Space.consume "l" 1 |> Option.get
@@ -51,7 +51,7 @@ let history_is_forgotten () =
   Alcotest.(check int) "same hash" (Space.hash direct) (Space.hash roundabout)
 
 let equal_values_are_one_pair () =
-  let n = posted (Keys [ "b" ]) [ ("a", 1); ("a", -1); ("b", -2); ("b", 3); ("b", 2) ] in
+  let n = posted (Tuple_space.keys [ "b" ]) [ ("a", 1); ("a", -1); ("b", -2); ("b", 3); ("b", 2) ] in
   Alcotest.check bindings "normal where counted, as posted where in order" [ ("a", [ 1; 1 ]); ("b", [ -2; 3; 2 ]) ]
     (Space.bindings n);
   Alcotest.(check bool) "seen" true (Space.poll "a" (-1) n && Space.poll "b" 2 n && Space.poll "b" (-3) n);
@@ -119,7 +119,7 @@ let pp_operation ppf = function
   | Consume (k, x) -> Fmt.pf ppf "consume %s:%d" k x
   | Oldest k -> Fmt.pf ppf "consume %s:_" k
 
-let start = ([], Space.empty (Keys ordered_keys))
+let start = ([], Space.empty (Tuple_space.keys ordered_keys))
 
 let run operations =
   List.fold_left

@@ -4,7 +4,36 @@ open Core
 
 exception Looked_at
 
-module Keys = Set.Make (String)
+(* A key by its name, or as a parameter of the code of a [fresh]: then it stands for all keys that this has been. *)
+type key = Named of string | Fresh of Code_flow.key
+
+module Keys = Set.Make (struct
+    type t = key
+
+    let compare a b =
+      match a, b with
+      | Named k, Named k' -> String.compare k k'
+      | Named _, Fresh _ -> -1
+      | Fresh _, Named _ -> 1
+      | Fresh a, Fresh b -> (match Int.compare a.code b.code with 0 -> Int.compare a.parameter b.parameter | order -> order)
+  end)
+
+let key_of flow lambda k =
+  match k.node, Code_flow.key flow lambda k with
+  | Constant (String k), _ -> Named k
+  | _, Some k -> Fresh k
+  | _, None -> raise Looked_at
+
+(* The pairs of a [Post], [Consume] or [Poll]: each key, and what stands for its value. *)
+let rec pairs flow lambda keys arguments =
+  match keys, arguments with
+  | [], [] -> []
+  | Some k :: keys, x :: arguments -> (Named k, x) :: pairs flow lambda keys arguments
+  | None :: keys, (k, _) :: x :: arguments -> (key_of flow lambda k, x) :: pairs flow lambda keys arguments
+  | _, _ -> raise Looked_at
+
+let written flow lambda keys arguments =
+  List.map (fun (k, (x, ())) -> (k, x)) (pairs flow lambda keys (List.map (fun x -> (x, ())) arguments))
 
 (* {1 What becomes of a value}
 
@@ -21,6 +50,8 @@ let bound (lambda : lambda) arguments = List.init lambda.parameters (fun slot ->
 let both a b = if a = Other then b else if b = Other || a = b then a else raise Looked_at
 
 type code = {
+  flow : Code_flow.t;
+  lambda : lambda;  (* which this is a run of *)
   slots : (int * given) list;
   mutable returned : given;
   mutable posted : Keys.t;  (* keys that the value is posted with *)
@@ -97,7 +128,7 @@ and made code lambda captured ~arguments =
 and body code lambda slots =
   if List.memq lambda code.inside then raise Looked_at;
   let slots = List.filter (fun (_, given) -> given <> Other) slots in
-  let inner = { code with slots; returned = Other; inside = lambda :: code.inside } in
+  let inner = { code with lambda; slots; returned = Other; inside = lambda :: code.inside } in
   let last = value_of inner lambda.code in
   code.posted <- Keys.union code.posted inner.posted;
   both last inner.returned
@@ -112,29 +143,32 @@ and applied code operation arguments given =
       if may_name code.plans parts || not (List.exists is_text parts) then raise Looked_at else Task
     | Builtin (Message | Halt | Fail), [ _ ], [ Text ] -> Other
     | Builtin (Post keys), _, _ ->
-      let post k given =
-        match k, given with
-        | _, Other -> ()
-        | Some k, Value -> code.posted <- Keys.add k code.posted
-        | _, (Value | Text | Task) -> raise Looked_at
+      let post (k, (_, given)) =
+        match given with
+        | Other -> ()
+        | Value -> code.posted <- Keys.add k code.posted
+        | Text | Task -> raise Looked_at
       in
-      if List.compare_lengths keys given <> 0 then raise Looked_at;
-      List.iter2 post keys given;
+      List.iter post (pairs code.flow code.lambda keys (List.combine arguments given));
       Other
     | ( (Builtin
            (Make_watch | Make_fresh | Make_until _ | Make_during _ | Make_wait_for | Make_action | Make_condition
            | Make_repeat _)
         | Binary (Sequence | Parallel | Divide)), _, _ ) -> task given
     | Element, _, [ Task; Other ] | Make_recruit, _, [ Other; Task ] -> Task
-    | Call names, { node = Constant (Closure { lambda; captured = [||] }) | Make_closure (lambda, []); _ } :: _,
-      _ :: given
-      when List.for_all (( = ) None) names && List.length given = lambda.parameters ->
-      body code lambda (List.mapi (fun slot g -> (slot, g)) given)
+    | Call names, callee :: _, Other :: given when List.for_all (( = ) None) names ->
+      let called lambda =
+        if List.length given <> lambda.parameters then raise Looked_at;
+        body code lambda (List.mapi (fun slot g -> (slot, g)) given)
+      in
+      let callees = Option.value (Code_flow.callees code.flow code.lambda callee) ~default:[] in
+      if callees = [] then raise Looked_at;
+      List.fold_left (fun result lambda -> both result (called lambda)) Other callees
     | _, _, _ -> raise Looked_at
 
 (* The tuples that [lambda] posts, of the values it gets. *)
-let posted_by plans lambda arguments =
-  let code = { slots = []; returned = Other; posted = Keys.empty; plans; inside = [] } in
+let posted_by (flow, plans) (lambda : lambda) arguments =
+  let code = { flow; lambda; slots = []; returned = Other; posted = Keys.empty; plans; inside = [] } in
   match body code lambda (bound lambda arguments) with
   | Other | Task -> code.posted
   | Value | Text -> raise Looked_at
@@ -143,29 +177,23 @@ let posted_by plans lambda arguments =
 
 let expressions program =
   let found = ref [] in
-  Code_walk.iter (fun e -> found := e :: !found) (program.main :: List.map snd program.functions);
+  Code_walk.iter_within (fun lambda e -> found := (lambda, e) :: !found) (Code_walk.pieces program);
   !found
 
-
 (* The keys that an expression looks into, beyond taking or asking for any value. *)
-let looked_into e =
-  let wanted k x =
-    match k, x.node with
-    | Some _, Constant Wildcard -> []
-    | Some k, _ -> [ k ]
-    | None, _ -> raise Looked_at
-  in
+let looked_into flow (lambda, e) =
+  let wanted (k, x) = match x.node with Constant Wildcard -> None | _ -> Some k in
   match e.node with
   | Apply (Builtin (Consume keys | Poll (_ :: _ as keys)), arguments) ->
-    if List.compare_lengths keys arguments <> 0 then raise Looked_at;
-    List.concat (List.map2 wanted keys arguments)
+    List.filter_map wanted (written flow lambda keys arguments)
   | Apply (Builtin (Post keys), arguments) ->
-    if keys = [] || List.mem None keys || List.compare_lengths keys arguments <> 0 then raise Looked_at;
+    if keys = [] then raise Looked_at;
+    ignore (written flow lambda keys arguments);
     []
   | Apply (Builtin (Make_ensure forms), _) ->
     (* Its values are not made one. *)
     let posted = function
-      | Pair_of (Some k) -> [ k ]
+      | Pair_of (Some k) -> [ Named k ]
       | Pair_of None | Taken_pairs -> raise Looked_at
       | Variable_of _ -> []
     in
@@ -173,53 +201,56 @@ let looked_into e =
   | _ -> []
 
 (* [poll 'k'] is [poll(k: _)]. *)
-let asks_some_key e =
+let asks_some_key (_, e) =
   match e.node with
   | Apply (Builtin (Poll []), [ { node = Constant (String _); _ } ]) -> false
   | Apply (Builtin (Poll []), _) -> true
   | _ -> false
 
 (* Of [count(k: _)] only the number of pairs matters. *)
-let values_looked_into all =
+let values_looked_into flow all =
   let is_values e = match e.node with Apply (Builtin Values_of, _) -> true | _ -> false in
   let counted e = match e.node with Apply (Method ("size", _), [ xs ]) when is_values xs -> Some xs | _ -> None in
-  let counted = List.filter_map counted all in
-  let key e =
+  let counted = List.filter_map (fun (_, e) -> counted e) all in
+  let key (lambda, e) =
     match e.node with
-    | Apply (Builtin Values_of, [ { node = Constant (String k); _ } ]) -> if List.memq e counted then None else Some k
-    | Apply (Builtin Values_of, _) -> raise Looked_at
+    | Apply (Builtin Values_of, [ k ]) ->
+      let k = key_of flow lambda k in
+      if List.memq e counted then None else Some k
     | _ -> None
   in
   List.filter_map key all
 
 (* The keys taken by a guard; code that it calls may take any. *)
-let taken_by (guard : expression) =
+let taken_by flow (guard : expression) =
   match guard.node with
   | Make_closure (lambda, _) ->
     let found = ref Keys.empty in
-    let visit e =
+    let visit lambda e =
       match e.node with
-      | Apply (Builtin (Consume keys), _) -> found := Keys.union !found (Keys.of_list (List.filter_map Fun.id keys))
+      | Apply (Builtin (Consume keys), arguments) ->
+        let taken = List.map fst (written flow lambda keys arguments) in
+        found := Keys.union !found (Keys.of_list taken)
       | Apply (Call _, _) -> raise Looked_at
       | _ -> ()
     in
-    Code_walk.iter visit [ lambda ];
+    Code_walk.iter_within visit [ lambda ];
     !found
   | _ -> raise Looked_at
 
 (* By guards with their branches: the keys that are taken, and the keys that the values are posted with; [None] for
    any other use. *)
-let makers plans program =
+let makers (flow, _ as known) program =
   let maker guard body =
-    let taken = taken_by guard in
+    let taken = taken_by flow guard in
     match body.node with
     | Make_closure (lambda, captured) when captured = [] || Array.length lambda.captures = List.length captured -> (
-        match posted_by plans lambda (fun _ -> Value) with
+        match posted_by known lambda (fun _ -> Value) with
         | posted -> (taken, Some posted)
         | exception Looked_at -> (taken, None))
     | _ -> (taken, None)
   in
-  let of_expression e =
+  let of_expression (_, e) =
     match e.node with
     | Apply (Make_branch, [ _; guard; body ]) | Apply (Builtin Make_wait_for, [ guard; body ]) ->
       Some (maker guard body)
@@ -229,22 +260,22 @@ let makers plans program =
   List.filter_map of_expression (expressions program)
 
 (* The text of an error names the plan: handlers may only print it. *)
-let check_handlers plans program =
-  let check e =
+let check_handlers known program =
+  let check (_, e) =
     match e.node with
     | Apply (Builtin Make_watch, [ _; { node = Make_closure (lambda, _); _ } ]) ->
-      ignore (posted_by plans lambda of_error)
+      ignore (posted_by known lambda of_error)
     | Apply (Builtin Make_watch, _) -> raise Looked_at
     | _ -> ()
   in
   List.iter check (expressions program)
 
-let keys (options : Environment.options) program =
-  let plans = options.plans in
-  check_handlers plans program;
-  let makers = makers plans program in
+let keys flow (options : Environment.options) program =
+  let known = (flow, options.plans) in
+  check_handlers known program;
+  let makers = makers known program in
   let all = expressions program in
-  let looked_into = Keys.of_list (List.concat_map looked_into all @ values_looked_into all) in
+  let looked_into = Keys.of_list (List.concat_map (looked_into flow) all @ values_looked_into flow all) in
   if List.exists asks_some_key all then raise Looked_at;
   (* A key is looked into, too, if its values are posted with one that is. *)
   let rec closed looked =
@@ -257,7 +288,7 @@ let keys (options : Environment.options) program =
     if Keys.equal next looked then looked else closed next
   in
   (* Inputs add values of their own: the program may post equal ones. *)
-  let brought = Keys.of_list (List.map (fun (i : Environment.input) -> i.key) options.inputs) in
+  let brought = Keys.of_list (List.map (fun (i : Environment.input) -> Named i.key) options.inputs) in
   let looked = closed (Keys.union looked_into brought) in
   let given = List.fold_left (fun found (taken, _) -> Keys.union taken found) Keys.empty makers in
   Keys.diff given looked
@@ -274,14 +305,14 @@ let unified_value (lambda : lambda) e =
   let is_wildcard = at (Apply (Binary Equal, [ at (Local slot); at (Constant Wildcard) ])) in
   at (Block [ at (Set_local (slot, e)); at (If (is_wildcard, at (Local slot), at (Constant one))) ])
 
-let unified keys program =
-  let fresh = ref [] in
+let unified flow keys program =
+  let copies = ref [] in
   let rec lambda_of lambda =
-    match List.assq_opt lambda !fresh with
+    match List.assq_opt lambda !copies with
     | Some lambda -> lambda
     | None ->
       let copy = { lambda with label = lambda.label } in
-      fresh := (lambda, copy) :: !fresh;
+      copies := (lambda, copy) :: !copies;
       copy.code <- expression copy lambda.code;
       copy
   and expression within e =
@@ -299,21 +330,22 @@ let unified keys program =
       | While (a, b) -> While (go a, go b)
       | For (slot, a, b) -> For (slot, go a, go b)
       | Apply (Builtin (Post names), arguments) ->
-        let posted k e =
-          match k with Some k when Keys.mem k keys -> unified_value within (go e) | Some _ | None -> go e
-        in
-        Apply (Builtin (Post names), List.map2 posted names arguments)
+        let is_one = List.map (fun (k, (x, ())) -> (x, Keys.mem k keys)) in
+        let alike = is_one (pairs flow within names (List.map (fun x -> (x, ())) arguments)) in
+        let part e = if List.assq_opt e alike = Some true then unified_value within (go e) else go e in
+        Apply (Builtin (Post names), List.map part arguments)
       | Apply (operation, arguments) -> Apply (operation, List.map go arguments)
     in
     { e with node }
   in
   let functions = List.map (fun (name, lambda) -> (name, lambda_of lambda)) program.functions in
-  { program with main = lambda_of program.main; functions }
+  { program with main = lambda_of program.main; functions; on_interrupt = Option.map lambda_of program.on_interrupt }
 
 let unify options program =
   if program.reads_sensors || program.reads_now then None
   else
-    match keys options program with
+    let flow = Code_flow.of_program program in
+    match keys flow options program with
     | found when Keys.is_empty found -> None
-    | found -> Some (unified found program)
+    | found -> Some (unified flow found program)
     | exception Looked_at -> None

@@ -123,7 +123,7 @@ let task f r tuples =
 
 (* The part of [s] that no step with footprint [g] can change. *)
 let constant (g : Footprint.t) (s : Shared.t) : Shared.t =
-  if g.anything then { s with store = Store.empty; tuples = Tuples.empty No_key }
+  if g.anything then { s with store = Store.empty; tuples = Tuples.empty Tuple_space.no_key }
   else
     let forget i store = Store.set i Core.Null store in
     let touched = Footprint.Pairs.union g.posts g.takes in

@@ -183,6 +183,25 @@ let functions_of program (ast : Ast.program) =
   in
   List.filter_map defined ast
 
+(* Where only keys of [fresh] are computed for a [consume] of the oldest pair, other keys need no order. *)
+let with_computed_orders places (p : Core.program) =
+  if places = [] then p
+  else begin
+    let flow = Code_flow.of_program p in
+    let all_fresh = ref true in
+    let visit lambda (e : Core.expression) =
+      match e.node with
+      | Apply (Builtin (Consume keys), arguments) ->
+        let computed = Code_walk.computed_keys keys arguments in
+        let is_ordered (k : Core.expression) = List.mem p.locations.(k.site) places in
+        if List.exists (fun k -> is_ordered k && Code_flow.key flow lambda k = None) computed then all_fresh := false
+      | _ -> ()
+    in
+    Code_walk.iter_within visit (Code_walk.pieces p);
+    let fresh = Tuple_space.with_prefix Residual.key_prefix p.ordered_keys in
+    { p with ordered_keys = (if !all_fresh then fresh else Tuple_space.every_key) }
+  end
+
 let elaborated ?(chart = no_chart) ~source_name (ast : Ast.program) =
   let ast = without_unused_prelude ast in
   let program =
@@ -218,7 +237,7 @@ let elaborated ?(chart = no_chart) ~source_name (ast : Ast.program) =
   if List.exists is_error reports then Error reports
   else
     Ok
-      ( {
+      ( with_computed_orders (Scope.computed_orders program) {
         source_name;
         locations = Scope.locations program;
         global_names = Scope.globals program;

@@ -72,7 +72,7 @@ let check_apart env name pairs =
 let note_order env p =
   match p.wanted, p.key with
   | (Any | Pattern _), Written k -> Scope.note_ordered_key env.program k.it
-  | (Any | Pattern _), Computed _ -> Scope.note_all_ordered env.program
+  | (Any | Pattern _), Computed k -> Scope.note_computed_order env.program k.at
   | Equal_to _, _ -> ()
 
 (* {1 Elaboration} *)

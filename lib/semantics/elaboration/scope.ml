@@ -29,7 +29,7 @@ type program = {
   mutable on_interrupt : Core.lambda option;
   looked_at : (string, unit) Hashtbl.t;  (* the keys that code consumes or polls *)
   mutable looks_at_any : bool;
-  mutable all_ordered : bool;
+  mutable computed_ordered : Location.t list;
   mutable hints : (Location.t * (bool * (string -> string))) list;  (* for names that are unknown *)
   mutable recruits : bool;
   mutable goes_round : bool;
@@ -80,7 +80,7 @@ let create ?(first_site = 0) ?(variables = Assigned.Names.empty) ?(parameters = 
       on_interrupt = None;
       looked_at = Hashtbl.create 16;
       looks_at_any = false;
-      all_ordered = false;
+      computed_ordered = [];
       hints = [];
       recruits = false;
       goes_round = false;
@@ -144,13 +144,10 @@ let note_looked_at program = function
 
 let is_looked_at program key = program.looks_at_any || Hashtbl.mem program.looked_at key
 
-let note_all_ordered program = program.all_ordered <- true
+let note_computed_order program at = program.computed_ordered <- at :: program.computed_ordered
 
-let ordered_keys program : Tuple_space.order =
-  match program.all_ordered, Hashtbl.fold (fun key () keys -> key :: keys) program.ordered_keys [] with
-  | true, _ -> Every_key
-  | false, [] -> No_key
-  | false, keys -> Keys (List.sort String.compare keys)
+let ordered_keys program = Tuple_space.keys (Hashtbl.fold (fun key () keys -> key :: keys) program.ordered_keys [])
+let computed_orders program = program.computed_ordered
 let note_hint program ~certain at hint = program.hints <- (at, (certain, hint)) :: program.hints
 let hint_at program at = List.assq_opt at program.hints
 let note_recruit program = program.recruits <- true

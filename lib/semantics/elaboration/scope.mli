@@ -66,11 +66,14 @@ val unknown : program -> (string * Location.t) list
 val note_ordered_key : program -> string -> unit
 (** [consume k: _] takes the oldest pair of this key: its order must be kept. *)
 
-val note_all_ordered : program -> unit
-(** The same for a computed key. *)
+val note_computed_order : program -> Location.t -> unit
+(** The same for a key that is computed there. *)
 
 val ordered_keys : program -> Tuple_space.order
-(** Those that were noted. *)
+(** The keys of {!note_ordered_key}. *)
+
+val computed_orders : program -> Location.t list
+(** The places of {!note_computed_order}. *)
 
 val note_input : program -> string Ast.located -> unit
 (** [input 'k'] declares this key. *)

@@ -104,7 +104,7 @@ let number program world store e =
   in
   let context : Code.context =
     { program; world; allocation = Vehicle_map.empty; bound = []; held = lazy []; needed = lazy []; store;
-      tuples = Tuples.empty No_key; mode = Task_code; deeds = [] }
+      tuples = Tuples.empty Tuple_space.no_key; mode = Task_code; deeds = [] }
   in
   match Machine.run ~fuel context (Machine.call { lambda; captured = [||] } []) with
   | Decided (Finished x, _, _) -> Value.to_number x

@@ -21,6 +21,12 @@ let assigned e =
   | Apply (Builtin (Make_ensure forms), _ :: arguments) -> ensured forms arguments
   | _ -> []
 
+let rec computed_keys keys arguments =
+  match keys, arguments with
+  | Some _ :: keys, _ :: arguments -> computed_keys keys arguments
+  | None :: keys, k :: _ :: arguments -> k :: computed_keys keys arguments
+  | _, _ -> []
+
 (* [visit] of the expressions of one piece of code; [enter] of the code that it makes or holds. *)
 let rec walk ~visit ~enter e =
   visit e;

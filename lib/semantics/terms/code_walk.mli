@@ -10,6 +10,10 @@ val assigned : expression -> (int * expression) list
 (** [assigned e] is the global variables that [e] itself assigns, or the end of the task that it makes, each with the
     expression of its value. *)
 
+val computed_keys : string option list -> expression list -> expression list
+(** [computed_keys keys arguments] is the expressions of the keys that are computed, of a [Post], [Consume] or [Poll] of
+    [keys] with these arguments. *)
+
 val pieces : program -> lambda list
 (** [pieces p] is the code of [p] outside of other code: the script, the functions, the task of [onInterrupt]. *)
 

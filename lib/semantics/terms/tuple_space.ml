@@ -1,6 +1,12 @@
-type order = No_key | Keys of string list | Every_key
+type order = { named : string list; prefixes : string list }
 
-let keeps_order order k = match order with No_key -> false | Keys keys -> List.mem k keys | Every_key -> true
+let keys named = { named = List.sort_uniq String.compare named; prefixes = [] }
+let no_key = keys []
+let with_prefix prefix order = { order with prefixes = List.sort_uniq String.compare (prefix :: order.prefixes) }
+let every_key = with_prefix "" no_key
+
+let keeps_order order k =
+  List.exists (String.equal k) order.named || List.exists (fun prefix -> String.starts_with ~prefix k) order.prefixes
 
 module type VALUE = sig
   type t
@@ -71,25 +77,15 @@ module Make (Value : VALUE) = struct
     | Counted of int By_value.t  (* how often each value is there, at least once *)
     | Queued of value By_arrival.t
 
-  (* The sorted list of the ordered keys, or all. *)
-  type ordered = All | Only of string list
+  type t = { ordered : order; cardinal : int; pairs : pairs By_key.t }
 
-  type t = { ordered : ordered; cardinal : int; pairs : pairs By_key.t }
-
-  let empty order =
-    let ordered =
-      match order with
-      | No_key -> Only []
-      | Keys keys -> Only (List.sort_uniq String.compare keys)
-      | Every_key -> All
-    in
-    { ordered; cardinal = 0; pairs = By_key.empty }
+  let empty ordered = { ordered; cardinal = 0; pairs = By_key.empty }
 
   let is_empty n = n.cardinal = 0
 
   let cardinal n = n.cardinal
 
-  let is_ordered k n = match n.ordered with All -> true | Only keys -> List.exists (String.equal k) keys
+  let is_ordered k n = keeps_order n.ordered k
 
   let post k x n =
     let pairs =
@@ -154,12 +150,9 @@ module Make (Value : VALUE) = struct
       { n with cardinal = n.cardinal - count; pairs = By_key.remove k n.pairs }
 
   let keys_with prefix n =
-    let has_prefix k =
-      String.length k >= String.length prefix && String.equal (String.sub k 0 (String.length prefix)) prefix
-    in
     let rec from seq =
       match seq () with
-      | Seq.Cons ((k, _), rest) when has_prefix k -> k :: from rest
+      | Seq.Cons ((k, _), rest) when String.starts_with ~prefix k -> k :: from rest
       | Seq.Cons _ | Seq.Nil -> []
     in
     from (By_key.to_seq_from prefix n.pairs)
@@ -210,11 +203,9 @@ module Make (Value : VALUE) = struct
     | Queued _, Counted _ -> 1
 
   let compare_ordered a b =
-    match (a, b) with
-    | All, All -> 0
-    | All, Only _ -> -1
-    | Only _, All -> 1
-    | Only a, Only b -> List.compare String.compare a b
+    match List.compare String.compare a.named b.named with
+    | 0 -> List.compare String.compare a.prefixes b.prefixes
+    | order -> order
 
   let compare n n' =
     if n == n' then 0

@@ -11,7 +11,7 @@
       open Dolphin_semantics
 
       let post key number = Tuples.post key (Core.Integer number)
-      let space = Tuples.empty (Keys [ "ready" ]) |> post "ready" 2 |> post "ready" 1
+      let space = Tuples.empty Tuple_space.(keys [ "ready" ]) |> post "ready" 2 |> post "ready" 1
 
       let () =
         assert (Tuples.poll "ready" (Integer 1) space);
@@ -20,11 +20,19 @@
         | None -> assert false
     ]} *)
 
-(** Which keys keep their pairs in order of arrival. *)
-type order =
-  | No_key
-  | Keys of string list  (** repetitions do not matter *)
-  | Every_key  (** for programs that compute the key of a [consume k:_] *)
+(** Which keys keep their pairs in order of arrival: the named ones, and those that begin with one of the prefixes. *)
+type order = private { named : string list; prefixes : string list }
+
+val no_key : order
+
+val keys : string list -> order
+(** [keys ks] selects [ks]. Repetitions and the order of [ks] do not matter. *)
+
+val every_key : order
+(** For programs that compute the key of a [consume k:_]. *)
+
+val with_prefix : string -> order -> order
+(** [with_prefix p order] selects the keys of [order], and all that begin with [p]. *)
 
 val keeps_order : order -> string -> bool
 (** [keeps_order order k] is whether [order] selects [k]: pairs with key [k] are taken in order of arrival. *)

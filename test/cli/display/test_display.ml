@@ -43,7 +43,7 @@ let configuration bound running : Configuration.t =
         store = Store.empty;
         allocation = Vehicle_map.of_seq (List.to_seq running);
         bound;
-        tuples = Tuples.empty (Keys []);
+        tuples = Tuples.empty Tuple_space.no_key;
       };
   }
 

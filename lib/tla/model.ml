@@ -154,8 +154,9 @@ let inputs translation (program : Core.program) (environment : Environment.optio
 let tables = [ "Fleet"; "Code"; "Lambdas"; "LambdaNames"; "Places"; "Distances"; "Plans" ]
 
 let small =
-  [ "Main"; "OnInterrupt"; "GlobalNames"; "OrderedKeys"; "OrderedPrefixes"; "Prompts"; "Failures"; "Losses"; "Latecomers"; "MayBeLate";
-    "Calls"; "Inputs"; "InputKeys"; "SiteOf"; "Ending"; "Answers"; "Confirmations"; "HostReplies" ]
+  [ "Main"; "OnInterrupt"; "GlobalNames"; "OrderedKeys"; "OrderedPrefixes"; "Prompts"; "Failures"; "Losses";
+    "Latecomers"; "MayBeLate"; "Calls"; "Inputs"; "InputKeys"; "SiteOf"; "Ending"; "Answers"; "Confirmations";
+    "HostReplies" ]
 
 let definition ppf name e = Format.fprintf ppf "%s == %a@.@." name Tla.pp e
 

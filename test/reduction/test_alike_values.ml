@@ -243,5 +243,5 @@ let () =
   Alcotest.run "alike values"
     [ ("alike", alike); ("apart", apart);
       ("pool", [ Alcotest.test_case "different goals are as good as equal ones" `Quick test_pool;
-                Alcotest.test_case "of a team of the prelude, too" `Quick test_team ]);
+                 Alcotest.test_case "of a team of the prelude, too" `Quick test_team ]);
       ("random programs", [ Alcotest.test_case "reduced and plain search agree" `Quick test_agreement ]) ]

@@ -15,7 +15,8 @@ module Keys = Set.Make (struct
       | Named k, Named k' -> String.compare k k'
       | Named _, Fresh _ -> -1
       | Fresh _, Named _ -> 1
-      | Fresh a, Fresh b -> (match Int.compare a.code b.code with 0 -> Int.compare a.parameter b.parameter | order -> order)
+      | Fresh a, Fresh b ->
+        (match Int.compare a.code b.code with 0 -> Int.compare a.parameter b.parameter | order -> order)
   end)
 
 let key_of flow lambda k =
@@ -330,9 +331,8 @@ let unified flow keys program =
       | While (a, b) -> While (go a, go b)
       | For (slot, a, b) -> For (slot, go a, go b)
       | Apply (Builtin (Post names), arguments) ->
-        let is_one = List.map (fun (k, (x, ())) -> (x, Keys.mem k keys)) in
-        let alike = is_one (pairs flow within names (List.map (fun x -> (x, ())) arguments)) in
-        let part e = if List.assq_opt e alike = Some true then unified_value within (go e) else go e in
+        let alike = List.filter (fun (k, _) -> Keys.mem k keys) (written flow within names arguments) in
+        let part e = if List.exists (fun (_, x) -> x == e) alike then unified_value within (go e) else go e in
         Apply (Builtin (Post names), List.map part arguments)
       | Apply (operation, arguments) -> Apply (operation, List.map go arguments)
     in

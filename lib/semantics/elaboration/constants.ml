@@ -80,8 +80,8 @@ let elaborated constants (e : Ast.expression) =
 
 let run place (lambda, locations, global_names, values) =
   let program =
-    { source_name = ""; locations; global_names; functions = []; main = lambda; ordered_keys = Tuple_space.no_key; inputs = [];
-      on_interrupt = None; recruits = false; goes_round = false; reads_sensors = false; reads_now = false;
+    { source_name = ""; locations; global_names; functions = []; main = lambda; ordered_keys = Tuple_space.no_key;
+      inputs = []; on_interrupt = None; recruits = false; goes_round = false; reads_sensors = false; reads_now = false;
       asks_running = false; fences = Fences.none; place } in
   let store = snd (List.fold_left (fun (i, store) x -> (i + 1, Store.set i x store)) (0, Store.empty) values) in
   let context : Code.context =

@@ -238,22 +238,22 @@ let elaborated ?(chart = no_chart) ~source_name (ast : Ast.program) =
   else
     Ok
       ( with_computed_orders (Scope.computed_orders program) {
-        source_name;
-        locations = Scope.locations program;
-        global_names = Scope.globals program;
-        functions = List.map (fun ((name : string Ast.located), lambda, _, _, _) -> (name.it, lambda)) defined;
-        main;
-        ordered_keys = Scope.ordered_keys program;
-        inputs = List.map (fun (k : string Ast.located) -> k.it) (Scope.inputs program);
-        on_interrupt = Scope.on_interrupt program;
-        recruits = Scope.recruits program;
-        goes_round = Scope.goes_round program;
-        reads_sensors = Scope.reads_sensors program;
-        reads_now = Scope.reads_now program;
-        asks_running = Scope.asks_running program;
-        fences;
-        place;
-      },
+            source_name;
+            locations = Scope.locations program;
+            global_names = Scope.globals program;
+            functions = List.map (fun ((name : string Ast.located), lambda, _, _, _) -> (name.it, lambda)) defined;
+            main;
+            ordered_keys = Scope.ordered_keys program;
+            inputs = List.map (fun (k : string Ast.located) -> k.it) (Scope.inputs program);
+            on_interrupt = Scope.on_interrupt program;
+            recruits = Scope.recruits program;
+            goes_round = Scope.goes_round program;
+            reads_sensors = Scope.reads_sensors program;
+            reads_now = Scope.reads_now program;
+            asks_running = Scope.asks_running program;
+            fences;
+            place;
+          },
         reports )
 
 let program_at ~place ~source_name ast =

@@ -25,10 +25,9 @@ let context : Code.context =
     { id = 0; label = ""; parameters = 0; implicit = false; captures = [||]; slots = 0; code; lambda_site = 0 }
   in
   let program =
-    { source_name = ""; locations = [||]; global_names = [||]; functions = []; main; ordered_keys = Tuple_space.no_key; inputs = [];
-      on_interrupt = None;
-      recruits = false; goes_round = false; reads_sensors = false; reads_now = false; asks_running = false;
-      fences = Fences.none; place = None }
+    { source_name = ""; locations = [||]; global_names = [||]; functions = []; main; ordered_keys = Tuple_space.no_key;
+      inputs = []; on_interrupt = None; recruits = false; goes_round = false; reads_sensors = false; reads_now = false;
+      asks_running = false; fences = Fences.none; place = None }
   in
   let tuples = Tuples.empty Tuple_space.no_key in
   { program; world = World.empty; allocation = Vehicle_map.empty; bound = []; held = lazy []; needed = lazy [];

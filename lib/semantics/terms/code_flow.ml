@@ -45,16 +45,12 @@ let rec follow t lambda ~passed e =
   let parts ~passed = List.iter (part ~passed) in
   if passed then escape t (content t lambda e);
   match e.node with
-  | Constant _ | Local _ | Global _ | Break | Continue -> ()
   | Make_closure (made, captured) ->
     List.iter2 (fun i outer -> add t made i (slot t lambda outer)) (Array.to_list made.captures) captured
   | Set_local (i, e) ->
     part ~passed:false e;
     add t lambda i (content t lambda e)
-  | Set_global (_, e) | Return e -> part ~passed:true e
-  | If (a, b, c) -> parts ~passed:false [ a; b; c ]
-  | Block es -> parts ~passed:false es
-  | While (a, b) -> parts ~passed:false [ a; b ]
+  | If _ | Block _ | While _ -> parts ~passed:false (Code_walk.parts e)
   | For (i, range, body) ->
     part ~passed:true range;
     add t lambda i unknown;
@@ -71,7 +67,7 @@ let rec follow t lambda ~passed e =
     List.iter (fun made -> give t made (List.nth given)) fit;
     escape t { nothing with lambdas = others };
     if code.unknown || others <> [] then List.iter (escape t) given
-  | Apply (_, es) -> parts ~passed:true es
+  | _ -> parts ~passed:true (Code_walk.parts e)
 
 let of_program program =
   let t = { slots = Hashtbl.create 64; grown = true } in

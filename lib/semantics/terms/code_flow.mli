@@ -1,12 +1,14 @@
-(** Code and keys that a local slot may hold, found without running the program. Code flows by captures, assignments to
-    locals and arguments of calls whose callee is known; a key is a parameter of the code of a [fresh]. Whatever comes
-    by any other way counts as unknown. *)
+(** The code and the keys that a local slot may hold, found without running the program. Code flows by captures,
+    assignments to locals and arguments of calls whose callee is known; a key is a parameter of the code of a [fresh].
+    Values that come by any other way count as unknown. *)
 
 open Core
 
 type t
 
 val of_program : program -> t
+(** The contents of all slots of the program's code, in time that grows with its expressions, times how far code and
+    keys flow. *)
 
 type key = { code : int; parameter : int }
 (** A parameter of the code of a [fresh], by the number of that code. It is another key in each execution. *)

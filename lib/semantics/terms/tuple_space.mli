@@ -24,6 +24,7 @@
 type order = private { named : string list; prefixes : string list }
 
 val no_key : order
+(** Selects no key. *)
 
 val keys : string list -> order
 (** [keys ks] selects [ks]. Repetitions and the order of [ks] do not matter. *)

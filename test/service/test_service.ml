@@ -201,7 +201,7 @@ let highlighted () =
        [ "../../editors/vim/syntax/dolphin.vim"; "../../editors/vscode/syntaxes/dolphin.tmLanguage.json" ])
 
 let examples =
-  let folders = [ "../../examples"; "../../examples/missions" ] in
+  let folders = [ "../../examples"; "../../examples/missions"; "../../examples/related" ] in
   let files folder = List.map (Filename.concat folder) (List.sort compare (Array.to_list (Sys.readdir folder))) in
   let is_source path = Filename.check_suffix path ".dol" || Filename.check_suffix path ".fleet" in
   List.map read_file (List.filter is_source (List.concat_map files folders))

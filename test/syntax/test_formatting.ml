@@ -80,7 +80,7 @@ let spacing =
 let repository =
   let formats path () = Alcotest.(check bool) path true (holds (Support.read_file path)) in
   let folders =
-    [ "../../examples"; "../../examples/missions"; "good"; "../../templates/mission" ] in
+    [ "../../examples"; "../../examples/missions"; "../../examples/related"; "good"; "../../templates/mission" ] in
   let is_program path = Filename.check_suffix path ".dol" || Filename.check_suffix path ".fleet" in
   let files folder =
     let names = List.sort compare (Array.to_list (Sys.readdir folder)) in

@@ -1,6 +1,8 @@
-(* Each example runs on the fleet beside it; a script beside it, NAME.py, is its supplier. Its output is as before,
+(* generate.exe FOLDER ROOT FILE...: the rules of FOLDER, from which ROOT is the way up to the root of the tree.
+
+   Each example runs on the fleet beside it; a script beside it, NAME.py, is its supplier. Its output is as before,
    and its steps are a run by the semantics. *)
-let rule ~has_supplier name =
+let rule ~folder ~root ~has_supplier name =
   let supplier = if has_supplier then Printf.sprintf "\n      --supplier %%{dep:../%s.py}" name else "" in
   Printf.printf
     {|
@@ -14,7 +16,7 @@ let rule ~has_supplier name =
     (or 0 1)
     (chdir
      %%{workspace_root}
-     (run %%{exe:../../bin/dolphin.exe} exec %%{dep:../%s.dol} --journal examples/golden/%s.run%s))))))
+     (run %%{exe:%s/bin/dolphin.exe} exec %%{dep:../%s.dol} --journal %s/%s.run%s))))))
 
 (rule
  (alias runtest)
@@ -22,21 +24,25 @@ let rule ~has_supplier name =
  (action
   (progn
    (diff %s.log %s.output)
-   (echo "passed: examples/golden/%s.log\n"))))
+   (echo "passed: %s/%s.log\n"))))
 
 (rule
  (alias runtest)
  (package dolphin)
  (action
   (system
-   "verdict=$(%%{exe:../../bin/dolphin.exe} trace check %%{dep:../%s.dol} %%{dep:%s.run}) ||
+   "verdict=$(%%{exe:%s/bin/dolphin.exe} trace check %%{dep:../%s.dol} %%{dep:%s.run}) ||
     { echo $verdict; exit 1; }")))
 |}
-    name name name name name name supplier name name name name name
+    name name name name root name folder name supplier name name folder name root name name
 
 let () =
-  let files = List.map Filename.basename (List.tl (Array.to_list Sys.argv)) in
+  let folder, root, files =
+    match Array.to_list Sys.argv with
+    | _ :: folder :: root :: files -> (folder, root, List.map Filename.basename files)
+    | _ -> failwith "generate.exe FOLDER ROOT FILE..."
+  in
   let example file = if Filename.check_suffix file ".dol" then Some (Filename.chop_suffix file ".dol") else None in
   let names = List.sort String.compare (List.filter_map example files) in
   print_string "; Made by generate/generate.ml; dune promote brings it up to date.\n";
-  List.iter (fun name -> rule ~has_supplier:(List.mem (name ^ ".py") files) name) names
+  List.iter (fun name -> rule ~folder ~root ~has_supplier:(List.mem (name ^ ".py") files) name) names

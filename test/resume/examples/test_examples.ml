@@ -88,4 +88,6 @@ let programs folder =
     Alcotest.test_case (Filename.chop_suffix file ".dol") `Quick (example (Filename.concat folder file)) in
   List.map case (List.filter (fun file -> Filename.check_suffix file ".dol") files)
 
-let () = Alcotest.run "examples" [ ("examples", programs "."); ("missions", programs "missions") ]
+let () =
+  let group (name, folder) = (name, programs folder) in
+  Alcotest.run "examples" (List.map group [ ("examples", "."); ("missions", "missions"); ("related", "related") ])

@@ -37,6 +37,7 @@ let posting ~certain =
   let input = { (List.hd Posts.once) with certain } in
   { options with environment = { options.environment with inputs = [ input ] } }
 
+let agreed = { options with environment = { options.environment with answers = (fun _ -> [ [ "yes" ] ]) } }
 let supplied = { options with environment = { options.environment with replies = Calls.replies } }
 let pick = "va = pick { id 'a' }\nvb = pick { id 'b' }\n"
 
@@ -115,6 +116,9 @@ let verdicts : (string * (unit -> unit)) list =
      check All_reached (pick ^ "execute watch task('p')[va] onError { message 'm' }") "unreached: onError");
     ("a handler with failures",
      check ~options:failing All_reached (pick ^ "execute watch task('p')[va] onError { message 'm' }") "holds");
+    ("a question that confirm need not ask again", check ~options:agreed All_reached "message confirm('Go?')" "holds");
+    ("a question that is not asked", check ~options:agreed All_reached "if (1 > 2) { x = confirm('Go?') }"
+       "unreached: ask");
     ("a message of the script", check All_reached "if (1 > 2) { message 'm' }" "unreached: message");
   ]
 

@@ -26,6 +26,14 @@ let transition t (before : Configuration.t) (after : Transition.t) =
 
 type piece = { site : Core.site; what : string }
 
+(* What stands at one place and has one name is one piece: [confirm] is two questions, as it asks again after an answer
+   that is neither yes nor no. *)
+module Pieces = Map.Make (struct
+    type t = Dolphin_syntax.Location.t * string
+
+    let compare = Stdlib.compare
+  end)
+
 let of_builtin = function
   | Execute | Execute_for _ -> Some "execute"
   | Release -> Some "release"
@@ -49,8 +57,12 @@ let code_of = function
   | _ -> None
 
 let unreached t program =
-  let found = ref [] and walked = ref Sites.empty in
-  let note site what reached = if not reached then found := { site; what } :: !found in
+  let missing = ref Pieces.empty and reached = ref Pieces.empty and walked = ref Sites.empty in
+  let note site what is_reached =
+    let key = (program.locations.(site), what) in
+    if is_reached then reached := Pieces.add key site !reached
+    else if not (Pieces.mem key !missing) then missing := Pieces.add key site !missing
+  in
   let at_site site what = note site what (Sites.mem site t.reached) in
   (* [script] is whether the expression is the script's own, outside of any function or closure. *)
   let rec expression ~script e =
@@ -83,5 +95,8 @@ let unreached t program =
   in
   expression ~script:true program.main.code;
   List.iter (fun (_, lambda) -> code lambda) program.functions;
-  let is_own piece = Dolphin_syntax.Location.file program.locations.(piece.site) <> Dolphin_syntax.Prelude.file in
-  List.sort_uniq Stdlib.compare (List.filter is_own !found)
+  let is_unreached ((location, _) as key) _ =
+    Dolphin_syntax.Location.file location <> Dolphin_syntax.Prelude.file && not (Pieces.mem key !reached)
+  in
+  let piece ((_, what), site) = { site; what } in
+  List.sort Stdlib.compare (List.map piece (Pieces.bindings (Pieces.filter is_unreached !missing)))

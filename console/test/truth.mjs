@@ -6,7 +6,7 @@ export default async function truth({ folder, page, open, test, same, text, choo
   const many = 6;
   writeFileSync(join(folder, "many.dol"), `input 'over'
 vs = pick { count ${many}; type 'UUV' }
-setConnectionTimeout vs, 10.hours
+setConnectionTimeout vs, 1.hour
 n = ask 'How many?'
 message "n: $n"
 execute until { poll over: true } run task('survey')[vs]

@@ -71,7 +71,10 @@ export default async function review({ home, folder, dolphin, environment, page,
     await page.selectOption("#reading-axis", "time");
     await page.click("[aria-label='rough.run beside it']");
     await page.waitForSelector("#banner >> text=calm.run, beside rough.run");
-    same(await page.locator("#timeline svg").count(), 2, "timelines");
+    // The banner is there before the second journal is read and drawn.
+    const count = (selector, n) => page.waitForFunction(([selector, n]) => document.querySelectorAll(selector).length === n, [selector, n]);
+    await count("#timeline svg", 2);
+    await page.waitForSelector("#compared >> text=Ends:");
     same(await page.locator("#timeline h3").allInnerTexts().then((t) => t.join()), "calm.run,rough.run", "their names");
     const compared = await text(page, "#compared");
     same(/The same for \d+ steps; then first: done\(auv-2.* at 5:00; second: fail\(auv-2/.test(compared), true, compared);
@@ -80,8 +83,8 @@ export default async function review({ home, folder, dolphin, environment, page,
     // One scale: the first task of the second run was stopped early.
     const [a, b] = await page.locator("#timeline svg").evaluateAll((all) => all.map((s) => s.querySelector(".task").getBoundingClientRect().width));
     same(b < a / 2, true, `${a} ${b}`);
-    same(await page.locator("#map path.second").count(), 2, "dotted tracks");
-    same(await page.locator("#readings .reading.second").count(), 2, "dotted plots");
+    await count("#map path.second", 2);
+    await count("#readings .reading.second", 2);
     await picture(page, "beside");
   });
 

@@ -145,8 +145,11 @@ let all =
             {|function 1 -> Other | _ -> Text|},
             {|function 1 | 2 -> Other | _ -> Text|} );
           ( "a text of a value is posted",
-            {|Some k, Value -> code.posted|},
-            {|Some k, (Value | Text) -> code.posted|} );
+            {|code.posted <- Keys.add k code.posted
+        | Text | Task -> raise Looked_at|},
+            {|code.posted <- Keys.add k code.posted
+        | Text -> code.posted <- Keys.add k code.posted
+        | Task -> raise Looked_at|} );
           ( "globals keep nothing",
             {|Set_global (_, e) -> nothing code e|},
             {|Set_global (_, e) -> ignore (value_of code e); Other|} );

@@ -2,6 +2,7 @@
    run that is shown is one of the semantics, on random pools of goals. Some look into a goal, or end otherwise on some.
    PROGRAMS in the environment is how many are tried, 1,000 by default. *)
 
+open Dolphin_semantics
 open Dolphin_environment
 open Dolphin_explore
 module Pure_run = Test_support.Pure_run
@@ -239,9 +240,25 @@ let alike, apart =
       is false "taken by a function" 
         ("def take() { consume(goal: _) }\npost goal: 1\nexecute waitFor { take() } then " ^ posting) ] )
 
+(* {1 Order} *)
+
+let orders =
+  let of_fresh = Tuple_space.(with_prefix "#" (keys [ "x" ])) in
+  let is name expected source =
+    let check () =
+      Alcotest.(check bool) name true ((Pure_run.compile_exn source).ordered_keys = (expected : Tuple_space.order))
+    in
+    Alcotest.test_case name `Quick check
+  in
+  let fresh = "post x: 1\nconsume x: _\nexecute fresh { k -> action { post((k): 1) } >> condition { consume((k): _) } }\n" in
+  [ is "keys of fresh" of_fresh fresh;
+    is "keys of fresh, and one that is computed for an equal value" of_fresh (fresh ^ "j = 'y'\nconsume((j): 1)");
+    is "keys of fresh, and one that is computed for a pattern" Tuple_space.every_key
+      (fresh ^ "j = 'y'\nconsume((j): { it > 1 })") ]
+
 let () =
   Alcotest.run "alike values"
-    [ ("alike", alike); ("apart", apart);
+    [ ("order", orders); ("alike", alike); ("apart", apart);
       ("pool", [ Alcotest.test_case "different goals are as good as equal ones" `Quick test_pool;
                  Alcotest.test_case "of a team of the prelude, too" `Quick test_team ]);
       ("random programs", [ Alcotest.test_case "reduced and plain search agree" `Quick test_agreement ]) ]

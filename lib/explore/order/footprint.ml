@@ -212,14 +212,15 @@ let anything = { empty with anything = true; claims = All; looks = true; breaks 
 let all fs = List.fold_left union empty fs
 
 (* With the values' expressions; nothing if a key is computed, and not known. *)
-let rec keyed scope keys arguments =
-  match keys, arguments with
-  | Some k :: keys, e :: arguments -> Option.map (fun rest -> (k, e) :: rest) (keyed scope keys arguments)
-  | None :: keys, k :: e :: arguments -> (
-      match value scope k with
-      | Some (String k) -> Option.map (fun rest -> (k, e) :: rest) (keyed scope keys arguments)
-      | Some _ | None -> None)
-  | _, _ -> Some []
+let keyed scope keys arguments =
+  let known (k, e) rest =
+    match k, rest with
+    | _, None -> None
+    | Code_walk.Written k, Some rest -> Some ((k, e) :: rest)
+    | Computed k, Some rest -> (
+        match value scope k with Some (String k) -> Some ((k, e) :: rest) | Some _ | None -> None)
+  in
+  List.fold_right known (Code_walk.pairs keys arguments) (Some [])
 
 let pairs code scope keys arguments =
   let pair (k, e) =

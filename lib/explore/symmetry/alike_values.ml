@@ -19,22 +19,17 @@ module Keys = Set.Make (struct
         (match Int.compare a.code b.code with 0 -> Int.compare a.parameter b.parameter | order -> order)
   end)
 
-let key_of flow lambda k =
+let computed flow lambda k =
   match k.node, Code_flow.key flow lambda k with
   | Constant (String k), _ -> Named k
   | _, Some k -> Fresh k
   | _, None -> raise Looked_at
 
-(* The pairs of a [Post], [Consume] or [Poll]: each key, and what stands for its value. *)
-let rec pairs flow lambda keys arguments =
-  match keys, arguments with
-  | [], [] -> []
-  | Some k :: keys, x :: arguments -> (Named k, x) :: pairs flow lambda keys arguments
-  | None :: keys, (k, _) :: x :: arguments -> (key_of flow lambda k, x) :: pairs flow lambda keys arguments
-  | _, _ -> raise Looked_at
-
-let written flow lambda keys arguments =
-  List.map (fun (k, (x, ())) -> (k, x)) (pairs flow lambda keys (List.map (fun x -> (x, ())) arguments))
+(* The pairs of a [Post], [Consume] or [Poll]: each key, with the expression of its value. *)
+let pairs flow lambda keys arguments =
+  if keys = [] then raise Looked_at;
+  let key = function Code_walk.Written k -> Named k | Computed k -> computed flow lambda k in
+  List.map (fun (k, x) -> (key k, x)) (Code_walk.pairs keys arguments)
 
 (* {1 What becomes of a value}
 
@@ -144,13 +139,14 @@ and applied code operation arguments given =
       if may_name code.plans parts || not (List.exists is_text parts) then raise Looked_at else Task
     | Builtin (Message | Halt | Fail), [ _ ], [ Text ] -> Other
     | Builtin (Post keys), _, _ ->
-      let post (k, (_, given)) =
-        match given with
+      let given = List.combine arguments given in
+      let post (k, x) =
+        match List.assq x given with
         | Other -> ()
         | Value -> code.posted <- Keys.add k code.posted
         | Text | Task -> raise Looked_at
       in
-      List.iter post (pairs code.flow code.lambda keys (List.combine arguments given));
+      List.iter post (pairs code.flow code.lambda keys arguments);
       Other
     | ( (Builtin
            (Make_watch | Make_fresh | Make_until _ | Make_during _ | Make_wait_for | Make_action | Make_condition
@@ -186,10 +182,9 @@ let looked_into flow (lambda, e) =
   let wanted (k, x) = match x.node with Constant Wildcard -> None | _ -> Some k in
   match e.node with
   | Apply (Builtin (Consume keys | Poll (_ :: _ as keys)), arguments) ->
-    List.filter_map wanted (written flow lambda keys arguments)
+    List.filter_map wanted (pairs flow lambda keys arguments)
   | Apply (Builtin (Post keys), arguments) ->
-    if keys = [] then raise Looked_at;
-    ignore (written flow lambda keys arguments);
+    ignore (pairs flow lambda keys arguments);
     []
   | Apply (Builtin (Make_ensure forms), _) ->
     (* Its values are not made one. *)
@@ -216,7 +211,7 @@ let values_looked_into flow all =
   let key (lambda, e) =
     match e.node with
     | Apply (Builtin Values_of, [ k ]) ->
-      let k = key_of flow lambda k in
+      let k = computed flow lambda k in
       if List.memq e counted then None else Some k
     | _ -> None
   in
@@ -230,7 +225,7 @@ let taken_by flow (guard : expression) =
     let visit lambda e =
       match e.node with
       | Apply (Builtin (Consume keys), arguments) ->
-        let taken = List.map fst (written flow lambda keys arguments) in
+        let taken = List.map fst (pairs flow lambda keys arguments) in
         found := Keys.union !found (Keys.of_list taken)
       | Apply (Call _, _) -> raise Looked_at
       | _ -> ()
@@ -331,7 +326,7 @@ let unified flow keys program =
       | While (a, b) -> While (go a, go b)
       | For (slot, a, b) -> For (slot, go a, go b)
       | Apply (Builtin (Post names), arguments) ->
-        let alike = List.filter (fun (k, _) -> Keys.mem k keys) (written flow within names arguments) in
+        let alike = List.filter (fun (k, _) -> Keys.mem k keys) (pairs flow within names arguments) in
         let part e = if List.exists (fun (_, x) -> x == e) alike then unified_value within (go e) else go e in
         Apply (Builtin (Post names), List.map part arguments)
       | Apply (operation, arguments) -> Apply (operation, List.map go arguments)

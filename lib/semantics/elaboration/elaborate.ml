@@ -188,18 +188,22 @@ let with_computed_orders places (p : Core.program) =
   if places = [] then p
   else begin
     let flow = Code_flow.of_program p in
-    let all_fresh = ref true in
+    let taken = ref [] in
+    let note lambda = function
+      | Code_walk.Written _, _ -> ()
+      | Computed k, _ -> taken := (p.locations.(k.Core.site), Code_flow.key flow lambda k <> None) :: !taken
+    in
     let visit lambda (e : Core.expression) =
       match e.node with
-      | Apply (Builtin (Consume keys), arguments) ->
-        let computed = Code_walk.computed_keys keys arguments in
-        let is_ordered (k : Core.expression) = List.mem p.locations.(k.site) places in
-        if List.exists (fun k -> is_ordered k && Code_flow.key flow lambda k = None) computed then all_fresh := false
+      | Apply (Builtin (Consume keys), arguments) -> List.iter (note lambda) (Code_walk.pairs keys arguments)
       | _ -> ()
     in
     Code_walk.iter_within visit (Code_walk.pieces p);
+    let is_fresh place =
+      match List.filter (fun (at, _) -> at = place) !taken with [] -> false | there -> List.for_all snd there
+    in
     let fresh = Tuple_space.with_prefix Residual.key_prefix p.ordered_keys in
-    { p with ordered_keys = (if !all_fresh then fresh else Tuple_space.every_key) }
+    { p with ordered_keys = (if List.for_all is_fresh places then fresh else Tuple_space.every_key) }
   end
 
 let elaborated ?(chart = no_chart) ~source_name (ast : Ast.program) =

@@ -21,10 +21,12 @@ let assigned e =
   | Apply (Builtin (Make_ensure forms), _ :: arguments) -> ensured forms arguments
   | _ -> []
 
-let rec computed_keys keys arguments =
+type key = Written of string | Computed of expression
+
+let rec pairs keys arguments =
   match keys, arguments with
-  | Some _ :: keys, _ :: arguments -> computed_keys keys arguments
-  | None :: keys, k :: _ :: arguments -> k :: computed_keys keys arguments
+  | Some k :: keys, x :: arguments -> (Written k, x) :: pairs keys arguments
+  | None :: keys, k :: x :: arguments -> (Computed k, x) :: pairs keys arguments
   | _, _ -> []
 
 (* [visit] of the expressions of one piece of code; [enter] of the code that it makes or holds. *)

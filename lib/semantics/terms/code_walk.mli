@@ -10,9 +10,11 @@ val assigned : expression -> (int * expression) list
 (** [assigned e] is the global variables that [e] itself assigns, or the end of the task that it makes, each with the
     expression of its value. *)
 
-val computed_keys : string option list -> expression list -> expression list
-(** [computed_keys keys arguments] is the expressions of the keys that are computed, of a [Post], [Consume] or [Poll] of
-    [keys] with these arguments. *)
+type key = Written of string | Computed of expression
+
+val pairs : string option list -> expression list -> (key * expression) list
+(** [pairs keys arguments] is each key with the expression of its value, of a [Post], [Consume] or [Poll] of [keys] with
+    these arguments; nothing if it is of a map. *)
 
 val pieces : program -> lambda list
 (** [pieces p] is the code of [p] outside of other code: the script, the functions, the task of [onInterrupt]. *)

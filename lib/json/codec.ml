@@ -70,17 +70,22 @@ let make read write schema = { read; write; schema = Lazy.from_val schema }
 let text =
   make (function `String text -> Ok text | json -> not_a "a text" json) (fun text -> `String text) (typed "string" [])
 
-let refine check keywords codec =
-  let read json =
-    let* x = codec.read json in
-    match check x with None -> Ok x | Some why -> wrong why
-  in
+let limited keywords codec =
   let schema =
     lazy
       (let schema = Lazy.force codec.schema in
        { schema with keywords = schema.keywords @ keywords })
   in
-  { codec with read; schema }
+  { codec with schema }
+
+let described doc = limited [ ("description", `String doc) ]
+
+let refine check keywords codec =
+  let read json =
+    let* x = codec.read json in
+    match check x with None -> Ok x | Some why -> wrong why
+  in
+  limited keywords { codec with read }
 
 let word = refine (fun text -> if text = "" then Some "empty" else None) [ ("minLength", `Int 1) ] text
 
@@ -304,24 +309,13 @@ let closed fields =
       Error { path = [ Member name ]; why = "not a known member" }
     | _ -> Ok x
   in
-  let schema =
-    lazy
-      (let schema = Lazy.force codec.schema in
-       { schema with keywords = schema.keywords @ [ ("additionalProperties", `Bool false) ] })
-  in
-  { codec with read; schema }
-
-let describe doc codec =
-  lazy
-    (let schema = Lazy.force codec.schema in
-     match doc with
-     | None -> schema
-     | Some doc -> { schema with keywords = schema.keywords @ [ ("description", `String doc) ] })
+  limited [ ("additionalProperties", `Bool false) ] { codec with read }
 
 let member doc name codec ~required =
+  let codec = Option.fold doc ~none:codec ~some:(fun doc -> described doc codec) in
   lazy
     { no_members with
-      properties = [ (name, Lazy.force (describe doc codec)) ];
+      properties = [ (name, Lazy.force codec.schema) ];
       required = (if required then [ name ] else []) }
 
 (* Journals of long runs have millions of members: names are compared as strings, not as any values. *)
@@ -485,15 +479,5 @@ let fix name f =
        f itself)
   in
   named name (Lazy.force codec)
-
-let described doc codec = { codec with schema = describe (Some doc) codec }
-
-let limited keywords codec =
-  let schema =
-    lazy
-      (let schema = Lazy.force codec.schema in
-       { schema with keywords = schema.keywords @ keywords })
-  in
-  { codec with schema }
 
 let elsewhere uri codec = { codec with schema = Lazy.from_val (plain (reference uri)) }

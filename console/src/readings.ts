@@ -1,9 +1,11 @@
 // Plots of one reading of all vehicles, or of one: over time, or along the tracks; of two runs where there are two.
 
+import * as L from "leaflet";
 import { $, h, svg } from "./dom";
 import { distance } from "./measure";
 import { type Run, type Sample, type Vehicle, clock } from "./model";
 import { type Quantity, brief, quantities } from "./quantities";
+import { upTo } from "./tape";
 import type { Spot } from "./tracks";
 
 interface Line { name: string; id: string; tint: string; second: boolean; points: { x: number; value: number; sample: Sample }[] }
@@ -17,19 +19,14 @@ export function niceStep(range: number, n: number): number {
   return power * ([1, 2, 5].find((k) => k * power >= raw) ?? 10);
 }
 
-const radians = Math.PI / 180;
-function metres(a: Sample, b: Sample): number {
-  const north = (b.latitude - a.latitude) * radians, east = (b.longitude - a.longitude) * radians;
-  const s = Math.sin(north / 2) ** 2 + Math.cos(a.latitude * radians) * Math.cos(b.latitude * radians) * Math.sin(east / 2) ** 2;
-  return 2 * 6371008.8 * Math.asin(Math.min(1, Math.sqrt(s)));
-}
+const latLng = (s: Sample) => L.latLng(s.latitude, s.longitude);
 
 // The values of a vehicle by time, or by the way that it has gone.
 export function along(v: Vehicle, quantity: Quantity, track: boolean): Line["points"] {
   const points: Line["points"] = [];
   let gone = 0;
   v.samples.forEach((s, i) => {
-    if (i) gone += metres(v.samples[i - 1], s);
+    if (i) gone += latLng(v.samples[i - 1]).distanceTo(latLng(s));
     const value = quantity.of(s);
     if (typeof value === "number") points.push({ x: track ? gone : s.time, value, sample: s });
   });
@@ -142,7 +139,7 @@ export class Readings {
     if (this.at !== null) parts.push(svg("line", { x1: x(this.at), x2: x(this.at), y1: top, y2: high - bottom, class: "now" }));
     const title = `${quantity.name} ${this.track ? "along the track" : "over time"}: from ${brief(least)} to ${brief(most)} ${quantity.unit}`.trim();
     this.el.replaceChildren(svg("svg", { width: wide, height: high, viewBox: `0 0 ${wide} ${high}`, role: "img", "aria-label": title }, ...parts));
-    this.tell(quantity);
+    this.describe(quantity);
   }
 
   // Of each line the last value that is not behind the pointer.
@@ -150,13 +147,12 @@ export class Readings {
     const { at } = this;
     if (at === null) return [];
     return this.lines.flatMap((line) => {
-      let low = 0, high = line.points.length;
-      while (low < high) { const middle = (low + high) >> 1; if (line.points[middle].x <= at) low = middle + 1; else high = middle; }
-      return low ? [{ line, point: line.points[low - 1] }] : [];
+      const count = upTo(line.points.length, (i) => line.points[i].x, at);
+      return count ? [{ line, point: line.points[count - 1] }] : [];
     });
   }
 
-  private tell({ unit }: Quantity) {
+  private describe({ unit }: Quantity) {
     const found = this.under(), most = 6;
     const text = found.slice(0, most).map(({ line, point }) => `${line.name} ${brief(point.value)} ${unit}`.trim()).join(", ");
     this.says.textContent = this.at === null ? "" : `${this.track ? distance(this.at) : clock(this.at)}: ${text}${found.length > most ? `, and ${found.length - most} more` : ""}`;

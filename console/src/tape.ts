@@ -39,6 +39,13 @@ export class Reel {
   }
 }
 
+// How many of [n] ascending values are at most [x].
+export function upTo(n: number, value: (i: number) => number, x: number): number {
+  let low = 0, high = n;
+  while (low < high) { const middle = (low + high) >> 1; if (value(middle) <= x) low = middle + 1; else high = middle; }
+  return low;
+}
+
 export class Tape {
   private other: Reel | null = null;
   private order: boolean[] = [];  // of each place of two runs, whether its message is of the second one
@@ -75,12 +82,8 @@ export class Tape {
 
   // The place behind all that is not later than [time].
   placeOf(time: number): number {
-    const upTo = (reel: Reel | null) => {
-      let low = 0, high = reel?.times.length ?? 0;
-      while (low < high) { const middle = (low + high) >> 1; if (reel!.times[middle] <= time) low = middle + 1; else high = middle; }
-      return low;
-    };
-    return upTo(this.first) + upTo(this.other);
+    const count = (reel: Reel | null) => (reel ? upTo(reel.times.length, (i) => reel.times[i], time) : 0);
+    return count(this.first) + count(this.other);
   }
 }
 

@@ -54,6 +54,7 @@
     OnInterrupt <- MCOnInterrupt
     GlobalNames <- MCGlobalNames
     OrderedKeys <- MCOrderedKeys
+    OrderedPrefixes <- MCOrderedPrefixes
     Prompts <- MCPrompts
     Failures <- MCFailures
     Losses <- MCLosses

@@ -92,7 +92,7 @@ The formatter keeps both words.
   > END
   $ dolphin fmt rough.dol && cat rough.dol
   rough.dol
-  execute(using a: 1, b: _ run task('p')) ensure {
+  execute (using a: 1, b: _ run task('p')) ensure {
       post x: 1
       n = 2
   }

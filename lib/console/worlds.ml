@@ -49,5 +49,5 @@ let get (w : Workspace.t) r =
          ("parameters", `List (List.map parameter_of program.parameters));
          ("fleet", of_option (fun path -> `String path) fleet_path);
          ("vehicles", `List (List.map vehicle fleet.scenario.vehicles));
-         ("fences", `List (List.map On_map.fence fences));
+         ("fences", `List (List.map (Codec.write On_map.fence) fences));
          ("plans", `List (List.map plan fleet.scenario.plans)) ])

@@ -387,6 +387,9 @@ let requiring needs fields =
   let others = [ ("dependentRequired", needs) ] in
   { fields with shape = lazy (both (Lazy.force fields.shape) { no_members with others }) }
 
+let members fields x = fields.put x []
+let of_members fields found = Result.map_error text_of_fault (fields.get found)
+
 (* {1 Unions} *)
 
 type ('a, 'b) case = { name : string; fields : ('b, 'b) fields; make : 'b -> 'a }

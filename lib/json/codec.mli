@@ -162,6 +162,12 @@ val requiring : (string * string list) list -> ('o, 'a) fields -> ('o, 'a) field
 (** [requiring needs fields] has each of [needs] in its schema: with the first member of a pair come the others. That
     values are so is the matter of {!check}. *)
 
+val members : ('o, 'a) fields -> 'o -> Field.members
+(** [members fields x] is these members of [x], for an object that has others too. *)
+
+val of_members : ('o, 'a) fields -> Field.members -> ('a, string) result
+(** [of_members fields found] reads [fields] among the members of an object. *)
+
 (** {1:unions Unions} *)
 
 type ('a, 'b) case

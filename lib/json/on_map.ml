@@ -1,61 +1,65 @@
 open Dolphin_plans
 open Dolphin_geo
-open Field
+open Codec
 
 (* {1 Places and areas} *)
 
-let pair (p : Position.t) : Yojson.Safe.t = `List [ Canonical.number p.latitude; Canonical.number p.longitude ]
-let path ps : Yojson.Safe.t = `List (List.map pair ps)
+let place =
+  let of_list = function
+    | [ latitude; longitude ] ->
+      Result.map_error (fun _ -> "a position out of range") (Position.make ~latitude ~longitude ~height:0.)
+    | _ -> Error "not a place: its latitude and its longitude"
+  in
+  let to_list (p : Position.t) = [ p.latitude; p.longitude ] in
+  conv of_list to_list (limited [ ("minItems", `Int 2); ("maxItems", `Int 2) ] (list (number ())))
 
-let area : Area.t -> members = function
-  | Circle { centre; radius } -> [ ("centre", pair centre); ("radius", Canonical.number radius) ]
-  | Shape shape -> [ ("rings", `List (List.map path (Area.rings shape))) ]
+let pair = write place
+let path = write (list place)
 
-let to_pair json =
-  let* found = list number json in
-  match found with
-  | [ latitude; longitude ] ->
-    Result.map_error (fun _ -> "a position out of range") (Position.make ~latitude ~longitude ~height:0.)
-  | _ -> Error "a place is its latitude and its longitude"
-
-let to_area found =
+let area_fields =
   let made result = Result.map_error (Format.asprintf "%a" Area.pp_error) result in
-  if List.mem_assoc "rings" found then
-    let* rings = get (list (list to_pair)) "rings" found in
-    made (Area.of_rings rings)
-  else
-    let* centre = get to_pair "centre" found in
-    let* radius = get number "radius" found in
-    made (Area.circle centre radius)
+  let of_parts = function
+    | Some rings, _, _ -> made (Area.of_rings rings)
+    | None, Some centre, Some radius -> made (Area.circle centre radius)
+    | None, None, _ -> Error "neither with rings nor with a centre"
+    | None, Some _, None -> Error "without a radius"
+  in
+  let rings : Area.t -> _ = function Shape shape -> Some (Area.rings shape) | Circle _ -> None
+  and centre : Area.t -> _ = function Circle c -> Some c.centre | Shape _ -> None
+  and radius : Area.t -> _ = function Circle c -> Some c.radius | Shape _ -> None in
+  check of_parts
+    (let+ centre = optional "centre" place centre
+     and+ radius = optional "radius" (number ()) radius ~doc:"metres"
+     and+ rings = optional "rings" (list (list place)) rings ~doc:"its rims, and those of its holes" in
+     (rings, centre, radius))
+
+let area = members area_fields
 
 (* {1 Fences} *)
 
-let fence (f : Fences.fence) : Yojson.Safe.t =
-  let metres n = [ ("metres", Canonical.number n) ] in
-  let rule, what =
-    match f.rule with
-    | Inside a -> ("inside", area a)
-    | Outside a -> ("outside", area a)
-    | Depth n -> ("depth", metres n)
-    | Height n -> ("height", metres n)
-    | Distance n -> ("distance", metres n)
-  in
-  let margin = if f.margin = 0. then [] else [ ("margin", Canonical.number f.margin) ] in
-  `Assoc ([ ("fence", `String f.text); ("rule", `String rule) ] @ margin @ what)
+let inside = case "inside" area_fields (fun a -> Fences.Inside a)
+let outside = case "outside" area_fields (fun a -> Fences.Outside a)
+let metres = one "metres" (number ())
+let depth = case "depth" metres (fun n -> Fences.Depth n)
+let height = case "height" metres (fun n -> Fences.Height n)
+let distance = case "distance" metres (fun n -> Fences.Distance n)
 
-let to_fence json : (Fences.fence, string) result =
-  let* found = members json in
-  let* text = get text "fence" found in
-  let* rule = get Field.text "rule" found in
-  let* margin = optional number ~default:0. "margin" found in
-  let metres make = Result.map make (get number "metres" found) in
-  let* rule : Fences.rule =
-    match rule with
-    | "inside" -> Result.map (fun a -> Fences.Inside a) (to_area found)
-    | "outside" -> Result.map (fun a -> Fences.Outside a) (to_area found)
-    | "depth" -> metres (fun n -> Fences.Depth n)
-    | "height" -> metres (fun n -> Fences.Height n)
-    | "distance" -> metres (fun n -> Fences.Distance n)
-    | other -> Error (Printf.sprintf "unknown fence '%s'" other)
+let fence =
+  let choose : Fences.rule -> _ = function
+    | Inside a -> Is (inside, a)
+    | Outside a -> Is (outside, a)
+    | Depth n -> Is (depth, n)
+    | Height n -> Is (height, n)
+    | Distance n -> Is (distance, n)
   in
-  Ok { Fences.rule; margin; text; at = Dolphin_syntax.Location.none }
+  let rule =
+    union_around ~tag:"rule"
+      (default 0. "margin" (number ()) Fun.id ~doc:"metres")
+      [ Case inside; Case outside; Case depth; Case height; Case distance ]
+      choose
+  in
+  named "fence"
+    (record
+       (let+ text = field "fence" text (fun (f : Fences.fence) -> f.text) ~doc:"as it is declared"
+        and+ margin, rule = part (fun (f : Fences.fence) -> (f.margin, f.rule)) rule in
+        { Fences.rule; margin; text; at = Dolphin_syntax.Location.none }))

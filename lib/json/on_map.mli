@@ -2,6 +2,9 @@
 
 open Dolphin_geo
 
+val place : Position.t Codec.t
+(** [[latitude, longitude]], of height 0. *)
+
 val pair : Position.t -> Yojson.Safe.t
 (** Its latitude and its longitude. *)
 
@@ -11,9 +14,6 @@ val path : Position.t list -> Yojson.Safe.t
 val area : Area.t -> Field.members
 (** [centre] and [radius], in metres; or [rings], its rims and those of its holes. *)
 
-val fence : Dolphin_plans.Fences.fence -> Yojson.Safe.t
-(** The [fence] as it is declared, its [rule], ["inside"], ["outside"], ["depth"], ["height"] or ["distance"], its
-    [margin] if there is one; and the {!area}, or the [metres]. *)
-
-val to_fence : Yojson.Safe.t -> (Dolphin_plans.Fences.fence, string) result
-(** The output of {!val-fence}, without its place in a text. *)
+val fence : Dolphin_plans.Fences.fence Codec.t
+(** A fence as it is declared, its rule, [margin] if there is one, and the {!area}, or the [metres]; without its place in
+    a text. *)

@@ -1,5 +1,5 @@
 open Dolphin_json
-open Field
+open Codec
 
 type deed =
   | Start
@@ -14,44 +14,41 @@ type deed =
 
 type t = { operator : string; role : string; deed : deed }
 
-let of_deed deed : members =
-  let did name rest = ("did", `String name) :: rest in
-  match deed with
-  | Start -> did "start" []
-  | Resume -> did "resume" []
-  | Answer { question; text } -> did "answer" [ ("question", `String question); ("text", `String text) ]
-  | Post pair -> did "post" [ ("pair", `String pair) ]
-  | Replace program -> did "replace" [ ("program", `String program) ]
-  | Stop { all } -> did "stop" (if all then [ ("all", `Bool true) ] else [])
-  | Take_helm from -> did "take-helm" (Option.fold from ~none:[] ~some:(fun name -> [ ("from", `String name) ]))
-  | Leave_helm -> did "leave-helm" []
-  | Shut_out name -> did "shut-out" [ ("name", `String name) ]
+let start = constant "start" Start
+let resume = constant "resume" Resume
+let leave_helm = constant "leave-helm" Leave_helm
 
-let members { operator; role; deed } : members =
-  ("operator", `String operator) :: ("role", `String role) :: of_deed deed
+let answer =
+  case "answer" (one "question" text @& one "text" text) (fun (question, text) -> Answer { question; text })
 
-let to_deed found =
-  let* did = get text "did" found in
-  match did with
-  | "start" -> Ok Start
-  | "resume" -> Ok Resume
-  | "answer" ->
-    let* question = get text "question" found in
-    Result.map (fun text -> Answer { question; text }) (get text "text" found)
-  | "post" -> Result.map (fun pair -> Post pair) (get text "pair" found)
-  | "replace" -> Result.map (fun program -> Replace program) (get text "program" found)
-  | "stop" -> Result.map (fun all -> Stop { all }) (optional truth ~default:false "all" found)
-  | "take-helm" ->
-    let name json = Result.map Option.some (text json) in
-    Result.map (fun from -> Take_helm from) (optional name ~default:None "from" found)
-  | "leave-helm" -> Ok Leave_helm
-  | "shut-out" -> Result.map (fun name -> Shut_out name) (get text "name" found)
-  | other -> Error (Printf.sprintf "unknown act of an operator: %S" other)
+let post = case "post" (one "pair" text) (fun pair -> Post pair)
+let replace = case "replace" (one "program" text) (fun program -> Replace program)
+let stop = case "stop" (default false "all" truth Fun.id) (fun all -> Stop { all })
+let take_helm = case "take-helm" (optional "from" text Fun.id) (fun from -> Take_helm from)
+let shut_out = case "shut-out" (one "name" text) (fun name -> Shut_out name)
 
-let of_members found =
-  let* operator = get text "operator" found in
-  let* role = get text "role" found in
-  Result.map (fun deed -> { operator; role; deed }) (to_deed found)
+let deed =
+  let choose = function
+    | Start -> Is (start, ())
+    | Resume -> Is (resume, ())
+    | Answer { question; text } -> Is (answer, (question, text))
+    | Post pair -> Is (post, pair)
+    | Replace program -> Is (replace, program)
+    | Stop { all } -> Is (stop, all)
+    | Take_helm from -> Is (take_helm, from)
+    | Leave_helm -> Is (leave_helm, ())
+    | Shut_out name -> Is (shut_out, name)
+  in
+  union ~tag:"did"
+    [ Case start; Case resume; Case answer; Case post; Case replace; Case stop; Case take_helm; Case leave_helm;
+      Case shut_out ]
+    choose
+
+let fields =
+  let+ operator = field "operator" text (fun a -> a.operator)
+  and+ role = field "role" text (fun a -> a.role)
+  and+ deed = part (fun a -> a.deed) deed in
+  { operator; role; deed }
 
 let words_of_deed = function
   | Start -> "starts the run"

@@ -14,11 +14,8 @@ type deed =
 
 type t = { operator : string;  (** the name *) role : string; deed : deed }
 
-val members : t -> Dolphin_json.Field.members
-(** As journals have it. *)
-
-val of_members : Dolphin_json.Field.members -> (t, string) result
-(** Reads the output of {!members}, or gives the reason why it cannot. *)
+val fields : (t, t) Dolphin_json.Codec.fields
+(** The members that an act is written as. *)
 
 val words : t -> string
 (** ["ana (steer) answers 'Begin now?': yes"]. *)

@@ -1,7 +1,7 @@
 open Dolphin_semantics
 open Dolphin_json
 open Dolphin_geo
-open Field
+open Codec
 
 type way = Path of Position.t list | By_name
 
@@ -22,169 +22,165 @@ let time = function
   | Label { time; _ } | Vehicle { time; _ } | Event { time; _ } | Transition { time; _ } | Note { time; _ }
   | Act { time; _ } | Resumed { time; _ } | End { time; _ } -> time
 
-(* {1 Writing} *)
-
-let of_position (p : Position.t) : members =
-  [ ("latitude", Canonical.number p.latitude); ("longitude", Canonical.number p.longitude);
-    ("height", Canonical.number p.height) ]
-
-let of_state (s : World.vehicle_state) : members =
-  [ ("vehicle", `String s.id); ("type", `String s.kind); ("payload", texts s.payload) ]
-  @ of_position s.position
-  @ [ ("battery", Option.fold s.battery ~none:`Null ~some:Canonical.number); ("connected", `Bool s.connected) ]
-  @ Option.fold s.depth ~none:[] ~some:(fun x -> [ ("depth", Canonical.number x) ])
-  @ Option.fold s.altitude ~none:[] ~some:(fun x -> [ ("altitude", Canonical.number x) ])
-  @ Option.fold s.speed ~none:[] ~some:(fun x -> [ ("speed", Canonical.number x) ])
-  @ (if s.readings = [] then []
-     else [ ("readings", `Assoc (List.map (fun (name, x) -> (name, Canonical.number x)) s.readings)) ])
-  @ Option.fold s.unready ~none:[] ~some:(fun why -> [ ("unready", `String why) ])
-  @ Option.fold s.cruise ~none:[] ~some:(fun speed -> [ ("cruise", Canonical.number speed) ])
-  @ Option.fold s.drain ~none:[] ~some:(fun share -> [ ("drain", Canonical.number share) ])
-
-(* A ten-millionth of a degree is a centimetre. *)
-let of_way : way -> Yojson.Safe.t = function
-  | By_name -> `Null
-  | Path ps ->
-    let degrees x = Canonical.number (Float.round (x *. 1e7) /. 1e7) in
-    `List (List.rev (List.rev_map (fun (p : Position.t) -> `List [ degrees p.latitude; degrees p.longitude ]) ps))
-
-let of_ways ways : Yojson.Safe.t = `Assoc (List.map (fun (v, way) -> (v, of_way way)) ways)
-
-let to_json entry : Yojson.Safe.t =
-  let line kind time rest = `Assoc (("kind", `String kind) :: ("time", Canonical.number time) :: rest) in
-  match entry with
-  | Header h -> Header.to_json h
-  | Partial { observed } ->
-    let all : Yojson.Safe.t = if observed = [] then `String "all" else texts observed in
-    `Assoc (Header.format_members @ [ ("observed", all) ])
-  | Label { time; label } -> line "label" time [ ("label", `String label) ]
-  | Vehicle { time; state } -> line "vehicle" time (of_state state)
-  | Event { time; event } -> line "event" time (Event.members event)
-  | Transition { time; index; step; ways } ->
-    line "transition" time (("i", `Int index) :: Step.members step @ unless_empty "ways" of_ways ways)
-  | Note { time; vehicle; note } -> line "platform" time [ ("vehicle", `String vehicle); ("note", note) ]
-  | Act { time; act } -> line "operator" time (Act.members act)
-  | Resumed { time; program; at } ->
-    line "resumed" time [ ("program", Header.of_source program); ("at", `String at) ]
-  | End { time; transitions; ending } ->
-    line "end" time (("transitions", `Int transitions) :: Request.ending_members ending)
-
-let to_string ?notes entry =
-  match notes, to_json entry with
-  | Some n, `Assoc members -> Canonical.to_string (`Assoc (members @ [ ("notes", `Int n) ]))
-  | (Some _ | None), json -> Canonical.to_string json
-
-(* {1 Reading} *)
+(* {1 Members} *)
 
 (* Impossible values of a vehicle are not read: a share is from 0 to 1, metres are near the earth. *)
-let between low high json =
-  let* x = number json in
-  if x >= low && x <= high then Ok x else Error (Printf.sprintf "%g, not from %g to %g" x low high)
-
-let from_zero json =
-  let* x = number json in
-  if x >= 0. then Ok x else Error (Printf.sprintf "%g, not a number from 0" x)
+let from_zero = number ~least:0. ()
+let metres = number ~least:(-1e6) ~most:1e6 ()
 
 (* Limit on times: a million of the longest waits, one after the other. *)
-let latest = 1e6 *. Time.longest
-let moment = between 0. latest
+let moment = named "time" (number ~least:0. ~most:(1e6 *. Time.longest) ())
+let time_field = one "time" moment ~doc:"seconds since the start"
 
-let to_position found =
-  let* latitude = get number "latitude" found in
-  let* longitude = get number "longitude" found in
-  let* height = get (between (-20_000.) 1e6) "height" found in
-  Result.map_error (Format.asprintf "%a" Position.pp_error) (Position.make ~latitude ~longitude ~height)
+let position = Header.place ~height:(number ~least:(-20_000.) ~most:1e6 ())
 
-let to_readings json =
-  let reading (name, json) = Result.map (fun x -> (name, x)) (number json) in
-  Result.bind (members json) (fun found -> Dolphin_results.Results.map reading (List.sort Stdlib.compare found))
+let state =
+  let readings =
+    let sorted found = Ok (List.sort Stdlib.compare found) in
+    conv sorted Fun.id (map (number ()))
+  in
+  let+ id = field "vehicle" text (fun (s : World.vehicle_state) -> s.id)
+  and+ kind = field "type" text (fun (s : World.vehicle_state) -> s.kind)
+  and+ payload = field "payload" (list text) (fun (s : World.vehicle_state) -> s.payload)
+  and+ position = part (fun (s : World.vehicle_state) -> s.position) position
+  and+ battery =
+    field "battery" (nullable (number ~least:0. ~most:1. ())) (fun (s : World.vehicle_state) -> s.battery)
+      ~doc:"a share; null: not known"
+  and+ connected = field "connected" truth (fun (s : World.vehicle_state) -> s.connected)
+  and+ depth = optional "depth" metres (fun (s : World.vehicle_state) -> s.depth) ~doc:"metres"
+  and+ altitude = optional "altitude" metres (fun (s : World.vehicle_state) -> s.altitude) ~doc:"metres"
+  and+ speed = optional "speed" ~null:true from_zero (fun (s : World.vehicle_state) -> s.speed) ~doc:"m/s"
+  and+ readings = default [] "readings" readings (fun (s : World.vehicle_state) -> s.readings)
+  and+ unready = optional "unready" text (fun (s : World.vehicle_state) -> s.unready)
+  and+ cruise = optional "cruise" from_zero (fun (s : World.vehicle_state) -> s.cruise) ~doc:"m/s"
+  and+ drain = optional "drain" from_zero (fun (s : World.vehicle_state) -> s.drain) in
+  { World.id; kind; payload; position; depth; altitude; battery; speed; readings; connected; unready; cruise; drain }
 
-let to_state found =
-  let* id = get text "vehicle" found in
-  let* kind = get text "type" found in
-  let* payload = get (list text) "payload" found in
-  let* position = to_position found in
-  let* battery = get (nullable (between 0. 1.)) "battery" found in
-  let rate json = Result.map Option.some (from_zero json) in
-  let metres json = Result.map Option.some (between (-1e6) 1e6 json) in
-  let* depth = optional metres ~default:None "depth" found in
-  let* altitude = optional metres ~default:None "altitude" found in
-  let* connected = get truth "connected" found in
-  let* speed = optional (nullable from_zero) ~default:None "speed" found in
-  let* readings = optional to_readings ~default:[] "readings" found in
-  let* unready = optional (fun json -> Result.map Option.some (text json)) ~default:None "unready" found in
-  let* cruise = optional rate ~default:None "cruise" found in
-  let* drain = optional rate ~default:None "drain" found in
-  Ok { World.id; kind; payload; position; depth; altitude; battery; speed; readings; connected; unready; cruise; drain }
+let of_state = Codec.members state
+let to_state = Codec.of_members state
 
-let to_place json =
-  match (json : Yojson.Safe.t) with
-  | `List [ latitude; longitude ] ->
-    let* latitude = number latitude in
-    let* longitude = number longitude in
-    Result.map_error (Format.asprintf "%a" Position.pp_error) (Position.make ~latitude ~longitude ~height:0.)
-  | _ -> Error "a place is [latitude, longitude]"
+(* A ten-millionth of a degree is a centimetre. *)
+let way_place =
+  let degrees x = Float.round (x *. 1e7) /. 1e7 in
+  let of_list = function
+    | [ latitude; longitude ] ->
+      let latitude = degrees latitude and longitude = degrees longitude in
+      Result.map_error (Format.asprintf "%a" Position.pp_error) (Position.make ~latitude ~longitude ~height:0.)
+    | _ -> Error "not a place: [latitude, longitude]"
+  in
+  let to_list (p : Position.t) = [ degrees p.latitude; degrees p.longitude ] in
+  conv of_list to_list (limited [ ("minItems", `Int 2); ("maxItems", `Int 2) ] (list (number ())))
 
-let to_way : Yojson.Safe.t -> (way, string) result = function
-  | `Null -> Ok By_name
-  | json -> Result.map (fun ps -> Path ps) (list to_place json)
+let way =
+  let of_path = function None -> By_name | Some ps -> Path ps
+  and to_path = function By_name -> None | Path ps -> Some ps in
+  conv (fun ps -> Ok (of_path ps)) to_path (nullable (limited [ ("minItems", `Int 1) ] (list way_place)))
 
-let to_ways json =
-  let* found = members json in
-  Dolphin_results.Results.map_values to_way found
+(* {1 Kinds} *)
 
-let of_members found =
-  let* kind = get text "kind" found in
-  let* time = if kind = "label" then optional moment ~default:0. "time" found else get moment "time" found in
-  match kind with
-  | "label" -> Result.map (fun label -> Label { time; label }) (get text "label" found)
-  | "vehicle" -> Result.map (fun state -> Vehicle { time; state }) (to_state found)
-  | "event" -> Result.map (fun event -> Event { time; event }) (Event.of_members found)
-  | "transition" ->
-    let* index = get whole "i" found in
-    let* step = Step.of_members found in
-    let* ways = optional to_ways ~default:[] "ways" found in
-    Ok (Transition { time; index; step; ways })
-  | "platform" ->
-    let* vehicle = get text "vehicle" found in
-    let* note = get members "note" found in
-    Ok (Note { time; vehicle; note = `Assoc note })
-  | "operator" -> Result.map (fun act -> Act { time; act }) (Act.of_members found)
-  | "resumed" ->
-    let* program = get Header.to_source "program" found in
-    let* at = get text "at" found in
-    Ok (Resumed { time; program; at })
-  | "end" ->
-    let* transitions = get whole "transitions" found in
-    let* ending = Request.ending_of_members found in
-    Ok (End { time; transitions; ending })
-  | other -> Error (Printf.sprintf "unknown kind of line: %S" other)
+let vehicle = case "vehicle" (time_field @& state) (fun (time, state) -> Vehicle { time; state })
+let event = case "event" (time_field @& Event.fields) (fun (time, event) -> Event { time; event })
+
+let transition =
+  case "transition"
+    (time_field @& one "i" count @& Step.fields @& default [] "ways" (map way) Fun.id ~doc:"of vehicles that start")
+    (fun (time, (index, (step, ways))) -> Transition { time; index; step; ways })
+
+(* A partial trace may be without times. *)
+let label =
+  let time = default 0. "time" moment Fun.id ~always:true in
+  let text = limited [ ("minLength", `Int 1) ] text in
+  case "label" (time @& one "label" text) (fun (time, label) -> Label { time; label })
+
+let platform =
+  case "platform" (time_field @& one "vehicle" text @& one "note" object_) (fun (time, (vehicle, note)) ->
+      Note { time; vehicle; note })
+
+let operator = case "operator" (time_field @& Act.fields) (fun (time, act) -> Act { time; act })
+
+let resumed =
+  case "resumed" (time_field @& one "program" Header.source_codec @& one "at" Header.utc)
+    (fun (time, (program, at)) -> Resumed { time; program; at })
+
+let end_ =
+  case "end" (time_field @& one "transitions" count @& Request.ending_fields) (fun (time, (transitions, ending)) ->
+      End { time; transitions; ending })
+
+let kinds =
+  [ Case vehicle; Case event; Case transition; Case label; Case platform; Case operator; Case resumed; Case end_ ]
+
+let choose = function
+  | Vehicle { time; state } -> Is (vehicle, (time, state))
+  | Event { time; event = e } -> Is (event, (time, e))
+  | Transition { time; index; step; ways } -> Is (transition, (time, (index, (step, ways))))
+  | Label { time; label = text } -> Is (label, (time, text))
+  | Note { time; vehicle; note } -> Is (platform, (time, (vehicle, note)))
+  | Act { time; act } -> Is (operator, (time, act))
+  | Resumed { time; program; at } -> Is (resumed, (time, (program, at)))
+  | End { time; transitions; ending } -> Is (end_, (time, (transitions, ending)))
+  | Header _ | Partial _ -> invalid_arg "Entry.choose: a first line"
+
+(* {1 Lines} *)
+
+let line =
+  record
+    (let+ entry = part fst (union ~tag:"kind" kinds choose)
+     and+ notes = optional "notes" (whole ()) snd ~doc:"notes of platforms so far" in
+     (entry, notes))
+
+let some_texts = limited [ ("minItems", `Int 1) ] (list text)
 
 (* Which labels a trace has: all, or those of some kinds. *)
-let to_observed : Yojson.Safe.t -> (string list, string) result = function
-  | `String "all" -> Ok []
-  | json -> (
-      match list text json with
-      | Ok [] -> Error "an empty list: a trace with no labels"
-      | found -> found)
+let observed =
+  let all = form (const (`String "all")) (fun () -> [])
+  and some =
+    let not_empty = function [] -> Error "an empty list: a trace with no labels" | found -> Ok found in
+    form (conv not_empty Fun.id some_texts) Fun.id
+  in
+  either
+    (function `String "all" -> Form all | _ -> Form some)
+    (function [] -> As (all, ()) | found -> As (some, found))
+    [ Form all; Form some ]
+
+let partial =
+  named "partial"
+    (record
+       (let+ () = Header.format_fields ()
+        and+ observed = field "observed" observed Fun.id ~doc:"kinds of labels" in
+        observed))
+
+let codec =
+  let header = form Header.codec (fun h -> (Header h, None))
+  and partial = form partial (fun observed -> (Partial { observed }, None))
+  and line = form line Fun.id in
+  let recognise : json -> _ = function
+    | `Assoc found when List.mem_assoc "observed" found -> Form partial
+    | `Assoc (("format", _) :: _) -> Form header
+    | _ -> Form line
+  in
+  let choose = function
+    | Header h, _ -> As (header, h)
+    | Partial { observed }, _ -> As (partial, observed)
+    | numbered -> As (line, numbered)
+  in
+  either recognise choose [ Form header; Form partial; Form line ]
+
+let to_string ?notes entry = to_string codec (entry, notes)
 
 let first_of_json json =
   match json with
   | `Assoc found when List.mem_assoc "observed" found ->
-    let* () = Header.check_format json in
-    Result.map (fun observed -> Partial { observed }) (get to_observed "observed" found)
+    Result.bind (Header.check_format json) (fun () ->
+        Result.map (fun observed -> Partial { observed }) (read partial json))
   | json -> Result.map (fun h -> Header h) (Header.of_json json)
 
 let first_of_string line = first_of_json (Result.value (Host_value.parse line) ~default:`Null)
 
-let of_numbered_string line =
-  match Host_value.parse line with
+let of_numbered_string text =
+  match Host_value.parse text with
   | Error why -> Error ("this is not JSON: " ^ why)
   | Ok (`Assoc (("format", _) :: _) as json) -> Result.map (fun entry -> (entry, None)) (first_of_json json)
-  | Ok (`Assoc found) ->
-    let* entry = of_members found in
-    let* notes = optional (fun json -> Result.map Option.some (whole json)) ~default:None "notes" found in
-    Ok (entry, notes)
+  | Ok (`Assoc _ as json) -> read line json
   | Ok _ -> Error "this is not JSON object"
 
 let of_string line = Result.map fst (of_numbered_string line)

@@ -32,6 +32,9 @@ val time : t -> float
 val to_string : ?notes:int -> t -> string
 (** One line, without its end; with the member [notes], if that is given. *)
 
+val codec : (t * int option) Dolphin_json.Codec.t
+(** Lines, each with the member [notes]. *)
+
 val of_string : string -> (t, string) result
 (** Or what is wrong, in a sentence without a full stop. Unknown members are ignored. *)
 

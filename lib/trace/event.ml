@@ -1,6 +1,6 @@
 open Dolphin_semantics
 open Dolphin_json
-open Field
+open Codec
 
 type t =
   | Done of string
@@ -61,51 +61,55 @@ let to_event program c : t -> (Transition.event, fault) result = function
       | Error why -> Error (No_value why))
   | Interruption _ -> Ok Interruption
 
-let members h : members =
-  let event name rest = ("event", `String name) :: rest in
-  match h with
-  | Done v -> event "done" [ ("vehicle", `String v) ]
-  | Failed { vehicle; why } -> event "failed" [ ("vehicle", `String vehicle); ("why", `String why) ]
-  | Timer timer -> event "timer" [ ("timer", `Int timer) ]
-  | Confirmation { question; yes } -> event "confirmation" [ ("question", `Int question); ("yes", `Bool yes) ]
-  | No_confirmation { question; why } ->
-    event "no-confirmation" [ ("question", `Int question); ("why", `String why) ]
-  | Recruited { recruit; vehicle } -> event "recruited" [ ("recruit", `Int recruit); ("vehicle", `String vehicle) ]
-  | Answer text -> event "answer" [ ("text", `String text) ]
-  | No_answer why -> event "no-answer" [ ("why", `String why) ]
-  | Reply json -> event "reply" [ ("value", json) ]
-  | No_reply why -> event "no-reply" [ ("why", `String why) ]
-  | Input { key; value } -> event "input" [ ("key", `String key); ("value", value) ]
-  | Interruption { stuck } -> event "interruption" (if stuck then [ ("stuck", `Bool true) ] else [])
+let vehicle = one "vehicle" text
+let why = one "why" text
+let done_ = case "done" vehicle (fun v -> Done v)
+let failed = case "failed" (vehicle @& why) (fun (vehicle, why) -> Failed { vehicle; why })
+let timer = case "timer" (one "timer" count) (fun timer -> Timer timer)
+let question = one "question" count
 
-let of_members found =
-  let* event = get text "event" found in
-  match event with
-  | "done" -> Result.map (fun v -> Done v) (get text "vehicle" found)
-  | "failed" ->
-    let* vehicle = get text "vehicle" found in
-    let* why = get text "why" found in
-    Ok (Failed { vehicle; why })
-  | "timer" -> Result.map (fun timer -> Timer timer) (get whole "timer" found)
-  | "confirmation" ->
-    let* question = get whole "question" found in
-    Result.map (fun yes -> Confirmation { question; yes }) (get truth "yes" found)
-  | "no-confirmation" ->
-    let* question = get whole "question" found in
-    Result.map (fun why -> No_confirmation { question; why }) (get text "why" found)
-  | "recruited" ->
-    let* recruit = get whole "recruit" found in
-    Result.map (fun vehicle -> Recruited { recruit; vehicle }) (get text "vehicle" found)
-  | "answer" -> Result.map (fun text -> Answer text) (get text "text" found)
-  | "no-answer" -> Result.map (fun why -> No_answer why) (get text "why" found)
-  | "reply" -> Result.map (fun json -> Reply json) (get any "value" found)
-  | "no-reply" -> Result.map (fun why -> No_reply why) (get text "why" found)
-  | "input" ->
-    let* key = get text "key" found in
-    let* value = get any "value" found in
-    Ok (Input { key; value })
-  | "interruption" -> Result.map (fun stuck -> Interruption { stuck }) (optional truth ~default:false "stuck" found)
-  | other -> Error (Printf.sprintf "unknown kind of event: %S" other)
+let confirmation =
+  case "confirmation" (question @& one "yes" truth) (fun (question, yes) -> Confirmation { question; yes })
+
+let no_confirmation =
+  case "no-confirmation" (question @& why) (fun (question, why) -> No_confirmation { question; why })
+
+let recruited =
+  case "recruited" (one "recruit" count @& vehicle) (fun (recruit, vehicle) -> Recruited { recruit; vehicle })
+
+let an_answer = case "answer" (one "text" text) (fun text -> Answer text)
+let no_answer = case "no-answer" why (fun why -> No_answer why)
+let reply = case "reply" (one "value" any) (fun json -> Reply json)
+let no_reply = case "no-reply" why (fun why -> No_reply why)
+let input = case "input" (one "key" text @& one "value" any) (fun (key, value) -> Input { key; value })
+
+(* The member is written if it is true. *)
+let interruption =
+  let stuck = default false "stuck" (limited [ ("const", `Bool true) ] truth) Fun.id in
+  case "interruption" stuck (fun stuck -> Interruption { stuck })
+
+let fields =
+  let choose = function
+    | Done v -> Is (done_, v)
+    | Failed { vehicle; why } -> Is (failed, (vehicle, why))
+    | Timer i -> Is (timer, i)
+    | Confirmation { question; yes } -> Is (confirmation, (question, yes))
+    | No_confirmation { question; why } -> Is (no_confirmation, (question, why))
+    | Recruited { recruit; vehicle } -> Is (recruited, (recruit, vehicle))
+    | Answer text -> Is (an_answer, text)
+    | No_answer why -> Is (no_answer, why)
+    | Reply json -> Is (reply, json)
+    | No_reply why -> Is (no_reply, why)
+    | Input { key; value } -> Is (input, (key, value))
+    | Interruption { stuck } -> Is (interruption, stuck)
+  in
+  union ~tag:"event"
+    [ Case done_; Case failed; Case timer; Case confirmation; Case no_confirmation; Case recruited; Case an_answer;
+      Case no_answer; Case reply; Case no_reply; Case input; Case interruption ]
+    choose
+
+let members = Codec.members fields
+let of_members = Codec.of_members fields
 
 let pp ppf h =
   let print format = Format.fprintf ppf format in

@@ -29,6 +29,9 @@ type fault =
 val to_event : Core.program -> Configuration.t -> t -> (Transition.event, fault) result
 (** [to_event p c h] is the event, for [c]: tasks in a reply come from the place of the script of [c]. *)
 
+val fields : (t, t) Dolphin_json.Codec.fields
+(** The members that an event is written as. *)
+
 val members : t -> Dolphin_json.Field.members
 (** As journals and the step protocol have it. *)
 

@@ -1,4 +1,5 @@
-open Dolphin_json.Field
+open Dolphin_json
+open Codec
 
 type source = { path : string; hash : string; set : (string * string) list }
 
@@ -19,10 +20,13 @@ let format = "dolphin-journal"
 let version = 1
 let source ?(set = []) ~path text = { path; hash = Digest.to_hex (Digest.string text); set }
 
-let of_source s : Yojson.Safe.t =
-  let of_setting (x, text) = (x, `String text) in
-  let set = if s.set = [] then [] else [ ("set", `Assoc (List.map of_setting s.set)) ] in
-  `Assoc ([ ("path", `String s.path); ("md5", `String s.hash) ] @ set)
+let source_codec =
+  named "source"
+    (record
+       (let+ path = field "path" text (fun s -> s.path)
+        and+ hash = field "md5" (limited [ ("pattern", `String "^[0-9a-f]{32}$") ] text) (fun s -> s.hash)
+        and+ set = default [] "set" (map text) (fun s -> s.set) ~doc:"parameters that were set" in
+        { path; hash; set }))
 
 (* {1 Times} *)
 
@@ -40,82 +44,55 @@ let of_utc text =
 
 (* {1 JSON} *)
 
-let of_place (p : Dolphin_geo.Position.t) : Yojson.Safe.t =
-  let number = Dolphin_json.Canonical.number in
-  `Assoc
-    [ ("latitude", number p.latitude); ("longitude", number p.longitude); ("height", number p.height) ]
-
-let to_place json =
-  let* found = members json in
-  let* latitude = get number "latitude" found in
-  let* longitude = get number "longitude" found in
-  let* height = get number "height" found in
-  let place = Dolphin_geo.Position.make ~latitude ~longitude ~height in
-  Result.map_error (Format.asprintf "%a" Dolphin_geo.Position.pp_error) place
-
-let format_members : members = [ ("format", `String format); ("version", `Int version) ]
-
-let of_order : Dolphin_semantics.World.order -> members = function
-  | By_hearing -> []
-  | By_id -> [ ("order", `String "id") ]
-
-let to_order json : (Dolphin_semantics.World.order, string) result =
-  match json with
-  | `String "id" -> Ok By_id
-  | _ -> Error "the order of vehicles is \"id\" or absent"
-
-let to_json h : Yojson.Safe.t =
-  `Assoc
-    (format_members
-     @ [ ("program", of_source h.program);
-         ("fleet", of_option of_source h.fleet);
-         ("platform", `String h.platform);
-         ("seed", `Int h.seed);
-         ("speed", of_option Dolphin_json.Canonical.number h.speed);
-         ("started", `String h.started) ]
-     @ Option.fold h.run ~none:[] ~some:(fun run -> [ ("run", `String run) ])
-     @ of_order h.order
-     @ unless_empty "fences" (fun fences -> `List (List.map Dolphin_json.On_map.fence fences)) h.fences
-     @ Option.fold h.place ~none:[] ~some:(fun place -> [ ("place", of_place place) ]))
-
-let to_settings json =
-  let add settings (x, value) =
-    let* settings = settings in
-    Result.map (fun text -> (x, text) :: settings) (text value)
+let place ~height =
+  let of_parts (latitude, (longitude, height)) =
+    Result.map_error (Format.asprintf "%a" Dolphin_geo.Position.pp_error)
+      (Dolphin_geo.Position.make ~latitude ~longitude ~height)
   in
-  let* found = members json in
-  Result.map List.rev (List.fold_left add (Ok []) found)
+  let to_parts (p : Dolphin_geo.Position.t) = (p.latitude, (p.longitude, p.height)) in
+  let degrees most = limited [ ("minimum", `Int (-most)); ("maximum", `Int most) ] (number ()) in
+  check of_parts (part to_parts (one "latitude" (degrees 90) ~doc:"degrees" @& one "longitude" (degrees 180) ~doc:"degrees" @& one "height" height ~doc:"metres"))
 
-let to_source json =
-  let* found = members json in
-  let* path = get text "path" found in
-  let* hash = get text "md5" found in
-  let* set = optional to_settings ~default:[] "set" found in
-  Ok { path; hash; set }
+let format_fields () =
+  let+ () = fixed "format" (`String format)
+  and+ () = fixed "version" (`Int version) in
+  ()
+
+let format_members = Codec.members (format_fields ()) ()
 
 let check_format json =
   match json with
   | `Assoc found when List.assoc_opt "format" found = Some (`String format) ->
-    let* its_version = get whole "version" found in
-    if its_version = version then Ok ()
-    else Error (Printf.sprintf "this journal is of version %d; version %d is known here" its_version version)
+    let its_version = Codec.of_members (one "version" (whole ())) found in
+    Result.bind its_version (fun its_version ->
+        if its_version = version then Ok ()
+        else Error (Printf.sprintf "this journal is of version %d; version %d is known here" its_version version))
   | _ -> Error "this is not a journal: its first line is not the header of one"
 
-let positive json =
-  let* x = number json in
-  if x > 0. then Ok x else Error (Printf.sprintf "%g, not a number above 0" x)
+let positive =
+  let check x = if x > 0. then Ok x else Error (Printf.sprintf "%g, not a number above 0" x) in
+  limited [ ("exclusiveMinimum", `Int 0) ] (conv check Fun.id (number ()))
 
-let of_json json =
-  let* () = check_format json in
-  let* found = members json in
-  let* program = get to_source "program" found in
-  let* fleet = get (nullable to_source) "fleet" found in
-  let* platform = get text "platform" found in
-  let* run = optional (fun json -> Result.map Option.some (text json)) ~default:None "run" found in
-  let* order = optional to_order ~default:By_hearing "order" found in
-  let* seed = get whole "seed" found in
-  let* speed = get (nullable positive) "speed" found in
-  let* started = get text "started" found in
-  let* fences = optional (list Dolphin_json.On_map.to_fence) ~default:[] "fences" found in
-  let* place = optional (fun json -> Result.map Option.some (to_place json)) ~default:None "place" found in
-  Ok { program; fleet; platform; order; seed; speed; started; run; fences; place }
+let utc = limited [ ("pattern", `String "^[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}Z$") ] text
+
+let codec =
+  let order = enum [ ("id", Dolphin_semantics.World.By_id) ] in
+  named "header"
+    (record
+       (let+ () = format_fields ()
+        and+ program = field "program" source_codec (fun h -> h.program)
+        and+ fleet = field "fleet" (nullable source_codec) (fun h -> h.fleet) ~doc:"null: the built-in fleet"
+        and+ platform = field "platform" text (fun h -> h.platform)
+        and+ seed = field "seed" (whole ()) (fun h -> h.seed)
+        and+ speed =
+          field "speed" (nullable positive) (fun h -> h.speed)
+            ~doc:"of a simulation, times real time; null: as fast as it goes"
+        and+ started = field "started" utc (fun h -> h.started)
+        and+ run = optional "run" text (fun h -> h.run) ~doc:"of a run on vehicles of a network: its identity"
+        and+ order = default Dolphin_semantics.World.By_hearing "order" order (fun h -> h.order) ~doc:"of vehicles"
+        and+ fences = default [] "fences" (list On_map.fence) (fun h -> h.fences)
+        and+ place = optional "place" (record (place ~height:(number ()))) (fun h -> h.place) ~doc:"of plans without one" in
+        { program; fleet; platform; order; seed; speed; started; run; fences; place }))
+
+let to_json = write codec
+let of_json json = Result.bind (check_format json) (fun () -> read codec json)

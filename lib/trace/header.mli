@@ -24,17 +24,27 @@ type t = {
 val source : ?set:(string * string) list -> path:string -> string -> source
 (** [source ~set ~path text] is the file [path] whose contents are [text]; nothing is [set] by default. *)
 
-val of_source : source -> Yojson.Safe.t
+val source_codec : source Dolphin_json.Codec.t
 (** Its path, its hash, and its parameters. *)
 
-val to_source : Yojson.Safe.t -> (source, string) result
-(** Reads the output of {!of_source}. *)
+val place :
+  height:float Dolphin_json.Codec.t -> (Dolphin_geo.Position.t, Dolphin_geo.Position.t) Dolphin_json.Codec.fields
+(** [place ~height] is [latitude], [longitude] and [height]. *)
+
+val utc : string Dolphin_json.Codec.t
+(** A time, as {!of_utc} reads it. *)
+
+val codec : t Dolphin_json.Codec.t
+(** First lines of journals. *)
 
 val of_utc : string -> float option
 (** [of_utc "2026-03-01T12:00:00Z"] is that time in seconds since the beginning of 1970; [None] for any other text. *)
 
 val version : int
 (** Of the format: 1. *)
+
+val format_fields : unit -> ('o, unit) Dolphin_json.Codec.fields
+(** The beginning of first lines: [format] and [version]. *)
 
 val format_members : Dolphin_json.Field.members
 (** The beginning of first lines. *)

@@ -1,6 +1,6 @@
 open Dolphin_semantics
 open Dolphin_json
-open Field
+open Codec
 
 type ending = { how : string; message : string option }
 
@@ -44,75 +44,74 @@ let of_effect : Effect.t -> t = function
   | Call_host { subject; member; _ } -> Call (Machine.name_of_call ~subject ~member)
   | End e -> End (ending e)
 
-let ending_members e : members =
-  ("ending", `String e.how) :: (match e.message with None -> [] | Some text -> [ ("message", `String text) ])
+(* {1 JSON} *)
 
-let ending_of_members found =
-  let* how' = get text "ending" found in
-  let* message = optional (nullable text) ~default:None "message" found in
-  if List.mem how' how then Ok { how = how'; message } else Error (Printf.sprintf "no run ends %S" how')
+let ending_fields =
+  let+ how = field "ending" (enum (List.map (fun name -> (name, name)) how)) (fun (e : ending) -> e.how)
+  and+ message = optional "message" text (fun (e : ending) -> e.message) ~null:true in
+  { how; message }
 
-(* A timer may be infinite: JSON has no number for that. *)
-let of_seconds seconds : Yojson.Safe.t = if Float.is_finite seconds then Canonical.number seconds else `Null
+let ending_members = Codec.members ending_fields
 
-(* No finite time of a program is as long. *)
-let seconds json =
-  let* x = number json in
-  if Float.abs x <= Time.longest then Ok x
-  else Error (Printf.sprintf "%g, not a number of seconds up to %g" x Time.longest)
+(* A timer may be infinite: JSON has no number for that. No finite time of a program is as long as the limit. *)
+let seconds =
+  conv
+    (fun x -> Ok (Option.value x ~default:infinity))
+    (fun x -> if Float.is_finite x then Some x else None)
+    (nullable (number ~least:(-.Time.longest) ~most:Time.longest ()))
 
-let to_seconds json = Result.map (Option.value ~default:infinity) (nullable seconds json)
+(* Lists that are written have an element. *)
+let some_texts = named "some-texts" (limited [ ("minItems", `Int 1) ] (list text))
 
-let to_json r : Yojson.Safe.t =
-  let one name text = [ (name, `String text) ] in
-  `Assoc
-    (match r with
-     | Start { vehicle; plan } -> one "start" plan @ one "on" vehicle
-     | Stop v -> one "stop" v
-     | Set_timer { timer; seconds } -> [ ("set-timer", `Int timer); ("seconds", of_seconds seconds) ]
-     | Cancel_timer timer -> [ ("cancel-timer", `Int timer) ]
-     | Put_question { question; prompt } -> [ ("put-question", `Int question); ("prompt", `String prompt) ]
-     | Withdraw_question question -> [ ("withdraw-question", `Int question) ]
-     | Look_for what -> one "look-for" what
-     | Bind vs -> [ ("bind", texts vs) ]
-     | Release vs -> [ ("release", texts vs) ]
-     | Set_connection_timeout { vehicles; seconds } ->
-       [ ("connection-timeout", of_seconds seconds); ("of", of_option texts vehicles) ]
-     | Say text -> one "say" text
-     | Ask prompt -> one "ask" prompt
-     | Call what -> one "call" what
-     | End e -> [ ("end", `Assoc (ending_members e)) ])
+let start = case "start" (one "start" text @& one "on" text) (fun (plan, vehicle) -> Start { vehicle; plan })
+let stop = case "stop" (one "stop" text) (fun v -> Stop v)
 
-let of_json json =
-  let* found = members json in
-  let one name make = Result.map make (get text name found) in
-  match found with
-  | ("start", _) :: _ ->
-    let* plan = get text "start" found in
-    let* vehicle = get text "on" found in
-    Ok (Start { vehicle; plan })
-  | ("stop", _) :: _ -> one "stop" (fun v -> Stop v)
-  | ("set-timer", _) :: _ ->
-    let* timer = get whole "set-timer" found in
-    let* seconds = get to_seconds "seconds" found in
-    Ok (Set_timer { timer; seconds })
-  | ("cancel-timer", _) :: _ -> Result.map (fun timer -> Cancel_timer timer) (get whole "cancel-timer" found)
-  | ("put-question", _) :: _ ->
-    let* question = get whole "put-question" found in
-    Result.map (fun prompt -> Put_question { question; prompt }) (get text "prompt" found)
-  | ("withdraw-question", _) :: _ ->
-    Result.map (fun question -> Withdraw_question question) (get whole "withdraw-question" found)
-  | ("look-for", _) :: _ -> one "look-for" (fun what -> Look_for what)
-  | ("bind", _) :: _ -> Result.map (fun vs -> Bind vs) (get (list text) "bind" found)
-  | ("release", _) :: _ -> Result.map (fun vs -> Release vs) (get (list text) "release" found)
-  | ("connection-timeout", _) :: _ ->
-    let* seconds = get to_seconds "connection-timeout" found in
-    let* vehicles = get (nullable (list text)) "of" found in
-    Ok (Set_connection_timeout { vehicles; seconds })
-  | ("say", _) :: _ -> one "say" (fun text -> Say text)
-  | ("ask", _) :: _ -> one "ask" (fun prompt -> Ask prompt)
-  | ("call", _) :: _ -> one "call" (fun what -> Call what)
-  | ("end", _) :: _ ->
-    let* ending = get members "end" found in
-    Result.map (fun e -> End e) (ending_of_members ending)
-  | _ -> Error (Printf.sprintf "%s asks for nothing that is known" (Canonical.to_string json))
+let set_timer =
+  case "set-timer" (one "set-timer" count @& one "seconds" seconds) (fun (timer, seconds) ->
+      Set_timer { timer; seconds })
+
+let cancel_timer = case "cancel-timer" (one "cancel-timer" count) (fun timer -> Cancel_timer timer)
+
+let put_question =
+  case "put-question" (one "put-question" count @& one "prompt" text) (fun (question, prompt) ->
+      Put_question { question; prompt })
+
+let withdraw_question =
+  case "withdraw-question" (one "withdraw-question" count) (fun question -> Withdraw_question question)
+
+let look_for = case "look-for" (one "look-for" text) (fun what -> Look_for what)
+let bind = case "bind" (one "bind" some_texts) (fun vs -> Bind vs)
+let release = case "release" (one "release" (list text)) (fun vs -> Release vs)
+
+let connection_timeout =
+  case "connection-timeout"
+    (one "connection-timeout" seconds @& one "of" (nullable (list text)) ~doc:"null: all vehicles")
+    (fun (seconds, vehicles) -> Set_connection_timeout { vehicles; seconds })
+
+let say = case "say" (one "say" text) (fun text -> Say text)
+let ask = case "ask" (one "ask" text) (fun prompt -> Ask prompt)
+let call = case "call" (one "call" text) (fun what -> Call what)
+let end_ = case "end" (one "end" (record ending_fields)) (fun e -> End e)
+
+let codec =
+  let choose = function
+    | Start { vehicle; plan } -> Is (start, (plan, vehicle))
+    | Stop v -> Is (stop, v)
+    | Set_timer { timer; seconds } -> Is (set_timer, (timer, seconds))
+    | Cancel_timer timer -> Is (cancel_timer, timer)
+    | Put_question { question; prompt } -> Is (put_question, (question, prompt))
+    | Withdraw_question question -> Is (withdraw_question, question)
+    | Look_for what -> Is (look_for, what)
+    | Bind vs -> Is (bind, vs)
+    | Release vs -> Is (release, vs)
+    | Set_connection_timeout { vehicles; seconds } -> Is (connection_timeout, (seconds, vehicles))
+    | Say text -> Is (say, text)
+    | Ask prompt -> Is (ask, prompt)
+    | Call what -> Is (call, what)
+    | End e -> Is (end_, e)
+  in
+  named "effect"
+    (keyed
+       [ Case start; Case stop; Case set_timer; Case cancel_timer; Case put_question; Case withdraw_question;
+         Case look_for; Case bind; Case release; Case connection_timeout; Case say; Case ask; Case call; Case end_ ]
+       choose)

@@ -32,14 +32,14 @@ val how : string list
 (** How runs end: ["completed"], ["halted"], ["failed"], ["interrupted"], and, of whole runs but not of their last
     effects, ["stuck"]. *)
 
-val to_json : t -> Yojson.Safe.t
-(** An object, as {!of_json} reads it. *)
+val codec : t Dolphin_json.Codec.t
+(** Objects whose first member is the kind of the request. *)
 
-val of_json : Yojson.Safe.t -> (t, string) result
-(** Reads the object that {!to_json} writes. *)
+val some_texts : string list Dolphin_json.Codec.t
+(** A list of texts, which is written if it is not empty. *)
+
+val ending_fields : (ending, ending) Dolphin_json.Codec.fields
+(** The members of an ending. *)
 
 val ending_members : ending -> Dolphin_json.Field.members
-(** As {!ending_of_members} reads them. *)
-
-val ending_of_members : Dolphin_json.Field.members -> (ending, string) result
-(** Reads the members that {!ending_members} writes. *)
+(** [ending_members e] is {!ending_fields} of [e]. *)

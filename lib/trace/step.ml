@@ -1,6 +1,5 @@
-open Dolphin_results
 open Dolphin_semantics
-open Dolphin_json.Field
+open Dolphin_json.Codec
 module Location = Dolphin_syntax.Location
 module String_set = Set.Make (String)
 
@@ -138,12 +137,9 @@ let of_transition program (before : Configuration.t) (t : Transition.t) =
 let text_of_place { file; line; column } =
   String.concat ":" (Option.to_list file @ [ string_of_int line; string_of_int column ])
 
-let of_place place : Yojson.Safe.t = `String (text_of_place place)
-
-let to_place json =
-  let* place = text json in
-  let wrong = Error (Printf.sprintf "%S, not a line and a column" place) in
-  match List.rev (String.split_on_char ':' place) with
+let place_of_text text =
+  let wrong = Error (Printf.sprintf "%S, not a line and a column" text) in
+  match List.rev (String.split_on_char ':' text) with
   | column :: line :: file -> (
       let file = if file = [] then None else Some (String.concat ":" (List.rev file)) in
       match int_of_string_opt line, int_of_string_opt column with
@@ -151,44 +147,36 @@ let to_place json =
       | (Some _ | None), _ -> wrong)
   | [ _ ] | [] -> wrong
 
-let of_allocated changes : Yojson.Safe.t =
-  `Assoc (List.map (fun (v, name) -> (v, of_option (fun name -> `String name) name)) changes)
+let at =
+  let pattern = "^(.*:)?[1-9][0-9]*:[1-9][0-9]*$" in
+  limited [ ("pattern", `String pattern) ] (conv place_of_text text_of_place text)
 
-let to_allocated json =
-  let* changes = members json in
-  Results.map_values (nullable text) changes
+let rule = limited [ ("pattern", `String "^[A-Z][A-Z0-9]*(-[A-Z0-9]+)*$") ] text
 
 (* The additions to B or N, and the removals. *)
-let of_difference name ~come:(come, xs) ~gone:(gone, ys) : members =
-  match unless_empty come texts xs @ unless_empty gone texts ys with
-  | [] -> []
-  | differences -> [ (name, `Assoc differences) ]
+let difference ~come ~gone =
+  let one name get = default [] name Request.some_texts get in
+  limited
+    [ ("additionalProperties", `Bool false); ("minProperties", `Int 1) ]
+    (record
+       (let+ come = one come fst
+        and+ gone = one gone snd in
+        (come, gone)))
 
-let to_difference ~come ~gone json =
-  let* found = Dolphin_json.Field.members json in
-  let* come = optional (list text) ~default:[] come found in
-  let* gone = optional (list text) ~default:[] gone found in
-  Ok (come, gone)
+let fields =
+  let+ rules = field "rule" (limited [ ("minItems", `Int 1) ] (list rule)) (fun s -> s.rules)
+  and+ label = field "label" (limited [ ("minLength", `Int 1) ] text) (fun s -> s.label)
+  and+ at = optional "at" at (fun s -> s.at) ~doc:"file, line and column; without a file: of the program"
+  and+ choice = default 0 "choice" count (fun s -> s.choice)
+  and+ allocated = default [] "A" (map (nullable text)) (fun s -> s.allocated)
+  and+ bound, released =
+    default ([], []) "B" (difference ~come:"bound" ~gone:"released") (fun s -> (s.bound, s.released))
+  and+ posted, consumed =
+    default ([], []) "N" (difference ~come:"posted" ~gone:"consumed") (fun s -> (s.posted, s.consumed))
+  and+ requests = default [] "effects" (limited [ ("minItems", `Int 1) ] (list Request.codec)) (fun s -> s.requests) in
+  { rules; label; at; choice; allocated; bound; released; posted; consumed; requests }
 
-let members s : members =
-  [ ("rule", texts s.rules); ("label", `String s.label) ]
-  @ (match s.at with None -> [] | Some place -> [ ("at", of_place place) ])
-  @ (if s.choice = 0 then [] else [ ("choice", `Int s.choice) ])
-  @ unless_empty "A" of_allocated s.allocated
-  @ of_difference "B" ~come:("bound", s.bound) ~gone:("released", s.released)
-  @ of_difference "N" ~come:("posted", s.posted) ~gone:("consumed", s.consumed)
-  @ unless_empty "effects" (fun requests -> `List (List.map Request.to_json requests)) s.requests
-
-let of_members found =
-  let* rules = get (list text) "rule" found in
-  let* label = get text "label" found in
-  let* at = optional (fun json -> Result.map Option.some (to_place json)) ~default:None "at" found in
-  let* choice = optional whole ~default:0 "choice" found in
-  let* allocated = optional to_allocated ~default:[] "A" found in
-  let* bound, released = optional (to_difference ~come:"bound" ~gone:"released") ~default:([], []) "B" found in
-  let* posted, consumed = optional (to_difference ~come:"posted" ~gone:"consumed") ~default:([], []) "N" found in
-  let* requests = optional (list Request.of_json) ~default:[] "effects" found in
-  Ok { rules; label; at; choice; allocated; bound; released; posted; consumed; requests }
+let members = Dolphin_json.Codec.members fields
 
 (* {1 Comparison} *)
 

@@ -48,5 +48,5 @@ val difference : places:bool -> t -> t -> string option
 val members : t -> Dolphin_json.Field.members
 (** As journals have it. *)
 
-val of_members : Dolphin_json.Field.members -> (t, string) result
-(** Reads the output of {!members}, or gives the reason why it cannot. *)
+val fields : (t, t) Dolphin_json.Codec.fields
+(** The members that a step is written as. *)

@@ -231,8 +231,8 @@ let to_lines witness =
     `Assoc
       [ ("format", `String format);
         ("version", `Int version);
-        ("program", Header.of_source witness.program);
-        ("fleet", of_option Header.of_source witness.fleet);
+        ("program", Dolphin_json.Codec.write Header.source_codec witness.program);
+        ("fleet", of_option (Dolphin_json.Codec.write Header.source_codec) witness.fleet);
         ("property", `String witness.property);
         ("steps", `Int (List.length witness.steps));
         ("cycle", `Int (List.length witness.cycle)) ]
@@ -246,8 +246,8 @@ let of_header json =
     if its_version <> version then
       Error (Printf.sprintf "this run is of version %d; version %d is known here" its_version version)
     else
-      let* program = get Header.to_source "program" found in
-      let* fleet = get (nullable Header.to_source) "fleet" found in
+      let* program = get (Dolphin_json.Codec.read Header.source_codec) "program" found in
+      let* fleet = get (nullable (Dolphin_json.Codec.read Header.source_codec)) "fleet" found in
       let* property = get text "property" found in
       let* n = get whole "steps" found in
       let* m = get whole "cycle" found in

@@ -12,7 +12,8 @@ import sys
 
 KNOWN = {"$schema", "$defs", "$ref", "title", "type", "properties", "required", "additionalProperties", "items",
          "oneOf", "not", "enum", "const", "pattern", "minimum", "maximum", "minItems", "maxItems",
-         "minProperties", "minLength", "maxLength", "multipleOf", "dependentRequired", "allOf", "description"}
+         "minProperties", "minLength", "maxLength", "multipleOf", "exclusiveMinimum",
+         "dependentRequired", "allOf", "description"}
 TYPES = {"object": dict, "array": list, "string": str, "boolean": bool, "null": type(None)}
 DOCUMENTS = {}
 
@@ -100,6 +101,8 @@ def wrong(value, schema, path, at="$"):
     elif has_type(value, "number"):
         if not schema.get("minimum", value) <= value <= schema.get("maximum", value):
             found.append(f"{at}: {value} is out of range")
+        if value <= schema.get("exclusiveMinimum", value - 1):
+            found.append(f"{at}: {value} is too small")
         if "multipleOf" in schema and value % schema["multipleOf"] != 0:
             found.append(f"{at}: {value} is not a multiple of {schema['multipleOf']}")
     return found

@@ -268,8 +268,8 @@ let scenario =
 (* Fences as JSON, in journals and on maps. *)
 let fences_as_json () =
   let again (fence : Dolphin_plans.Fences.fence) =
-    let written fence = Dolphin_json.Canonical.to_string (Dolphin_json.On_map.fence fence) in
-    let read = Dolphin_json.On_map.to_fence (Yojson.Safe.from_string (written fence)) in
+    let written fence = Dolphin_json.Codec.(to_string Dolphin_json.On_map.fence) fence in
+    let read = Dolphin_json.Codec.read Dolphin_json.On_map.fence (Yojson.Safe.from_string (written fence)) in
     Alcotest.(check (result string string)) fence.text (Ok (written fence)) (Result.map written read)
   in
   List.iter again (Lazy.force some_fences)

@@ -4,6 +4,9 @@ type t = Format : { name : string; title : string; codec : 'a Codec.t; refuses :
 
 let all =
   [ Format
+      { name = "journal"; title = "A line of a run journal, or of a partial trace: see docs/trace.md";
+        codec = Dolphin_trace.Entry.codec; refuses = true };
+    Format
       { name = "plan"; title = "A plan, as the platform protocol has it"; codec = Dolphin_platform_protocol.Plan_body.codec;
         refuses = true };
     Format

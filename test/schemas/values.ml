@@ -6,6 +6,10 @@ type json = Yojson.Safe.t
 let of_pattern = function
   | "^/" -> map (fun name -> "/" ^ name) (string_size ~gen:(char_range 'a' 'z') (int_bound 5))
   | "^[A-Za-z0-9_-]+$" -> string_size ~gen:(oneofl [ 'a'; 'Z'; '0'; '_'; '-' ]) (int_range 1 5)
+  | "^[0-9a-f]{32}$" -> string_size ~gen:(char_range 'a' 'f') (return 32)
+  | "^[A-Z][A-Z0-9]*(-[A-Z0-9]+)*$" -> oneofl [ "SEQ-1"; "PAR-ERR"; "DONE" ]
+  | "^(.*:)?[1-9][0-9]*:[1-9][0-9]*$" -> oneofl [ "1:2"; "lib.dol:10:3" ]
+  | "^[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}Z$" -> return "2026-03-01T12:00:00Z"
   | pattern -> invalid_arg ("no texts for " ^ pattern)
 
 let character =

@@ -21,23 +21,23 @@ What no vehicle can have shown is not the line of a run, nor is what JSON does n
   $ dolphin exec pick.dol --journal pick.run > log
   $ check() { sed "$1" pick.run > changed.run; dolphin trace check pick.dol changed.run 2>&1 | cut -c 1-90; }
   $ check 's/"battery":1,/"battery":7,/' | head -n 1
-  dolphin: changed.run:3: "battery" is 7, not from 0 to 1
+  dolphin: changed.run:3: "battery" is 7, not a number from 0 to 1
   $ check 's/"height":0,/"height":1e308,/' | head -n 1
-  dolphin: changed.run:3: "height" is 1e+308, not from -20000 to 1e+06
+  dolphin: changed.run:3: "height" is 1e+308, not a number from -20000 to 1e+06
   $ for name in speed cruise drain; do check '3s/"'$name'":[0-9.]*/"'$name'":-5/' | head -n 1; done
   dolphin: changed.run:3: "speed" is -5, not a number from 0
   dolphin: changed.run:3: "cruise" is -5, not a number from 0
   dolphin: changed.run:3: "drain" is -5, not a number from 0
   $ for time in 1e300 -1; do check '3s/"time":0,/"time":'$time',/' | head -n 1; done
-  dolphin: changed.run:3: "time" is 1e+300, not from 0 to 1e+18
-  dolphin: changed.run:3: "time" is -1, not from 0 to 1e+18
+  dolphin: changed.run:3: "time" is 1e+300, not a number from 0 to 1e+18
+  dolphin: changed.run:3: "time" is -1, not a number from 0 to 1e+18
   $ for reader in "trace show" "trace draw -o x.svg" "trace export -o x.gpx" "exec pick.dol --resume"; do
   >   sed '3s/"time":0,/"time":1e300,/' pick.run > changed.run; dolphin $reader changed.run 2>&1 | grep -o '"time" is.*'
   > done
-  "time" is 1e+300, not from 0 to 1e+18
-  "time" is 1e+300, not from 0 to 1e+18
-  "time" is 1e+300, not from 0 to 1e+18
-  "time" is 1e+300, not from 0 to 1e+18
+  "time" is 1e+300, not a number from 0 to 1e+18
+  "time" is 1e+300, not a number from 0 to 1e+18
+  "time" is 1e+300, not a number from 0 to 1e+18
+  "time" is 1e+300, not a number from 0 to 1e+18
   $ echo "pause 5.seconds" > pause.dol; dolphin exec pause.dol --journal pause.run > log
   $ sed 's/"seconds":[0-9.]*/"seconds":1e13/' pause.run > changed.run; dolphin trace check pause.dol changed.run
   dolphin: changed.run:2: "effects" is "seconds" is 1e+13, not a number of seconds up to 1e+12

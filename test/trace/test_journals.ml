@@ -158,7 +158,7 @@ let refused () =
   let header = List.hd (Runs.lines r.journal) in
   expect "a second header" (Runs.text [ header; header ]);
   expect "\"time\" is missing" (Runs.text [ header; "{\"kind\":\"event\"}" ]);
-  expect "unknown kind of line: \"wish\"" (Runs.text [ header; "{\"kind\":\"wish\",\"time\":1}" ]);
+  expect "\"kind\" is 'wish', not one of vehicle, event, transition, label, platform, operator, resumed, end" (Runs.text [ header; "{\"kind\":\"wish\",\"time\":1}" ]);
   let deep = String.make 1_000_000 '[' in
   match Runs.check_text r (Runs.text [ header; deep ]) with
   | Unreadable { number = 2; _ } -> ()

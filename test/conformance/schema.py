@@ -101,7 +101,7 @@ def wrong(value, schema, path, at="$"):
     elif has_type(value, "number"):
         if not schema.get("minimum", value) <= value <= schema.get("maximum", value):
             found.append(f"{at}: {value} is out of range")
-        if value <= schema.get("exclusiveMinimum", value - 1):
+        if value <= schema.get("exclusiveMinimum", float("-inf")):
             found.append(f"{at}: {value} is too small")
         if "multipleOf" in schema and value % schema["multipleOf"] != 0:
             found.append(f"{at}: {value} is not a multiple of {schema['multipleOf']}")

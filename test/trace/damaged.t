@@ -40,7 +40,7 @@ What no vehicle can have shown is not the line of a run, nor is what JSON does n
   "time" is 1e+300, not a number from 0 to 1e+18
   $ echo "pause 5.seconds" > pause.dol; dolphin exec pause.dol --journal pause.run > log
   $ sed 's/"seconds":[0-9.]*/"seconds":1e13/' pause.run > changed.run; dolphin trace check pause.dol changed.run
-  dolphin: changed.run:2: "effects" is "seconds" is 1e+13, not a number of seconds up to 1e+12
+  dolphin: changed.run:2: "effects[0].seconds" is 1e+13, not a number from -1e+12 to 1e+12
   [2]
   $ for speed in 0 -1; do check '1s/"speed":null/"speed":'$speed'/' | head -n 1; done
   dolphin: changed.run:1: "speed" is 0, not a number above 0

@@ -15,5 +15,5 @@ val area : Area.t -> Field.members
 (** [centre] and [radius], in metres; or [rings], its rims and those of its holes. *)
 
 val fence : Dolphin_plans.Fences.fence Codec.t
-(** A fence as it is declared, its rule, [margin] if there is one, and the {!area}, or the [metres]; without its place in
-    a text. *)
+(** A fence as it is declared, its rule, [margin] if there is one, and the {!area}, or the [metres]; without its place
+    in a text. *)

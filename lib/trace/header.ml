@@ -51,7 +51,9 @@ let place ~height =
   in
   let to_parts (p : Dolphin_geo.Position.t) = (p.latitude, (p.longitude, p.height)) in
   let degrees most = limited [ ("minimum", `Int (-most)); ("maximum", `Int most) ] (number ()) in
-  check of_parts (part to_parts (one "latitude" (degrees 90) ~doc:"degrees" @& one "longitude" (degrees 180) ~doc:"degrees" @& one "height" height ~doc:"metres"))
+  let latitude = one "latitude" (degrees 90) ~doc:"degrees"
+  and longitude = one "longitude" (degrees 180) ~doc:"degrees" in
+  check of_parts (part to_parts (latitude @& longitude @& one "height" height ~doc:"metres"))
 
 let format_fields () =
   let+ () = fixed "format" (`String format)
@@ -91,7 +93,8 @@ let codec =
         and+ run = optional "run" text (fun h -> h.run) ~doc:"of a run on vehicles of a network: its identity"
         and+ order = default Dolphin_semantics.World.By_hearing "order" order (fun h -> h.order) ~doc:"of vehicles"
         and+ fences = default [] "fences" (list On_map.fence) (fun h -> h.fences)
-        and+ place = optional "place" (record (place ~height:(number ()))) (fun h -> h.place) ~doc:"of plans without one" in
+        and+ place =
+          optional "place" (record (place ~height:(number ()))) (fun h -> h.place) ~doc:"of plans without one" in
         { program; fleet; platform; order; seed; speed; started; run; fences; place }))
 
 let to_json = write codec

@@ -89,7 +89,7 @@ What cannot be answered has an error, and the next request its reply. Empty line
   {"error":{"code":"bad-configuration","message":"\"state\" is missing"}}
   {"error":{"code":"bad-configuration","message":"999 is not the number of an expression of this program"}}
   {"error":{"code":"bad-world","message":"\"type\" is missing"}}
-  {"error":{"code":"bad-event","message":"unknown kind of event: \"rain\""}}
+  {"error":{"code":"bad-event","message":"\"event\" is 'rain', not one of done, failed, timer, confirmation, no-confirmation, recruited, answer, no-answer, reply, no-reply, input, interruption"}}
   {"transitions":[],"awaited":[],"refused":[{"event":{"event":"interruption"},"code":"not-awaited"}]}
   {"error":{"code":"bad-configuration","message":"B is not empty after the end"}}
 
@@ -119,7 +119,7 @@ Questions about times have errors, too.
   {"error":{"code":"bad-faults","message":"\"faults\" is 1, not a text"}}
   {"error":{"code":"bad-request","message":"\"run\" is missing"}}
   {"error":{"code":"bad-event","message":"\"at\" is missing"}}
-  {"error":{"code":"bad-event","message":"unknown kind of event: \"rain\""}}
+  {"error":{"code":"bad-event","message":"\"event\" is 'rain', not one of done, failed, timer, confirmation, no-confirmation, recruited, answer, no-answer, reply,
   {"error":{"code":"bad-run","message":"the end of timer 2 at 3000 is not awaited"}}
   {"error":{"code":"bad-run","message":"the answer 1 at 3000 is not awaited"}}
   {"error":{"code":"bad-run","message":"its dates go back"}}

@@ -76,7 +76,9 @@ let refused =
     ([ header; {|{"label":"end","choice":0,"assumed":[{"battery":"a"}]}|} ], {|line 2: "is" is missing|});
     ([ header; {|{"label":"end","choice":0,"assumed":[{"position":"a","is":[91,0,0]}]}|} ],
      "line 2: latitude 91 is not from -90 to 90 degrees");
-    ([ header; {|{"label":"end","event":"rain"}|} ], {|line 2: unknown kind of event: "rain"|}) ]
+    ([ header; {|{"label":"end","event":"rain"}|} ],
+     {|line 2: "event" is 'rain', not one of done, failed, timer, confirmation, no-confirmation, recruited, answer, |}
+     ^ "no-answer, reply, no-reply, input, interruption") ]
 
 let refused_case (lines, expected) =
   let check () =

@@ -29,5 +29,5 @@ An act that is not known is not passed over.
 
   $ sed 's/take-helm/take-off/' known.run > strange.run
   $ dolphin trace check two.dol strange.run
-  dolphin: strange.run:9: unknown act of an operator: "take-off"
+  dolphin: strange.run:9: "did" is 'take-off', not one of start, resume, answer, post, replace, stop, take-helm, leave-helm, shut-out
   [2]

@@ -187,7 +187,8 @@ Section Agreement.
       + apply HOLD_1; assumption.
       + apply RECRUIT_1; assumption.
       + apply FRESH_1; assumption.
-    - destruct f as [| | | | | | ? g ? | | |]; [..|destruct g|idtac|idtac|idtac]; is_only Hin; cbn [plug].
+      + apply ENSURE_1; assumption.
+    - destruct f as [| | | | | | ? g ? | | | |]; [..|destruct g|idtac|idtac|idtac|idtac]; is_only Hin; cbn [plug].
       + apply SEQ_2; assumption.
       + apply PAR_2; assumption.
       + apply ALLOF_2; assumption.
@@ -199,6 +200,7 @@ Section Agreement.
       + apply HOLD_2; assumption.
       + apply RECRUIT_2; assumption.
       + apply FRESH_2; assumption.
+      + apply ENSURE_2; assumption.
     - destruct f; cbn [lift on_err plug] in Hin |- *; try (is_only Hin).
       + apply SEQ_ERR; assumption.
       + apply PAR_ERR; assumption.
@@ -226,6 +228,7 @@ Section Agreement.
       + apply HOLD_ERR; assumption.
       + apply RECRUIT_ERR; assumption.
       + apply FRESH_ERR; assumption.
+      + apply ENSURE_ERR; assumption.
     - is_only Hin. apply ENDS. exact H.
   Qed.
 

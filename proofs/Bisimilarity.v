@@ -1,5 +1,5 @@
 (** Strong bisimilarity of residuals, from every shared part and in every context, and that it is a congruence. *)
-From Coq Require Export FunctionalExtensionality FinFun.
+From Coq Require Export FunctionalExtensionality FinFun Permutation.
 From Dolphin Require Export Normal_forms.
 Set Implicit Arguments.
 Unset Strict Implicit.
@@ -31,6 +31,38 @@ Section Bisimilarity.
 
   Lemma clear_alike ks ks' S : alike ks ks' -> clear ks S = clear ks' S.
   Proof. intros H. unfold clear. rewrite (forget_law ks ks' (space S) H). reflexivity. Qed.
+
+  Lemma does_app ds es S : does (ds ++ es) S = does es (does ds S).
+  Proof. unfold does, assigned, posted. rewrite !fold_left_app. reflexivity. Qed.
+
+  Lemma does_cons d ds S : does (d :: ds) S = does ds (does [d] S).
+  Proof. apply (does_app [d]). Qed.
+
+  (** Any two deeds that ends of the program do may change places. *)
+  Definition ends_commute : Prop := forall d e S,
+    may_ensure d = true -> may_ensure e = true -> does [d; e] S = does [e; d] S.
+
+  Lemma does_permuted ds es : ends_commute -> Permutation ds es -> forallb may_ensure ds = true ->
+    forall S, does ds S = does es S.
+  Proof.
+    intros Hc. induction 1 as [|d ds es P IH | d e ds | ds es fs P1 IH1 P2 IH2]; cbn [forallb];
+      rewrite ?andb_true_iff; intros H S.
+    - reflexivity.
+    - rewrite (does_cons d ds), (does_cons d es). apply IH. tauto.
+    - change (does ([e; d] ++ ds) S = does ([d; e] ++ ds) S). rewrite !does_app, Hc; tauto.
+    - rewrite IH1 by exact H. apply IH2. apply forallb_forall. intros d Hd.
+      eapply (proj1 (forallb_forall _ _) H), Permutation_in; [apply Permutation_sym; exact P1 | exact Hd].
+  Qed.
+
+  Lemma ensured_allowed r : normal r = true -> forallb may_ensure (ensured r) = true.
+  Proof.
+    induction r using residual_rect'; cbn [normal ensured forallb]; rewrite ?andb_true_iff; intros Hn; try reflexivity;
+      try tauto.
+    - destruct Hn as [_ Hn]. rewrite forallb_forall in *. rewrite Forall_forall in H. intros d Hd.
+      apply in_flat_map in Hd. destruct Hd as (r & Hr & Hd). specialize (Hn r Hr). rewrite andb_true_iff in Hn.
+      exact (proj1 (forallb_forall _ _) (H r Hr (proj1 Hn)) d Hd).
+    - rewrite forallb_app, andb_true_iff. tauto.
+  Qed.
 
   (** Which numbers are taken matters as a set. *)
   Lemma after_spec used fuel : forall i, exists k,
@@ -172,15 +204,16 @@ Section Bisimilarity.
 
   (** {1 Bisimilarity} *)
 
-  (** What is seen of a part from beside it: the vehicles that it names, those that it runs, its numbers, and the
-      keys of what is active in it. *)
+  (** What is seen of a part from beside it: the vehicles that it names, those that it runs, its numbers, the keys of
+      what is active in it, and what its end does. *)
   Record face (r r' : residual) : Prop := {
     face_names : alike (names r) (names r');
     face_run : alike (run_of r) (run_of r');
     face_numbers : alike (numbers r) (numbers r');
     face_normal : normal r = true;
     face_normal' : normal r' = true;
-    face_keys : alike (keys r) (keys r')
+    face_keys : alike (keys r) (keys r');
+    face_ends : forall S, does (ensured r) S = does (ensured r') S
   }.
 
   (** The same label, the same S, and the same outcome. *)
@@ -213,7 +246,7 @@ Section Bisimilarity.
   Lemma face_sym r r' : face r r' -> face r' r.
   Proof. intros []. split; auto using alike_sym. Qed.
   Lemma face_trans r r' r'' : face r r' -> face r' r'' -> face r r''.
-  Proof. intros [] []. split; eauto using alike_trans. Qed.
+  Proof. intros [] []. split; eauto using alike_trans. intros S. etransitivity; eauto. Qed.
 
   Lemma agree_more (R R' : residual -> residual -> Prop) t t' :
     (forall r r', R r r' -> R' r r') -> agree R t t' -> agree R' t t'.

@@ -89,6 +89,9 @@ Section Building.
       + unfold repeat_. destruct (option_map pred n) as [[|m]|]; cbn; rewrite ?Q; reflexivity.
       + intros v Hv. apply names_repeat in Hv. destruct Hv; auto.
     - destruct (IHt ok k0 a0 b0 Hf) as (W & Q & N). split; [constructor; exact W | split; assumption].
+    - destruct (IHt ok k0 a0 b0 Hf) as (W & Q & N).
+      destruct (ensure_same (build p ok t k0 a0 b0) ds) as (E1 & _ & _ & _ & E2 & _).
+      split; [apply Wf_ensure; exact W | rewrite E1, E2; split; assumption].
   Qed.
 
   Lemma feasible_chosen B f t :
@@ -105,6 +108,7 @@ Section Building.
     - revert k0 Hf Hv. induction H as [|(g, t) bs Hb _ IH]; intros k0 Hf Hv; [contradiction|].
       cbn [map list_sum fold_right snd] in Hv. change (fold_right Nat.add 0) with list_sum in Hv.
       apply chosen_app in Hv. destruct Hf as [F1 F2]. destruct Hv as [Hv | Hv]; [eapply Hb; eauto | eauto].
+    - eauto.
     - eauto.
     - eauto.
     - eauto.

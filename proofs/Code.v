@@ -24,7 +24,7 @@ Section Allocation.
         feasible B ok a f k /\ feasible B ok b f (k + leaves a) /\
         forall v, In v (chosen a f k) -> ~ In v (chosen b f (k + leaves a))
     | TAllocated a vs => feasible B (restrict ok vs) a f k
-    | TUntil _ _ a | TDuring _ _ a | TWatch a _ | TRepeat _ _ a | TKeys _ _ a => feasible B ok a f k
+    | TUntil _ _ a | TDuring _ _ a | TWatch a _ | TRepeat _ _ a | TKeys _ _ a | TEnsure a _ => feasible B ok a f k
     | TAll_of bs | TOne_of bs =>
         (fix branches (bs : list (code * task)) (k : nat) : Prop :=
            match bs with
@@ -64,6 +64,10 @@ Inductive stop {L : Names} :=
 | Faults (m : message).
 
 Class Code {L : Names} := {
+  (** The deeds that ends of the program's tasks may do. *)
+  may_ensure : end_deed -> bool;
+  give_back_law : may_ensure Gives_back = true -> forall k x, may_ensure (Posts k x) = true;
+
   (** [run c ys w held S]: [held] is what the part sees as held. *)
   run : code -> list value -> world -> (vehicle -> bool) -> shared -> result;
   (** [run_handler h m w held needed S]: [needed] is what the handler may not dismiss. *)
@@ -71,13 +75,13 @@ Class Code {L : Names} := {
   handler_law : forall h m w held needed S x s gone N ds,
     run_handler h m w held needed S = Rules x s gone N ds -> forall v, In v gone -> needed v = false;
   handler_task_law : forall h m w held needed S t s gone N ds,
-    run_handler h m w held needed S = Rules (Instead t) s gone N ds -> solid t = true;
+    run_handler h m w held needed S = Rules (Instead t) s gone N ds -> solid_with may_ensure t = true;
 
   truth : value -> option bool;                        (* None: unknown *)
   is_unknown : message -> bool;                        (* a fault of code that needs what is unknown *)
   time_of : code -> value -> seconds + message;        (* of the code of a during or within *)
   task_of : value -> option task;                      (* a task, or code in the place of one *)
-  task_law : forall x t, task_of x = Some t -> solid t = true;
+  task_law : forall x t, task_of x = Some t -> solid_with may_ensure t = true;
   takes : code -> list value -> bool;                  (* whether the code has enough values *)
   parameters : code -> nat;
   may_recover : code -> bool;
@@ -87,6 +91,7 @@ Class Code {L : Names} := {
   forget_law : forall ks ks' N, (forall i, In i ks <-> In i ks') -> forget ks N = forget ks' N;
   forget_twice_law : forall ks ks' N, forget ks' (forget ks N) = forget (ks ++ ks') N;
   forget_all : tuples -> tuples;                       (* N without the pairs of such keys *)
+  assign_to : assignment -> store -> store;            (* v = x *)
 
   fit : filter -> world -> list vehicle -> list vehicle;
   fit_law : forall q w B v, In v (fit q w B) -> ~ In v B;
@@ -111,7 +116,8 @@ Class Code {L : Names} := {
 
   (** The script. *)
   run_script : machine -> world -> shared -> stop * machine * store;
-  script_task_law : forall M w S t M' s, run_script M w S = (Asks (Execute t), M', s) -> solid t = true;
+  script_task_law : forall M w S t M' s,
+    run_script M w S = (Asks (Execute t), M', s) -> solid_with may_ensure t = true;
   give : value -> machine -> machine;                  (* M(x) *)
   null : value;
   vehicles_value : list vehicle -> value;
@@ -130,8 +136,22 @@ Class Code {L : Names} := {
 Definition deepest : nat.
 Proof. exact 100. Qed.
 
+Notation solid := (solid_with may_ensure).
+
 Section Building.
   Context {L : Names} {C : Code}.
+
+  (** {1 Ends} *)
+
+  Definition assigned (ds : list end_deed) (s : store) : store :=
+    fold_left (fun s d => match d with Assigns x => assign_to x s | _ => s end) ds s.
+  Definition posted (ds : list end_deed) (N : tuples) : tuples :=
+    fold_left (fun N d => match d with Posts k x => post [(k, x)] N | _ => N end) ds N.
+
+  (** [S + D]. *)
+  Definition does (ds : list end_deed) (S : shared) : shared :=
+    {| variables := assigned ds (variables S); allocation := allocation S; bound := bound S;
+       space := posted ds (space S) |}.
 
   (** [S] where [r] begins: N has no pairs of its keys. *)
   Definition clear (ks : list timer) (S : shared) : shared := with_space (forget ks (space S)) S.
@@ -176,6 +196,7 @@ Section Building.
       | TDuring k d a => one (TDuring k d) a
       | TWatch a h => one (fun a => TWatch a h) a
       | TRepeat m g a => one (TRepeat m g) a
+      | TEnsure a ds => one (fun a => TEnsure a ds) a
       | TFresh c => inside c n
       | TKeys ks c a => inside c n
       end.
@@ -198,7 +219,7 @@ Section Building.
     | TPlan _ | TAction _ | TCondition _ | TMade _ | TFresh _ => 0
     | TIdle _ | TConfirm _ _ | TRecruit _ _ => 1
     | TSequence a b | TParallel a b => timers a + timers b
-    | TAllocated a _ | TUntil _ _ a | TWatch a _ | TRepeat _ _ a | TKeys _ _ a => timers a
+    | TAllocated a _ | TUntil _ _ a | TWatch a _ | TRepeat _ _ a | TKeys _ _ a | TEnsure a _ => timers a
     | TDuring _ _ a => 1 + timers a
     | TAll_of bs | TOne_of bs => list_sum (map (fun b => timers (snd b)) bs)
     end.
@@ -208,7 +229,7 @@ Section Building.
     | TPlan _ | TAction _ | TCondition _ | TIdle _ | TConfirm _ _ => 0
     | TMade _ | TRecruit _ _ | TFresh _ => 1
     | TSequence a b | TParallel a b => places a + places b
-    | TAllocated a _ | TUntil _ _ a | TRepeat _ _ a | TDuring _ _ a | TKeys _ _ a => places a
+    | TAllocated a _ | TUntil _ _ a | TRepeat _ _ a | TDuring _ _ a | TKeys _ _ a | TEnsure a _ => places a
     | TWatch a h => (if may_recover h then 1 else 0) + places a
     | TAll_of bs | TOne_of bs => list_sum (map (fun b => places (snd b)) bs)
     end.
@@ -226,6 +247,7 @@ Section Building.
     | TDuring k d a => TDuring k d (unopened a)
     | TWatch a h => TWatch (unopened a) h
     | TRepeat n g a => TRepeat n g (unopened a)
+    | TEnsure a ds => TEnsure (unopened a) ds
     | TKeys _ c _ => TFresh c
     end.
 
@@ -265,6 +287,7 @@ Section Building.
         else Watch (build p ok t k a b) {| handles := h; anew := None |}
     | TRepeat n g t => let r := build p ok t k a b in repeat_ r (option_map pred n) g r
     | TKeys ks _ t => Fresh ks (build p ok t k a b)
+    | TEnsure t ds => ensure_ (build p ok t k a b) ds
     (* No opened task has a fresh that is not. *)
     | TMade c | TFresh c => Made c [] {| allowed := ok; place := spot p a b; depth := deep p |}
     | TRecruit q c => Recruit (number p a b) q c (spot p (S a) b) (deep p)

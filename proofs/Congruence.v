@@ -53,9 +53,9 @@ Section Congruence.
 
   Lemma face_plug f r r' : simple f = true -> normal (plug f r) = true -> face r r' -> face (plug f r) (plug f r').
   Proof.
-    intros Hf Hn [H1 H2 H3 H4 H5 H6].
+    intros Hf Hn [H1 H2 H3 H4 H5 H6 H7].
     split; [ | | | exact Hn | destruct f; try discriminate Hf; cbn [plug normal] in *; rewrite ?andb_true_iff in *;
-      tauto | ].
+      tauto | | ].
     - destruct f; try discriminate Hf; cbn [plug names]; try assumption;
         try (apply alike_app; [assumption | apply alike_refl]).
       + apply alike_app; [apply alike_refl | assumption].
@@ -67,14 +67,17 @@ Section Congruence.
       + apply alike_app; [apply alike_refl | assumption].
     - destruct f; try discriminate Hf; cbn [plug keys]; try assumption.
       apply alike_app; [apply alike_refl | assumption].
+    - destruct f; try discriminate Hf; cbn [plug ensured]; try assumption.
+      intros S. rewrite !does_app, H7. reflexivity.
   Qed.
 
   (** The steps of the node itself: cuts. *)
-  Lemma own_plug e K S f r r' t : simple f = true -> alike (run_of r) (run_of r') ->
+  Lemma own_plug e K S f r r' t : simple f = true -> face r r' ->
     In t (own e K S (plug f r)) -> exists t', In t' (own e K S (plug f r')) /\ agree eq t t'.
   Proof.
-    intros Hf Hr Ht. assert (E : forall S1, without (run_of r) S1 = without (run_of r') S1)
-      by (intros S1; apply without_alike; exact Hr).
+    intros Hf Hr Ht.
+    assert (E : forall S1, does (ensured r) (without (run_of r) S1) = does (ensured r') (without (run_of r') S1))
+      by (intros S1; rewrite (without_alike S1 (face_run Hr)); apply (face_ends Hr)).
     destruct f; try discriminate Hf; cbn [plug own] in *; try contradiction.
     - unfold guarded, coded, breaks in *. destruct e; [contradiction|].
       destruct (runs g [] K S) as [x s N0 ds | m ds | m ds | m s N0 ds |]; try contradiction;
@@ -110,9 +113,8 @@ Section Congruence.
     - subst x'. destruct Hu as [<- | []]. eexists. split; [left; reflexivity | cbn; auto].
   Qed.
 
-  (** [until], [assure], [during], [within], [watch], rounds, running branches, [holding],
-    [recruited], [fresh]: for the part that
-      is active. *)
+  (** [until], [assure], [during], [within], [watch], rounds, running branches, [holding], [recruited], [fresh],
+      [ensure]: for the part that is active. *)
   Theorem frames_congruent f r r' :
     simple f = true -> normal (plug f r) = true -> bisimilar r r' -> bisimilar (plug f r) (plug f r').
   Proof.
@@ -125,7 +127,7 @@ Section Congruence.
       assert (F := bisimilar_face H). split; [apply face_plug; assumption|].
       intros e K S t Ht. assert (Nt := goes_normal Ht Ha).
       apply goes_plug in Ht; [|apply simple_not_beside, Hf]. destruct Ht as [Ht | (u & Hu & Hl)].
-      + destruct (own_plug (r' := r') Hf (face_run F) Ht) as (t' & Ht' & Hag). exists t'.
+      + destruct (own_plug (r' := r') Hf F Ht) as (t' & Ht' & Hag). exists t'.
         split; [apply Itself; exact Ht'|]. eapply agree_more'; [exact Hag | exact Nt | intros; apply up_refl;
           assumption].
       + destruct (bisimilar_steps H Hu) as (u' & Hu' & Hag).
@@ -215,6 +217,7 @@ Section Congruence.
       [|apply alike_sym, alike_numbers_sequence].
       apply alike_app; assumption.
     - rewrite !keys_sequence. assumption.
+    - intros S. rewrite !ensured_sequence. auto.
   Qed.
 
   Theorem sequences_congruent r r' t t' :
@@ -254,7 +257,7 @@ Section Congruence.
       destruct H as [(-> & ->) | (g' & -> & -> & ->)]; [left; auto | right; exists g'; auto].
     - clear. intros a b (r & r' & more & t & t' & Hm & Hr & Ht & Hab).
       assert (F := bisimilar_face Hr). assert (F' := bisimilar_face Ht).
-      pose proof F as [F1 F2 F3 F4 F5 F6]. pose proof F' as [G1 G2 G3 G4 G5 G6].
+      pose proof F as [F1 F2 F3 F4 F5 F6 F7]. pose proof F' as [G1 G2 G3 G4 G5 G6 G7].
       assert (Clear : forall S, clear (keys t) S = clear (keys t') S) by (intros; apply clear_alike; exact G6).
       assert (Next_round : forall g0, (g0 = g) ->
         up (fun a b => exists r r' more t t', some_left more = true /\ bisimilar r r' /\ bisimilar t t' /\
@@ -268,7 +271,7 @@ Section Congruence.
       destruct Hab as [(-> & ->) | (g' & -> & -> & ->)].
       + split.
         { split; try (cbn [normal]; rewrite ?F4, ?F5, ?Hm, ?G4, ?G5; reflexivity); cbn [names numbers];
-            try (apply alike_app; assumption); [exact F2 | exact F6]. }
+            try (apply alike_app; assumption); [exact F2 | exact F6 | exact F7]. }
         intros e K S u Hu. change (Repeat r more g t) with (plug (Round_of more g t) r) in Hu.
         apply goes_plug in Hu; [|reflexivity]. destruct Hu as [[] | (v & Hv & Hu)].
         destruct (bisimilar_steps Hr (goes_similar Hv (K' := enter (Round_of more g t') K)
@@ -369,7 +372,8 @@ Section Congruence.
     match v with
     | By l S1 (Next r) E => By l S1 (Next (Parallel (B ++ flat r ++ A))) E
     | By l S1 Ok E => By l S1 (Next (parallel (B ++ A))) E
-    | By l S1 (Err m) E => By l (without (flat_map run_of (B ++ A)) S1) (Err m) (E ++ cut (B ++ A))
+    | By l S1 (Err m) E =>
+        By l (does (flat_map ensured (B ++ A)) (without (flat_map run_of (B ++ A)) S1)) (Err m) (E ++ cut (B ++ A))
     | By l S1 (Ends x) E => By l S1 (Ends x) E
     end.
 
@@ -386,6 +390,16 @@ Section Congruence.
       destruct (mem v ws) eqn:M2; [apply mem_spec in M2; tauto | reflexivity].
   Qed.
 
+  Lemma ensured_branches rs : branches_of rs = true -> forallb may_ensure (flat_map ensured rs) = true.
+  Proof.
+    intros H. apply branches_normal in H. rewrite forallb_forall in *. intros d Hd. apply in_flat_map in Hd.
+    destruct Hd as (r & Hr & Hd). exact (proj1 (forallb_forall _ _) (ensured_allowed (H r Hr)) d Hd).
+  Qed.
+
+  (** Where ends do deeds of parts side by side in another order, these must be able to change places. *)
+  Section Side_by_side.
+  Hypothesis commute : ends_commute.
+
   Lemma surround_twice B A b a v : around B A -> around b a ->
     agree eq (surround (B ++ b) (a ++ A) v) (surround B A (surround b a v)).
   Proof.
@@ -397,8 +411,19 @@ Section Congruence.
       + destruct HB as [HB _]. rewrite branches_app in *. rewrite branches_app. rewrite andb_true_iff in HB.
         destruct HB as [-> ->]. rewrite branches_app, Hb. reflexivity.
       + destruct HB as [_ HB]. rewrite !app_length. destruct B, A, b, a; cbn in *; try congruence; lia.
-    - split; [reflexivity | split; [|reflexivity]]. rewrite without_twice. apply without_alike. intros v.
-      rewrite !flat_map_app, !in_app_iff. tauto.
+    - split; [reflexivity | split; [|reflexivity]].
+      change (without (flat_map run_of (B ++ A)) (does (flat_map ensured (b ++ a))
+        (without (flat_map run_of (b ++ a)) S1))) with (does (flat_map ensured (b ++ a))
+        (without (flat_map run_of (B ++ A)) (without (flat_map run_of (b ++ a)) S1))).
+      rewrite without_twice, <- does_app.
+      rewrite (without_alike (vs := flat_map run_of ((B ++ b) ++ a ++ A))
+        (ws := flat_map run_of (b ++ a) ++ flat_map run_of (B ++ A)))
+        by (intros v; rewrite !flat_map_app, !in_app_iff; tauto).
+      apply does_permuted; [exact commute | | apply ensured_branches].
+      + rewrite !flat_map_app, <- !app_assoc. rewrite (app_assoc (flat_map ensured b)).
+        rewrite (app_assoc (flat_map ensured b) _ (flat_map ensured B ++ _)).
+        apply Permutation_app_swap_app.
+      + destruct HB as [HB _]. rewrite !branches_app, !andb_true_iff in *. tauto.
     - cbn. auto.
   Qed.
 
@@ -505,13 +530,20 @@ Section Congruence.
     apply alike_app; [apply alike_refl | apply alike_app; [exact H | apply alike_refl]].
   Qed.
 
+  Lemma does_hole B x x' A : (forall S, does (ensured x) S = does (ensured x') S) ->
+    forall S, does (flat_map ensured (B ++ flat x ++ A)) S = does (flat_map ensured (B ++ flat x' ++ A)) S.
+  Proof.
+    intros H S. rewrite !flat_map_app, !(@through_flat _ _ _ _ through_ensured), !does_app, H. reflexivity.
+  Qed.
+
   Lemma face_hole B x x' A : around B A -> face x x' -> face (hole B x A) (hole B x' A).
   Proof.
-    intros HB [H1 H2 H3 H4 H5 H6]. split; try (apply normal_hole; assumption); unfold hole.
+    intros HB [H1 H2 H3 H4 H5 H6 H7]. split; try (apply normal_hole; assumption); unfold hole.
     - apply (alike_hole (f := names)); [apply through_names | exact H1].
     - rewrite !through_run_of. apply alike_hole; [apply through_run_of | exact H2].
     - apply (alike_hole (f := numbers)); [apply through_numbers | exact H3].
     - apply (alike_hole (f := keys)); [apply through_keys | exact H6].
+    - cbn [ensured]. apply does_hole. exact H7.
   Qed.
 
   Definition in_hole (p q : residual) : Prop :=
@@ -520,14 +552,15 @@ Section Congruence.
   (** A part beside the hole moves. *)
   Lemma beside_agree b a b' a' v :
     next_normal v -> alike (flat_map run_of (b ++ a)) (flat_map run_of (b' ++ a')) ->
+    (forall S, does (flat_map ensured (b ++ a)) S = does (flat_map ensured (b' ++ a')) S) ->
     (forall r, normal r = true -> up in_hole (Parallel (b ++ flat r ++ a)) (Parallel (b' ++ flat r ++ a'))) ->
     up in_hole (parallel (b ++ a)) (parallel (b' ++ a')) ->
     agree (up in_hole) (surround b a v) (surround b' a' v).
   Proof.
-    intros Hn Hr H1 H2. destruct v as [l S1 [r | | m | x] E]; cbn [surround].
+    intros Hn Hr He H1 H2. destruct v as [l S1 [r | | m | x] E]; cbn [surround].
     - split; [reflexivity | split; [reflexivity | apply H1; exact Hn]].
     - split; [reflexivity | split; [reflexivity | exact H2]].
-    - split; [reflexivity | split; [apply without_alike; exact Hr | reflexivity]].
+    - split; [reflexivity | split; [rewrite (without_alike S1 Hr); apply He | reflexivity]].
     - cbn. auto.
   Qed.
 
@@ -545,7 +578,7 @@ Section Congruence.
   Lemma holes_step p q : in_hole p q -> simulates (up in_hole) p q.
   Proof.
     intros (B & x & x' & A & HB & Hx & -> & ->) e K S u Hu.
-    pose proof (bisimilar_face Hx) as [F1 F2 F3 F4 F5 F6].
+    pose proof (bisimilar_face Hx) as [F1 F2 F3 F4 F5 F6 F7].
     assert (Hnp := normal_hole HB F4). assert (Nu := goes_normal Hu Hnp).
     apply goes_parts in Hu. destruct Hu as [[] | (f & r & v & Hp & Hv & Hu)].
     assert (Nr : normal r = true).
@@ -569,8 +602,9 @@ Section Congruence.
           rewrite !app_assoc, <- !(app_assoc _ _ A).
         * apply alike_hole; [apply through_names | exact F1].
         * apply alike_hole; [apply through_numbers | exact F3].
-      + apply beside_agree; [exact Nv | | |].
+      + apply beside_agree; [exact Nv | | | |].
         * rewrite !app_assoc, <- !(app_assoc _ _ A). apply alike_hole; [apply through_run_of | exact F2].
+        * rewrite !app_assoc, <- !(app_assoc _ _ A). apply does_hole. exact (face_ends (bisimilar_face Hx)).
         * intros r0 Hr0. left. destruct (normal_flat r0 Hr0) as [G1 G2]. exists (before ++ flat r0 ++ c), x, x', A.
           split; [|split; [exact Hx | unfold hole; rewrite <- !app_assoc; auto]]. split.
           -- rewrite !branches_app in *. rewrite G1, BA. rewrite !andb_true_iff in *. tauto.
@@ -602,8 +636,9 @@ Section Congruence.
         apply enter_alike; [reflexivity | |]; cbn [frame_names frame_numbers]; rewrite <- !app_assoc.
         * apply alike_hole; [apply through_names | exact F1].
         * apply alike_hole; [apply through_numbers | exact F3].
-      + apply beside_agree; [exact Nv | | |].
+      + apply beside_agree; [exact Nv | | | |].
         * rewrite <- !app_assoc. apply alike_hole; [apply through_run_of | exact F2].
+        * rewrite <- !app_assoc. apply does_hole. exact (face_ends (bisimilar_face Hx)).
         * intros r0 Hr0. left. destruct (normal_flat r0 Hr0) as [G1 G2]. exists B, x, x', (c ++ flat r0 ++ after).
           split; [|split; [exact Hx | unfold hole; rewrite <- !app_assoc; auto]]. split.
           -- rewrite !branches_app in *. rewrite G1, BB. rewrite !andb_true_iff in *. tauto.
@@ -626,14 +661,30 @@ Section Congruence.
   Proof.
     intros HB Hx. destruct (up_hole Hx HB) as [H | H]; [apply holes_bisimilar; exact H | exact H].
   Qed.
+  End Side_by_side.
 
   (** {1 Branches} *)
 
-  (** Code in the place of a branch's task is given the values that the guard took; other tasks are not. *)
-  Definition plain (r : residual) : bool := match r with Made a _ _ => negb (has_parameters a) | _ => true end.
+  (** Code in the place of a branch's task is given the values that the guard took, and its end may give back the
+      pairs; other tasks are not. *)
+  Fixpoint plain (r : residual) : bool :=
+    match r with
+    | Made a _ _ => negb (has_parameters a)
+    | Ensure r es =>
+        plain r && (1 <=? length es) && forallb (fun e => match e with Gives_back => false | _ => true end) es
+    | _ => true
+    end.
 
   Lemma given_plain ds r : plain r = true -> given ds r = r.
-  Proof. destruct r; auto. cbn [plain given]. destruct (has_parameters a); [discriminate | reflexivity]. Qed.
+  Proof.
+    induction r; auto; cbn [plain given]; [destruct (has_parameters a); [discriminate | reflexivity]|].
+    rewrite !andb_true_iff. intros ((H1 & H2) & H3). rewrite IHr by exact H1.
+    assert (E : given_back ds ds0 = ds0).
+    { clear H2. induction ds0 as [|e es IH]; [reflexivity|]. cbn [forallb] in H3. rewrite andb_true_iff in H3.
+      unfold given_back in *. cbn [flat_map]. rewrite IH by tauto. destruct e; try reflexivity.
+      destruct H3; discriminate. }
+    rewrite E. destruct ds0; [discriminate | reflexivity].
+  Qed.
 
   Lemma choose_agree (R : residual -> residual -> Prop) e K S around around' b y a b' y' a' t :
     fst y = fst y' -> alike (keys (snd y)) (keys (snd y')) ->
@@ -675,19 +726,19 @@ Section Congruence.
 
   Lemma face_branch p q : in_branch p q -> face p q.
   Proof.
-    intros (before & g & x & x' & after & Hx & _ & _ & Hn & H). destruct (bisimilar_face Hx) as [F1 F2 F3 F4 F5 F6].
+    intros (before & g & x & x' & after & Hx & _ & _ & Hn & H). destruct (bisimilar_face Hx) as [F1 F2 F3 F4 F5 F6 F7].
     assert (N1 := normal_branch_hole g F4 Hn). assert (N2 := normal_branch_hole g F5 Hn).
     assert (L1 : forall y, 1 <=? length (branch_hole before g y after) = true).
     { intros y. apply Nat.leb_le. unfold branch_hole. rewrite app_length. cbn. lia. }
     assert (A1 := alike_branches before g after F1). assert (A3 := alike_branches before g after F3).
     destruct H as [(-> & ->) | [(Hne & -> & ->) | (r & Hr & -> & ->)]].
-    - split; try assumption; try apply alike_refl; cbn [normal]; rewrite L1; assumption.
+    - split; try assumption; try apply alike_refl; try reflexivity; cbn [normal]; rewrite L1; assumption.
     - assert (L2 : forall y, 2 <=? length (branch_hole before g y after) = true).
       { intros y. apply Nat.leb_le. unfold branch_hole. rewrite app_length. cbn.
         destruct before, after; cbn in *; try congruence; lia. }
-      split; try assumption; try apply alike_refl; cbn [normal]; rewrite L2; assumption.
+      split; try assumption; try apply alike_refl; try reflexivity; cbn [normal]; rewrite L2; assumption.
     - split; try (cbn [normal]; rewrite Hr, L1; assumption); cbn [names numbers run_of running];
-        try apply alike_refl; (apply alike_app; [apply alike_refl | assumption]).
+        try apply alike_refl; try reflexivity; (apply alike_app; [apply alike_refl | assumption]).
   Qed.
 
   Lemma branch_of_congruent x x' (others : list branch) : bisimilar x x' ->
@@ -730,7 +781,7 @@ Section Congruence.
     In t (each (choose e K S surrounds) [] (branch_hole before g x after)) ->
     exists t', In t' (each (choose e K S surrounds) [] (branch_hole before g x' after)) /\ agree (up in_branch) t t'.
   Proof.
-    intros Hx P P' Hn Hs Ht. destruct (bisimilar_face Hx) as [F1 F2 F3 F4 F5 F6].
+    intros Hx P P' Hn Hs Ht. destruct (bisimilar_face Hx) as [F1 F2 F3 F4 F5 F6 F7].
     apply in_each in Ht. destruct Ht as (b & y & a & Hb & Ht). cbn [app] in Ht.
     assert (Found : forall b' y' a', branch_hole before g x' after = b' ++ y' :: a' -> fst y = fst y' ->
       alike (keys (snd y)) (keys (snd y')) ->
@@ -775,7 +826,7 @@ Section Congruence.
   Proof.
     apply by_symmetric_relation; [exact in_branch_sym|]. intros a b H. split; [apply face_branch; exact H|].
     pose proof H as (before & g & x & x' & after & Hx & P & P' & Hn & Hab).
-      destruct (bisimilar_face Hx) as [F1 F2 F3 F4 F5 F6].
+      destruct (bisimilar_face Hx) as [F1 F2 F3 F4 F5 F6 F7].
     intros e K S t Ht. assert (Nt := goes_normal Ht (face_normal (face_branch H))).
     destruct Hab as [(-> & ->) | [(Hne & -> & ->) | (r & Hr & -> & ->)]].
     - apply goes_parts in Ht. destruct Ht as [Ht | (f & r1 & u & [] & _)]. cbn [own] in Ht.
@@ -809,7 +860,7 @@ Section Congruence.
     intros Hr. apply (@by_symmetric_relation _ _ (fun a b => exists r r', bisimilar r r' /\
       a = During_code k i d r /\ b = During_code k i d r')).
     - intros a b (x & x' & H & -> & ->). exists x', x. auto using bisimilar_sym.
-    - clear. intros a b (r & r' & Hr & -> & ->). destruct (bisimilar_face Hr) as [F1 F2 F3 F4 F5 F6]. split.
+    - clear. intros a b (r & r' & Hr & -> & ->). destruct (bisimilar_face Hr) as [F1 F2 F3 F4 F5 F6 F7]. split.
       { split; auto; try apply alike_refl. intros j. cbn. rewrite (F3 j). reflexivity. }
       intros e K S t Ht. apply goes_parts in Ht. destruct Ht as [Ht | (f & r1 & u & [] & _)].
       assert (Step : forall u', In u' (own e K S (During_code k i d r')) -> goes e K S (During_code k i d r') u')

@@ -73,6 +73,7 @@ Section Deadlocks.
           | Sequence r ?t => pose (f := In_sequence t)
           | Branch r ?bs => pose (f := Branch_of bs)
           | Fresh ?ks r => pose (f := With_keys ks)
+          | Ensure r ?ds => pose (f := Ensuring ds)
           | Watch r ?h => pose (f := In_watch h)
           | Repeat r ?n ?g ?t => pose (f := Round_of n g t)
           | Holding ?vs r => pose (f := Held_by vs)

@@ -32,7 +32,7 @@ Section Derivations.
         | Unallocated _ _ => or_error "ALLOCATE" "ALLOCATE-ERR"
         | Recruit _ _ _ _ _ => "RECRUIT"
         | Sequence _ _ | Parallel _ | Branch _ _ | Watch _ _ | Repeat _ _ _ _ | Holding _ _ | Recruited _ _
-        | Fresh _ _ => ""
+        | Fresh _ _ | Ensure _ _ => ""
         end
     end.
 
@@ -55,6 +55,7 @@ Section Derivations.
     | Held_by _ => by_outcome "HOLD-1" "HOLD-2" "HOLD-ERR"
     | In_recruited _ => by_outcome "RECRUIT-1" "RECRUIT-2" "RECRUIT-ERR"
     | With_keys _ => by_outcome "FRESH-1" "FRESH-2" "FRESH-ERR"
+    | Ensuring _ => by_outcome "ENSURE-1" "ENSURE-2" "ENSURE-ERR"
     | In_watch _ =>
         by_outcome "WATCH-1" "WATCH-2"
           match t' with

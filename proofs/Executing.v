@@ -51,8 +51,9 @@ Section Executing.
         right. do 4 eexists. split; [reflexivity | split; [reflexivity | exact Ho]].
       + match goal with H : step _ _ _ _ _ _ _ _ |- _ => destruct (Part _ _ _ H) as (o' & E' & H' & Ho) end.
         destruct o'; try contradiction. subst. eexists. split; [eexists; eapply ENDS_all; exact H' | left; reflexivity].
-      + (* INTERRUPT *) eexists. split; [|left; reflexivity].
-        eexists. apply INTERRUPT; [intros y; discriminate | apply home_none].
+      + (* INTERRUPT *) exists (ended (does (ensured r') S) Interrupted). split.
+        * eexists. apply INTERRUPT; [intros y; discriminate | apply home_none].
+        * left. cbn [residual_of]. rewrite (face_ends (bisimilar_face Hr)). reflexivity.
       + rewrite home_none in *. discriminate.
   Qed.
 

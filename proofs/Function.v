@@ -28,6 +28,7 @@ Section Function.
     | Round_of more (Some g) t => By l S' (Next (Asked more g t)) E
     | In_recruited v => By l S' Ok (E ++ [Release [v]])
     | With_keys ks => By l (clear ks S') Ok E
+    | Ensuring ds => By l (does ds S') Ok E
     end.
 
   (** An error comes to a [watch]. *)
@@ -55,13 +56,14 @@ Section Function.
     : list transition :=
     match f with
     | Beside before after =>
-        [By l (without (flat_map run_of (before ++ after)) S') (Err m)
+        [By l (does (flat_map ensured (before ++ after)) (without (flat_map run_of (before ++ after)) S')) (Err m)
            (E ++ cut (before ++ after))]
     | In_watch h => on_error h K l S' m E
     | In_sequence _ | Branch_of _ | Body_until _ _ | Round_of _ _ _ | Held_by _ => [By l S' (Err m) E]
     | Body_during _ i _ => [By l S' (Err m) (E ++ [Cancel_timer i])]
     | In_recruited v => [By l S' (Err m) (E ++ [Release [v]])]
     | With_keys ks => [By l (clear ks S') (Err m) E]
+    | Ensuring ds => [By l (does ds S') (Err m) E]
     end.
 
   Definition lift (f : frame) (K : context) (t : transition) : list transition :=
@@ -137,16 +139,16 @@ Section Function.
         guarded e g K S
           (fun s N ds =>
              match k with
-             | Completes => [By (LCut ds) (without (run_of r) (with_code s N S)) Ok
+             | Completes => [By (LCut ds) (does (ensured r) (without (run_of r) (with_code s N S))) Ok
                                 (effects_of ds ++ cut [r])]
              | Fails _ => []
              end)
           match k with
           | Completes => []
           | Fails at_site =>
-              [By (LCut []) (without (run_of r) S) (Err (not_assured at_site g)) (cut [r])]
+              [By (LCut []) (does (ensured r) (without (run_of r) S)) (Err (not_assured at_site g)) (cut [r])]
           end
-          (fun m ds => [By (LBroken m) (without (run_of r) S) (Err m)
+          (fun m ds => [By (LBroken m) (does (ensured r) (without (run_of r) S)) (Err m)
                           (effects_of (said ds) ++ cut [r])])
     | Idle i _ =>
         match e with Some (Expired j) => if timer_eq j i then [By LTimeout S Ok []] else [] | _ => [] end
@@ -162,7 +164,9 @@ Section Function.
     | During k i n r =>
         match e with
         | Some (Expired j) =>
-            if timer_eq j i then [By LTimeout (without (run_of r) S) (time_out k n) (cut [r])] else []
+            if timer_eq j i then
+              [By LTimeout (does (ensured r) (without (run_of r) S)) (time_out k n) (cut [r])]
+            else []
         | _ => []
         end
     | During_code k i d r =>
@@ -213,8 +217,8 @@ Section Function.
             else []
         | _ => []
         end
-    | Sequence _ _ | Parallel _ | Branch _ _ | Watch _ _ | Repeat _ _ _ _ | Holding _ _ | Recruited _ _
-    | Fresh _ _ => []
+    | Sequence _ _ | Parallel _ | Branch _ _ | Watch _ _ | Repeat _ _ _ _ | Holding _ _ | Recruited _ _ | Fresh _ _
+    | Ensure _ _ => []
     end.
 
   (** {1 The function} *)
@@ -246,6 +250,7 @@ Section Function.
       | Holding vs r => within (Held_by vs) r
       | Recruited v r => within (In_recruited v) r
       | Fresh ks r => within (With_keys ks) r
+      | Ensure r ds => within (Ensuring ds) r
       | _ => []
       end.
   End Walk.
@@ -310,6 +315,7 @@ Section Function.
     | Holding vs r => [(Held_by vs, r)]
     | Recruited v r => [(In_recruited v, r)]
     | Fresh ks r => [(With_keys ks, r)]
+    | Ensure r ds => [(Ensuring ds, r)]
     | _ => []
     end.
 

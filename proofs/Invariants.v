@@ -199,7 +199,7 @@ Section Invariants.
       + intros; subst. apply kept_ends; assumption.
     - (* ALLOF-WHEN *)
       apply in_each in Ht. destruct Ht as (b & (g & r) & after & Hbs & Ht). cbn [app] in Ht.
-      inversion W as [| | | | | | |X bs' Wb Qb| | | | | | | | | | | | | | |]; subst X bs'.
+      inversion W as [| | | | | | |X bs' Wb Qb| | | | | | | | | | | | | | | |]; subst X bs'.
       destruct (branches_split _ _ _ _ _ _ Hbs Wb Qb) as (Wr & Qr & Wo & Qo & No & Nr).
       unfold choose in Ht. cbn [fst snd] in Ht. destruct (given_same (@nil deed) r) as (_ & _ & _ & _ & _).
       eapply guarded_spec; [exact Ht | | | |]; cbv beta.
@@ -214,7 +214,7 @@ Section Invariants.
       + intros; subst. apply kept_ends; assumption.
     - (* ONEOF-WHEN *)
       apply in_each in Ht. destruct Ht as (b & (g & r) & after & Hbs & Ht). cbn [app] in Ht.
-      inversion W as [| | | | | | | |X bs' Wb Qb| | | | | | | | | | | | | |]; subst X bs'.
+      inversion W as [| | | | | | | |X bs' Wb Qb| | | | | | | | | | | | | | |]; subst X bs'.
       destruct (branches_split _ _ _ _ _ _ Hbs Wb Qb) as (Wr & Qr & Wo & Qo & No & Nr).
       unfold choose in Ht. cbn [fst snd] in Ht.
       eapply guarded_spec; [exact Ht | | | |]; cbv beta.
@@ -331,7 +331,7 @@ Section Invariants.
            | intros u Hu Hin; apply (N u Hu); cbn [names]; rewrite ?in_app_iff; cbn; auto
            | auto]; fail).
     - (* | *)
-      inversion W as [| | | | |X rs Wrs Hap| | | | | | | | | | | | | | | | |]; subst X rs.
+      inversion W as [| | | | |X rs Wrs Hap| | | | | | | | | | | | | | | | | |]; subst X rs.
       assert (Hd : forall v, In v (flat_map names (before ++ after)) -> ~ In v (names r)).
       { apply apart_app in Hap. destruct Hap as (_ & [H1 _] & H2). cbn [flat_map] in H2.
         intros v. rewrite flat_map_app, in_app_iff. intros [Hv | Hv] Hr.
@@ -423,7 +423,7 @@ Section Invariants.
         * intros v. rewrite recruits_sequence. cbn [recruits]. intros Hv. destruct (Hc v Hv) as [|[Hm Hb]]; auto.
           apply named_inside in Hm. tauto.
       + (* | *)
-        inversion W as [| | | | |X rs Wrs Hap| | | | | | | | | | | | | | | | |]; subst X rs.
+        inversion W as [| | | | |X rs Wrs Hap| | | | | | | | | | | | | | | | | |]; subst X rs.
         cbn [enter held needed named its_recruits frame_names] in *.
         assert (Hsib : forall q, In q (before ++ after) -> Wf (usable K (bound S1)) q).
         { intros q Hq. eapply (rest_wf K S S1 _ q (Beside before after)); eauto.
@@ -540,6 +540,11 @@ Section Invariants.
         split; [exact C1 | split; [exact C2 | split; [exact C3 | split; [split|split]]]]; auto.
         * constructor. eapply Wf_more; [exact W'|]. intros v _. unfold usable. cbn. rewrite app_nil_r. auto.
         * intros v Hv. destruct (Hc v Hv) as [|[Hm Hb]]; auto. apply named_inside in Hm. tauto.
+      + (* ensure *)
+        destruct Common as (C1 & C2 & C3).
+        split; [exact C1 | split; [exact C2 | split; [exact C3 | split; [split|split]]]]; auto.
+        * constructor. eapply Wf_more; [exact W'|]. intros v _. unfold usable. cbn. rewrite app_nil_r. auto.
+        * intros v Hv. destruct (Hc v Hv) as [|[Hm Hb]]; auto. apply named_inside in Hm. tauto.
     - (* it is done *)
       cbn [lift] in Hin. destruct Hin as [Hin | []]. subst t'.
       destruct f; cbn [plug on_ok] in *;
@@ -553,7 +558,7 @@ Section Invariants.
         * intros v Hv. left. cbn. apply in_app_iff. auto.
         * intros v. rewrite quiet_recruits by assumption. intros [].
       + (* PAR-2 *)
-        inversion W as [| | | | |X rs Wrs Hap| | | | | | | | | | | | | | | | |]; subst X rs.
+        inversion W as [| | | | |X rs Wrs Hap| | | | | | | | | | | | | | | | | |]; subst X rs.
         cbn [enter held needed named its_recruits frame_names] in *.
         assert (Hsib : forall q, In q (before ++ after) -> Wf (usable K (bound S1)) q).
         { intros q Hq. eapply (rest_wf K S S1 _ q (Beside before after)); eauto.
@@ -628,16 +633,17 @@ Section Invariants.
         assert (Hout : forall v, held K v = true -> ~ In v (flat_map names (before ++ after))).
         { intros v Hv H. apply (N v Hv). cbn [names]. rewrite flat_map_app in *. cbn. rewrite !in_app_iff in *. tauto. }
         split; [|split; [exact K2 | split; [|]]].
-        * intros v Hv. rewrite without_spec. destruct (mem v (flat_map run_of (before ++ after))) eqn:M.
+        * intros v Hv. cbn [does allocation]. rewrite without_spec.
+          destruct (mem v (flat_map run_of (before ++ after))) eqn:M.
           -- apply mem_spec, Hrun in M. exfalso. apply (Hout v Hv M).
           -- apply K1. apply mem_or. auto.
         * intros v Hv Hn'. apply K3; [exact Hv | apply mem_or; auto].
-        * intros v Hv. rewrite without_spec.
+        * intros v Hv. cbn [does allocation]. rewrite without_spec.
           destruct (mem v (flat_map run_of (before ++ after))) eqn:M; [reflexivity|].
           apply mem_false in M. destruct (mem v (flat_map names (before ++ after))) eqn:M'.
           -- (* a sibling names it, but does not run it; nor did the part *)
              apply mem_spec in M'. rewrite K1 by (apply mem_or; auto). rewrite R by exact Hv.
-             inversion W as [| | | | |X rs Wrs Hap| | | | | | | | | | | | | | | | |]; subst X rs.
+             inversion W as [| | | | |X rs Wrs Hap| | | | | | | | | | | | | | | | | |]; subst X rs.
              unfold run_at. cbn [plug running]. apply lookup_none. rewrite map_flat_map. intros H. apply in_flat_map in H. destruct H as (q & Hq & H).
              apply in_app_iff in Hq. cbn in Hq. destruct Hq as [Hq | [<- | Hq]].
              ++ apply M. apply in_flat_map. exists q. split; [apply in_app_iff; auto | exact H].

@@ -81,7 +81,8 @@ Section Laws.
 
   Lemma transparent f : simple f = true -> is_around f [] [] ->
     (forall r, normal r = true -> normal (plug f r) = true) ->
-    (forall r, names (plug f r) = names r /\ numbers (plug f r) = numbers r /\ keys (plug f r) = keys r) ->
+    (forall r, names (plug f r) = names r /\ numbers (plug f r) = numbers r /\ keys (plug f r) = keys r /\
+       ensured (plug f r) = ensured r) ->
     (forall e K S r t, ~ In t (own e K S (plug f r))) ->
     (forall K v, exists t, lift f K v = [t] /\ agree (fun a b => a = plug f b) t v) ->
     forall r, normal r = true -> bisimilar (plug f r) r.
@@ -90,9 +91,9 @@ Section Laws.
     apply (@by_relation _ _ (fun a b => normal b = true /\ a = plug f b)); [|auto].
     clear r Hr. intros a r (Hr & ->).
     assert (F : face (plug f r) r).
-    { destruct (Hs r) as (N1 & N2 & N3).
+    { destruct (Hs r) as (N1 & N2 & N3 & N4).
       split; auto; [rewrite N1; apply alike_refl | destruct f; try discriminate Hf; apply alike_refl | rewrite N2;
-        apply alike_refl | rewrite N3; apply alike_refl]. }
+        apply alike_refl | rewrite N3; apply alike_refl | rewrite N4; reflexivity]. }
     split; [exact F | split; intros e K S t Ht].
     - apply goes_plug in Ht; [|apply simple_not_beside, Hf]. destruct Ht as [Ht | (v & Hv & Ht)].
       { exfalso. eapply Hown. exact Ht. }
@@ -169,7 +170,8 @@ Section Laws.
         apply alike_app; [apply alike_refl | apply alike_sym, A3].
       - cbn [normal]. rewrite Hr, Hm, Ht. reflexivity.
       - apply normal_sequence; assumption.
-      - rewrite keys_sequence. apply alike_refl. }
+      - rewrite keys_sequence. apply alike_refl.
+      - rewrite ensured_sequence. reflexivity. }
     assert (Ctx : forall K, similar (enter (Round_of more None t) K) (enter (In_sequence rest) K)).
     { intros K. apply enter_alike; [reflexivity | apply alike_sym, A1 | apply alike_sym, A3]. }
     split; [exact F | split; intros e K S u Hu].
@@ -207,10 +209,11 @@ Section Laws.
     assert (Ns : normal (sequence r t) = true) by (apply normal_sequence; assumption).
     assert (F : face (Until (Fails at_site) g (sequence r t)) (Sequence (Until (Fails at_site) g r) (Until (Fails
       at_site) g t))).
-    { split; [exact (alike_names_sequence r t) | | exact (alike_numbers_sequence r t) | exact Ns | |].
+    { split; [exact (alike_names_sequence r t) | | exact (alike_numbers_sequence r t) | exact Ns | | |].
       - change (alike (run_of (sequence r t)) (run_of r)). rewrite run_of_sequence. apply alike_refl.
       - cbn [normal is_sequence negb andb]. rewrite Hr, Ht. reflexivity.
-      - change (alike (keys (sequence r t)) (keys r)). rewrite keys_sequence. apply alike_refl. }
+      - change (alike (keys (sequence r t)) (keys r)). rewrite keys_sequence. apply alike_refl.
+      - intros S. cbn [ensured]. rewrite ensured_sequence. reflexivity. }
     assert (A0 : forall x, is_around (Body_until (Fails at_site) x) [] []) by (intros x; repeat split;
       apply alike_refl).
     assert (A1 : forall x, is_around (In_sequence x) (names x) (numbers x)) by (intros x; repeat split;
@@ -234,7 +237,7 @@ Section Laws.
           eapply Within; [apply Itself; exact Hv | exact Hu']. }
         cbn [plug own] in Hu, Step. unfold guarded, coded, breaks in Hu, Step. destruct e; [contradiction|].
         change (runs g [] (enter (In_sequence (Until (Fails at_site) g t)) K) S) with (runs g [] K S) in Step.
-        rewrite run_of_sequence in Hu.
+        rewrite run_of_sequence, ensured_sequence in Hu.
         destruct (runs g [] K S) as [x s N0 ds | m ds | m ds | m s N0 ds |]; try contradiction;
           [destruct (truth x) as [[]|] | destruct (is_unknown m) | |]; try contradiction; destruct Hu as [<- | []];
           (eexists; split; [eapply Step; [left; reflexivity | left; reflexivity]|]); cbn; auto.
@@ -263,7 +266,7 @@ Section Laws.
           by (intros; apply Itself; assumption).
         cbn [plug own] in Hw, Step. unfold guarded, coded, breaks in Hw, Step. destruct e; [contradiction|].
         change (runs g [] (enter (In_sequence (Until (Fails at_site) g t)) K) S) with (runs g [] K S) in Hw.
-        rewrite run_of_sequence in Step.
+        rewrite run_of_sequence, ensured_sequence in Step.
         destruct (runs g [] K S) as [x s N0 ds | m ds | m ds | m s N0 ds |]; try contradiction;
           [destruct (truth x) as [[]|] | destruct (is_unknown m) | |]; try contradiction; destruct Hw as [<- | []];
           destruct Hu as [<- | []]; (eexists; split; [apply Step; left; reflexivity|]); cbn; auto.
@@ -304,7 +307,8 @@ Section Laws.
     (forall r, normal (plug f r) = normal r /\ normal (plug f' r) = normal r /\
        names (plug f r) = names r /\ names (plug f' r) = names r /\ run_of (plug f r) = run_of r /\
        run_of (plug f' r) = run_of r /\ numbers (plug f r) = is ++ numbers r /\
-         numbers (plug f' r) = is ++ numbers r /\ keys (plug f r) = keys r /\ keys (plug f' r) = keys r) ->
+         numbers (plug f' r) = is ++ numbers r /\ keys (plug f r) = keys r /\ keys (plug f' r) = keys r /\
+         ensured (plug f r) = ensured r /\ ensured (plug f' r) = ensured r) ->
     (forall r, replug f r = plug f r /\ replug f' r = plug f' r) ->
     (forall K l S1 E, (exists E1, lift f K (By l S1 Ok E) = [By l S1 Ok E1]) /\
        (exists E1, lift f' K (By l S1 Ok E) = [By l S1 Ok E1]) /\
@@ -320,8 +324,8 @@ Section Laws.
       b = plug f' (Watch r h)));
       [|exists r; auto].
     clear r Hr. intros a b (r & Hr & -> & ->).
-    destruct (Hface r) as (N1 & _ & N3 & _ & N5 & _ & N7 & _ & N9 & _).
-    destruct (Hface (Watch r h)) as (_ & N2 & _ & N4 & _ & N6 & _ & N8 & _ & N10).
+    destruct (Hface r) as (N1 & _ & N3 & _ & N5 & _ & N7 & _ & N9 & _ & N11 & _).
+    destruct (Hface (Watch r h)) as (_ & N2 & _ & N4 & _ & N6 & _ & N8 & _ & N10 & _ & N12).
     assert (F : face (Watch (plug f r) h) (plug f' (Watch r h))).
     { split.
       - cbn [names]. rewrite N3, N4. apply alike_refl.
@@ -329,7 +333,8 @@ Section Laws.
       - cbn [numbers]. rewrite N7, N8. apply alike_refl.
       - cbn [normal]. rewrite N1, Hr, Hs. reflexivity.
       - rewrite N2. cbn [normal]. rewrite Hr, Hs. reflexivity.
-      - change (alike (keys (plug f r)) (keys (plug f' (Watch r h)))). rewrite N9, N10. apply alike_refl. }
+      - change (alike (keys (plug f r)) (keys (plug f' (Watch r h)))). rewrite N9, N10. apply alike_refl.
+      - intros S. change (ensured (Watch (plug f r) h)) with (ensured (plug f r)). rewrite N11, N12. reflexivity. }
     assert (Hw : forall K l S1 m E, on_error h K l S1 m E = [By l S1 Ok (E ++ [])]).
     { intros. unfold on_error. rewrite Hh. cbn. rewrite after_nothing. reflexivity. }
     assert (Aw : is_around (In_watch h) [] []) by (repeat split; apply alike_refl).
@@ -453,21 +458,21 @@ Section Laws.
   Qed.
 
   (** [t | t' = t' | t], and so for any order of any number of them. *)
-  Theorem parallel_permuted rs rs' : Permutation rs rs' -> normal (Parallel rs) = true ->
+  Theorem parallel_permuted rs rs' : ends_commute -> Permutation rs rs' -> normal (Parallel rs) = true ->
     bisimilar (Parallel rs) (Parallel rs').
   Proof.
-    intros H Hn.
+    intros commute H Hn.
     apply (@by_symmetric_relation _ _ (fun a b => normal a = true /\ exists rs rs', Permutation rs rs' /\
       a = Parallel rs /\ b = Parallel rs')); [| |split; [exact Hn | exists rs, rs'; auto]].
     - intros a b (Na & xs & ys & Hp & -> & ->). split.
       + cbn [normal] in *. rewrite <- (Permutation_length Hp), <- (forallb_permuted _ Hp). exact Na.
       + exists ys, xs. split; [symmetry; exact Hp | auto].
-    - clear. intros a b (Na & xs & ys & Hp & -> & ->).
+    - clear - commute. intros a b (Na & xs & ys & Hp & -> & ->).
       assert (Nb : normal (Parallel ys) = true).
       { cbn [normal] in *. rewrite <- (Permutation_length Hp), <- (forallb_permuted _ Hp). exact Na. }
       split.
       { split; auto; [apply (alike_permuted names Hp) | | apply (alike_permuted numbers Hp) | apply (alike_permuted
-        keys Hp)].
+        keys Hp) | exact (does_permuted commute (Permutation_flat_map ensured Hp) (ensured_allowed Na))].
         rewrite !through_run_of. apply alike_permuted. exact Hp. }
       intros e K S u Hu. assert (Nu := goes_normal Hu Na).
       apply goes_parts in Hu. destruct Hu as [[] | (f & r & v & Hin & Hv & Hu)].
@@ -498,7 +503,12 @@ Section Laws.
           assert (L2 : 2 <= length (b' ++ a')) by (rewrite <- Hl; exact L1).
           rewrite (parallel_branches Hb L1) in *. rewrite (parallel_branches Hb' L2) in *.
           left. split; [exact Nu|]. exists (y :: y' :: rest), (b' ++ a'). auto.
-      + split; [reflexivity | split; [|reflexivity]]. apply without_alike, alike_permuted. exact Hp'.
+      + split; [reflexivity | split; [|reflexivity]].
+        rewrite (without_alike (vs := flat_map run_of (before ++ after)) (ws := flat_map run_of (b' ++ a')))
+          by (apply alike_permuted; exact Hp').
+        apply (does_permuted commute); [apply Permutation_flat_map; exact Hp'|]. apply ensured_branches.
+        cbn [normal] in Na. rewrite andb_true_iff in Na. destruct Na as [Na1 Na2]. apply Nat.leb_le in Na1.
+        apply (split_branches Na2 Na1).
       + cbn. auto.
   Qed.
 
@@ -509,11 +519,13 @@ Section Laws.
     destruct (flat a) as [|x xs]; [congruence|]. destruct (flat b) as [|y ys]; [congruence|]. destruct xs; reflexivity.
   Qed.
 
-  Corollary parallel_comm a b : normal a = true -> normal b = true -> bisimilar (parallel [a; b]) (parallel [b; a]).
+  Corollary parallel_comm a b : ends_commute -> normal a = true -> normal b = true ->
+    bisimilar (parallel [a; b]) (parallel [b; a]).
   Proof.
-    intros Ha Hb. assert (Hn : normal (parallel [a; b]) = true).
+    intros commute Ha Hb. assert (Hn : normal (parallel [a; b]) = true).
     { apply normal_parallel; [discriminate|]. cbn. rewrite Ha, Hb. reflexivity. }
-    rewrite !parallel_two in * by assumption. apply parallel_permuted; [apply Permutation_app_comm | exact Hn].
+    rewrite !parallel_two in * by assumption.
+    apply parallel_permuted; [exact commute | apply Permutation_app_comm | exact Hn].
   Qed.
 
   Theorem parallel_assoc a b c : normal a = true -> normal b = true -> normal c = true ->
@@ -549,7 +561,7 @@ Section Laws.
           assert (A3 := alike_permuted (fun b => numbers (snd b)) Hp).
         split.
         { destruct H as [(-> & ->) | [(-> & ->) | (r & -> & ->)]]; split; try assumption; try apply alike_refl;
-            (apply alike_app; [apply alike_refl | assumption]). }
+            try reflexivity; (apply alike_app; [apply alike_refl | assumption]). }
         assert (Choosing : forall e K S (surrounds : list branch -> residual -> residual) t,
           (forall y b a b' a', Permutation (b ++ a) (b' ++ a') -> forall x, xs = b ++ (y, x) :: a ->
              forall ds, up Q (surrounds (b ++ a) (given ds x)) (surrounds (b' ++ a') (given ds x))) ->
@@ -636,7 +648,8 @@ Section Laws.
       - cbn [normal is_sequence negb andb]. rewrite !andb_true_iff. auto.
       - cbn [normal]. apply andb_true_iff. split; [rewrite map_length; exact Hl|]. apply forallb_forall. intros y Hy.
         apply in_map_iff in Hy. destruct Hy as (z & <- & Hz). apply Hb'. exact Hz.
-      - apply alike_refl. }
+      - apply alike_refl.
+      - reflexivity. }
     assert (Plain : forall y ds, In y bs -> given ds (snd y) = snd y).
     { intros y ds Hy. apply given_plain. rewrite forallb_forall in Hp. auto. }
     assert (Plain' : forall y ds, In y bs -> given ds (sequence (snd y) t) = sequence (snd y) t).
@@ -686,6 +699,9 @@ Section Laws.
   Definition asks_no_held (g : code) : Prop :=
     forall K K' S, world_of K = world_of K' -> runs g [] K S = runs g [] K' S.
 
+  Section Side_by_side.
+  Hypothesis commute : ends_commute.
+
   Lemma without_both a b S : without (run_of b) (without (run_of a) S) = without (flat_map run_of (flat a ++ flat b)) S.
   Proof.
     rewrite without_twice. apply without_alike. intros v.
@@ -701,14 +717,14 @@ Section Laws.
     match v with
     | By l S1 (Next a) E => By l S1 (Next (parallel [a; b])) E
     | By l S1 Ok E => By l S1 (Next b) E
-    | By l S1 (Err m) E => By l (without (run_of b) S1) (Err m) E
+    | By l S1 (Err m) E => By l (does (ensured b) (without (run_of b) S1)) (Err m) E
     | By l S1 (Ends x) E => By l S1 (Ends x) E
     end.
   Definition of_right (a : residual) (v : transition) : transition :=
     match v with
     | By l S1 (Next b) E => By l S1 (Next (parallel [a; b])) E
     | By l S1 Ok E => By l S1 (Next a) E
-    | By l S1 (Err m) E => By l (without (run_of a) S1) (Err m) E
+    | By l S1 (Err m) E => By l (does (ensured a) (without (run_of a) S1)) (Err m) E
     | By l S1 (Ends x) E => By l S1 (Ends x) E
     end.
 
@@ -726,7 +742,8 @@ Section Laws.
     intros Hb Nv. destruct v as [l S1 [x | | m | x] E]; cbn [surround of_left app].
     - split; [reflexivity | split; [reflexivity|]]. rewrite (parallel_two Nv Hb). reflexivity.
     - split; [reflexivity | split; [reflexivity|]]. apply parallel_flat. exact Hb.
-    - split; [reflexivity | split; [|reflexivity]]. rewrite (@through_flat _ _ _ _ through_run_of). reflexivity.
+    - split; [reflexivity | split; [|reflexivity]].
+      rewrite (@through_flat _ _ _ _ through_run_of), (@through_flat _ _ _ _ through_ensured). reflexivity.
     - cbn. auto.
   Qed.
 
@@ -735,7 +752,8 @@ Section Laws.
     intros Ha Nv. destruct v as [l S1 [x | | m | x] E]; cbn [surround of_right]; rewrite ?app_nil_r.
     - split; [reflexivity | split; [reflexivity|]]. rewrite (parallel_two Ha Nv). reflexivity.
     - split; [reflexivity | split; [reflexivity|]]. apply parallel_flat. exact Ha.
-    - split; [reflexivity | split; [|reflexivity]]. rewrite (@through_flat _ _ _ _ through_run_of). reflexivity.
+    - split; [reflexivity | split; [|reflexivity]].
+      rewrite (@through_flat _ _ _ _ through_run_of), (@through_flat _ _ _ _ through_ensured). reflexivity.
     - cbn. auto.
   Qed.
 
@@ -755,17 +773,17 @@ Section Laws.
     destruct (@three_ways _ before r after [] (flat a) (flat b) Hp) as [(c & E & _) | [(b1 & a1 & F & ->
       & ->) | (c & F & ->)]].
     - destruct before; discriminate.
-    - left. destruct (hole_forward B1 Ha F Hv) as (w & Hw & Hag). exists w. split; [exact Hw|].
+    - left. destruct (hole_forward commute B1 Ha F Hv) as (w & Hw & Hag). exists w. split; [exact Hw|].
       eapply agree_eq_trans; [exact Hag|]. apply surround_left; [exact Hb | exact (goes_normal Hw Ha)].
     - right. cbn [app] in Hv |- *. replace after with (after ++ []) in Hv |- * by apply app_nil_r.
-      destruct (hole_forward A2 Hb F Hv) as (w & Hw & Hag). exists w. split; [exact Hw|].
+      destruct (hole_forward commute A2 Hb F Hv) as (w & Hw & Hag). exists w. split; [exact Hw|].
       eapply agree_eq_trans; [exact Hag|]. apply surround_right; [exact Ha | exact (goes_normal Hw Hb)].
   Qed.
 
   Lemma goes_left a b e K S v : normal a = true -> normal b = true -> goes e (enter (Beside [] (flat b)) K) S a v ->
     exists u, goes e K S (parallel [a; b]) u /\ agree eq u (of_left b v).
   Proof.
-    intros Ha Hb Hv. destruct (around_one Hb) as [B1 _]. destruct (hole_backward B1 Ha Hv) as (u & Hu & Hag).
+    intros Ha Hb Hv. destruct (around_one Hb) as [B1 _]. destruct (hole_backward commute B1 Ha Hv) as (u & Hu & Hag).
     exists u. split; [rewrite (parallel_two Ha Hb); exact Hu|]. eapply agree_eq_trans; [apply agree_eq_sym; exact Hag|].
     apply surround_left; [exact Hb | exact (goes_normal Hv Ha)].
   Qed.
@@ -773,7 +791,7 @@ Section Laws.
   Lemma goes_right a b e K S v : normal a = true -> normal b = true -> goes e (enter (Beside (flat a) []) K) S b v ->
     exists u, goes e K S (parallel [a; b]) u /\ agree eq u (of_right a v).
   Proof.
-    intros Ha Hb Hv. destruct (around_one Ha) as [_ A2]. destruct (hole_backward A2 Hb Hv) as (u & Hu & Hag).
+    intros Ha Hb Hv. destruct (around_one Ha) as [_ A2]. destruct (hole_backward commute A2 Hb Hv) as (u & Hu & Hag).
     exists u. split.
     - rewrite (parallel_two Ha Hb). unfold hole in Hu. rewrite app_nil_r in Hu. exact Hu.
     - eapply agree_eq_trans; [apply agree_eq_sym; exact Hag|]. apply surround_right;
@@ -819,14 +837,27 @@ Section Laws.
       - apply Through; [apply through_numbers | reflexivity].
       - exact (N2 a b Ha Hb).
       - apply N2; assumption.
-      - apply Through; [apply through_keys | reflexivity]. }
-    assert (CutA : forall S, without (run_of (cutting b)) (without (run_of a) S) = without (run_of (parallel [a;
-      b])) S).
-    { intros S. change (run_of (cutting b)) with (run_of b). rewrite without_both. apply without_alike, alike_sym.
+      - apply Through; [apply through_keys | reflexivity].
+      - intros S. cbn [cutting ensured]. rewrite !(through_parallel _ _ _ through_ensured). reflexivity. }
+    assert (Ends : ensured (parallel [a; b]) = ensured a ++ ensured b)
+      by (rewrite (through_parallel _ _ _ through_ensured); cbn [flat_map]; rewrite app_nil_r; reflexivity).
+    assert (CutA : forall S, does (ensured (cutting b)) (without (run_of (cutting b))
+      (does (ensured a) (without (run_of a) S))) = does (ensured (parallel [a; b])) (without (run_of (parallel [a;
+      b])) S)).
+    { intros S. change (ensured (cutting b)) with (ensured b). change (run_of (cutting b)) with (run_of b).
+      change (without (run_of b) (does (ensured a) (without (run_of a) S)))
+        with (does (ensured a) (without (run_of b) (without (run_of a) S))).
+      rewrite Ends, does_app, without_both. do 2 f_equal. apply without_alike, alike_sym.
       apply run_of_two; assumption. }
-    assert (CutB : forall S, without (run_of (cutting a)) (without (run_of b) S) = without (run_of (parallel [a;
-      b])) S).
-    { intros S. change (run_of (cutting a)) with (run_of a). rewrite without_twice. apply without_alike. intros v.
+    assert (CutB : forall S, does (ensured (cutting a)) (without (run_of (cutting a))
+      (does (ensured b) (without (run_of b) S))) = does (ensured (parallel [a; b])) (without (run_of (parallel [a;
+      b])) S)).
+    { intros S. change (ensured (cutting a)) with (ensured a). change (run_of (cutting a)) with (run_of a).
+      change (without (run_of a) (does (ensured b) (without (run_of b) S)))
+        with (does (ensured b) (without (run_of a) (without (run_of b) S))).
+      rewrite <- does_app, (does_permuted commute (Permutation_app_comm (ensured b) (ensured a)))
+        by (rewrite forallb_app, (ensured_allowed Ha), (ensured_allowed Hb); reflexivity).
+      rewrite <- Ends. f_equal. rewrite without_twice. apply without_alike. intros v.
       rewrite (run_of_two Ha Hb v), flat_map_app, !(@through_flat _ _ _ _ through_run_of), !in_app_iff. tauto. }
     assert (Names : forall X (f : residual -> list X) r, through f -> f (cutting r) = f r ->
               alike (flat_map f (flat r)) (flat_map f (flat (cutting r)))).
@@ -931,6 +962,8 @@ Section Laws.
           -- right. apply bisimilar_refl. exact Na.
   Qed.
 
+  End Side_by_side.
+
   (** {1 Rounds that begin in the middle} *)
 
   Definition turned (t u a b : residual) : Prop :=
@@ -957,7 +990,8 @@ Section Laws.
         rewrite in_app_iff in A3. tauto.
       - cbn [normal some_left]. rewrite Nxu, Ntu. reflexivity.
       - cbn [normal some_left]. rewrite Hx, Nut. reflexivity.
-      - change (alike (keys (sequence x u)) (keys x)). rewrite keys_sequence. apply alike_refl. }
+      - change (alike (keys (sequence x u)) (keys x)). rewrite keys_sequence. apply alike_refl.
+      - intros S. cbn [ensured]. rewrite ensured_sequence. reflexivity. }
     assert (Ctx : forall K, similar (enter (In_sequence u) (enter (Round_of None None tu) K)) (enter (Round_of None
       None ut) K)).
     { intros K.
@@ -1017,7 +1051,8 @@ Section Laws.
     (forall v, In v (frame_names f) -> In v (names t)) -> (forall i, In i (frame_numbers f) -> In i (numbers t)) ->
     (forall r, normal r = true -> normal (plug f (Repeat r None None t)) = true) ->
     (forall r, alike (names (plug f r)) (names r ++ frame_names f) /\ run_of (plug f r) = run_of r /\
-       alike (numbers (plug f r)) (numbers r ++ frame_numbers f) /\ keys (plug f r) = keys r) ->
+       alike (numbers (plug f r)) (numbers r ++ frame_numbers f) /\ keys (plug f r) = keys r /\
+       ensured (plug f r) = ensured r) ->
     (forall e K S r x, ~ In x (own e K S (plug f r))) ->
     (forall r, replug f (Repeat r None None t) = plug f (Repeat r None None t)) ->
     (forall K l S1 m E, lift f K (By l S1 (Err m) E) = [By l S1 (Err m) E]) ->
@@ -1027,10 +1062,11 @@ Section Laws.
     apply (@by_relation _ _ (fun a b => exists r, normal r = true /\ a = plug f (Repeat r None None t) /\
       b = Repeat r None None t)); [|exists r; auto].
     clear r Hr. intros a b (r & Hr & -> & ->). set (R := Repeat r None None t).
-    destruct (Hface R) as (F1 & F2 & F3 & F4).
+    destruct (Hface R) as (F1 & F2 & F3 & F4 & F5).
     assert (NR : normal R = true) by (cbn [R normal some_left]; rewrite Hr, Ht; reflexivity).
     assert (F : face (plug f R) R).
-    { split; [| rewrite F2; apply alike_refl | | apply Nf; exact Hr | exact NR | rewrite F4; apply alike_refl].
+    { split; [| rewrite F2; apply alike_refl | | apply Nf; exact Hr | exact NR |
+        rewrite F4; apply alike_refl | rewrite F5; reflexivity].
       - eapply alike_trans; [exact F1|]. intros v. rewrite in_app_iff. cbn [R names]. rewrite in_app_iff.
         specialize (Hn v). tauto.
       - eapply alike_trans; [exact F3|]. intros v. rewrite in_app_iff. cbn [R numbers]. rewrite in_app_iff.
@@ -1106,7 +1142,7 @@ Section Laws.
       b = Fresh (ks ++ ks') r)); [|exists r; auto].
     clear r Hr. intros a b (r & Hr & -> & ->).
     assert (F : face (Fresh ks (Fresh ks' r)) (Fresh (ks ++ ks') r)).
-    { split; try exact Hr; cbn [names numbers keys]; try (rewrite app_assoc); apply alike_refl. }
+    { split; try exact Hr; cbn [names numbers keys]; try (rewrite app_assoc); try apply alike_refl. reflexivity. }
     assert (Ctx : forall K, similar (enter (With_keys ks') (enter (With_keys ks) K)) (enter (With_keys (ks ++ ks')) K)).
     { intros K.
       assert (P : forall is, is_around (With_keys is) [] is) by (intros is; repeat split; apply alike_refl).
@@ -1135,5 +1171,130 @@ Section Laws.
         (eexists; split; [eapply Step; [left; reflexivity | left; reflexivity]|]);
         (split; [reflexivity | split; [rewrite ?clear_twice; reflexivity|]]); auto.
       left. exists x. auto.
+  Qed.
+
+  (** {1 Ends} *)
+
+  (** [(t ensure { D }) ensure { D' } = t ensure { D; D' }] *)
+  Theorem ensure_twice ds es r : normal (Ensure (Ensure r ds) es) = true ->
+    bisimilar (Ensure (Ensure r ds) es) (Ensure r (ds ++ es)).
+  Proof.
+    intros Hn.
+    apply (@by_relation _ _ (fun a b => exists r, normal (Ensure (Ensure r ds) es) = true /\
+      a = Ensure (Ensure r ds) es /\ b = Ensure r (ds ++ es))); [|exists r; auto].
+    clear r Hn. intros a b (r & Hn & -> & ->).
+    assert (Hr : normal r = true) by (cbn [normal] in Hn; rewrite !andb_true_iff in Hn; tauto).
+    assert (F : face (Ensure (Ensure r ds) es) (Ensure r (ds ++ es))).
+    { split; try apply alike_refl; try exact Hn.
+      - cbn [normal] in *. rewrite forallb_app, app_length, !andb_true_iff in *. destruct es; cbn in *; intuition.
+        destruct ds; reflexivity.
+      - intros S. cbn [ensured]. rewrite app_assoc. reflexivity. }
+    assert (P : forall xs, is_around (Ensuring xs) [] []) by (intros xs; repeat split; apply alike_refl).
+    assert (Ctx : forall K, similar (enter (Ensuring ds) (enter (Ensuring es) K)) (enter (Ensuring (ds ++ es)) K)).
+    { intros K. eapply enter_two; [apply P | apply P | apply P]. }
+    split; [exact F | split; intros e K S u Hu].
+    - change (Ensure (Ensure r ds) es) with (plug (Ensuring es) (plug (Ensuring ds) r)) in Hu.
+      apply goes_plug in Hu; [|reflexivity]. destruct Hu as [[] | (w & Hw & Hu)].
+      apply goes_plug in Hw; [|reflexivity]. destruct Hw as [[] | (v & Hv & Hw)].
+      assert (Nv := goes_normal Hv Hr). eapply goes_similar in Hv; [|apply Ctx].
+      assert (Step : forall u', In u' (lift (Ensuring (ds ++ es)) K v) -> goes e K S (Ensure r (ds ++ es)) u').
+      { intros u' Hu'. change (Ensure r (ds ++ es)) with (plug (Ensuring (ds ++ es)) r). eapply Within; eassumption. }
+      destruct v as [l S1 [x | | m | x] E]; destruct Hw as [<- | []]; destruct Hu as [<- | []];
+        (eexists; split; [apply Step; left; reflexivity|]);
+        (split; [reflexivity | split; [rewrite ?does_app; reflexivity|]]); auto.
+      left. exists x. split; [|auto]. cbn [normal next_normal] in *. rewrite Nv. rewrite !andb_true_iff in *. tauto.
+    - change (Ensure r (ds ++ es)) with (plug (Ensuring (ds ++ es)) r) in Hu.
+      apply goes_plug in Hu; [|reflexivity]. destruct Hu as [[] | (v & Hv & Hu)].
+      assert (Nv := goes_normal Hv Hr). eapply goes_similar in Hv; [|apply similar_sym, Ctx].
+      assert (Step : forall w u', In w (lift (Ensuring ds) (enter (Ensuring es) K) v) ->
+        In u' (lift (Ensuring es) K w) -> goes e K S (Ensure (Ensure r ds) es) u').
+      { intros w u' Hw Hu'. change (Ensure (Ensure r ds) es) with (plug (Ensuring es) (plug (Ensuring ds) r)).
+        eapply Within; [eapply Within; [exact Hv | exact Hw] | exact Hu']. }
+      destruct v as [l S1 [x | | m | x] E]; destruct Hu as [<- | []];
+        (eexists; split; [eapply Step; [left; reflexivity | left; reflexivity]|]);
+        (split; [reflexivity | split; [rewrite ?does_app; reflexivity|]]); auto.
+      left. exists x. split; [|auto]. cbn [normal next_normal] in *. rewrite Nv. rewrite !andb_true_iff in *. tauto.
+  Qed.
+
+  (** [(until { g } run t) ensure { D } = until { g } run (t ensure { D })], and so [assure], [during n], [within]. *)
+  Definition cuts (f : frame) : bool := match f with Body_until _ _ | Body_during _ _ _ => true | _ => false end.
+
+  Theorem ensure_inside f ds r : cuts f = true -> normal (Ensure r ds) = true ->
+    bisimilar (Ensure (plug f r) ds) (plug f (Ensure r ds)).
+  Proof.
+    intros Hf Hn.
+    apply (@by_relation _ _ (fun a b => exists r, normal (Ensure r ds) = true /\
+      a = Ensure (plug f r) ds /\ b = plug f (Ensure r ds))); [|exists r; auto].
+    clear r Hn. intros a b (r & Hn & -> & ->).
+    assert (Hr : normal r = true) by (cbn [normal] in Hn; rewrite !andb_true_iff in Hn; tauto).
+    assert (F : face (Ensure (plug f r) ds) (plug f (Ensure r ds))).
+    { destruct f; try discriminate Hf; split; try apply alike_refl; try exact Hn; reflexivity. }
+    assert (Hb : is_beside f = false) by (destruct f; try discriminate Hf; reflexivity).
+    assert (P : is_around (Ensuring ds) [] []) by (repeat split; apply alike_refl).
+    assert (Pf : is_around f [] (frame_numbers f))
+      by (destruct f; try discriminate Hf; repeat split; apply alike_refl).
+    assert (Ctx : forall K, similar (enter f (enter (Ensuring ds) K)) (enter (Ensuring ds) (enter f K)))
+      by (intros K; eapply enter_swap; eassumption).
+    assert (Left : forall e K S u u1, In u (own e K S (plug f r)) -> In u1 (lift (Ensuring ds) K u) ->
+      exists u2, In u2 (own e K S (plug f (Ensure r ds))) /\ agree eq u1 u2).
+    { intros e K S u u1. destruct f; try discriminate Hf; cbn [plug own ensured].
+      - unfold guarded, coded, breaks. destruct e; [intros []|].
+        destruct (runs g [] K S) as [x s N0 x0 | m x0 | m x0 | m s N0 x0 |]; try (intros []; fail);
+          [destruct (truth x) as [[]|], k | destruct (is_unknown m) | |]; try (intros []; fail);
+          intros [<- | []] [<- | []]; (eexists; split; [left; reflexivity|]); cbn; rewrite ?does_app; auto.
+      - destruct e as [[]|]; try (intros []; fail). destruct (timer_eq i0 i); [|intros []].
+        intros [<- | []]. destruct k; intros [<- | []]; (eexists; split; [left; reflexivity|]); cbn;
+          rewrite ?does_app; auto. }
+    assert (Right : forall e K S u2, In u2 (own e K S (plug f (Ensure r ds))) ->
+      exists u u1, In u (own e K S (plug f r)) /\ In u1 (lift (Ensuring ds) K u) /\ agree eq u2 u1).
+    { intros e K S u2. destruct f; try discriminate Hf; cbn [plug own ensured].
+      - unfold guarded, coded, breaks. destruct e; [intros []|].
+        destruct (runs g [] K S) as [x s N0 x0 | m x0 | m x0 | m s N0 x0 |]; try (intros []; fail);
+          [destruct (truth x) as [[]|], k | destruct (is_unknown m) | |]; try (intros []; fail);
+          intros [<- | []]; (do 2 eexists; split; [left; reflexivity | split; [left; reflexivity|]]); cbn;
+          rewrite ?does_app; auto.
+      - destruct e as [[]|]; try (intros []; fail). destruct (timer_eq i0 i); [|intros []].
+        intros [<- | []]. destruct k; (do 2 eexists; split; [left; reflexivity | split; [left; reflexivity|]]); cbn;
+          rewrite ?does_app; auto. }
+    assert (Inside : forall K v w u, In w (lift f (enter (Ensuring ds) K) v) -> In u (lift (Ensuring ds) K w) ->
+      next_normal v -> exists w' u', In w' (lift (Ensuring ds) (enter f K) v) /\ In u' (lift f K w') /\
+        agree (fun a b => exists r, normal (Ensure r ds) = true /\ a = Ensure (plug f r) ds /\
+          b = plug f (Ensure r ds)) u u').
+    { intros K [l S1 [x | | m | x] E] w u Hw Hu Nv; destruct f; try discriminate Hf; destruct Hw as [<- | []];
+        destruct Hu as [<- | []]; (do 2 eexists; split; [left; reflexivity | split; [left; reflexivity|]]);
+        (split; [reflexivity | split; [reflexivity|]]); auto;
+        (exists x; split; [|auto]; cbn [normal next_normal] in *; rewrite Nv; rewrite !andb_true_iff in *; tauto). }
+    assert (Outside : forall K v w u, In w (lift (Ensuring ds) (enter f K) v) -> In u (lift f K w) ->
+      next_normal v -> exists w' u', In w' (lift f (enter (Ensuring ds) K) v) /\ In u' (lift (Ensuring ds) K w') /\
+        agree (fun b a => exists r, normal (Ensure r ds) = true /\ a = Ensure (plug f r) ds /\
+          b = plug f (Ensure r ds)) u u').
+    { intros K [l S1 [x | | m | x] E] w u Hw Hu Nv; destruct f; try discriminate Hf; destruct Hw as [<- | []];
+        destruct Hu as [<- | []]; (do 2 eexists; split; [left; reflexivity | split; [left; reflexivity|]]);
+        (split; [reflexivity | split; [reflexivity|]]); auto;
+        (exists x; split; [|auto]; cbn [normal next_normal] in *; rewrite Nv; rewrite !andb_true_iff in *; tauto). }
+    split; [exact F | split; intros e K S u Hu].
+    - assert (Nu := goes_normal Hu (face_normal F)).
+      change (Ensure (plug f r) ds) with (plug (Ensuring ds) (plug f r)) in Hu.
+      apply goes_plug in Hu; [|reflexivity]. destruct Hu as [[] | (w & Hw & Hu)].
+      apply goes_plug in Hw; [|exact Hb]. destruct Hw as [Hw | (v & Hv & Hw)].
+      + rewrite (own_similar e S (plug f r) (enter_none K P)) in Hw. destruct (Left _ _ _ _ _ Hw Hu) as (u2 & H2 & A).
+        exists u2. split; [apply Itself; exact H2|]. eapply agree_more'; [exact A | exact Nu | apply up_refl].
+      + assert (Nv := goes_normal Hv Hr). destruct (Inside _ _ _ _ Hw Hu Nv) as (w' & u' & Hw' & Hu' & A).
+        exists u'. split; [|eapply agree_more; [|exact A]; intros x y H; left; exact H].
+        eapply Within; [|exact Hu']. change (Ensure r ds) with (plug (Ensuring ds) r).
+        eapply Within; [|exact Hw']. eapply goes_similar; [exact Hv | apply Ctx].
+    - assert (Nu := goes_normal Hu (face_normal' F)). apply goes_plug in Hu; [|exact Hb].
+      destruct Hu as [Hu | (w & Hw & Hu)].
+      + destruct (Right _ _ _ _ Hu) as (v & u1 & Hv & Hu1 & A). exists u1. split.
+        * change (Ensure (plug f r) ds) with (plug (Ensuring ds) (plug f r)). eapply Within; [|exact Hu1].
+          apply Itself. rewrite (own_similar e S (plug f r) (enter_none K P)). exact Hv.
+        * eapply agree_more'; [exact A | exact Nu | apply up_refl].
+      + change (Ensure r ds) with (plug (Ensuring ds) r) in Hw. apply goes_plug in Hw; [|reflexivity].
+        destruct Hw as [[] | (v & Hv & Hw)]. assert (Nv := goes_normal Hv Hr).
+        destruct (Outside _ _ _ _ Hw Hu Nv) as (w' & u' & Hw' & Hu' & A).
+        exists u'. split; [|eapply agree_more; [|exact A]; intros x y H; left; exact H].
+        change (Ensure (plug f r) ds) with (plug (Ensuring ds) (plug f r)).
+        eapply Within; [|exact Hu']. eapply Within; [|exact Hw'].
+        eapply goes_similar; [exact Hv | apply similar_sym, Ctx].
   Qed.
 End Laws.

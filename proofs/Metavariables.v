@@ -21,7 +21,8 @@ Class Names := {
   tuples : Type;                                    (* N *)
   world : Type;                                     (* w *)
   machine : Type;                                   (* M *)
-  host_call : Type                                  (* a call of the host *)
+  host_call : Type;                                 (* a call of the host *)
+  assignment : Type                                 (* v = x: a global variable with its value *)
 }.
 
 (** A timer, a question or a recruit, by its place in the executed task, from 1; 0 is the script's timer. *)

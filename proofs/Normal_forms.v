@@ -10,7 +10,7 @@ Section Normal_forms.
   Definition solid_handler (h : handler) : bool := match anew h with Some (t, _) => solid t | None => true end.
 
   (** [>>] leans to the right; [|] is flat, of at least two branches; an [allOf] with one branch left is a [oneOf]; a
-      [repeat] has a round to come; [holding] holds somebody. *)
+      [repeat] has a round to come; [holding] holds somebody; an end does something, and what the program's ends may. *)
   Fixpoint normal (r : residual) : bool :=
     match r with
     | Sequence r t => negb (is_sequence r) && normal r && normal t
@@ -23,6 +23,7 @@ Section Normal_forms.
     | Holding vs r => (1 <=? length vs) && normal r
     | Watch r h => normal r && solid_handler h
     | Unallocated t _ => solid t
+    | Ensure r ds => (1 <=? length ds) && forallb may_ensure ds && normal r
     | Until _ _ r | During _ _ _ r | During_code _ _ _ r | Recruited _ r | Fresh _ r => normal r
     | Ready _ _ | Running _ _ | Action _ | Condition _ | Idle _ _ | Confirm _ _ _ | Made _ _ _
     | Recruit _ _ _ _ _ => true
@@ -87,8 +88,19 @@ Section Normal_forms.
     normal r = true -> forallb (fun b => normal (snd b)) bs = true -> normal (branch_of r bs) = true.
   Proof. intros H1 H2. destruct bs; [exact H1|]. cbn [branch_of normal length Nat.leb]. bools. auto. Qed.
 
+  Lemma normal_ensure r ds : normal r = true -> forallb may_ensure ds = true -> normal (ensure_ r ds) = true.
+  Proof. intros H1 H2. destruct ds; [exact H1|]. cbn [ensure_ normal]. bools. auto. Qed.
+
   Lemma normal_given ds r : normal r = true -> normal (given ds r) = true.
-  Proof. intros H. destruct r; try exact H. cbn [given]. destruct (has_parameters a); [reflexivity | exact H]. Qed.
+  Proof.
+    induction r; cbn [given]; auto.
+    - destruct (has_parameters a); auto.
+    - cbn [normal]. bools. intros [[_ H1] H2]. apply normal_ensure; [apply IHr; exact H2|].
+      unfold given_back. rewrite forallb_forall in *. intros d Hd. apply in_flat_map in Hd.
+      destruct Hd as (e & He & Hd). specialize (H1 e He).
+      destruct e; cbn in Hd; try (destruct Hd as [<- | []]; exact H1).
+      apply in_map_iff in Hd. destruct Hd as (x & <- & _). apply give_back_law. exact H1.
+  Qed.
 
   Lemma normal_holding vs r : normal r = true -> normal (holding vs r) = true.
   Proof. destruct vs; cbn; auto. Qed.
@@ -118,22 +130,23 @@ Section Normal_forms.
       - cbn [forallb snd] in *. bools. destruct (open_each inside a n) as [(a' & n1)|] eqn:A; [|discriminate].
         destruct (_ bs n1) as [(bs1 & n2)|] eqn:B; [|discriminate]. injection H as <- <-. cbn [forallb snd]. bools.
         split; [split; [eapply Hb; [exact A | tauto] | eapply IH; [exact B | tauto]] | discriminate]. }
-    induction t using task_rect'; intros n0 t' n' Ho Hs; cbn [open_each solid] in *; bools;
+    induction t using task_rect'; intros n0 t' n' Ho Hs; cbn [open_each solid_with] in *; bools;
       try (injection Ho as <- <-; exact Hs);
       try (eapply Hi; exact Ho);
       try (destruct (open_each inside t n0) as [(a' & n1)|] eqn:A; [|discriminate]; injection Ho as <- <-;
-           cbn [solid]; bools; first [eapply IHt; [exact A | tauto] | split; [eapply IHt; [exact A | tauto] | tauto]]).
+           cbn [solid_with]; bools;
+           first [eapply IHt; [exact A | tauto] | split; [eapply IHt; [exact A | tauto] | tauto]]).
     - destruct (open_each inside t1 n0) as [(a' & n1)|] eqn:A; [|discriminate].
-      destruct (open_each inside t2 n1) as [(b' & n2)|] eqn:B; [|discriminate]. injection Ho as <- <-. cbn [solid].
+      destruct (open_each inside t2 n1) as [(b' & n2)|] eqn:B; [|discriminate]. injection Ho as <- <-. cbn [solid_with].
       bools. split; [eapply IHt1; [exact A | tauto] | eapply IHt2; [exact B | tauto]].
     - destruct (open_each inside t1 n0) as [(a' & n1)|] eqn:A; [|discriminate].
-      destruct (open_each inside t2 n1) as [(b' & n2)|] eqn:B; [|discriminate]. injection Ho as <- <-. cbn [solid].
+      destruct (open_each inside t2 n1) as [(b' & n2)|] eqn:B; [|discriminate]. injection Ho as <- <-. cbn [solid_with].
       bools. split; [eapply IHt1; [exact A | tauto] | eapply IHt2; [exact B | tauto]].
-    - destruct (_ bs n0) as [(bs' & n1)|] eqn:B; [|discriminate]. injection Ho as <- <-. cbn [solid]. bools.
+    - destruct (_ bs n0) as [(bs' & n1)|] eqn:B; [|discriminate]. injection Ho as <- <-. cbn [solid_with]. bools.
       destruct (Branches bs H _ _ _ B) as [H1 H2]; [tauto|]. split; [|exact H1].
       destruct bs; [destruct Hs; discriminate|]. destruct bs'; [exfalso; apply H2; [discriminate | reflexivity] |
         reflexivity].
-    - destruct (_ bs n0) as [(bs' & n1)|] eqn:B; [|discriminate]. injection Ho as <- <-. cbn [solid]. bools.
+    - destruct (_ bs n0) as [(bs' & n1)|] eqn:B; [|discriminate]. injection Ho as <- <-. cbn [solid_with]. bools.
       destruct (Branches bs H _ _ _ B) as [H1 H2]; [tauto|]. split; [|exact H1].
       destruct bs; [destruct Hs; discriminate|]. destruct bs'; [exfalso; apply H2; [discriminate | reflexivity] |
         reflexivity].
@@ -154,7 +167,7 @@ Section Normal_forms.
       destruct (run c _ w h S) as [x s N ds | m ds | m ds | m s N ds |]; try discriminate;
       destruct (made_task c _ q S x s ds) as [t1|] eqn:M; try discriminate.
     destruct (opened_with fuel w h S key _ t1 _) as [(t2 & n2)|] eqn:O; [|discriminate]. injection H as <- <-.
-    cbn [solid]. eapply IH; [exact O | eapply made_solid; exact M].
+    cbn [solid_with]. eapply IH; [exact O | eapply made_solid; exact M].
   Qed.
 
   Lemma solid_opened w h S key q t n t' n' : opened w h S key q t n = inl (t', n') -> solid t = true -> solid t' = true.
@@ -163,7 +176,7 @@ Section Normal_forms.
 
   Lemma solid_unopened t : solid t = true -> solid (unopened t) = true.
   Proof.
-    induction t using task_rect'; cbn [unopened solid]; bools; try tauto.
+    induction t using task_rect'; cbn [unopened solid_with]; bools; try tauto.
     - intros [H1 H2]. split; [destruct bs; [discriminate | reflexivity]|]. rewrite forallb_forall in *.
       rewrite Forall_forall in H. intros b Hb. apply in_map_iff in Hb. destruct Hb as (b0 & <- & Hb). cbn. auto.
     - intros [H1 H2]. split; [destruct bs; [discriminate | reflexivity]|]. rewrite forallb_forall in *.
@@ -190,7 +203,7 @@ Section Normal_forms.
 
   Lemma normal_build (p : supply) t : forall ok k a b, solid t = true -> normal (build p ok t k a b) = true.
   Proof.
-    induction t using task_rect'; intros ok k0 a0 b0 Hs; cbn [build solid] in *; try reflexivity; bools.
+    induction t using task_rect'; intros ok k0 a0 b0 Hs; cbn [build solid_with] in *; try reflexivity; bools.
     - apply normal_sequence; [apply IHt1 | apply IHt2]; tauto.
     - apply normal_parallel; [discriminate|]. cbn [forallb]. rewrite IHt1, IHt2 by tauto. reflexivity.
     - apply IHt. exact Hs.
@@ -204,6 +217,7 @@ Section Normal_forms.
       apply solid_unopened. exact Hs.
     - apply normal_repeat; apply IHt; exact Hs.
     - apply IHt. exact Hs.
+    - apply normal_ensure; [apply IHt|]; tauto.
   Qed.
 
   (** {1 Every step keeps the normal form} *)

@@ -143,8 +143,8 @@ Section Not_laws.
     n r).
   Proof.
     intros H. apply alike_back in H.
-    answer H (Some (Expired i)) (alone w) S (By LTimeout (without (run_of r) S) (time_out k n) (cut [r])) T A;
-      [done_by|].
+    answer H (Some (Expired i)) (alone w) S
+      (By LTimeout (does (ensured r) (without (run_of r) S)) (time_out k n) (cut [r])) T A; [done_by|].
     contradiction.
   Qed.
 
@@ -167,7 +167,8 @@ Section Not_laws.
   Proof.
     intros Hr Hx H.
     destruct (alike_next H (e := None) (K := alone w) (S := S)
-      (t := By (LCut ds) (without [] (with_code s N S)) Ok (effects_of ds ++ cut [Sequence (Idle i n) (Idle j m)])))
+      (t := By (LCut ds) (does [] (without [] (with_code s N S))) Ok
+              (effects_of ds ++ cut [Sequence (Idle i n) (Idle j m)])))
       as (t' & T & A).
     - apply Itself. cbn [own]. unfold guarded, coded. rewrite Hr, Hx. left. reflexivity.
     - apply steps_iff_goes in T. cbn in T. destruct t'. unfold guarded, coded in T.
@@ -196,6 +197,60 @@ Section Not_laws.
   Proof.
     intros H. apply alike_back in H.
     answer H (Some (Expired i)) (alone w) S (By LTimeout S Ok []) T A; [done_by|]. sole T A.
+  Qed.
+
+  (** [(t ensure { D }) >> t' = t >> action { D } >> t'] *)
+  Theorem ensure_action_is_no_law (w : world) (S : shared) i n ds a p v :
+    ~ alike_steps (Sequence (Ensure (Idle i n) ds) (Ready p v)) (Sequence (Idle i n) (Sequence (Action a) (Ready p v))).
+  Proof.
+    intros H.
+    answer H (Some (Expired i)) (alone w) S (By LTimeout (clear [] (does ds S)) (Next (Ready p v)) []) T A; [done_by|].
+    sole T A. destruct A as (_ & _ & H1). exact (action_first_is_no_law w S (alike_back H1)).
+  Qed.
+
+  (** [(t | t') ensure { D } = (t ensure { D }) | t']: on the right, D is done when t ends. *)
+  Theorem ensure_beside_is_no_law (w : world) (S : shared) i n ds p v : does ds S <> S ->
+    ~ alike_steps (Ensure (Parallel [Idle i n; Ready p v]) ds) (Parallel [Ensure (Idle i n) ds; Ready p v]).
+  Proof.
+    intros Hd H.
+    answer H (Some (Expired i)) (alone w) S (By LTimeout S (Next (Ensure (Ready p v) ds)) []) T A; [done_by|].
+    sole T A.
+  Qed.
+
+  (** [(t >> t') ensure { D } = t >> (t' ensure { D })]: on the right, nothing is ensured while t runs. *)
+  Theorem ensure_later_is_no_law (w : world) (S : shared) i x at_site ds t : does ds S <> S ->
+    ~ alike_steps (Ensure (Sequence (Confirm i x at_site) t) ds) (Sequence (Confirm i x at_site) (Ensure t ds)).
+  Proof.
+    intros Hd H. apply alike_back in H.
+    answer H (Some (Answered i false)) (alone w) S (By (LAnswered false) S (Err (answered_no at_site x)) []) T A;
+      [done_by|].
+    sole T A.
+  Qed.
+
+  (** [(repeat t) ensure { D } = repeat (t ensure { D })]: on the right, after each round. *)
+  Theorem ensure_rounds_is_no_law (w : world) (S : shared) i n ds : clear [] (does ds S) <> clear [] S ->
+    ~ alike_steps (Ensure (Repeat (Idle i n) None None (Idle i n)) ds)
+                  (Repeat (Ensure (Idle i n) ds) None None (Ensure (Idle i n) ds)).
+  Proof.
+    intros Hd H.
+    answer H (Some (Expired i)) (alone w) S
+      (By LTimeout (clear [] S) (Next (Ensure (Repeat (Idle i n) None None (Idle i n)) ds)) [Set_timer i n]) T A;
+      [done_by|].
+    sole T A.
+  Qed.
+
+  (** [until { false } run (t | t') = t | t'] beside an end that may not change places with that of [t']. *)
+  Theorem until_beside_is_no_law (w : world) (S : shared) g i x at_site j n m ds es k :
+    variables (does es (does ds S)) <> variables (does ds (does es S)) ->
+    ~ alike_steps
+        (Parallel [Ensure (Idle k n) es; Until Completes g (Parallel [Confirm i x at_site; Ensure (Idle j m) ds])])
+        (Parallel [Ensure (Idle k n) es; Confirm i x at_site; Ensure (Idle j m) ds]).
+  Proof.
+    intros Hd H. apply alike_back in H.
+    answer H (Some (Answered i false)) (alone w) S (By (LAnswered false) (does (es ++ ds ++ []) (without [] S))
+      (Err (answered_no at_site x)) (cut [Ensure (Idle k n) es; Ensure (Idle j m) ds])) T A; [done_by|].
+    sole T A. apply Hd. destruct A as (_ & A & _). apply (f_equal variables) in A. symmetry in A.
+    rewrite ?app_nil_r, ?does_app in A. exact A.
   Qed.
 
   (** [repeat t >> t' = repeat t] fails beside code that asks whether a vehicle of [t'] is held: [t'] names it. *)

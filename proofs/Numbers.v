@@ -67,6 +67,7 @@ Section Numbers.
   | N_holding : forall vs r, Numbered r -> Numbered (Holding vs r)
   | N_recruited : forall v r, Numbered r -> Numbered (Recruited v r)
   | N_fresh : forall ks r, NoDup ks -> Numbered r -> disjoint ks (numbers r) -> Numbered (Fresh ks r)
+  | N_ensure : forall r ds, Numbered r -> Numbered (Ensure r ds)
   | N_atom : forall r, atom r = true -> Numbered r.
 
   (** {1 Open waits} *)
@@ -157,10 +158,22 @@ Section Numbers.
     assumption]. Qed.
 
   Lemma numbers_given ds r : numbers (given ds r) = numbers r.
-  Proof. destruct r; try reflexivity. cbn [given]. destruct (has_parameters a); reflexivity. Qed.
+  Proof.
+    induction r; cbn [given]; try reflexivity; [destruct (has_parameters a); reflexivity|].
+    destruct (given_back ds ds0); cbn [ensure_ numbers]; exact IHr.
+  Qed.
+
+  Lemma numbered_ensure r ds : Numbered r -> Numbered (ensure_ r ds).
+  Proof. intros H. destruct ds; [exact H | constructor; exact H]. Qed.
+
+  Lemma numbers_ensure r ds : numbers (ensure_ r ds) = numbers r.
+  Proof. destruct ds; reflexivity. Qed.
 
   Lemma numbered_given ds r : Numbered r -> Numbered (given ds r).
-  Proof. intros H. destruct r; try exact H. cbn [given]. destruct (has_parameters a); constructor; reflexivity. Qed.
+  Proof.
+    induction r; cbn [given]; intros H; try exact H; [destruct (has_parameters a); constructor; reflexivity|].
+    apply numbered_ensure, IHr. inversion H; subst; [assumption | discriminate].
+  Qed.
 
   (** {1 What is built} *)
 
@@ -177,7 +190,7 @@ Section Numbers.
     match t with
     | TPlan _ | TAction _ | TCondition _ | TIdle _ | TConfirm _ _ | TMade _ | TRecruit _ _ | TFresh _ => n <= n'
     | TSequence t1 t2 | TParallel t1 t2 => exists m, keyed key t1 n m /\ keyed key t2 m n'
-    | TAllocated t _ | TUntil _ _ t | TDuring _ _ t | TWatch t _ | TRepeat _ _ t => keyed key t n n'
+    | TAllocated t _ | TUntil _ _ t | TDuring _ _ t | TWatch t _ | TRepeat _ _ t | TEnsure t _ => keyed key t n n'
     | TAll_of bs | TOne_of bs =>
         (fix branches (bs : list (code * task)) (n : nat) : Prop :=
            match bs with
@@ -365,6 +378,8 @@ Section Numbers.
         * apply in_map_iff in Hi. destruct Hi as (j & <- & Hi). apply in_seq in Hi. exists j, 0.
           split; [reflexivity | lia].
         * destruct (W1 i Hi) as (a1 & b1 & -> & D). exists a1, b1. split; [reflexivity | lia].
+    - destruct (IHt ok n0 n' k0 a0 b0 Hk Ha) as [N1 W1]. rewrite numbers_ensure. split; [|exact W1].
+      apply numbered_ensure. exact N1.
   Qed.
 
   Lemma top_increasing f : increasing (top f).
@@ -563,6 +578,7 @@ Section Numbers.
             [apply disjoint_sym; eassumption | apply incl_refl | exact Hi].
         * intros i H. cbn [numbers] in *. rewrite in_app_iff in *. destruct H as [H | H]; auto. destruct (New i H);
           auto.
+      + split; [constructor; exact Hn' | exact New].
     - destruct Hu as [<- | []]. destruct f; cbn [plug on_ok keeps_numbers] in *; try exact I; inversion Hn; subst;
         try discriminate.
       + split; [assumption|]. intros i H. left. cbn. apply in_app_iff. auto.

@@ -202,14 +202,14 @@ Section Once.
     - eapply guarded_conserves; [exact Hu | | |]; cbv beta; intros; subst e; try contradiction; is_only H0; intros t;
       counts; cbn; rewrite ?cnt_nil; lia.
     - apply in_each in Hu. destruct Hu as (b & (g & r) & after & Hbs & Hu). cbn [app] in Hu.
-      inversion W as [| | | | | | |X' bs' Wb Qb| | | | | | | | | | | | | | |]; subst X' bs'.
+      inversion W as [| | | | | | |X' bs' Wb Qb| | | | | | | | | | | | | | | |]; subst X' bs'.
       destruct (branches_split _ _ _ _ _ _ Hbs Wb Qb) as (Wr & Qr & _). unfold choose in Hu. cbn [fst snd] in Hu.
       eapply guarded_conserves; [exact Hu | | |]; cbv beta; intros; subst e; try contradiction; is_only H0; intros t;
         counts.
       + rewrite tokens_branch_of, tokens_given, (tokens_quiet Qr). cbn. rewrite ?cnt_nil. lia.
       + cbn. rewrite ?cnt_nil. lia.
     - apply in_each in Hu. destruct Hu as (b & (g & r) & after & Hbs & Hu). cbn [app] in Hu.
-      inversion W as [| | | | | | | |X' bs' Wb Qb| | | | | | | | | | | | | |]; subst X' bs'.
+      inversion W as [| | | | | | | |X' bs' Wb Qb| | | | | | | | | | | | | | |]; subst X' bs'.
       destruct (branches_split _ _ _ _ _ _ Hbs Wb Qb) as (Wr & Qr & _). unfold choose in Hu. cbn [fst snd] in Hu.
       eapply guarded_conserves; [exact Hu | | |]; cbv beta; intros; subst e; try contradiction; is_only H0; intros t;
         counts.
@@ -229,7 +229,7 @@ Section Once.
         rewrite !cnt_app. change (Timer i :: map token_of (waits r)) with ([Timer i] ++ map token_of (waits r)).
         rewrite cnt_app. lia. }
       destruct k; cbn [time_out]; counts; rewrite T; cbn [flat_map ends_token]; rewrite app_nil_r; lia.
-    - inversion W as [| | | | | | | | | | | | |X' k' i' d' r' Wr Qr| | | | | | | | |]; subst.
+    - inversion W as [| | | | | | | | | | | | |X' k' i' d' r' Wr Qr| | | | | | | | | |]; subst.
       assert (T : tokens (During_code k i d r) = []) by reflexivity.
       eapply coded_conserves; [exact Hu | |]; cbv beta; intros; subst e.
       + destruct (time_of d x) as [n|m]; is_only H0; intros t; counts; rewrite T.
@@ -240,7 +240,7 @@ Section Once.
           rewrite T'. counts. cbn. rewrite ?cnt_nil. lia.
         * cbn. rewrite ?cnt_nil. lia.
       + is_only H0. intros t. counts. rewrite T. cbn. rewrite ?cnt_nil. lia.
-    - inversion W as [| | | | | | | | | | | | | | | |X' more' g' t' Wt Qt| | | | | |]; subst.
+    - inversion W as [| | | | | | | | | | | | | | | |X' more' g' t' Wt Qt| | | | | | |]; subst.
       eapply guarded_conserves; [exact Hu | | |]; cbv beta; intros; subst e; (is_only H || is_only H0); intros t0;
         counts.
       + cbn. rewrite ?cnt_nil. lia.
@@ -299,8 +299,8 @@ Section Once.
     destruct o as [r' | | m | e].
     - cbn in Hu. destruct Hu as [<- | []]. intros t. specialize (Hc t). rewrite tokens_plug, tokens_replug. lia.
     - cbn [lift] in Hu. destruct Hu as [<- | []].
-      destruct f as [| | | | | | ? g ? | | |]; [..|destruct g|idtac|idtac|idtac]; cbn [on_ok conserves]; intros t0;
-        specialize (Hc t0);
+      destruct f as [| | | | | | ? g ? | | | |]; [..|destruct g|idtac|idtac|idtac|idtac];
+        cbn [on_ok conserves]; intros t0; specialize (Hc t0);
         rewrite tokens_plug; cbn [frame_tokens]; rewrite ?cnt_nil; counts.
       + rewrite (tokens_quiet Q). rewrite cnt_nil. lia.
       + rewrite tokens_parallel_of. lia.
@@ -312,6 +312,7 @@ Section Once.
       + rewrite tokens_repeat, (tokens_quiet Q), cnt_nil. lia.
       + lia.
       + cbn. rewrite ?cnt_nil. lia.
+      + lia.
       + lia.
     - destruct f; cbn [lift on_err] in Hu;
         try (destruct Hu as [<- | []]; cbn [conserves]; intros t0; specialize (Hc t0); rewrite tokens_plug;
@@ -368,9 +369,9 @@ Section Once.
 
   Lemma loses_cut r l S m E x S0 : closes E = closes (cut [r]) -> ends_token x = [] \/ (exists i,
     ends_token x = [Timer i]) ->
-    allocation S0 = allocation S -> loses x S (By l (without (run_of r) S0) (Err m) E).
+    allocation S0 = allocation S -> loses x S (By l (does (ensured r) (without (run_of r) S0)) (Err m) E).
   Proof.
-    intros HE Hx HS v. rewrite HE. cbn [without with_allocation allocation]. rewrite HS.
+    intros HE Hx HS v. rewrite HE. cbn [does without with_allocation allocation]. rewrite HS.
     assert (H : In (Plan_of v) (closes (cut [r]) ++ ends_token x) <-> In v (run_of r)).
     { rewrite in_app_iff, closes_cut_plan. cbn [flat_map]. rewrite app_nil_r. split; [|auto].
       intros [H | H]; [exact H|].
@@ -459,9 +460,10 @@ Section Once.
   Proof.
     intros Hl Hu. destruct u as [l S1 o E]. destruct o as [r' | | m | e].
     - destruct Hu as [<- | []]. exact I.
-    - destruct Hu as [<- | []]. destruct f as [| | | | | | ? g ? | | |]; [..|destruct g|idtac|idtac|idtac]; exact I.
+    - destruct Hu as [<- | []].
+      destruct f as [| | | | | | ? g ? | | | |]; [..|destruct g|idtac|idtac|idtac|idtac]; exact I.
     - destruct f; cbn [lift on_err] in Hu; try (destruct Hu as [<- | []]; exact Hl).
-      + destruct Hu as [<- | []]. cbn [loses] in *. intros v. cbn [without with_allocation allocation]. rewrite Hl.
+      + destruct Hu as [<- | []]. cbn [loses] in *. intros v. cbn [does without with_allocation allocation]. rewrite Hl.
         assert (H : In (Plan_of v) (closes (E ++ cut (before ++ after)) ++ ends_token x) <->
                     In (Plan_of v) (closes E ++ ends_token x) \/ In v (flat_map run_of (before ++ after))).
         { rewrite closes_app, !in_app_iff, closes_cut_plan. tauto. }

@@ -11,7 +11,7 @@ Section Progress.
     | Parallel rs => match rs with [] => false | _ => true end && forallb full rs
     | All_of bs | One_of bs => match bs with [] => false | _ => true end
     | Sequence r _ | Branch r _ | Until _ _ r | During _ _ _ r | Watch r _ | Repeat r _ _ _ | Holding _ r
-    | Recruited _ r | Fresh _ r => full r
+    | Recruited _ r | Fresh _ r | Ensure r _ => full r
     | Ready _ _ | Running _ _ | Action _ | Condition _ | Idle _ _ | Confirm _ _ _ | During_code _ _ _ _ | Asked _ _ _
     | Made _ _ _ | Unallocated _ _ | Recruit _ _ _ _ _ => true
     end.
@@ -27,8 +27,8 @@ Section Progress.
     | Recruit i _ _ _ _ => [Its_recruit i]
     | During _ i _ r => Its_expiry i :: awaits r
     | Parallel rs => flat_map awaits rs
-    | Sequence r _ | Branch r _ | Until _ _ r | Watch r _ | Repeat r _ _ _ | Holding _ r | Recruited _ r
-    | Fresh _ r => awaits r
+    | Sequence r _ | Branch r _ | Until _ _ r | Watch r _ | Repeat r _ _ _ | Holding _ r | Recruited _ r | Fresh _ r
+    | Ensure r _ => awaits r
     | Ready _ _ | Action _ | Condition _ | All_of _ | One_of _ | During_code _ _ _ _ | Asked _ _ _ | Made _ _ _
     | Unallocated _ _ => []
     end.
@@ -76,7 +76,8 @@ Section Progress.
   | K_repeat : forall K S r more g t, stuck (enter (Round_of more g t) K) S r -> stuck K S (Repeat r more g t)
   | K_holding : forall K S vs r, stuck (enter (Held_by vs) K) S r -> stuck K S (Holding vs r)
   | K_recruited : forall K S v r, stuck (enter (In_recruited v) K) S r -> stuck K S (Recruited v r)
-  | K_fresh : forall K S ks r, stuck (enter (With_keys ks) K) S r -> stuck K S (Fresh ks r).
+  | K_fresh : forall K S ks r, stuck (enter (With_keys ks) K) S r -> stuck K S (Fresh ks r)
+  | K_ensure : forall K S r ds, stuck (enter (Ensuring ds) K) S r -> stuck K S (Ensure r ds).
 
   (** In a closed world what a part does is a step of the whole. *)
   Lemma lift_some f K t : closed_world -> lift f K t <> [].
@@ -196,6 +197,7 @@ Section Progress.
             | Holding ?vs r => pose (f := Held_by vs)
             | Recruited ?v r => pose (f := In_recruited v)
             | Fresh ?ks r => pose (f := With_keys ks)
+            | Ensure r ?ds => pose (f := Ensuring ds)
             end;
             destruct (IH (enter f K) S Q) as [Hs | [Ha | Hk]];
             [left; apply (inside_steps None f r K S Hc Hs) | right; left; exact Ha | right; right; constructor; exact Hk]
@@ -295,7 +297,7 @@ Section Progress.
         destruct f; cbn in Hp; try contradiction; destruct Hp as [Hp | []]; injection Hp as <- <-; eapply Hs; exact Hg'. }
     induction 1 as [K S g Hw | K S bs Hw | K S bs Hw | K S more g t Hw | K S t q m x Hf Hb | K S k g r Hw Hs IH
       | K S r t Hs IH | K S rs Hs IH | K S r bs Hs IH | K S r h Hs IH | K S r more g t Hs IH | K S vs r Hs IH
-      | K S v r Hs IH | K S ks r Hs IH]; intros e u.
+      | K S v r Hs IH | K S ks r Hs IH | K S r ds Hs IH]; intros e u.
     - intros Hg. apply goes_are_steps, steps_parts in Hg. destruct Hg as [Hg | (f & p & [] & _)]. cbn in Hg.
       rewrite (guard_waits_nothing true) in Hg; auto. discriminate.
     - intros Hg. apply goes_are_steps, steps_parts in Hg. destruct Hg as [Hg | (f & p & [] & _)]. cbn in Hg.
@@ -322,6 +324,7 @@ Section Progress.
     - apply (One (Held_by vs)); auto.
     - apply (One (In_recruited v)); auto.
     - apply (One (With_keys ks)); auto.
+    - apply (One (Ensuring ds)); auto.
   Qed.
 
   Lemma stuck_awaits_nothing K S r : stuck K S r -> awaits r = [].

@@ -327,7 +327,7 @@ Section Refinement.
     (forall v, proj_event v x = []) -> (forall v, proj v E0 = []) -> left_alone E0 = [] ->
     allocation S0 = allocation S -> bound S0 = bound S ->
     match o with Ok | Err _ => True | _ => False end ->
-    fits x X K S whole (By l (without (run_of r) S0) o (E0 ++ cut [r])).
+    fits x X K S whole (By l (does (ensured r) (without (run_of r) S0)) o (E0 ++ cut [r])).
   Proof.
     intros HP Hb Hw Hx HE Hl HA HB Ho. pose proof HP as [W N R]. destruct (Wf_nodup _ _ W) as [N1 N2].
     assert (F1 : flat_map run_of [r] = run_of r) by (cbn; apply app_nil_r).
@@ -338,7 +338,7 @@ Section Refinement.
       + f_equal. f_equal; [|].
         * cbn. rewrite HA. reflexivity.
         * assert (Hr : rest whole o (E0 ++ cut [r]) = []) by (destruct o; try contradiction; reflexivity).
-          rewrite Hr. unfold here. cbn [mem without with_allocation bound]. rewrite HB.
+          rewrite Hr. unfold here. cbn [mem does without with_allocation bound]. rewrite HB.
           destruct (mem v (recruits r)) eqn:M.
           -- apply mem_spec in M. symmetry. rewrite !orb_false_iff. repeat split.
              ++ apply mem_false. apply (b_apart _ _ _ _ Hb). exact M.
@@ -409,7 +409,7 @@ Section Refinement.
         rewrite left_effects. apply releases_said.
     - (* ALLOF-WHEN *)
       apply in_each in Ht. destruct Ht as (b & (g & r) & after & Hbs & Ht). cbn [app] in Ht.
-      inversion W as [| | | | | | |X0 bs' Wb Qb| | | | | | | | | | | | | | |]; subst X0 bs'.
+      inversion W as [| | | | | | |X0 bs' Wb Qb| | | | | | | | | | | | | | | |]; subst X0 bs'.
       destruct (branches_split _ _ _ _ _ _ Hbs Wb Qb) as (Wr & Qr & _). unfold choose in Ht. cbn [fst snd] in Ht.
       eapply guarded_fits; [exact HP | exact Hb | exact Ht | | |]; cbv beta.
       + intros s N0 ds -> Hr H. is_only H. destruct (given_same ds r) as (_ & _ & G3 & _ & _).
@@ -422,7 +422,7 @@ Section Refinement.
         rewrite left_effects. apply releases_said.
     - (* ONEOF-WHEN *)
       apply in_each in Ht. destruct Ht as (b & (g & r) & after & Hbs & Ht). cbn [app] in Ht.
-      inversion W as [| | | | | | | |X0 bs' Wb Qb| | | | | | | | | | | | | |]; subst X0 bs'.
+      inversion W as [| | | | | | | |X0 bs' Wb Qb| | | | | | | | | | | | | | |]; subst X0 bs'.
       destruct (branches_split _ _ _ _ _ _ Hbs Wb Qb) as (Wr & Qr & _). unfold choose in Ht. cbn [fst snd] in Ht.
       eapply guarded_fits; [exact HP | exact Hb | exact Ht | | |]; cbv beta.
       + intros s N0 ds -> Hr H. is_only H. destruct (given_same ds r) as (_ & _ & G3 & _ & _).
@@ -783,7 +783,7 @@ Section Refinement.
         split; [|split; [|exact I]].
         * intros v. rewrite proj_app, app_assoc, vrun_app, Before, F1. cbn [rest].
           rewrite cut_run; [|apply Drop; exact N1 | apply Drop; exact N2 | |].
-          -- f_equal. f_equal. unfold here, around. cbn [frame_recruits without with_allocation bound]. cbn [mem].
+          -- f_equal. f_equal. unfold here, around. cbn [frame_recruits does without with_allocation bound]. cbn [mem].
              destruct (mem v (flat_map recruits (before ++ after))) eqn:M.
              ++ apply mem_spec in M. symmetry. rewrite !orb_false_iff. repeat split.
                 ** apply mem_false. intros H. apply (B5 v); [|apply K2; exact H].
@@ -938,6 +938,21 @@ Section Refinement.
   Lemma bag_clear S l S1 o E ks o' E' : bag_moves S (By l S1 o E) -> bag_moves S (By l (clear ks S1) o' E').
   Proof. intros H. destruct (forget_events_law ks (space S1)) as (xs & Hx). eapply bag_more; [exact H | exact Hx]. Qed.
 
+  (** What ends post. *)
+  Definition posts (ds : list end_deed) : list deed :=
+    flat_map (fun d => match d with Posts k x => [Posted [(k, x)]] | Assigns _ | Gives_back => [] end) ds.
+
+  Lemma posts_run ds : forall N, bag_run (of_deeds normal_pair (posts ds)) (pairs N) (pairs (posted ds N)).
+  Proof.
+    induction ds as [|[k x | a |] ds IH]; intros N; try apply IH.
+    - constructor. apply Permutation_refl.
+    - change (posts (Posts k x :: ds)) with ([Posted [(k, x)]] ++ posts ds). rewrite of_deeds_app.
+      eapply bag_run_app; [apply post_law | apply (IH (post [(k, x)] N))].
+  Qed.
+
+  Lemma bag_does S l S1 o E ds o' E' : bag_moves S (By l S1 o E) -> bag_moves S (By l (does ds S1) o' E').
+  Proof. intros H. eapply bag_more; [exact H | apply posts_run]. Qed.
+
   Lemma own_bag e K S r t : In t (own e K S r) -> bag_moves S t.
   Proof.
     intros Ht. destruct r; cbn [own] in Ht; try contradiction.
@@ -964,15 +979,17 @@ Section Refinement.
       + intros [].
       + intros m ds H. is_only H. apply bag_still; reflexivity.
     - eapply guarded_bag; [exact Ht | | |]; cbv beta.
-      + intros s N ds R H. destruct k; [is_only H | contradiction]. eapply bag_shown; [reflexivity | exact R].
-      + intros H. destruct k; [contradiction | is_only H]. apply bag_still; reflexivity.
-      + intros m ds H. is_only H. apply bag_still; reflexivity.
+      + intros s N ds R H. destruct k; [is_only H | contradiction].
+        eapply (bag_does S _ (without (run_of r) (with_code s N S)) Ok []), bag_shown; [reflexivity | exact R].
+      + intros H. destruct k; [contradiction | is_only H].
+        apply (bag_does S _ (without (run_of r) S) Ok []), bag_still; reflexivity.
+      + intros m ds H. is_only H. apply (bag_does S _ (without (run_of r) S) Ok []), bag_still; reflexivity.
     - destruct e as [[]|]; try contradiction. destruct (timer_eq i0 i); [|contradiction]. is_only Ht.
       apply bag_still; reflexivity.
     - destruct e as [[]|]; try contradiction; [destruct yes|]; (destruct (timer_eq i0 i); [|contradiction]);
         is_only Ht; apply bag_still; reflexivity.
     - destruct e as [[]|]; try contradiction. destruct (timer_eq i0 i); [|contradiction]. is_only Ht.
-      apply bag_still; reflexivity.
+      apply (bag_does S _ (without (run_of r) S) Ok []), bag_still; reflexivity.
     - eapply coded_bag; [exact Ht | |]; cbv beta.
       + intros x s N ds R H. destruct (time_of d x); is_only H.
         * eapply (bag_clear S _ (with_code s N S) Ok []), bag_hidden; [reflexivity | exact R].
@@ -1000,10 +1017,12 @@ Section Refinement.
     induction 1 as [K S r t H | K S f r t t' _ IH Hl]; [eapply own_bag; exact H|].
     destruct t as [l S1 [r' | | m | y] E].
     - is_only Hl. exact IH.
-    - cbn [lift] in Hl. destruct Hl as [<- | []]. destruct f as [| | | | | | ? g ? | | |];
-        [..|destruct g|idtac|idtac|idtac]; try exact IH; eapply bag_clear; exact IH.
-    - destruct f; cbn [lift on_err] in Hl; try (is_only Hl; exact IH);
-        try (is_only Hl; eapply bag_clear; exact IH).
+    - cbn [lift] in Hl. destruct Hl as [<- | []]. destruct f as [| | | | | | ? g ? | | | |];
+        [..|destruct g|idtac|idtac|idtac|idtac];
+        first [exact IH | eapply bag_clear; exact IH | eapply bag_does; exact IH].
+    - destruct f; cbn [lift on_err] in Hl;
+        try (is_only Hl; first [exact IH | eapply bag_clear; exact IH]; fail);
+        try (is_only Hl; apply (bag_does S l _ Ok []); exact IH).
       unfold on_error, handles_error in Hl.
       destruct (run_handler (handles h) m (world_of K) (held K) (needed K) S1)
         as [z s gone N0 ds | m' ds | m' ds | m' s gone N0 ds |] eqn:Hh; try contradiction; try (is_only Hl; exact IH).
@@ -1271,6 +1290,7 @@ Section Refinement.
     { intros S S' l0 hidden H. destruct (forget_all_events_law (space S')) as (xs & Hx).
       exists (hidden ++ [Consumed xs]). rewrite app_assoc, of_deeds_app. eapply bag_run_app; eassumption. }
     destruct Hs; cbn [deeds_of app];
+      try (exact (Over S (does (ensured (residual_of k)) S) LInterrupt _ (posts_run _ _)));
       try (exists []; constructor; apply Permutation_refl);
       try (destruct (forget_all_events_law (space S)) as (xs & Hx); exists [Consumed xs]; exact Hx);
       try (destruct (forget_events_law (keys r) (space S)) as (xs & Hx); exists [Consumed xs]; exact Hx);

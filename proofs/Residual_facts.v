@@ -26,6 +26,7 @@ Section Facts.
     Hypothesis on_recruit : forall q a, P (TRecruit q a).
     Hypothesis on_fresh : forall a, P (TFresh a).
     Hypothesis on_keys : forall ks a t, P t -> P (TKeys ks a t).
+    Hypothesis on_ensure : forall t ds, P t -> P (TEnsure t ds).
 
     Fixpoint task_rect' (t : task) : P t :=
       let fix branches (bs : list (code * task)) : Forall (fun b => P (snd b)) bs :=
@@ -52,6 +53,7 @@ Section Facts.
       | TRecruit q a => on_recruit q a
       | TFresh a => on_fresh a
       | TKeys ks a t => on_keys ks a t (task_rect' t)
+      | TEnsure t ds => on_ensure t ds (task_rect' t)
       end.
   End Induction.
 
@@ -91,7 +93,7 @@ Section Facts.
     | Parallel rs => forallb quiet rs
     | Branch r bs => quiet r && forallb (fun b => quiet (snd b)) bs
     | All_of bs | One_of bs => forallb (fun b => quiet (snd b)) bs
-    | Until _ _ r | During _ _ _ r | During_code _ _ _ r | Watch r _ | Asked _ _ r | Fresh _ r => quiet r
+    | Until _ _ r | During _ _ _ r | During_code _ _ _ r | Watch r _ | Asked _ _ r | Fresh _ r | Ensure r _ => quiet r
     | Ready _ _ | Action _ | Condition _ | Idle _ _ | Confirm _ _ _ | Made _ _ _ | Unallocated _ _
     | Recruit _ _ _ _ _ => true
     end.
@@ -189,6 +191,7 @@ Section Facts.
   Lemma through_running : through running. Proof. intros rs. reflexivity. Qed.
   Lemma through_recruits : through recruits. Proof. intros rs. reflexivity. Qed.
   Lemma through_keys : through keys. Proof. intros rs. reflexivity. Qed.
+  Lemma through_ensured : through ensured. Proof. intros rs. reflexivity. Qed.
   Lemma through_waits : through waits. Proof. intros rs. reflexivity. Qed.
 
   Lemma names_repeat r more g t v :
@@ -214,6 +217,18 @@ Section Facts.
   Proof. destruct bs; reflexivity. Qed.
 
   Lemma keys_all_of bs : keys (all_of bs) = [].
+  Proof. destruct bs as [|b [|b' bs]]; reflexivity. Qed.
+
+  Lemma ensured_sequence r t : ensured (sequence r t) = ensured r.
+  Proof. induction r; cbn [sequence ensured]; auto. Qed.
+
+  Lemma ensured_repeat r more g t : ensured (repeat_ r more g t) = ensured r.
+  Proof. unfold repeat_. destruct more as [[|n]|]; reflexivity. Qed.
+
+  Lemma ensured_branch_of r bs : ensured (branch_of r bs) = ensured r.
+  Proof. destruct bs; reflexivity. Qed.
+
+  Lemma ensured_all_of bs : ensured (all_of bs) = [].
   Proof. destruct bs as [|b [|b' bs]]; reflexivity. Qed.
 
   Lemma names_branch_of r bs v :
@@ -245,11 +260,22 @@ Section Facts.
     names (given ds r) = names r /\ running (given ds r) = running r /\ recruits (given ds r) = recruits r /\
     waits (given ds r) = waits r /\ quiet (given ds r) = quiet r.
   Proof.
-    destruct r; try (repeat split; reflexivity). cbn [given]. destruct (has_parameters a); repeat split; reflexivity.
+    induction r; cbn [given]; try (repeat split; reflexivity).
+    - destruct (has_parameters a); repeat split; reflexivity.
+    - destruct IHr as (H1 & H2 & H3 & H4 & H5). unfold ensure_. destruct (given_back ds ds0); cbn; auto.
   Qed.
 
   Lemma keys_given ds r : keys (given ds r) = keys r.
-  Proof. destruct r; try reflexivity. cbn [given]. destruct (has_parameters a); reflexivity. Qed.
+  Proof.
+    induction r; cbn [given]; try reflexivity.
+    - destruct (has_parameters a); reflexivity.
+    - unfold ensure_. destruct (given_back ds ds0); cbn; auto.
+  Qed.
+
+  Lemma ensure_same r ds :
+    names (ensure_ r ds) = names r /\ running (ensure_ r ds) = running r /\ recruits (ensure_ r ds) = recruits r /\
+    waits (ensure_ r ds) = waits r /\ quiet (ensure_ r ds) = quiet r /\ numbers (ensure_ r ds) = numbers r.
+  Proof. destruct ds; cbn; auto 10. Qed.
 
   (** {1 Well-formed residuals} *)
 
@@ -300,7 +326,8 @@ Section Facts.
   | W_recruit : forall (X : vehicle -> Prop) i q a j d, Wf X (Recruit i q a j d)
   | W_recruited : forall (X : vehicle -> Prop) v r,
       ~ In v (recruits r) -> Wf (fun u => X u \/ u = v) r -> Wf X (Recruited v r)
-  | W_fresh : forall (X : vehicle -> Prop) ks r, Wf X r -> Wf X (Fresh ks r).
+  | W_fresh : forall (X : vehicle -> Prop) ks r, Wf X r -> Wf X (Fresh ks r)
+  | W_ensure : forall (X : vehicle -> Prop) r ds, Wf X r -> Wf X (Ensure r ds).
 
   Lemma Wf_more X r : Wf X r -> forall Y : vehicle -> Prop, (forall v, In v (names r) -> X v -> Y v) -> Wf Y r.
   Proof.
@@ -370,10 +397,14 @@ Section Facts.
     apply H1. left. reflexivity.
   Qed.
 
+  Lemma Wf_ensure X r ds : Wf X r -> Wf X (ensure_ r ds).
+  Proof. intros W. destruct ds; [exact W | constructor; exact W]. Qed.
+
   Lemma Wf_given X ds r : Wf X r -> Wf X (given ds r).
   Proof.
     induction r; cbn [given]; auto.
     - destruct (has_parameters a); auto. intros _. constructor.
+    - intros W. inversion W; subst. apply Wf_ensure. auto.
   Qed.
 
   Lemma flat_map_nodup (f : residual -> list vehicle) rs :

@@ -34,7 +34,8 @@ Section Residuals.
   | Holding (vs : list vehicle) (r : residual)
   | Recruit (i : timer) (q : filter) (a : code) (j : timer) (deep : nat)
   | Recruited (v : vehicle) (r : residual)
-  | Fresh (ks : list timer) (r : residual).                          (* r has the keys of these numbers *)
+  | Fresh (ks : list timer) (r : residual)                           (* r has the keys of these numbers *)
+  | Ensure (r : residual) (ds : list end_deed).                      (* r, and the deeds of its end *)
 
   Definition branch := (code * residual)%type.
 
@@ -64,6 +65,7 @@ Section Residuals.
     Hypothesis on_recruit : forall i q a j d, P (Recruit i q a j d).
     Hypothesis on_recruited : forall v r, P r -> P (Recruited v r).
     Hypothesis on_fresh : forall ks r, P r -> P (Fresh ks r).
+    Hypothesis on_ensure : forall r ds, P r -> P (Ensure r ds).
 
     Fixpoint residual_rect' (r : residual) : P r :=
       let fix all (rs : list residual) : Forall P rs :=
@@ -97,6 +99,7 @@ Section Residuals.
       | Recruit i q a j d => on_recruit i q a j d
       | Recruited v r => on_recruited v r (residual_rect' r)
       | Fresh ks r => on_fresh ks r (residual_rect' r)
+      | Ensure r ds => on_ensure r ds (residual_rect' r)
       end.
   End Induction.
 
@@ -124,6 +127,8 @@ Section Residuals.
 
   Definition holding (vs : list vehicle) (r : residual) : residual := match vs with [] => r | _ => Holding vs r end.
 
+  Definition ensure_ (r : residual) (ds : list end_deed) : residual := match ds with [] => r | _ => Ensure r ds end.
+
   (** {1 Activation}
 
       What waits for the outside in a part: a timer that runs, or a question that stands. Activation starts them, so the
@@ -137,8 +142,8 @@ Section Residuals.
     | Confirm i x _ => [(i, Answer_to x)]
     | During _ i n r => (i, Time n) :: waits r
     | Parallel rs => flat_map waits rs
-    | Sequence r _ | Branch r _ | Until _ _ r | Watch r _ | Repeat r _ _ _ | Holding _ r | Recruited _ r
-    | Fresh _ r => waits r
+    | Sequence r _ | Branch r _ | Until _ _ r | Watch r _ | Repeat r _ _ _ | Holding _ r | Recruited _ r | Fresh _ r
+    | Ensure r _ => waits r
     | Ready _ _ | Running _ _ | Action _ | Condition _ | All_of _ | One_of _ | During_code _ _ _ _ | Asked _ _ _
     | Made _ _ _ | Unallocated _ _ | Recruit _ _ _ _ _ => []
     end.
@@ -149,7 +154,7 @@ Section Residuals.
     | Fresh ks r => ks ++ keys r
     | Parallel rs => flat_map keys rs
     | Sequence r _ | Branch r _ | Until _ _ r | During _ _ _ r | Watch r _ | Repeat r _ _ _ | Holding _ r
-    | Recruited _ r => keys r
+    | Recruited _ r | Ensure r _ => keys r
     | Ready _ _ | Running _ _ | Action _ | Condition _ | All_of _ | One_of _ | Idle _ _ | Confirm _ _ _
     | During_code _ _ _ _ | Asked _ _ _ | Made _ _ _ | Unallocated _ _ | Recruit _ _ _ _ _ => []
     end.
@@ -162,7 +167,7 @@ Section Residuals.
     | Running p v => [(v, p)]
     | Parallel rs => flat_map running rs
     | Sequence r _ | Branch r _ | Until _ _ r | During _ _ _ r | Watch r _ | Repeat r _ _ _ | Holding _ r
-    | Recruited _ r | Fresh _ r => running r
+    | Recruited _ r | Fresh _ r | Ensure r _ => running r
     | Ready _ _ | Action _ | Condition _ | All_of _ | One_of _ | Idle _ _ | Confirm _ _ _ | During_code _ _ _ _
     | Asked _ _ _ | Made _ _ _ | Unallocated _ _ | Recruit _ _ _ _ _ => []
     end.
@@ -174,8 +179,19 @@ Section Residuals.
     match r with
     | Recruited v r => v :: recruits r
     | Parallel rs => flat_map recruits rs
+    | Sequence r _ | Branch r _ | Until _ _ r | During _ _ _ r | Watch r _ | Repeat r _ _ _ | Holding _ r | Fresh _ r
+    | Ensure r _ => recruits r
+    | Ready _ _ | Running _ _ | Action _ | Condition _ | All_of _ | One_of _ | Idle _ _ | Confirm _ _ _
+    | During_code _ _ _ _ | Asked _ _ _ | Made _ _ _ | Unallocated _ _ | Recruit _ _ _ _ _ => []
+    end.
+
+  (** [ensured(r)]: the deeds of the ends of what is active, inner ones first. *)
+  Fixpoint ensured (r : residual) : list end_deed :=
+    match r with
+    | Ensure r ds => ensured r ++ ds
+    | Parallel rs => flat_map ensured rs
     | Sequence r _ | Branch r _ | Until _ _ r | During _ _ _ r | Watch r _ | Repeat r _ _ _ | Holding _ r
-    | Fresh _ r => recruits r
+    | Recruited _ r | Fresh _ r => ensured r
     | Ready _ _ | Running _ _ | Action _ | Condition _ | All_of _ | One_of _ | Idle _ _ | Confirm _ _ _
     | During_code _ _ _ _ | Asked _ _ _ | Made _ _ _ | Unallocated _ _ | Recruit _ _ _ _ _ => []
     end.
@@ -191,7 +207,7 @@ Section Residuals.
     | Parallel rs => flat_map names rs
     | Branch r bs => names r ++ flat_map (fun b => names (snd b)) bs
     | All_of bs | One_of bs => flat_map (fun b => names (snd b)) bs
-    | Until _ _ r | During _ _ _ r | During_code _ _ _ r | Watch r _ | Asked _ _ r | Fresh _ r => names r
+    | Until _ _ r | During _ _ _ r | During_code _ _ _ r | Watch r _ | Asked _ _ r | Fresh _ r | Ensure r _ => names r
     | Action _ | Condition _ | Idle _ _ | Confirm _ _ _ | Made _ _ _ | Unallocated _ _ | Recruit _ _ _ _ _ => []
     end.
 
@@ -205,7 +221,7 @@ Section Residuals.
     | Parallel rs => flat_map numbers rs
     | Branch r bs => numbers r ++ flat_map (fun b => numbers (snd b)) bs
     | All_of bs | One_of bs => flat_map (fun b => numbers (snd b)) bs
-    | Until _ _ r | Watch r _ | Asked _ _ r | Holding _ r | Recruited _ r => numbers r
+    | Until _ _ r | Watch r _ | Asked _ _ r | Holding _ r | Recruited _ r | Ensure r _ => numbers r
     | Ready _ _ | Running _ _ | Action _ | Condition _ | Made _ _ _ | Unallocated _ _ => []
     end.
 
@@ -222,7 +238,8 @@ Section Residuals.
   | Round_of (more : option nat) (g : option code) (t : residual)
   | Held_by (vs : list vehicle)
   | In_recruited (v : vehicle)
-  | With_keys (ks : list timer).
+  | With_keys (ks : list timer)
+  | Ensuring (ds : list end_deed).
 
   Definition plug (f : frame) (r : residual) : residual :=
     match f with
@@ -236,6 +253,7 @@ Section Residuals.
     | Held_by vs => Holding vs r
     | In_recruited v => Recruited v r
     | With_keys ks => Fresh ks r
+    | Ensuring ds => Ensure r ds
     end.
 
   Definition frame_names (f : frame) : list vehicle :=
@@ -245,7 +263,7 @@ Section Residuals.
     | Branch_of bs => flat_map (fun b => names (snd b)) bs
     | Held_by vs => vs
     | In_recruited v => [v]
-    | Body_until _ _ | Body_during _ _ _ | In_watch _ | With_keys _ => []
+    | Body_until _ _ | Body_during _ _ _ | In_watch _ | With_keys _ | Ensuring _ => []
     end.
 
   Definition frame_numbers (f : frame) : list timer :=
@@ -255,6 +273,6 @@ Section Residuals.
     | Branch_of bs => flat_map (fun b => numbers (snd b)) bs
     | Body_during _ i _ => [i]
     | With_keys ks => ks
-    | Held_by _ | In_recruited _ | Body_until _ _ | In_watch _ => []
+    | Held_by _ | In_recruited _ | Body_until _ _ | In_watch _ | Ensuring _ => []
     end.
 End Residuals.

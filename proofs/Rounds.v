@@ -35,7 +35,8 @@ Section Rounds.
       - intros i. specialize (A3 i). destruct k; cbn [numbers repeat_]; rewrite !in_app_iff; tauto.
       - cbn [normal]. rewrite Hj, NN, normal_repeat by assumption. reflexivity.
       - cbn [normal]. rewrite Hx, Hr, Ht. reflexivity.
-      - change (alike (keys (repeat_ r (Some k) None t)) (keys r)). rewrite keys_repeat. apply alike_refl. }
+      - change (alike (keys (repeat_ r (Some k) None t)) (keys r)). rewrite keys_repeat. apply alike_refl.
+      - intros S. cbn [ensured]. rewrite ensured_repeat. reflexivity. }
     (* After a round of [t]. *)
     assert (Inner : forall k', k = Datatypes.S k' -> times n t (Repeat (repeat_ t (Some k') None t) more None N)
       (repeat_ t (option_map pred (total k more n)) None t)).

@@ -157,6 +157,13 @@ Section Same_residuals.
   Theorem repeat_once g t : begin_alike (TRepeat (Some 1) g t) t.
   Proof. opens. split; [repeat split | split; [intros B ok f k; cbn; tauto | intros p ok k a b; reflexivity]]. Qed.
 
+  (** [t ensure { } = t], and [(t ensure { D })[V] = t[V] ensure { D }]. *)
+  Theorem ensure_nothing t : begin_alike (TEnsure t []) t.
+  Proof. opens. split; [repeat split | split; [intros B ok f k; cbn; tauto | intros p ok k a b; reflexivity]]. Qed.
+
+  Theorem allocated_ensure t ds vs : begin_alike (TAllocated (TEnsure t ds) vs) (TEnsure (TAllocated t vs) ds).
+  Proof. opens. split; [repeat split | split; [intros B ok f k; cbn; tauto | intros p ok k a b; reflexivity]]. Qed.
+
   (** [(t >> t') >> t'' = t >> (t' >> t'')], with the numbers that each part gets. *)
   Lemma sequence_assoc_build r r' r'' : sequence (sequence r r') r'' = sequence r (sequence r' r'').
   Proof. induction r using residual_rect'; cbn [sequence]; try reflexivity. rewrite IHr2. reflexivity. Qed.

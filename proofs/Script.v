@@ -93,9 +93,9 @@ Section Script.
     match k with Wait _ (For_pick _) | Wait _ (For_pause _) => [Cancel_timer script_timer] | _ => [] end.
   Definition recruited_by (k : control) : list vehicle := recruits (residual_of k).
 
-  (** [S] where M(T) begins. *)
+  (** [S] where M(T) begins, after the ends of what is cut off. *)
   Definition gone_home (k : control) (S : shared) : shared :=
-    task_over (with_bound (bound S ++ recruited_by k) (with_allocation nothing S)).
+    task_over (with_bound (bound S ++ recruited_by k) (with_allocation nothing (does (ensured (residual_of k)) S))).
 
   (** The machine that an interruption goes on with, and its B. *)
   Definition home (k : control) (S : shared) : option machine :=
@@ -221,7 +221,7 @@ Section Script.
   | INTERRUPT : forall k S,
       (forall e, k <> End e) -> home k S = None ->
       cstep w (Some Interruption) {| control_of := k; shared_of := S |} LInterrupt
-        (ended S Interrupted)
+        (ended (does (ensured (residual_of k)) S) Interrupted)
         (end_of None (residual_of k) (script_waits k) S Interrupted)
   | ON_INTERRUPT : forall k S M,
       (forall e, k <> End e) -> home k S = Some M ->
@@ -296,7 +296,7 @@ Section Script.
         | Some M =>
             [To LInterrupt (script_at M (gone_home k S))
                (script_waits k ++ stops None (residual_of k) [] S)]
-        | None => [To LInterrupt (ended S Interrupted)
+        | None => [To LInterrupt (ended (does (ensured (residual_of k)) S) Interrupted)
                      (end_of None (residual_of k) (script_waits k) S Interrupted)]
         end
     | Exec M r, Some (Input key x) =>
@@ -412,7 +412,7 @@ Section Script.
             | Some M0 => [To LInterrupt
                 (script_at M0 (gone_home (Wait M q) S))
                 (script_waits (Wait M q) ++ stops None (residual_of (Wait M q)) [] S)]
-            | None => [To LInterrupt (ended S Interrupted)
+            | None => [To LInterrupt (ended (does (ensured (residual_of (Wait M q))) S) Interrupted)
                 (end_of None (residual_of (Wait M q)) (script_waits (Wait M q)) S Interrupted)] end)
             by (destruct q; exact H).
           clear H. destruct (home (Wait M q) S) eqn:Hh; destruct H' as [H | []]; injection H as <- <- <-.

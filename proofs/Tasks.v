@@ -41,9 +41,20 @@ Section Tasks.
   Definition after_handler (s : store) (gone : list vehicle) (N : tuples) (S : shared) : shared :=
     with_bound (minus (bound S) gone) (with_code s N S).
 
-  (** What a guard took, for code in the place of a branch's task. *)
-  Definition given (ds : list deed) (r : residual) : residual :=
-    match r with Made a ys q => if has_parameters a then Made a (taken ds) q else r | r => r end.
+  (** The pairs that a guard took, in the place of [giveBack()]. *)
+  Definition given_back (ds : list deed) (es : list end_deed) : list end_deed :=
+    flat_map (fun e => match e with
+      | Gives_back => map (fun x => Posts (fst x) (snd x)) (taken_pairs ds)
+      | e => [e]
+      end) es.
+
+  (** What a guard took, for code in the place of a branch's task, and for its end. *)
+  Fixpoint given (ds : list deed) (r : residual) : residual :=
+    match r with
+    | Made a ys q => if has_parameters a then Made a (taken ds) q else r
+    | Ensure r es => ensure_ (given ds r) (given_back ds es)
+    | r => r
+    end.
 
   (** B for what is made in a part, and those of them that it does not see as held. *)
   Definition its_bound (K : context) (S : shared) : list vehicle := bound S ++ its_recruits K.
@@ -126,7 +137,7 @@ Section Tasks.
   | PAR_ERR : forall e K S before r after l S' m E,
       step e (enter (Beside before after) K) S r l S' (Err m) E ->
       step e K S (Parallel (before ++ r :: after)) l
-        (without (flat_map run_of (before ++ after)) S') (Err m)
+        (does (flat_map ensured (before ++ after)) (without (flat_map run_of (before ++ after)) S')) (Err m)
         (E ++ cut (before ++ after))
 
   (* Branches with guards *)
@@ -157,11 +168,11 @@ Section Tasks.
   (* Until and assure *)
   | UNTIL_CUT : forall K S g r x s N ds,
       runs g [] K S = Gives x s N ds -> truth x = Some true ->
-      step None K S (Until Completes g r) (LCut ds) (without (run_of r) (with_code s N S)) Ok
+      step None K S (Until Completes g r) (LCut ds) (does (ensured r) (without (run_of r) (with_code s N S))) Ok
         (effects_of ds ++ cut [r])
   | ASSURE_CUT : forall K S at_site g r x s N ds,
       runs g [] K S = Gives x s N ds -> truth x = Some false ->
-      step None K S (Until (Fails at_site) g r) (LCut []) (without (run_of r) S)
+      step None K S (Until (Fails at_site) g r) (LCut []) (does (ensured r) (without (run_of r) S))
         (Err (not_assured at_site g)) (cut [r])
   | UNTIL_1 : forall e K S k g r l S' r' E,
       step e (enter (Body_until k g) K) S r l S' (Next r') E ->
@@ -174,7 +185,7 @@ Section Tasks.
       step e K S (Until k g r) l S' (Err m) E
   | UNTIL_ERR_guard : forall K S k g r m ds,
       runs g [] K S = Faulty m ds -> is_unknown m = false ->
-      step None K S (Until k g r) (LBroken m) (without (run_of r) S) (Err m)
+      step None K S (Until k g r) (LBroken m) (does (ensured r) (without (run_of r) S)) (Err m)
         (effects_of (said ds) ++ cut [r])
 
   (* Time *)
@@ -185,9 +196,10 @@ Section Tasks.
       step None K S (During_code k i d r) (LSet_time n) (clear (keys r) (with_code s N S)) (Next (During k i n r))
         (effects_of ds ++ Set_timer i n :: begun r)
   | DURING_CUT : forall K S i n r,
-      step (Some (Expired i)) K S (During Completes i n r) LTimeout (without (run_of r) S) Ok (cut [r])
+      step (Some (Expired i)) K S (During Completes i n r) LTimeout (does (ensured r) (without (run_of r) S)) Ok
+        (cut [r])
   | WITHIN_CUT : forall K S at_site i n r,
-      step (Some (Expired i)) K S (During (Fails at_site) i n r) LTimeout (without (run_of r) S)
+      step (Some (Expired i)) K S (During (Fails at_site) i n r) LTimeout (does (ensured r) (without (run_of r) S))
         (Err (not_in_time at_site n)) (cut [r])
   | DURING_1 : forall e K S k i n r l S' r' E,
       step e (enter (Body_during k i n) K) S r l S' (Next r') E ->
@@ -343,5 +355,16 @@ Section Tasks.
       step e K S (Fresh ks r) l (clear ks S') Ok E
   | FRESH_ERR : forall e K S ks r l S' m E,
       step e (enter (With_keys ks) K) S r l S' (Err m) E ->
-      step e K S (Fresh ks r) l (clear ks S') (Err m) E.
+      step e K S (Fresh ks r) l (clear ks S') (Err m) E
+
+  (* Ends *)
+  | ENSURE_1 : forall e K S ds r l S' r' E,
+      step e (enter (Ensuring ds) K) S r l S' (Next r') E ->
+      step e K S (Ensure r ds) l S' (Next (Ensure r' ds)) E
+  | ENSURE_2 : forall e K S ds r l S' E,
+      step e (enter (Ensuring ds) K) S r l S' Ok E ->
+      step e K S (Ensure r ds) l (does ds S') Ok E
+  | ENSURE_ERR : forall e K S ds r l S' m E,
+      step e (enter (Ensuring ds) K) S r l S' (Err m) E ->
+      step e K S (Ensure r ds) l (does ds S') (Err m) E.
 End Tasks.

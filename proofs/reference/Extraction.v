@@ -27,6 +27,7 @@ Extract Constant store => "Dolphin_semantics.Store.t".
 Extract Constant tuples => "Dolphin_semantics.Tuples.t".
 Extract Constant world => "Dolphin_semantics.World.t".
 Extract Constant machine => "Dolphin_semantics.Machine.t".
+Extract Constant assignment => "int * string * Dolphin_semantics.Core.value".
 Extract Constant host_call => "Dolphin_semantics.Code.request".
 
 Extraction "interpreter.ml" cderivations awaits.

@@ -108,6 +108,7 @@ let no_opened_task (code : Core.closure) given depth before : I.result -> Fault.
   | Halts _ -> only_computes code
   | Unclear -> invalid_arg "the code of a fresh is unclear in a closed world"
 
+let assign_to (i, _, x) store = Store.set i x store
 let forget keys n = List.fold_left (fun n i -> Tuples.without (Residual.key i) n) n keys
 
 (* {1 Vehicles} *)
@@ -214,10 +215,10 @@ let code (program : Core.program) ~vehicles ~machine ~answer : I.code0 =
   in
   let forget_all tuples = (Shared.without_fresh { (Shared.initial program) with tuples }).tuples in
   let interrupted lambda vs = Machine.call { lambda; captured = [||] } [ Core.Vehicles vs ] in
-  { run = run program ~vehicles; run_handler = run_handler program ~vehicles; truth; is_unknown = Fault.is_unknown;
-    time_of; task_of; takes; parameters = (fun c -> c.lambda.parameters);
+  { may_ensure = (fun _ -> true); run = run program ~vehicles; run_handler = run_handler program ~vehicles; truth;
+    is_unknown = Fault.is_unknown; time_of; task_of; takes; parameters = (fun c -> c.lambda.parameters);
     may_recover = (fun c -> Recovery.possible c.lambda); vehicle_value = (fun v -> Vehicles [ v ]);
-    key_value = (fun i -> String (Residual.key i)); forget; forget_all; fit = fit program;
+    key_value = (fun i -> String (Residual.key i)); forget; forget_all; assign_to; fit = fit program;
     assign; not_assured; not_in_time; answered_no; not_answered; plan_failed; no_task; no_opened_task; too_deep;
     foreign_retry; run_script = run_script program; give = Machine.give; null = Null;
     vehicles_value = (fun vs -> Vehicles vs); post; take; answer_of = answer_of program answer;

@@ -5,9 +5,6 @@ module R = Residual
 let names : I.names =
   { vehicle_eq = String.equal; store_eq = (fun s s' -> Store.compare s s' = 0) }
 
-let outside = "the calculus of proofs/ does not have ensure"
-let not_there () = invalid_arg outside
-
 (* {1 Tasks} *)
 
 (* A recruit is a pick without a count and a timeout. *)
@@ -18,6 +15,16 @@ let to_on_cut : I.on_cut -> Core.on_cut = function Completes -> Completes Fault.
 
 let duration : Core.duration -> I.duration = function Seconds n -> Seconds n | Given_by d -> Given_by d
 let to_duration : I.duration -> Core.duration = function Seconds n -> Seconds n | Given_by d -> Given_by d
+
+let end_deed : Core.ensured -> I.end_deed = function
+  | Pair (k, x) -> Posts (k, x)
+  | Variable (i, name, x) -> Assigns (i, name, x)
+  | Taken -> Gives_back
+
+let to_end_deed : I.end_deed -> Core.ensured = function
+  | Posts (k, x) -> Pair (k, x)
+  | Assigns (i, name, x) -> Variable (i, name, x)
+  | Gives_back -> Taken
 
 let rec task : Core.task -> I.task = function
   | Platform p -> TPlan p
@@ -37,7 +44,7 @@ let rec task : Core.task -> I.task = function
   | Made a -> TMade a
   | Recruit { asked; code; site = _ } -> TRecruit (of_filter asked, code)
   | Fresh code -> TFresh code
-  | Ensure _ -> not_there ()
+  | Ensure (ds, t) -> TEnsure (task t, List.map end_deed ds)
 
 and branch { guard; body } = (guard, task body)
 
@@ -59,13 +66,15 @@ let rec to_task : I.task -> Core.task = function
   | TMade a -> Made a
   | TRecruit (asked, code) -> Recruit { asked = asked.filter; code; site = Fault.unknown_site }
   | TFresh code | TKeys (_, code, _) -> Fresh code
+  | TEnsure (t, ds) -> Ensure (List.map to_end_deed ds, to_task t)
 
 and to_branch (guard, t) = { guard; body = to_task t }
 
 let rec opened : I.task -> (R.timer list * Core.task) list = function
   | TKeys (ns, _, t) -> (ns, to_task t) :: opened t
   | TSequence (t, t') | TParallel (t, t') -> opened t @ opened t'
-  | TAllocated (t, _) | TUntil (_, _, t) | TDuring (_, _, t) | TWatch (t, _) | TRepeat (_, _, t) -> opened t
+  | TAllocated (t, _) | TUntil (_, _, t) | TDuring (_, _, t) | TWatch (t, _) | TRepeat (_, _, t) | TEnsure (t, _) ->
+    opened t
   | TAll_of bs | TOne_of bs -> List.concat_map (fun (_, t) -> opened t) bs
   | TPlan _ | TAction _ | TCondition _ | TIdle _ | TConfirm _ | TMade _ | TRecruit _ | TFresh _ -> []
 
@@ -102,7 +111,7 @@ let rec residual : R.t -> I.residual = function
   | Recruit { number; asked; code; place; depth; site = _ } -> Recruit (number, of_filter asked, code, place, depth)
   | Recruited (v, r) -> Recruited (v, residual r)
   | Fresh (ns, r) -> Fresh (ns, residual r)
-  | Ensure _ -> not_there ()
+  | Ensure (ds, r) -> Ensure (residual r, List.map end_deed ds)
 
 and residual_branch { guard; body } = (guard, residual body)
 
@@ -145,6 +154,7 @@ let rec to_residual ~begun : I.residual -> R.t =
     Recruit { number; asked = asked.filter; code; place; depth; site = Fault.unknown_site }
   | Recruited (v, r) -> Recruited (v, here r)
   | Fresh (ns, r) -> Fresh (ns, here r)
+  | Ensure (r, ds) -> Ensure (List.map to_end_deed ds, here r)
 
 and parts later : I.residual -> R.t list = function
   | Sequence (r, t) -> later r :: parts later t

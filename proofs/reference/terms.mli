@@ -7,13 +7,8 @@ open Dolphin_semantics
 val names : Interpreter.names
 (** Equality of vehicles and stores. *)
 
-val outside : string
-(** The argument of [Invalid_argument] for a task with an [ensure]. *)
-
 val task : Core.task -> Interpreter.task
-(** The same task.
-
-    @raise Invalid_argument {!outside} if it has an [ensure]. *)
+(** The same task. *)
 
 val to_task : Interpreter.task -> Core.task
 (** The same task; a [fresh] that was opened is its code again. *)
@@ -38,9 +33,7 @@ val to_shared : vehicles:Core.vehicle list -> Interpreter.shared -> Shared.t
 (** The same shared part; only [vehicles] run tasks. *)
 
 val configuration : Configuration.t -> Interpreter.configuration
-(** The same configuration.
-
-    @raise Invalid_argument {!outside} if its residual has an [ensure]. *)
+(** The same configuration. *)
 
 val to_configuration : vehicles:Core.vehicle list -> Interpreter.configuration -> Configuration.t
 (** The same configuration; [vehicles] may run tasks. *)

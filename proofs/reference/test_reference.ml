@@ -52,6 +52,7 @@ let events program world c : Transition.event list =
 
 let compared = ref 0
 let with_keys = ref 0
+let with_ends = ref 0
 
 let agree program world c =
   let compare what ts ts' =
@@ -66,8 +67,10 @@ let agree program world c =
       (all (Reference.accept program world c event))
   in
   ( match (Terms.configuration c).control_of with
-    | Exec (_, r) when Interpreter.keys Terms.names r <> [] -> Property.count with_keys
-    | Exec _ | Script _ | Wait _ | End _ -> () );
+    | Exec (_, r) ->
+      if Interpreter.keys Terms.names r <> [] then Property.count with_keys;
+      if Interpreter.ensured Terms.names r <> [] then Property.count with_ends
+    | Script _ | Wait _ | End _ -> () );
   List.iter on_event (events program world c)
 
 let along (ast, choices) =
@@ -75,15 +78,15 @@ let along (ast, choices) =
   let walk = Walk.run ~choices program world in
   let configurations =
     Configuration.initial program :: List.map (fun (s : Walk.step) -> s.transition.next) walk in
-  (* The calculus does not have ensure. *)
-  (try List.iter (agree program world) configurations with Invalid_argument why when why = Terms.outside -> ());
+  List.iter (agree program world) configurations;
   true
 
 let print (ast, choices) = Generate.print ast ^ "choices " ^ String.concat ", " (List.map string_of_int choices)
 
 let most_were_compared () =
   Alcotest.(check bool) "there were many" true (!compared > 1_000);
-  Alcotest.(check bool) "some with fresh keys" true (!with_keys > 20)
+  Alcotest.(check bool) "some with fresh keys" true (!with_keys > 20);
+  Alcotest.(check bool) "some with ends" true (!with_ends > 20)
 
 let nested = Gen.map (fun t -> Generate.executing t) (Generate.nested ~vehicles:Generate.vehicles ~depth:2)
 

@@ -25,8 +25,9 @@ exception Broken of t
 val none : t
 (** No symmetry: each state stands for itself. *)
 
-val find : Environment.options -> Core.program -> asked:Condition.t list -> World.t -> t
-(** [find o p ~asked w] is the symmetry that can be assumed before the exploration: {!Vehicle_orbits.find}, and
+val find :
+  Environment.options -> Core.program -> asked:Condition.t list -> ?named:(Core.vehicle -> bool) -> World.t -> t
+(** [find o p ~asked ~named w] is the symmetry that can be assumed before the exploration: {!Vehicle_orbits.find}, and
     symmetries of tasks unless the environment remembers vehicles, or posts, or some task recruits. *)
 
 val without_tasks : t -> t

@@ -61,14 +61,14 @@ let is_plain id =
   String.for_all (function 'a' .. 'z' | 'A' .. 'Z' | '0' .. '9' | '-' | '_' | '.' -> true | _ -> false) id
 
 (* All that a step may depend on but the name. *)
-let key (options : Environment.options) world (flow : Name_flow.t) (s : World.vehicle_state) =
+let key (options : Environment.options) world (flow : Name_flow.t) ~named (s : World.vehicle_state) =
   let if_read is_read f = if is_read then Some (f ()) else None in
   let place = if_read flow.places (fun () -> (s.position, World.position world s)) in
   let sensors = if_read flow.sensors (fun () -> World.sensors world s) in
   let abilities = if_read flow.abilities (fun () -> (s.cruise, s.drain)) in
   let endings = List.map (Environment.ending options s.id) flow.texts in
   let is_odd = World.is_open world && (flow.places || flow.sensors) && not (is_plain s.id) in
-  let alone = if is_odd || List.mem s.id flow.texts then Some s.id else None in
+  let alone = if is_odd || named s.id || List.mem s.id flow.texts then Some s.id else None in
   let may_be_late = Faults.is_possible options.faults.join && options.may_be_late s.id in
   ((s.kind, s.payload, s.connected, may_be_late), place, (sensors, abilities), endings, alone)
 
@@ -85,7 +85,7 @@ let posted (options : Environment.options) =
   let of_input (i : Environment.input) = List.concat_map names (List.concat i.rounds) in
   List.concat_map of_input options.inputs
 
-let find (options : Environment.options) program ~asked world =
+let find (options : Environment.options) program ~asked ?(named = fun _ -> false) world =
   let flow = Name_flow.of_program program ~asked:(List.map Condition.closure asked) in
   let flow = { flow with texts = List.concat_map Condition.vehicles asked @ posted options @ flow.texts } in
   let is_independent = flow.names = None && not (World.is_open world && flow.readings <> None) in
@@ -93,5 +93,5 @@ let find (options : Environment.options) program ~asked world =
   else
     let states = World.vehicles world in
     let keys = Hashtbl.create 16 in
-    List.iter (fun (s : World.vehicle_state) -> Hashtbl.add keys s.id (key options world flow s)) states;
+    List.iter (fun (s : World.vehicle_state) -> Hashtbl.add keys s.id (key options world flow ~named s)) states;
     by_key (Hashtbl.find keys) (List.map (fun (s : World.vehicle_state) -> s.id) states)

@@ -9,12 +9,13 @@ type t
 val none : t
 (** Each vehicle alone. *)
 
-val find : Environment.options -> Core.program -> asked:Condition.t list -> World.t -> t
-(** [find o p ~asked w] puts two vehicles of [w] into one orbit if they have the same type and payload, the same place,
-    sensors, speed and drain as far as code of [p] reads these, and the same endings of the plans that [p] names, if
-    both may be late or neither, and if no text in [p] is the name of either. Conditions that are [asked] count as code
-    of [p]. It is {!none} if a step may depend on a vehicle's name ({!Name_flow}). States may show later that a symmetry
-    is broken after all ({!Canonical_vehicles}). *)
+val find :
+  Environment.options -> Core.program -> asked:Condition.t list -> ?named:(Core.vehicle -> bool) -> World.t -> t
+(** [find o p ~asked ~named w] puts two vehicles of [w] into one orbit if they have the same type and payload, the same
+    place, sensors, speed and drain as far as code of [p] reads these, and the same endings of the plans that [p] names,
+    if both may be late or neither, and if no text in [p] is the name of either, and neither is [named] (by default none
+    is). Conditions that are [asked] count as code of [p]. It is {!none} if a step may depend on a vehicle's name
+    ({!Name_flow}). States may show later that a symmetry is broken after all ({!Canonical_vehicles}). *)
 
 val is_none : t -> bool
 (** Whether no two vehicles are in one orbit. *)

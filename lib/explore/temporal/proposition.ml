@@ -14,6 +14,7 @@ type t = Action of action | State of Condition.t | Ended_now
 
 let needs_action = function Action _ -> true | State _ | Ended_now -> false
 let running = function Action _ | Ended_now -> [] | State condition -> Condition.running condition
+let condition = function Action _ | Ended_now -> None | State condition -> Some condition
 
 (* {1 Reading} *)
 
@@ -107,6 +108,22 @@ let of_string program text =
 (* {1 Asking} *)
 
 let is wanted found = match wanted with None -> true | Some wanted -> String.equal wanted found
+
+let contains inner text =
+  let n = String.length inner in
+  let rec is_from i =
+    i + n <= String.length text && (String.equal (String.sub text i n) inner || is_from (i + 1)) in
+  is_from 0
+
+(* A message may print names; other texts depend on none. *)
+let names p v =
+  match p with
+  | Action (Of_task (_, _, Some named) | Binds (Some named)) -> String.equal v named
+  | Action (Posts (_, Some (String text)) | Consumes (_, Some (String text)) | Inputs (_, Some (String text))) ->
+    String.equal v text
+  | Action (Says (Some text)) -> contains v text
+  | Action (Of_task _ | Binds None | Posts _ | Consumes _ | Inputs _ | Says None | Simple _) | Ended_now -> false
+  | State condition -> List.mem v (Condition.vehicles condition)
 
 type observed = { label : Label.t; effects : Effect.t list; ending : Configuration.ending option }
 

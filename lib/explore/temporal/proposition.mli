@@ -15,6 +15,13 @@ val of_string : Core.program -> string -> (t, string) result
 val needs_action : t -> bool
 (** Whether it is about transitions: then it is false in the first state, and after the end. *)
 
+val names : t -> Core.vehicle -> bool
+(** [names p v] is whether [p] may hold of [v] and not of another vehicle only because of their names. It is false for
+    names in the code of a {!condition}. *)
+
+val condition : t -> Condition.t option
+(** The condition that it evaluates, if it is one of states. *)
+
 val running : t -> (string * string option) list
 (** As {!Condition.running}. *)
 

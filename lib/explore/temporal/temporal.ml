@@ -5,6 +5,8 @@ type t = { text : string; formula : int Formula.t; propositions : Proposition.t 
 let to_string f = f.text
 let formula f = f.formula
 let propositions f = f.propositions
+let conditions f = List.filter_map Proposition.condition (Array.to_list f.propositions)
+let names f v = Array.exists (fun p -> Proposition.names p v) f.propositions
 
 (* The bits of a number are the propositions that hold: see [Product]. *)
 let most_running = 62

@@ -3,7 +3,8 @@
     transitions.
 
     A formula holds of the program if it holds of every path of its state graph that is fair (docs/explorer.md), or of
-    every path: {!Search.fairness}. No reduction is used: propositions see every transition. *)
+    every path: {!Search.fairness}. Propositions see every transition, so no reduction leaves out steps; vehicles that
+    no proposition distinguishes may be exchanged. *)
 
 open Dolphin_semantics
 
@@ -17,6 +18,12 @@ val to_string : t -> string
 
 val propositions : t -> Proposition.t array
 (** Each once. *)
+
+val conditions : t -> Condition.t list
+(** Those that it evaluates in states. *)
+
+val names : t -> Core.vehicle -> bool
+(** Whether some proposition {!Proposition.names} the vehicle. *)
 
 val formula : t -> int Dolphin_ltl.Formula.t
 (** The formula, of places in {!propositions}. *)

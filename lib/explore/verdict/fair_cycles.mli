@@ -49,5 +49,6 @@ val violation :
   Dolphin_checker.Breadth_first.violation option * Dolphin_semantics.World.assumption list list
 (** [violation p g m ~fair ~assumed] is a cycle that a run of [p] may repeat without end, the runs around it accepted by
     [m], and if [fair], they are fair and meet [assumed], or are without any event. Without such a cycle it has the
-    assumptions without which there would be one. [g] has been searched with [m], without reductions.
+    assumptions without which there would be one. [g] has been searched with [m], with no reduction but the symmetry of
+    vehicles, and with that only if [p] reads neither sensors nor the date and nothing is [assumed].
     @raise Dolphin_checker.Limits.Stop *)

@@ -121,12 +121,14 @@ let of_verdict run : _ Breadth_first.verdict -> verdict = function
   | Inconclusive bound -> Inconclusive bound
 
 (* A run that cannot be shown, because a bound is met or the disk fails, is not reported. *)
-let told verdict =
-  match verdict () with
-  | verdict -> verdict
-  | exception Limits.Stop bound -> Inconclusive bound
-  | exception Out_of_memory -> Inconclusive No_memory
-  | exception States.Disk_failed why -> Inconclusive (Unsettled why)
+let bounded ~stopped find =
+  match find () with
+  | found -> found
+  | exception Limits.Stop bound -> stopped bound
+  | exception Out_of_memory -> stopped Limits.No_memory
+  | exception States.Disk_failed why -> stopped (Unsettled why)
+
+let told verdict = bounded ~stopped:(fun bound -> Inconclusive bound) verdict
 
 (* {1 Verdicts} *)
 
@@ -302,38 +304,75 @@ let with_shortest_runs x (options : options) verdicts =
 
 (* {1 Formulas} *)
 
-(* States are explored again in the product with the formula, until a violation shows. *)
-let formula x (options : options) f : verdict * int * int =
+(* The states once more in the product with the formula: the answer, the number of states, and their memory. *)
+let product x (options : options) f answer =
   let labelling = Labelling.create x.program x.world f in
-  let judge graph =
-    let run violation =
-      let tick = State_graph.follow_up graph in
-      let found = Counterexample.of_violation ~tick options.environment x.program x.world graph labelling violation in
-      run_of ?decided:found.decided ~shortest:(found.decided <> None) ~steps:found.steps ~cycle:found.cycle ()
-    in
-    let in_fair_runs (verdict : _ Breadth_first.verdict) =
-      let fair = options.fairness = Weak and assumed = options.environment.recurring in
-      let is_kept stem cycle =
-        let around = List.nth stem (List.length stem - 1) :: List.map fst cycle in
-        not (fair && (assumed <> [] || Space.goes_round (State_graph.system graph)))
-        && Fair_cycles.may_go_round x.program graph { stem; around }
-      in
-      match verdict with
-      | Violated (Breadth_first.Around { stem; cycle }) when not (is_kept stem cycle) -> (
-          match Fair_cycles.violation x.program graph (Labelling.monitor labelling) ~fair ~assumed with
-          | Some violation, _ -> showing (fun () -> run violation)
-          | None, [] -> Holds
-          | None, needs -> Holds_if needs)
-      | Holds | Violated _ | Inconclusive _ -> of_verdict run verdict
-    in
+  let search graph =
     State_graph.run graph;
-    let verdict = told (fun () -> in_fair_runs (State_graph.formula graph)) in
-    (verdict, State_graph.count graph, State_graph.memory graph)
+    let found = answer graph labelling in
+    (found, State_graph.count graph, State_graph.memory graph)
   in
-  match
-    let options = { options with reduction = Whole; invariants = [] } in
-    with_graph ~labelling ~phase:"exploring for formulas" { x with symmetry = Symmetry.none } options judge
-  with
+  let options = { options with reduction = Whole; invariants = Temporal.conditions f } in
+  with_graph ~labelling ~phase:"exploring for formulas" x options search
+
+let of_product x (options : options) graph labelling (found : _ Breadth_first.verdict) =
+  let run violation =
+    let tick = State_graph.follow_up graph in
+    let found = Counterexample.of_violation ~tick options.environment x.program x.world graph labelling violation in
+    run_of ?decided:found.decided ~shortest:(found.decided <> None) ~steps:found.steps ~cycle:found.cycle ()
+  in
+  let fair = options.fairness = Weak and assumed = options.environment.recurring in
+  let is_kept stem cycle =
+    let around = List.nth stem (List.length stem - 1) :: List.map fst cycle in
+    not (fair && (assumed <> [] || Space.goes_round (State_graph.system graph)))
+    && Fair_cycles.may_go_round x.program graph { stem; around }
+  in
+  match found with
+  | Violated (Breadth_first.Around { stem; cycle }) when not (is_kept stem cycle) -> (
+      match Fair_cycles.violation x.program graph (Labelling.monitor labelling) ~fair ~assumed with
+      | Some violation, _ -> showing (fun () -> run violation)
+      | None, [] -> Holds
+      | None, needs -> Holds_if needs)
+  | Holds | Violated _ | Inconclusive _ -> of_verdict run found
+
+(* [None]: it has to be found in all states. Around a cycle of the quotient a name need not be the same vehicle's each
+   time, so its looks at sensors or the date do not show whether a run may go round it. *)
+let rec up_to_symmetry x (options : options) f =
+  let looks = x.program.reads_sensors || x.program.reads_now || options.environment.recurring <> [] in
+  let answer graph labelling =
+    let judge () =
+      match State_graph.formula graph with
+      | Violated (Around _) when looks -> None
+      | (Holds | Violated _ | Inconclusive _) as found -> Some (of_product x options graph labelling found)
+    in
+    bounded ~stopped:(fun bound -> Some (Inconclusive bound)) judge
+  in
+  if Vehicle_orbits.is_none x.symmetry.vehicles then (None, 0, 0)
+  else
+    match product x options f answer with
+    | found -> found
+    | exception Symmetry.Broken symmetry -> up_to_symmetry { x with symmetry } options f
+
+let in_all_states x options f =
+  let answer graph labelling = told (fun () -> of_product x options graph labelling (State_graph.formula graph)) in
+  product { x with symmetry = Symmetry.none } options f answer
+
+let formula x (options : options) f =
+  let symmetry =
+    if Reduction.by_symmetry options.reduction then
+      let asked = Temporal.conditions f and named = Temporal.names f in
+      Symmetry.without_tasks (Symmetry.find options.environment x.program ~asked ~named x.world)
+    else Symmetry.none
+  in
+  let search () =
+    match up_to_symmetry { x with symmetry } options f with
+    | Some verdict, states, bytes -> (verdict, states, bytes)
+    | None, states, bytes ->
+      Gc.full_major ();
+      let verdict, more, bytes' = in_all_states x options f in
+      (verdict, states + more, max bytes bytes')
+  in
+  match search () with
   | found -> found
   | exception Valuation.Broken why -> (Inconclusive (broken_condition why), 0, 0)
   | exception Environment.Unclear fault -> (Inconclusive (Space.unsettled x.program fault), 0, 0)

@@ -38,7 +38,7 @@ type fairness =
 type options = {
   environment : Environment.options;
   reduction : Reduction.t;
-  (** with invariants, only the symmetry of vehicles is used; where it matters which vehicle is lost
+  (** with invariants, and for formulas, only the symmetry of vehicles is used; where it matters which vehicle is lost
       ({!Later_picks}), no symmetry of tasks, since it identifies states that may differ in that *)
   compress : bool;  (** keep states in less memory, in more time *)
   spill : string option;

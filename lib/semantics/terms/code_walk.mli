@@ -11,6 +11,7 @@ val assigned : expression -> (int * expression) list
     expression of its value. *)
 
 type key = Written of string | Computed of expression
+(** Of a pair, in the code that posts it or asks for it. *)
 
 val pairs : string option list -> expression list -> (key * expression) list
 (** [pairs keys arguments] is each key with the expression of its value, of a [Post], [Consume] or [Poll] of [keys] with

@@ -10,8 +10,8 @@ val assigned : expression -> (int * expression) list
 (** [assigned e] is the global variables that [e] itself assigns, or the end of the task that it makes, each with the
     expression of its value. *)
 
+(** The key of a pair, in the code that posts it or asks for it. *)
 type key = Written of string | Computed of expression
-(** Of a pair, in the code that posts it or asks for it. *)
 
 val pairs : string option list -> expression list -> (key * expression) list
 (** [pairs keys arguments] is each key with the expression of its value, of a [Post], [Consume] or [Poll] of [keys] with

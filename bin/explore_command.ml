@@ -20,11 +20,23 @@ let find_or_explore settings program fleet ~from ~json ~period ~cache =
     Option.iter keep store;
     Ok outcome
 
-type files = { trace : string option; drawing : Drawing.t option; junit : string option; sarif : string option }
+type files = {
+  trace : string option;
+  drawing : Drawing.t option;
+  violation : string option;  (* of [trace] and [drawing] *)
+  junit : string option;
+  sarif : string option;
+}
 
 (* Before anything is explored. *)
 let check_files files =
   let check path f = Option.fold ~none:(Ok ()) ~some:f path in
+  let* () =
+    match files with
+    | { violation = Some _; trace = None; drawing = None; junit = _; sarif = _ } ->
+      Error (Error.Bad_input "--violation chooses the run of --trace and --draw: give one of these too")
+    | { violation = _; trace = _; drawing = _; junit = _; sarif = _ } -> Ok ()
+  in
   let* () = check files.trace Text_file.check in
   let* () = check files.drawing Drawing.check in
   let* () = check files.junit Text_file.check in
@@ -33,13 +45,18 @@ let check_files files =
 (* All of them, although one cannot be written; the first error. *)
 let write_files files program fleet ~strict outcome =
   let write path f = Option.fold ~none:(Ok ()) ~some:f path in
-  let counterexample f =
-    match Exploration.counterexample ~strict outcome with Some found -> f found | None -> Ok () in
+  let chosen =
+    match files.violation with
+    | None -> Ok (Exploration.counterexample ~strict outcome)
+    | Some name -> Result.map Option.some (Exploration.counterexample_of name outcome)
+  in
+  let counterexample f = match chosen with Ok (Some found) -> f found | Ok None | Error _ -> Ok () in
   let trace = write files.trace (fun path -> counterexample (Exploration.write_witness program fleet path)) in
   let drawn = write files.drawing (fun drawing -> counterexample (Exploration.draw program fleet drawing)) in
   let junit = write files.junit (fun path -> Junit.write ~strict program path outcome) in
   let sarif = write files.sarif (fun path -> Sarif.write ~strict ~version:Version.number program path outcome) in
-  List.fold_left (fun found next -> if Result.is_error found then found else next) trace [ drawn; junit; sarif ]
+  List.fold_left (fun found next -> if Result.is_error found then found else next)
+    (Result.map ignore chosen) [ trace; drawn; junit; sarif ]
 
 (* Whether states can go to [directory]. *)
 let check_spill (s : Exploration.settings) directory =
@@ -76,13 +93,14 @@ let of_program settings (program : Program_file.t) fleet ~from ~strict ~json ~pe
   else Exploration_report.print ?from ~strict program outcome;
   match written with
   | Ok () -> Ok (Exit_status.of_verdict (Exploration.verdict ~strict outcome))
+  | Error (Error.Bad_input _) -> Ok Exit_status.Bad_input
   | Error _ -> Ok Exit_status.Platform_trouble
 
 let of_values settings sweep fleet ~strict ~json ~period ~files ~cache =
   let are_files =
     match files with
-    | { trace = None; drawing = None; junit = None; sarif = None } -> false
-    | { trace = _; drawing = _; junit = _; sarif = _ } -> true
+    | { trace = None; drawing = None; violation = _; junit = None; sarif = None } -> false
+    | { trace = _; drawing = _; violation = _; junit = _; sarif = _ } -> true
   in
   if cache || are_files then
     let options = "--trace, --draw, --junit, --sarif and --cache" in
@@ -102,8 +120,8 @@ let of_values settings sweep fleet ~strict ~json ~period ~files ~cache =
 let rest_of_run settings path set named ~journal ~strict ~json ~period ~files ~cache =
   let* () =
     match files, cache with
-    | { trace = None; drawing = None; junit = _; sarif = _ }, false -> Ok ()
-    | { trace = _; drawing = _; junit = _; sarif = _ }, _ ->
+    | { trace = None; drawing = None; violation = _; junit = _; sarif = _ }, false -> Ok ()
+    | { trace = _; drawing = _; violation = _; junit = _; sarif = _ }, _ ->
       Error (Error.Bad_input "--trace, --draw and --cache are for runs from the beginning: leave them out with --from")
   in
   let* present, program, fleet = Present.load path ~set ~fleet:named ~journal in
@@ -239,7 +257,7 @@ let run_file =
 
 let trace =
   let doc =
-    "Write the first run shown into the file $(docv). $(mname) $(b,exec --follow) $(docv) replays it. If its name \
+    "Write the first run shown, or that of $(b,--violation), into the file $(docv). $(mname) $(b,exec --follow) $(docv) replays it. If its name \
      ends in $(b,.itf.json), it is written in the Informal Trace Format instead, for the tools of TLA+ and Quint. \
      Nothing is written if there is none."
   in
@@ -261,13 +279,21 @@ let files =
   in
   let drawing =
     let doc =
-      "Draw the first run shown in the file $(docv), $(i,*.svg) or $(i,*.html): the tasks of each vehicle by steps, \
-       since such a run has no times. Nothing is drawn if there is none."
+      "Draw the first run shown, or that of $(b,--violation), in the file $(docv), $(i,*.svg) or $(i,*.html): the \
+       tasks of each vehicle by steps, since such a run has no times. Nothing is drawn if there is none."
     in
     Arg.(value & opt (some Options.drawing) None & info [ "draw" ] ~docv:"FILE" ~doc)
   in
-  let make trace drawing junit sarif = { trace; drawing; junit; sarif } in
-  Term.(const make $ trace $ drawing $ junit $ sarif)
+  let violation =
+    let doc =
+      "The run that $(b,--trace) and $(b,--draw) write: one that violates the property $(docv), named as in the \
+       report, such as $(b,termination), also if it is only noted. If none is known, the properties that have one are \
+       listed, and the exit status is 2."
+    in
+    Arg.(value & opt (some string) None & info [ "violation" ] ~docv:"NAME" ~doc)
+  in
+  let make trace drawing violation junit sarif = { trace; drawing; violation; junit; sarif } in
+  Term.(const make $ trace $ drawing $ violation $ junit $ sarif)
 
 let period =
   let doc =

@@ -579,6 +579,41 @@ It does not fit another program, and no other file is one.
   dolphin: missing.run: No such file or directory
   [2]
 
+Which of several runs is written can be chosen, also one that is only noted.
+
+  $ cat > several.dol <<'END'
+  > v = pick { id 'noptilus-1' }
+  > execute imcPlan('a')
+  > post left: 1
+  > END
+  $ several() { explore several.dol --faults fail --invariant '!poll(left: 1)' "$@" | grep violated; }
+  $ several --trace several.run
+  no unhandled error: violated after 5 steps, with 1 fault: an unhandled error ends the program
+  note: no leftover tuples: violated after 7 steps, without a fault: tuples are left when the program completes
+  invariant !poll(left: 1): violated after 6 steps, without a fault: it does not hold
+  $ dolphin exec several.dol --follow several.run 2>&1 | head -n 1
+  breaks: no unhandled error
+  $ several --trace several.run --violation 'invariant !poll(left: 1)' > shown
+  $ dolphin exec several.dol --follow several.run 2>&1 | head -n 1
+  breaks: invariant !poll(left: 1)
+  $ several --trace several.run --draw several.svg --violation 'no leftover tuples' > shown
+  $ dolphin exec several.dol --follow several.run 2>&1 | head -n 1
+  breaks: no leftover tuples
+  $ grep -c 'no leftover tuples: tuples are left when the program completes' several.svg
+  1
+  $ explore several.dol --faults fail --trace other.run --violation terminaton > shown
+  dolphin: --violation 'terminaton': no run that violates it is known; these have one: no unhandled error, no leftover tuples
+  [2]
+  $ tail -n 1 shown; test -e other.run
+  5                                         fails in a: failure  several.dol:2
+  [1]
+  $ explore ../../examples/rendezvous.dol --trace other.run --violation termination > shown
+  dolphin: --violation 'termination': no run that violates it is known; no property has a run that violates it
+  [2]
+  $ explore several.dol --violation 'no leftover tuples'
+  dolphin: --violation chooses the run of --trace and --draw: give one of these too
+  [2]
+
 That a file cannot be written is known before anything is explored.
 
   $ explore deadlock.dol --trace missing/deadlock.run

@@ -84,13 +84,29 @@ let verdict ~strict (o : Search.outcome) =
   in
   if List.exists is_violated verdicts then Violated else if List.exists is_open verdicts then Inconclusive else Holds
 
-let counterexample ~strict (o : Search.outcome) =
-  List.find_map
+let counterexamples (o : Search.outcome) =
+  List.filter_map
     (fun (property, verdict) ->
        match (verdict : Search.verdict) with
-       | Violated run when strict || not (is_remark property) -> Some (property, run)
-       | Violated _ | Holds | Holds_if _ | By_design _ | Unreached _ | Inconclusive _ -> None)
+       | Violated run -> Some (property, run)
+       | Holds | Holds_if _ | By_design _ | Unreached _ | Inconclusive _ -> None)
     o.verdicts
+
+let counterexample ~strict o =
+  List.find_opt (fun (property, _) -> strict || not (is_remark property)) (counterexamples o)
+
+let counterexample_of name o =
+  let found = counterexamples o in
+  match List.find_opt (fun (property, _) -> Property.name property = name) found with
+  | Some counterexample -> Ok counterexample
+  | None ->
+    let others =
+      match List.map (fun (property, _) -> Property.name property) found with
+      | [] -> "no property has a run that violates it"
+      | names -> "these have one: " ^ String.concat ", " names
+    in
+    Error (Error.Bad_input (Printf.sprintf "--violation '%s': no run that violates it is known; %s"
+                              (Dolphin_syntax.Character.printable name) others))
 
 (* {1 Witnesses} *)
 

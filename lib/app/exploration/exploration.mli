@@ -55,6 +55,10 @@ val verdict : strict:bool -> Search.outcome -> verdict
 val counterexample : strict:bool -> Search.outcome -> (Property.t * Search.run) option
 (** The first counterexample that {!Exploration_report} shows. *)
 
+val counterexample_of : string -> Search.outcome -> (Property.t * Search.run, Error.t) result
+(** The counterexample of the property with this {!Property.name}, also if it is a remark; or an error that lists the
+    properties that have one. *)
+
 val draw : Program_file.t -> Fleet_file.t -> Drawing.t -> Property.t * Search.run -> (unit, Error.t) result
 (** [draw program fleet drawing (property, run)] draws the counterexample [run], by steps. *)
 

@@ -2,6 +2,8 @@ open Dolphin_semantics
 
 type ending = Succeeds | May_fail | Fails
 
+module Names = Set.Make (String)
+
 type input = { key : string; rounds : Core.value list list; times : int; certain : bool }
 
 type options = {
@@ -215,33 +217,55 @@ let after_refusal options program ~before e (c : Configuration.t) why =
 
 (* {1 Inputs} *)
 
-let sent e i = Option.value (List.assoc_opt i e.sent) ~default:0
-
-(* Those that the program declares and that may still come, each with its place. *)
+(* Those that the program declares and that may still come, each with its place and how often it came. There may be
+   thousands: they are gone through once, beside those that came. *)
 let pending options (program : Core.program) e =
   let declared = Hashtbl.create 16 in
-  let may_come (i, input) = Hashtbl.mem declared input.key && sent e i < input.times in
-  if options.inputs = [] || program.inputs = [] then []
+  let rec among i sent = function
+    | [] -> Seq.Nil
+    | input :: rest -> (
+        match sent with
+        | (j, n) :: later when i = j -> one i n input later rest
+        | sent -> one i 0 input sent rest)
+  and one i n input sent rest =
+    if n < input.times && Hashtbl.mem declared input.key then
+      Seq.Cons ((i, n, input), fun () -> among (i + 1) sent rest)
+    else among (i + 1) sent rest
+  in
+  if options.inputs = [] || program.inputs = [] then Seq.empty
   else begin
     List.iter (fun k -> Hashtbl.replace declared k ()) program.inputs;
-    List.filter may_come (List.mapi (fun i input -> (i, input)) options.inputs)
+    fun () -> among 0 e.sent options.inputs
   end
 
-let owes options program e = List.exists (fun (_, input) -> input.certain) (pending options program e)
+let rec exists holds xs =
+  match xs () with Seq.Nil -> false | Seq.Cons (x, rest) -> holds x || exists holds rest
+
+let owes options program e = exists (fun (_, _, input) -> input.certain) (pending options program e)
+
+let rec once_sent i n = function
+  | (j, _) as other :: rest when j < i -> other :: once_sent i n rest
+  | (j, _) :: rest when j = i -> (i, n + 1) :: rest
+  | rest -> (i, n + 1) :: rest
+
+(* The values that it may have now. *)
+let round n input = List.nth input.rounds (min n (List.length input.rounds - 1))
 
 let inputs options program e =
-  let of_input (i, input) =
-    let n = sent e i in
-    let e = { e with sent = List.sort Stdlib.compare ((i, n + 1) :: List.remove_assoc i e.sent) } in
-    let round = List.nth input.rounds (min n (List.length input.rounds - 1)) in
-    List.map (fun x -> (input.key, x, e)) round
+  let of_input (i, n, input) =
+    let e = { e with sent = once_sent i n e.sent } in
+    List.map (fun x -> (input.key, x, e)) (round n input)
   in
-  List.concat_map of_input (pending options program e)
+  List.concat_map of_input (List.of_seq (pending options program e))
+
+let keys_of_inputs options program e =
+  let add keys (_, _, input) = Names.add input.key keys in
+  Names.elements (Seq.fold_left add Names.empty (pending options program e))
 
 (* The pairs that may still come. *)
 let upcoming options program e =
-  let pairs (_, input) = List.concat_map (List.map (fun x -> (input.key, x))) input.rounds in
-  List.concat_map pairs (pending options program e)
+  let pairs (_, _, input) = List.concat_map (List.map (fun x -> (input.key, x))) input.rounds in
+  List.concat_map pairs (List.of_seq (pending options program e))
 
 (* {1 Events of real runs} *)
 
@@ -265,12 +289,16 @@ let without_faults (options, e) =
 
 (* Of several inputs with one key, the first whose turn has this value. *)
 let posted options program e k x =
-  let of_key (key, _, _) = String.equal key k in
-  let of_value (_, y, _) = Value.equals x y in
-  let possible = List.filter of_key (inputs options program e) in
-  match List.find_opt of_value possible, possible with
-  | Some (_, _, e), _ | None, (_, _, e) :: _ -> e
-  | None, [] -> e
+  let after i n = { e with sent = once_sent i n e.sent } in
+  let rec go first inputs =
+    match inputs () with
+    | Seq.Nil -> Option.value first ~default:e
+    | Seq.Cons ((i, n, input), rest) when String.equal input.key k ->
+      if List.exists (fun y -> Value.equals x y) (round n input) then after i n
+      else go (if first = None then Some (after i n) else first) rest
+    | Seq.Cons (_, rest) -> go first rest
+  in
+  go None (pending options program e)
 
 let after options program (c : Configuration.t) (event : Transition.event) e =
   match event, c.control with

@@ -173,6 +173,9 @@ val endings_remember : options -> bool
 val inputs : options -> Core.program -> t -> (string * Core.value * t) list
 (** [inputs o p e] is the possible posts, each pair with the memory after it. *)
 
+val keys_of_inputs : options -> Core.program -> t -> string list
+(** [keys_of_inputs o p e] is the keys of {!inputs}, each once, ascending. *)
+
 val upcoming : options -> Core.program -> t -> (string * Core.value) list
 (** [upcoming o p e] is all pairs that may be posted now or later. *)
 

@@ -199,9 +199,7 @@ let begun o s : Effect.t -> pending list =
 let postings o (c : Configuration.t) outside =
   match c.control with
   | Ended _ -> []
-  | Script _ | Waiting _ | Executing _ ->
-    let key (k, _, _) = k in
-    List.sort_uniq String.compare (List.map key (Environment.inputs o.environment o.program outside))
+  | Script _ | Waiting _ | Executing _ -> Environment.keys_of_inputs o.environment o.program outside
 
 (* {2 The date} *)
 

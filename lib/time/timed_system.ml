@@ -286,7 +286,8 @@ let initial t v =
     let place, _, zone =
       Zone_node.reached t.places ~clocks:[] ~rest_clock:None ~fresh ~has_rest:false None state [] Zone.start No_rest
     in
-    match Zone_node.settled t.places place zone with
+    let settled () = Zone_node.settled t.places place zone in
+    match Successors.ticking (Zone_node.successors t.places) v.System.tick settled with
     | Some zone -> ignore (add t { place; zone; parent = -1; move = None; turn = To_come })
     | None -> assert false  (* nothing is over at the start *)
   end;

@@ -19,10 +19,10 @@ let fleet text =
   | Ok scenario -> scenario
   | Error _ -> Alcotest.fail "the fleet is wrong"
 
-let outcome ?(faults = "") program scenario =
+let outcome ?(limits = Dolphin_checker.Limits.none) ?(faults = "") program scenario =
   let faults = if faults = "" then Faults.none else Result.get_ok (Faults.of_string faults) in
   let program = Test_support.Pure_run.compile_exn ?place:scenario.Scenario.plans_at program in
-  Timed_analysis.run Dolphin_checker.Limits.none
+  Timed_analysis.run limits
     { environment = Scenario_world.environment ~answers:[] ~faults program scenario; program;
       world = Scenario_world.world scenario; durations = Durations.of_scenario scenario;
       dates = Dolphin_semantics.Dated_code.named program }
@@ -206,6 +206,17 @@ let test_deadline () =
   let verdict deadline = Timed_analysis.verdict ~deadline o in
   Alcotest.(check bool) "held" true (verdict 9_000 = Holds);
   Alcotest.(check bool) "broken by a millisecond" true (verdict 8_999 = Violated)
+
+(* The limits are looked at before the steps of the initial state are known, of which each input is one. *)
+let test_interrupted () =
+  let inputs = String.concat "" (List.init 100 (Printf.sprintf "input 'n', %d\n")) in
+  let asked = ref 0 in
+  let interrupted () = incr asked; true in
+  let limits = { Dolphin_checker.Limits.none with interrupted } in
+  let o = outcome ~limits "input 'n'\nconsume n: _\n" (fleet inputs) in
+  Alcotest.(check int) "states" 0 o.states;
+  Alcotest.(check bool) "interrupted" true (o.stopped = Some Interruption);
+  Alcotest.(check bool) "asked a few times" true (!asked > 0 && !asked < 10)
 
 (* The long way takes 9, the other one 2 + 3 + 1: each of its tasks may take 3 more. A task that is cut off when the
    other is done may take any time; a task that runs twice, for 3 at most, may take half of the other 3 more. *)
@@ -412,4 +423,4 @@ let () =
          case "deadlines" test_deadline; case "slack" test_slack; case "batteries" test_batteries;
          case "batteries without a link" test_batteries_without_link; case "picks" test_picks; case "joins" test_joins;
          case "places" test_places; case "growth of a meeting" test_meeting;
-         case "a date set by an end" test_date_of_end ]) ]
+         case "a date set by an end" test_date_of_end; case "interrupted at the start" test_interrupted ]) ]

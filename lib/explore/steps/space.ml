@@ -298,7 +298,7 @@ let may_all_stay_away t key vs =
   let { Surroundings.outside; _ } = Surroundings.Numbers.value (Encoding.shareds t.encoding) shared in
   Environment.may_all_stay_away t.options outside vs
 
-let inputs_at t outside = List.map (fun (k, _, _) -> k) (Environment.inputs t.options t.program outside)
+let inputs_at t outside = Environment.keys_of_inputs t.options t.program outside
 
 let examine t key ~possible ~taken visitor =
   let layout = Layouts.layout t.layouts (Layouts.number t.layouts key.(0)) in

@@ -12,7 +12,6 @@ val assigned : expression -> (int * expression) list
 
 (** The key of a pair, in the code that posts it or asks for it. *)
 type key = Written of string | Computed of expression
-(** The key of a pair: written in the program, or the value of an expression. *)
 
 val pairs : string option list -> expression list -> (key * expression) list
 (** [pairs keys arguments] is each key with the expression of its value, of a [Post], [Consume] or [Poll] of [keys] with

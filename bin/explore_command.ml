@@ -257,9 +257,9 @@ let run_file =
 
 let trace =
   let doc =
-    "Write the first run shown, or that of $(b,--violation), into the file $(docv). $(mname) $(b,exec --follow) $(docv) replays it. If its name \
-     ends in $(b,.itf.json), it is written in the Informal Trace Format instead, for the tools of TLA+ and Quint. \
-     Nothing is written if there is none."
+    "Write the first run shown, or that of $(b,--violation), into the file $(docv). $(mname) $(b,exec --follow) \
+     $(docv) replays it. If its name ends in $(b,.itf.json), it is written in the Informal Trace Format instead, for \
+     the tools of TLA+ and Quint. Nothing is written if there is none."
   in
   Arg.(value & opt (some run_file) None & info [ "trace" ] ~docv:"FILE" ~doc)
 

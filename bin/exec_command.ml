@@ -95,7 +95,7 @@ let check_sampling (s : Run.settings) show ~follow ~resumed ~keep =
     || show.Terminal_run.quiet || show.only <> [] || show.colour <> None
   then
     Error (Error.Bad_input "many runs (--runs, --until) have one answer: of the other options only --fleet, --sim, \
-                            --set, --seed, --answer and --draw are allowed")
+                            --set, --begins, --zone, --seed, --answer and --draw are allowed")
   else Ok ()
 
 let sample (s : Run.settings) program fleet (sampling : Sampling_options.t) =
@@ -114,6 +114,24 @@ let drawing_over ~sampling layers drawing =
     let* layers = Dolphin_results.Results.map Layer_file.read layers in
     Ok (Some (Drawing.over layers drawing))
 
+(* [again]: the run has begun before. *)
+let dated (fleet : Fleet_file.t) ~begins ~zone ~is_simulated ~again =
+  let { Dolphin_scenario.Scenario.begins = of_fleet; zone = zone_of_fleet; _ } = fleet.scenario in
+  let zone' = if zone = None then zone_of_fleet else zone in
+  let in_zone (t : Dolphin_semantics.Calendar.t) = { t with zone = Option.value zone' ~default:t.zone } in
+  match begins with
+  | (None | Some _) when again && (begins <> None || zone <> None) ->
+    Error (Error.Bad_input "a run goes on at the date at which it began: leave out --begins and --zone")
+  | Some _ when not is_simulated ->
+    Error (Error.Bad_input "vehicles of a network (--imc, --platform) have the time of the clock: leave out --begins")
+  | Some text ->
+    let read = Dolphin_semantics.Calendar.read ~zone:(Option.value zone' ~default:0) text in
+    let read = Result.map_error (fun why -> Error.Bad_input ("--begins: " ^ why)) read in
+    Result.map (fun begins -> Fleet_file.beginning (Some begins) fleet) read
+  | None ->
+    let fleet = Fleet_file.beginning (Option.map in_zone of_fleet) fleet in
+    Ok { fleet with scenario = { fleet.scenario with zone = zone' } }
+
 (* From this number of vehicles on, the lists of a run outgrow a small nursery before they are garbage. *)
 let large_fleet = 200
 
@@ -122,6 +140,8 @@ type asked = {
   show : Terminal_run.show;
   path : string;
   set : (string * string) list;
+  begins : string option;
+  zone : int option;
   sim : string option;
   named : string option;
   definition : string option;
@@ -133,7 +153,9 @@ type asked = {
   sampling : Sampling_options.t option;
 }
 
-let run () { show; path; set; sim; named; definition; keep; layers; recorded; resumed; changed; sampling } settings =
+let run () asked settings =
+  let { show; path; set; begins; zone; sim; named; definition; keep; layers; recorded; resumed; changed; sampling } =
+    asked in
   let { Recording.journal; drawing; _ } = settings.Run.recording in
   let is_simulated = Run.is_simulated settings in
   Report.result
@@ -141,6 +163,7 @@ let run () { show; path; set; sim; named; definition; keep; layers; recorded; re
      let settings = { settings with recording = { settings.recording with drawing } } in
      let* program = Program_file.load_recorded ~set ~recorded:(settings_before ~follow:recorded ~resumed) path in
      let* fleet = if resumed = None then fleet_of ~path ~sim ~named ~is_simulated else Ok Fleet_file.nobody in
+     let* fleet = dated fleet ~begins ~zone ~is_simulated ~again:(resumed <> None || recorded <> None) in
      let* program = if resumed = None then Program_file.within fleet program else Ok program in
      let* () =
        match contradiction settings ~sim ~follow:recorded ~resumed ~changed with
@@ -185,6 +208,23 @@ let fleet =
 let speed =
   let doc = "Let time pass $(docv) times as fast as in reality. By default the run does not wait." in
   Arg.(value & opt (some positive) None & info [ "speed" ] ~docv:"X" ~doc)
+
+let begins =
+  let doc =
+    "The date at which a simulated run begins, for $(b,timeOfDay()): $(b,--begins '2026-06-01 21:00'). By default that \
+     of the fleet. Runs on vehicles of a network begin when the clock says."
+  in
+  Arg.(value & opt (some string) None & info [ "begins" ] ~docv:"DATE" ~doc)
+
+let zone =
+  let doc =
+    "The time zone of $(b,timeOfDay()): $(b,UTC), or an offset from it such as $(b,+01:00), for the whole run. By \
+     default the zone of the fleet; else UTC in a simulated run, and on vehicles of a network the local zone as it is \
+     at the start."
+  in
+  let read text = Result.map_error (fun why -> `Msg why) (Dolphin_semantics.Calendar.zone text) in
+  let zone = Arg.conv ~docv:"ZONE" (read, Dolphin_semantics.Calendar.pp_zone) in
+  Arg.(value & opt (some zone) None & info [ "zone" ] ~docv:"ZONE" ~doc)
 
 let seed =
   let doc = "The seed of random numbers, by default 0: two runs with the same seed have the same log." in
@@ -337,6 +377,8 @@ let asked =
   let+ show = show
   and+ path = Options.program
   and+ set = Options.set
+  and+ begins = begins
+  and+ zone = zone
   and+ sim = sim
   and+ fleet = fleet
   and+ definition = Imc_options.definition
@@ -348,7 +390,7 @@ let asked =
   and+ sampling = Sampling_options.wanted in
   (* [--sim=FLEET] is a longer name for [--fleet FLEET]. *)
   let named = match fleet, sim with Some _, _ -> fleet | None, (None | Some "") -> None | None, Some _ -> sim in
-  { show; path; set; sim; named; definition; keep; layers; recorded; resumed; changed; sampling }
+  { show; path; set; begins; zone; sim; named; definition; keep; layers; recorded; resumed; changed; sampling }
 
 let settings =
   let open Options.Syntax in

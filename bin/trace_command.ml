@@ -13,11 +13,11 @@ let ( let* ) = Result.bind
 
 (* {1 Check} *)
 
-(* Of a partial trace: the vehicles that are known from the beginning. *)
+(* Of a partial trace: the vehicles that are known from the beginning, and its date. *)
 let world_of = function
-  | None -> Ok Dolphin_semantics.World.empty
+  | None -> Ok (Dolphin_semantics.World.empty, None)
   | Some _ as named ->
-    let world (f : Fleet_file.t) = Dolphin_environment.Scenario_world.still f.scenario in
+    let world (f : Fleet_file.t) = (Dolphin_environment.Scenario_world.still f.scenario, f.scenario.begins) in
     Result.map world (Fleet_file.load named)
 
 let tell_change path (program : Program_file.t) (header : Header.t) =
@@ -46,12 +46,12 @@ let check program_path set path fleet most timed tolerance =
   let times (status : Exit_status.t) =
     match status with Done when timed -> check_times program_path set path fleet tolerance | status -> Ok status in
   Report.result
-    (let* world = if timed then Ok Dolphin_semantics.World.empty else world_of fleet in
+    (let* world, begins = if timed then Ok (Dolphin_semantics.World.empty, None) else world_of fleet in
      let* p, header, verdict =
        Journal_file.with_reader path (fun reader ->
            let* p = Program_file.load_recorded ~set ~recorded:(Journal_file.settings_of reader) program_path in
            let hash = (Program_file.header p).hash in
-           let header, verdict = Journal_verdict.check ~world ~most p.program ~hash reader in
+           let header, verdict = Journal_verdict.check ~world ~most { p.program with begins } ~hash reader in
            Ok (p, header, verdict))
      in
      Option.iter (tell_change program_path p) header;

@@ -136,7 +136,12 @@ MostClaims == 12
 AnyDate == -1
 DateAsValue(date) == IF date = AnyDate THEN Reading("amount", "now()") ELSE Integer(date)
 
-ReadsDate == \E n \in DOMAIN Code : Code[n].is = "apply" /\ Code[n].operation.op = "now"
+(* In seconds since midnight: begins is that of the date 0, or << >> if it is not known. *)
+DayLength == 86400
+TimeOfDay(begins, date) ==
+  IF date = AnyDate THEN Reading("amount", "timeOfDay()") ELSE Integer((begins[1] + date) % DayLength)
+
+ReadsDate == \E n \in DOMAIN Code : Code[n].is = "apply" /\ Code[n].operation.op \in { "now", "timeOfDay" }
 
 (* {3 Readings} *)
 
@@ -977,6 +982,7 @@ Procedure(m, op, xs) ==
        [] name = "running" ->
             Settle(m, OneVehicleValue(x, LAMBDA vehicle : Ok(Boolean(vehicle.id \in DOMAIN m.A))))
        [] name = "now" -> Result(m, DateAsValue(m.date))
+       [] name = "timeOfDay" -> Result(m, TimeOfDay(op.begins, m.date))
        [] name = "area" -> Settle(m, Around(x, xs[2]))
        [] name = "math" -> Settle(m, Mathematics(op.name, xs))
        [] name = "isThere" -> Result(m, Boolean(IsNumber(x) \/ Truth(x)))

@@ -19,7 +19,8 @@ let scenario n : Scenario.t =
     { name; duration = Some { least; most }; ending = Succeeds; place = None; only = []; charges = None }
   in
   { vehicles = List.init n vehicle; plans = [ plan "short" 0.5 1.5; plan "long" 600. 600. ]; answers = [];
-    replies = []; inputs = []; samples = []; fences = []; plans_at = None; recurrences = [] }
+    replies = []; inputs = []; samples = []; fences = []; plans_at = None; recurrences = [];
+    begins = None; zone = None }
 
 (* {1 The vehicles' process} *)
 

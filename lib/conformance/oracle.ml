@@ -103,6 +103,7 @@ let initial o found =
   | Error ds, Ok _ | Ok _, Error ds -> Ok ({ o with given = None }, [ ("rejected", `List ds) ])
   | Error ds, Error ds' -> Ok ({ o with given = None }, [ ("rejected", `List (ds @ ds')) ])
   | Ok program, Ok scenario ->
+    let program = { program with begins = scenario.begins } in
     let world = world_of scenario in
     let given = { program; nodes = Nodes.of_program program; world; scenario } in
     let* c = configuration program (Configuration.initial program) in

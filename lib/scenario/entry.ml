@@ -87,5 +87,7 @@ type t = {
   plans_at : Dolphin_geo.Position.t option;  (** the place of inline plans without one of their own or of their
                                                  program *)
   recurrences : recurrence list;
+  begins : Dolphin_semantics.Calendar.t option;  (** the date at which runs begin, in the zone *)
+  zone : int option;  (** of times of day, in minutes east of UTC; with [begins] it is UTC by default *)
 }
 (** Vehicles, plans, prompts and calls are unique by their names; all are in the order of the file. *)

@@ -140,6 +140,8 @@ type state = {
   samples : sample list;
   fences : Fences.fence list;
   plans_at : Dolphin_geo.Position.t option;
+  begins : Calendar.t option;                   (* in whatever zone *)
+  zone : int option;
   assumptions : (Location.t * argument list) list;
   constants : Constants.t;                      (* the names that fences may use: maps, and no variables *)
   unplaced : int;                               (* vehicles without a position *)
@@ -212,6 +214,8 @@ let usage = function
   | "field" ->
     "field takes a quantity, a value and a place, as in field 'Temperature', 12, at(41.18, -8.7), after 10.min"
   | "input" -> "input takes a key and a value, as in input 'abort', true, or input 'target', 1, 2, after 5.min"
+  | "begins" -> "begins takes the date at which runs begin, as in begins '2026-06-01 21:00'"
+  | "zone" -> "zone takes a time zone, as in zone '+01:00' or zone 'UTC'"
   | _ -> "reply takes a call of the supplier and a value, as in reply 'queue.await', task('survey1')"
 
 (* [after 5.min] and [times 3] may stand behind the values. *)
@@ -297,7 +301,25 @@ let locate state at arguments =
   | Ok place -> { state with plans_at = Some place }
   | Error found -> add_faults state (List.map without_variables found)
 
-let entries = [ "vehicle"; "plan"; "answer"; "reply"; "input"; "field"; "fence"; "locate"; Recurrence.word ]
+(* An entry that stands once, with a text. *)
+let once state (word : string located) ~stands ~read ~add (text : string located) =
+  match read text.it with
+  | Ok _ when stands -> add_fault state (Diagnostic.error word.at (word.it ^ " stands twice"))
+  | Ok x -> add x
+  | Error why -> add_fault state (Diagnostic.error text.at why)
+
+let begins state word =
+  let add begins = { state with begins = Some begins } in
+  once state word ~stands:(state.begins <> None) ~read:(Calendar.read ~zone:0) ~add
+
+let zone state word =
+  let add zone = { state with zone = Some zone } in
+  once state word ~stands:(state.zone <> None) ~read:Calendar.zone ~add
+
+let entries =
+  [ "vehicle"; "plan"; "answer"; "reply"; "input"; "field"; "fence"; "locate"; "begins"; "zone"; Recurrence.word ]
+
+let words = "vehicle, plan, answer, reply, input, field, fence, locate, begins, zone and assume"
 
 let entry state (word : string located) arguments =
   let misused state = add_fault state (Diagnostic.error word.at (usage word.it)) in
@@ -318,12 +340,14 @@ let entry state (word : string located) arguments =
     | "reply", { it = String call; at } :: (_ :: _ as values) -> reply state { it = call; at } values
     | "input", { it = String key; at = _ } :: values -> input state word key values
     | "field", { it = String quantity; at = _ } :: values -> field state word quantity values
-    | ("vehicle" | "plan" | "answer" | "reply" | "input" | "field"), _ -> misused state
+    | "begins", [ { it = String text; at } ] -> begins state word { it = text; at }
+    | "zone", [ { it = String text; at } ] -> zone state word { it = text; at }
+    | ("vehicle" | "plan" | "answer" | "reply" | "input" | "field" | "begins" | "zone"), _ -> misused state
     | other, _ ->
       let hint =
         match Diagnostic.suggest other entries with
         | Some near -> Printf.sprintf "did you mean '%s'?" near
-        | None -> "a fleet consists of vehicle, plan, answer, reply, input, field, fence, locate and assume"
+        | None -> "a fleet consists of " ^ words
       in
       add_fault state (Diagnostic.error word.at (Printf.sprintf "a fleet has no '%s'" other) ~hint)
 
@@ -335,7 +359,7 @@ let statement state (s : statement) =
   | _ ->
     add_fault state
       (Diagnostic.error s.at
-         "only vehicle, plan, answer, reply, input, field, fence, locate and assume may stand in a fleet"
+         (Printf.sprintf "only %s may stand in a fleet" words)
          ~hint:"as in vehicle 'x8-02', { type 'UAV' }")
 
 (* {1 All together} *)
@@ -387,7 +411,8 @@ let rec take n = function
 let read ~chart ~file source =
   let* program = Parse.program ~file source in
   let start = { source; vehicles = []; plans = []; answers = []; replies = []; inputs = []; samples = []; fences = [];
-                plans_at = None; assumptions = []; constants = Constants.of_program ~chart ~place:None [];
+                plans_at = None; begins = None; zone = None; assumptions = [];
+                constants = Constants.of_program ~chart ~place:None [];
                 unplaced = 0; faults = [] } in
   let state = List.fold_left statement start program in
   let vehicles = List.rev_map (fun { entry; name_at = _ } -> entry) state.vehicles in
@@ -405,7 +430,9 @@ let read ~chart ~file source =
       { Entry.vehicles; plans = entries state.plans; answers = entries state.answers;
         replies = entries state.replies; inputs = List.rev state.inputs;
         samples = List.rev state.samples; fences = List.rev state.fences; plans_at = state.plans_at;
-        recurrences }
+        recurrences;
+        begins = Option.map (fun t -> { t with Calendar.zone = Option.value state.zone ~default:0 }) state.begins;
+        zone = state.zone }
   else Error (take Parse.most_faults (List.sort Diagnostic.compare faults))
 
 let names_at word ~file source =

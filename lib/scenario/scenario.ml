@@ -24,7 +24,8 @@ let equal_recurrence (a : recurrence) (b : recurrence) =
 let equal (a : t) (b : t) =
   a.vehicles = b.vehicles && a.plans = b.plans && a.answers = b.answers && List.equal equal_reply a.replies b.replies
   && List.equal equal_input a.inputs b.inputs && a.samples = b.samples && List.equal equal_fence a.fences b.fences
-  && a.plans_at = b.plans_at && List.equal equal_recurrence a.recurrences b.recurrences
+  && a.plans_at = b.plans_at && List.equal equal_recurrence a.recurrences b.recurrences && a.begins = b.begins
+  && a.zone = b.zone
 
 let beside program = Filename.remove_extension program ^ ".fleet"
 
@@ -35,7 +36,8 @@ let within s (p : Core.program) =
   let further = List.filter (fun fence -> not (List.memq fence own)) s.fences in
   let place = match p.place with Some _ as own -> own | None -> s.plans_at in
   let fences = if further = [] then p.fences else Fences.make (own @ further) in
-  ({ p with fences; place }, if Option.equal Dolphin_geo.Position.equal place p.place then further else own @ further)
+  let to_compare = if Option.equal Dolphin_geo.Position.equal place p.place then further else own @ further in
+  ({ p with fences; place; begins = s.begins }, to_compare)
 
 (* {1 Questions} *)
 
@@ -195,6 +197,8 @@ let pp ppf (s : t) =
   List.iter (pp_sample ppf) s.samples;
   List.iter (fun (fence : Fences.fence) -> Format.fprintf ppf "%s@\n" fence.text) s.fences;
   Option.iter (fun place -> Format.fprintf ppf "locate(location(%a))@\n" pp_coordinates place) s.plans_at;
+  Option.iter (fun begins -> Format.fprintf ppf "begins '%a'@\n" Calendar.pp_local begins) s.begins;
+  Option.iter (fun zone -> Format.fprintf ppf "zone '%a'@\n" Calendar.pp_zone zone) s.zone;
   (* An entry for each vehicle is one. *)
   let add sources (r : recurrence) = if List.mem r.source sources then sources else r.source :: sources in
   List.iter (Format.fprintf ppf "%s@\n") (List.rev (List.fold_left add [] s.recurrences))
@@ -213,4 +217,5 @@ let default =
         underwater "noptilus-2" (at 41.18600 (-8.70720));
         underwater "noptilus-3" (at 41.18400 (-8.70760));
         vehicle "x8-02" "UAV" [ "Camera" ] (at 41.18450 (-8.70500)) 0.4 ];
-    plans = []; answers = []; replies = []; inputs = []; samples = []; fences = []; plans_at = None; recurrences = [] }
+    plans = []; answers = []; replies = []; inputs = []; samples = []; fences = []; plans_at = None; recurrences = [];
+    begins = None; zone = None }

@@ -53,9 +53,9 @@ val beside : string -> string
 (** {1:programs Programs} *)
 
 val within : t -> Dolphin_semantics.Core.program -> Dolphin_semantics.Core.program * Dolphin_plans.Fences.fence list
-(** [within s p] is [p] as it runs in [s]: with the fences of [s] too, and with the place of [s] for plans if [p] has
-    none; and the fences that its known plans are still to be compared with. Elaboration compared plans with the fences
-    of [p], except for plans without a place. *)
+(** [within s p] is [p] as it runs in [s]: with the fences of [s] too, with the place of [s] for plans if [p] has none,
+    and with the date at which runs begin in [s]; and the fences that its known plans are still to be compared with.
+    Elaboration compared plans with the fences of [p], except for plans without a place. *)
 
 (** {1:questions Questions} *)
 
@@ -157,5 +157,8 @@ reply 'queue.await', task('survey1'), either(task('survey2'), fails('the queue i
 
     [assume eventually { CONDITION }], [assume eventually { v -> CONDITION }]: an assumption on endless runs, about one
     vehicle, named in quotes, or each. Stands as often as wanted.
+
+    [begins TEXT]: the date at which runs begin, for [timeOfDay()]: ['2026-06-01 21:00']. [zone TEXT]: the zone of times
+    of day, ['UTC'] or an offset such as ['+01:00']; by default UTC. Both stand at most once.
 
     Times without a unit are seconds. *)

@@ -28,6 +28,7 @@ let procedures =
                                                measures.";
       "running", "running(v)", "Whether the vehicle runs a task now.";
       "now", "now()", "The whole seconds since the run started.";
+      "timeOfDay", "timeOfDay()", "The seconds since midnight; `timeOfDay '21:30'` is those from midnight until then.";
       "eta", "eta(v, p)", "The seconds that the vehicle takes to a position, in a straight line.";
       "location", "location(latitude, longitude)", "A position, in degrees; a third number is its height in metres. \
                                                     Also `location \"41\xc2\xb011.1'N 8\xc2\xb042.4'W\"`.";

@@ -6,7 +6,7 @@ type options = {
   program : Core.program;
   world : World.t;
   durations : Durations.t;
-  dates : (int list, Core.site) result;
+  dates : (Dated_code.dates, Core.site) result;
 }
 
 type item =
@@ -206,8 +206,10 @@ let postings o (c : Configuration.t) outside =
 (* The next date that code names. *)
 let next_date o (c : Configuration.t) date =
   match o.dates, c.control with
-  | Ok (_ :: _ as dates), (Script _ | Waiting _ | Executing _) -> List.find_opt (fun k -> k > date) dates
-  | (Ok [] | Error _), _ | _, Ended _ -> None
+  | Ok dates, (Script _ | Waiting _ | Executing _) -> Dated_code.following dates date
+  | Error _, _ | _, Ended _ -> None
+
+let repeated o k = match o.dates with Ok dates -> Dated_code.repeated dates k | Error _ -> k
 
 (* The next change of a link that matters. *)
 let change o s =
@@ -292,9 +294,8 @@ let shortened passed p =
   { p with bounds }
 
 let onwards o s ~outside ~now ~began ~seen =
-  let passed k = k * 1000 <= now in
-  let named = match o.dates with Ok dates -> dates | Error _ -> [] in
-  let date = List.fold_left max s.date (List.filter passed named) in
+  let latest = match o.dates with Ok dates -> max s.date (Dated_code.latest dates (now / 1000)) | Error _ -> s.date in
+  let date = repeated o latest in
   let before = List.filter (fun p -> match p.item with Date _ -> false | _ -> true) s.pending in
   let runs v = List.exists (fun p -> is_same p.item (Task v)) before in
   let place (v, place) = if runs v then None else Some (v, Some place) in
@@ -304,7 +305,7 @@ let onwards o s ~outside ~now ~began ~seen =
   let s, fresh = with_pending o ~before ~over:None [] { s with outside; date; elsewhere } in
   let since p =
     match p.item with
-    | Date _ -> date * 1000
+    | Date _ -> latest * 1000
     | item -> if List.exists (is_same item) fresh then 0 else began item
   in
   { s with pending = List.map (fun p -> shortened (now - since p) p) s.pending }
@@ -457,7 +458,7 @@ let of_outside s ~before ~over due next o =
 let date_step o s =
   let reached k =
     let over = Some (Date k) in
-    of_outside s ~before:s.pending ~over (Some (Date k, bounds_of s (Date k))) { s with date = k } o
+    of_outside s ~before:s.pending ~over (Some (Date k, bounds_of s (Date k))) { s with date = repeated o k } o
   in
   Option.map reached (next_date o s.configuration s.date)
 

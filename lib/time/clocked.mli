@@ -10,7 +10,7 @@ type options = {
   program : Core.program;
   world : World.t;
   durations : Durations.t;
-  dates : (int list, Core.site) result;  (** {!Dated_code.named} of the program *)
+  dates : (Dated_code.dates, Core.site) result;  (** {!Dated_code.named} of the program *)
 }
 
 (** The awaited events. *)

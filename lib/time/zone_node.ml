@@ -166,7 +166,13 @@ let unsettled t (fault : Fault.t) =
 let undated =
   "now() is used other than in comparisons with constants such as now() < 20.min: its effect on time is unknown here"
 
-let check_dates t = Result.iter_error (fun site -> unsettled t (Fault.make site undated)) (options t).dates
+let without_time_of_day =
+  "now() or timeOfDay() is used other than in comparisons with constants, or the fleet does not have the date at which \
+   the run begins: the effect of the date on time is unknown here"
+
+let check_dates t =
+  let message = if (options t).program.reads_time_of_day then without_time_of_day else undated in
+  Result.iter_error (fun site -> unsettled t (Fault.make site message)) (options t).dates
 
 let follow t place =
   match Lazy.force place.follows with

@@ -25,8 +25,8 @@ let tick (durations : Durations.t) ~(faults : Faults.t) ~plans program world =
   in
   let if_possible limit bounds found = if Faults.is_possible limit then longest found bounds else found in
   let of_vehicle found v = List.fold_left (fun found name -> longest found (by_name durations v name)) found plans in
-  let dates = Result.value (Dated_code.named program) ~default:[] in
-  let of_dates = List.fold_left (fun found n -> divisor found (1000 * n)) 0 dates in
+  let dates = Result.value (Dated_code.named program) ~default:Dated_code.no_dates in
+  let of_dates = List.fold_left (fun found n -> divisor found (1000 * n)) 0 dates.once in
   let of_plans = List.fold_left of_vehicle of_dates (ids world) in
   let links = Durations.links_with faults durations in
   let of_links =
@@ -70,9 +70,13 @@ let posts t keys =
 let undated =
   {|Assert(FALSE, "now() is used other than in comparisons with constants: its effect on time is unknown here")|}
 
+let daily =
+  {|Assert(FALSE, "timeOfDay() is compared, which has dates on every day: its effect on time is unknown here")|}
+
 let code_dates program : Tla.t =
   match Dated_code.named program with
-  | Ok dates -> Tuple (List.map (fun n -> Tla.Integer n) dates)
+  | Ok { once; daily = [] } -> Tuple (List.map (fun n -> Tla.Integer n) once)
+  | Ok { daily = _ :: _; _ } -> Name daily
   | Error _ -> Name undated
 
 let links l : Tla.t = Tuple (List.map (fun (v, ms) -> Tla.Tuple [ String v; milliseconds ms ]) (Links.changes l))

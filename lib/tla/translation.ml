@@ -250,6 +250,9 @@ and procedure t site builtin : Tla.t =
     note_sensor t site sensor;
     record "sensor" [ ("name", String (name_of_sensor sensor)) ]
   | Now -> plain "now"
+  | Time_of_day ->
+    let begins = Option.to_list t.program.begins in
+    record "timeOfDay" [ ("begins", Tuple (List.map (fun (b : Calendar.t) -> Tla.Integer b.second) begins)) ]
   | Is_running -> plain "running"
   | Reading_of -> plain "reading"
   | Eta -> refuse t site "eta: TLA+ has whole numbers only"; plain "list"
@@ -294,6 +297,7 @@ and expression t (e : expression) =
     plan t e.site builder start body name site
   | Block [ _; _; { node = Apply (Build (Pos, _), _); _ } ]
   | Apply (Builtin (Location_of | Area_of | Math _ | Geometry _), _)
+  | Apply (Builtin Time_of_day, [ _ ])
     when Constant.is_closed e -> folded t e
   | Apply (Property name, _) when Supported.is_refused_property name && Constant.is_closed e -> folded t e
   | _ -> unfolded t e

@@ -14,6 +14,7 @@ type t = {
   run : string option;
   fences : Dolphin_plans.Fences.fence list;
   place : Dolphin_geo.Position.t option;
+  begins : Dolphin_semantics.Calendar.t option;
 }
 
 let format = "dolphin-journal"
@@ -77,6 +78,11 @@ let positive =
 
 let utc = limited [ ("pattern", `String "^[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}Z$") ] text
 
+let date =
+  let pattern = "^[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}[+-][0-9]{2}:[0-9]{2}$" in
+  let written = Format.asprintf "%a" Dolphin_semantics.Calendar.pp in
+  limited [ ("pattern", `String pattern) ] (conv Dolphin_semantics.Calendar.of_string written text)
+
 let codec =
   let order = enum [ ("id", Dolphin_semantics.World.By_id) ] in
   named "header"
@@ -94,8 +100,9 @@ let codec =
         and+ order = default Dolphin_semantics.World.By_hearing "order" order (fun h -> h.order) ~doc:"of vehicles"
         and+ fences = default [] "fences" (list On_map.fence) (fun h -> h.fences)
         and+ place =
-          optional "place" (record (place ~height:(number ()))) (fun h -> h.place) ~doc:"of plans without one" in
-        { program; fleet; platform; order; seed; speed; started; run; fences; place }))
+          optional "place" (record (place ~height:(number ()))) (fun h -> h.place) ~doc:"of plans without one"
+        and+ begins = optional "begins" date (fun h -> h.begins) ~doc:"the date 0, with its offset from UTC" in
+        { program; fleet; platform; order; seed; speed; started; run; fences; place; begins }))
 
 let to_json = write codec
 let of_json json = Result.bind (check_format json) (fun () -> read codec json)

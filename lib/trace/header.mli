@@ -19,6 +19,7 @@ type t = {
   (** of a run on vehicles of a network: its identity in the world, which copies of the journal share *)
   fences : Dolphin_plans.Fences.fence list;  (** that vehicles are kept to *)
   place : Dolphin_geo.Position.t option;  (** the place of plans without one; of the program or its fleet *)
+  begins : Dolphin_semantics.Calendar.t option;  (** the date 0, with its offset from UTC, for [timeOfDay()] *)
 }
 
 val source : ?set:(string * string) list -> path:string -> string -> source

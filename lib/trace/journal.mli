@@ -5,7 +5,8 @@
 
       let header =
         { Header.program = Header.source ~path:"a.dol" "halt 'no'"; fleet = None; platform = "sim"; order = By_hearing;
-          seed = 1; speed = None; started = "2026-03-01T12:00:00Z"; run = None; fences = []; place = None }
+          seed = 1; speed = None; started = "2026-03-01T12:00:00Z"; run = None; fences = []; place = None;
+          begins = None }
 
       let journal =
         let line = Journal.line (Journal.numbering ~notes:0) in

@@ -242,9 +242,11 @@ let feed r (entry : Entry.t) =
     | (Partial _ | Label _), _ -> mismatch r "such lines are those of a partial trace"
     | (Header _ | Vehicle _ | Event _ | Note _ | Act _ | Resumed _ | End _), Some event ->
       mismatch r (Format.asprintf "the transition on %a is missing" Event.pp event)
-    | Header { program; order; place; _ }, None ->
+    | Header { program; order; place; begins; _ }, None ->
       let place = match r.program.place with Some _ as own -> own | None -> place in
-      Ok { r with places = program.hash = r.hash; world = World.nobody order; program = { r.program with place } }
+      let begins = match begins with Some _ -> begins | None -> r.program.begins in
+      Ok { r with places = program.hash = r.hash; world = World.nobody order;
+                  program = { r.program with place; begins } }
     | Resumed { program; _ }, None -> Ok { r with places = program.hash = r.hash }
     | (Note _ | Act _), None -> Ok r
     | Vehicle { state; _ }, None -> Ok { r with world = World.add state r.world }

@@ -19,7 +19,8 @@
 
       let header =
         { Header.program = Header.source ~path:"a.dol" ""; fleet = None; platform = "sim"; order = By_hearing; seed = 1;
-          speed = None; started = "2026-03-01T12:00:00Z"; run = None; fences = []; place = None }
+          speed = None; started = "2026-03-01T12:00:00Z"; run = None; fences = []; place = None;
+          begins = None }
 
       (* The lines of a run, in order. *)
       let journal =

@@ -602,7 +602,8 @@ What code does with the date is exact where it compares it with constants. Else 
   $ dolphin time dusk.dol > /dev/null 2>&1
   [3]
 
-Neither locals nor parameters of functions are constants, nor is what is kept of the date. That a comparison held is.
+Locals and parameters of functions are constants if all their values are; what is kept of the date is not. That a
+comparison held is.
 
   $ cat > kept.dol <<'END'
   > v = pick { id 'a' }
@@ -625,7 +626,7 @@ Neither locals nor parameters of functions are constants, nor is what is kept of
   > execute survey(1.min)[v]
   > END
   $ dolphin time local.dol --fleet dusk.fleet 2>&1 | head -1
-  inconclusive: local.dol:2:44: now() is used other than in comparisons with constants such as now() < 20.min: its effect on time is unknown here; times are of the runs until then
+  completed: 1:00 at the earliest, 1:00 at the latest
 
 What nobody can tell of the very first state is said, too.
 

@@ -287,6 +287,9 @@ let sensors =
       ("the date: open at each step, and one thing within a step",
        two ^ "execute waitFor { now() >= 5 && consume(x: 1) } then task('p')[a] | action { post x: 1 }\n\
               if (now() < 5 && now() >= 5) { halt 'both' }\nmessage now()\nmessage \"${now() + 1} s\"");
+      ("the time of day: open at each step, and one thing within a step",
+       two ^ "execute waitFor { timeOfDay() >= timeOfDay('21:30') && consume(x: 1) } then task('p')[a] | action \
+              { post x: 1 }\nif (timeOfDay() < 5 && timeOfDay() > 6) { halt 'both' }\nmessage \"${timeOfDay() + 1} s\"");
       ("comparisons with several numbers in one step",
        two ^ "if (now() != 0) { message 'a' } else if (now() > 5) { halt 'both' }\n\
               if (battery(a) < 0.3 && 0.5 < battery(a)) { halt 'both' } else if (battery(a) >= 0.3) { message 'b' }");

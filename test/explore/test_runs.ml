@@ -193,7 +193,7 @@ let fleet =
   let replies = List.map reply Calls.names in
   let vehicles = List.map (fun v -> draining (steadily v)) vehicles in
   return { Scenario.vehicles; plans; answers; replies; inputs = []; samples = []; fences = []; plans_at = None;
-           recurrences = [] }
+           recurrences = []; begins = None; zone = None }
 
 let random_case =
   QCheck2.Gen.(

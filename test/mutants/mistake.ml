@@ -294,8 +294,14 @@ let all =
             {|reached = int_of_float (Float.ceil x)|},
             {|reached = int_of_float (Float.ceil x) + 1|} );
           ( "a variable has the value that was assigned last",
-            {|Hashtbl.find_all assigned i|},
-            {|Option.to_list (Hashtbl.find_opt assigned i)|} );
+            {|Hashtbl.find_all c.assigned i|},
+            {|Option.to_list (Hashtbl.find_opt c.assigned i)|} );
+          ( "midnight passes unseen",
+            {|let times = 0 :: List.filter|},
+            {|let times = List.filter|} );
+          ( "a time of day comes once",
+            {|let again k = n + 1 + remainder (k - n - 1) in|},
+            {|let again k = k in|} );
           ( "comparisons count as arithmetic",
             {|Binary (Add | Subtract | Multiply | Divide)), es)|},
             {|Binary (Add | Subtract | Multiply | Divide | Greater)), es)|} );

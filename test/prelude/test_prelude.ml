@@ -20,7 +20,7 @@ let compile body =
   | Ok (_, found) | Error found -> failwith (Pure_run.explain text found)
 
 let graph ?failures body =
-  match Graph.explore ~limit:20_000 ?failures (compile body) Pure_run.fleet with
+  match Graph.explore ~limit:20_000 ?failures (compile body) (World.at Any Pure_run.fleet) with
   | Some graph -> graph
   | None -> Alcotest.fail "more states than expected"
 

@@ -164,7 +164,7 @@ let fleet =
   let reply call : Scenario.reply = { call; rounds = Calls.replies call } in
   return
     { Scenario.vehicles; plans; answers; replies = List.map reply Calls.names; inputs; samples = []; fences = [];
-      plans_at = None; recurrences = [] }
+      plans_at = None; recurrences = []; begins = None; zone = None }
 
 (* Waits that only an input, a vehicle that comes, or nothing at all can end. *)
 let waits =

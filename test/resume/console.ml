@@ -19,7 +19,7 @@ let started = "2026-03-01T12:00:00Z"
 let header : Header.t =
   { program = source; fleet = None; platform = "imc"; order = Udp_platform.order; seed = 0; speed = None; started;
     run = None;
-    fences = []; place = None }
+    fences = []; place = None; begins = None }
 
 let die () =
   Unix.kill (Unix.getpid ()) Sys.sigkill;

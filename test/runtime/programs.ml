@@ -58,9 +58,11 @@ let program ?(reads_sensors = false) ?(reads_now = false) ?(globals = 0) script 
     goes_round = false;
     reads_sensors;
     reads_now;
+    reads_time_of_day = false;
     asks_running = false;
     fences = Dolphin_plans.Fences.none;
-    place = None }
+    place = None;
+    begins = None }
 
 let on_interrupt t program =
   { program with on_interrupt = Some (lambda "onInterrupt" 1 (call Interrupted [ call Execute [ t ] ])) }

@@ -263,7 +263,11 @@ let scenario =
   let* samples = list_size (int_range 1 3) sample in
   let* fences = list_size (int_bound 2) (oneofl (Lazy.force some_fences)) in
   let* plans_at = option place in
-  return { Scenario.vehicles; plans; answers; replies; inputs; samples; fences; plans_at; recurrences = [] }
+  let* zone = option (map (fun n -> 15 * n) (int_range (-56) 56)) in
+  let at zone seconds = Dolphin_semantics.Calendar.of_unix ~zone (float_of_int seconds) in
+  let* begins = option (map (at (Option.value zone ~default:0)) (int_range (-2_000_000_000) 2_000_000_000)) in
+  return { Scenario.vehicles; plans; answers; replies; inputs; samples; fences; plans_at; recurrences = [];
+           begins; zone }
 
 (* Fences as JSON, in journals and on maps. *)
 let fences_as_json () =

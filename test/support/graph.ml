@@ -27,9 +27,11 @@ let outcomes ?(failures = true) ?(interruption = false) program world c =
   let stopped = if interruption then [ Transition.Interruption ] else [] in
   let is_new k = not (Tuples.poll k (Integer 1) c.shared.tuples) in
   let posted = List.map (fun k -> Transition.Input (k, Integer 1)) (List.filter is_new program.Core.inputs) in
-  let accepted e = Result.to_option (Transition.accept program world c e) in
+  let decided results = List.filter_map Result.to_option (Result.value results ~default:[]) in
+  let accepted e = decided (Transition.accept_all program world c e) in
   let all = events @ recruited @ failed @ posted @ stopped in
-  List.of_seq (Transition.internal program world c) @ List.filter_map accepted all
+  let internal = Result.value (Transition.internal_all program world c) ~default:Seq.empty in
+  List.of_seq internal @ List.concat_map accepted all
 
 exception Too_many
 

@@ -364,7 +364,8 @@ let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _
     let reads_date = o.program.reads_now and is_over = match s.c.control with Ended _ -> true | _ -> false in
     if reads_date && waits && (not is_over) && s.date < s.now && not (is_not_a_run ()) then
       reach { s with date = s.now };
-    let is_dated = (not is_over) && List.exists (fun k -> k > s.date) (Result.value o.dates ~default:[]) in
+    let dates = Result.value o.dates ~default:Dated_code.no_dates in
+    let is_dated = (not is_over) && Dated_code.following dates s.date <> None in
     (* A second passes, if for everything that is awaited something may still happen then. *)
     let is_under_way (_, _, clock, _, most) = clock.since < most in
     let may_wait (_, clock) =

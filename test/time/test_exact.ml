@@ -220,7 +220,7 @@ let print_linked_case (case, _) = print_linked case
 let linked_options ((text, seed, silences), environment) : Clocked.options =
   let program = Test_support.Pure_run.compile_exn text in
   { environment; program; world = Generate.world;
-    durations = { (durations seed) with links = Links.of_silences silences }; dates = Ok [] }
+    durations = { (durations seed) with links = Links.of_silences silences }; dates = Ok Dated_code.no_dates }
 
 let test_links () =
   let is_found case = is_found (linked_options case) in
@@ -506,10 +506,14 @@ let test_look_at_once () =
 
 (* Whether the guard sees that a task has started makes a difference of seconds, so START comes not always first. *)
 let test_named () =
-  let named text expected =
-    let program = Test_support.Pure_run.compile_exn text in
-    Alcotest.(check (option (list int))) text expected (Result.to_option (Dated_code.named program))
+  let dates ?begins text expected =
+    let program = { (Test_support.Pure_run.compile_exn text) with begins } in
+    let found = Result.map (fun { Dated_code.once; daily } -> (once, daily)) (Dated_code.named program) in
+    Alcotest.(check (option (pair (list int) (list int)))) text expected (Result.to_option found)
   in
+  let named text expected = dates text (Option.map (fun once -> (once, [])) expected) in
+  let begins = Result.get_ok (Calendar.read ~zone:0 "2026-06-01 20:00") in
+  let daily text expected = dates ~begins text (Option.map (fun daily -> ([], daily)) expected) in
   named "post x: 1" (Some []);
   named "if (now() < 5) { post x: 1 }" (Some [ 5 ]);
   named "if (now() <= 5) { post x: 1 }" (Some [ 6 ]);
@@ -526,7 +530,52 @@ let test_named () =
   named "message((now() - 1) in [3])" None;
   named "start = now()" None;
   named "execute condition { now() - 1 > 3 }" None;
-  named "def late(n) { now() > n }\nexecute condition { late(3) }" None
+  named "def late(n) { now() > n }\nexecute condition { late(3) }" (Some [ 4 ]);
+  named "def late(n) { condition { def m = n + 1; now() > m } }\nexecute late(3) >> late(5)" (Some [ 5; 7 ]);
+  named "def late(n) { condition { now() > n } }\nl = 3\nexecute late(l)" (Some [ 4 ]);
+  named "def late(n) { condition { now() > n } }\nl = 3\nexecute late(l)\nl = l + 1\nexecute late(l)" None;
+  named "ts = [3, 5].collect { n -> condition { now() > n } }\nexecute ts[0]" None;
+  named "def late(n) { n = n + 1; return condition { now() > n } }\nexecute late(3)" None;
+  (* At 20:00 four hours are left of the day. *)
+  daily "if (timeOfDay() < timeOfDay('21:30')) { post x: 1 }" (Some [ 5_400; 14_400 ]);
+  daily "if (timeOfDay() > 77400) { post x: 1 }" (Some [ 5_401; 14_400 ]);
+  daily "if (timeOfDay() >= 0 || timeOfDay() < 1e5) { post x: 1 }" (Some [ 14_400 ]);
+  daily "def at(t) { condition { timeOfDay() >= timeOfDay(t) } }\nexecute at('06:00') >> at('20:00')"
+    (Some [ 0; 14_400; 36_000 ]);
+  daily "message timeOfDay()" (Some []);
+  daily "message timeOfDay() - 5 > 3" None;
+  daily "t = timeOfDay()" None;
+  dates ~begins "if (now() < 5) { execute condition { timeOfDay() < 1 } }" (Some ([ 5 ], [ 14_400; 14_401 ]));
+  dates "message timeOfDay() > 3" None
+
+(* The dates one after another are those at which the code does something else, second by second. *)
+let test_following () =
+  let begins = Result.get_ok (Calendar.read ~zone:0 "2026-06-01 20:00") in
+  let source = "execute condition { now() >= 200000 || timeOfDay() >= 77400 || timeOfDay() < 100 }" in
+  let program = { (Test_support.Pure_run.compile_exn source) with begins = Some begins } in
+  let dates = Result.get_ok (Dated_code.named program) in
+  let holds n = n >= 200_000 || Calendar.at begins n >= 77_400 || Calendar.at begins n < 100 in
+  let rec go n passed = if n > 400_000 then List.rev passed else
+      match Dated_code.following dates n with Some k -> go k (k :: passed) | None -> List.rev passed in
+  let passed = go 0 [] in
+  let rec check n = function
+    | k :: rest when k = n + 1 -> Alcotest.(check int) "latest" k (Dated_code.latest dates (n + 1)); check (n + 1) rest
+    | rest when n < 400_000 ->
+      if holds n <> holds (n + 1) then Alcotest.failf "%d is not among the dates" (n + 1);
+      check (n + 1) rest
+    | _ -> ()
+  in
+  check 0 passed;
+  let same n =
+    let m = Dated_code.repeated dates n in
+    m < 400_000 && holds m = holds n
+    && Option.map (fun k -> k - n) (Dated_code.following dates n)
+       = Option.map (fun k -> k - m) (Dated_code.following dates m)
+  in
+  for i = 0 to 2_000 do
+    let n = i * 997 in
+    Alcotest.(check bool) (Printf.sprintf "repeated from %d" n) true (same n)
+  done
 
 (* On the stroke of a date, whatever is due comes before or after. *)
 let test_on_the_stroke () =
@@ -579,5 +628,6 @@ let () =
                      Alcotest.test_case "a look at once" `Quick test_look_at_once;
                      Alcotest.test_case "a round in no time" `Quick test_round_in_no_time;
                      Alcotest.test_case "dates that code names" `Quick test_named;
+                     Alcotest.test_case "dates one after another" `Quick test_following;
                      Alcotest.test_case "on the stroke of a date" `Quick test_on_the_stroke;
                      Alcotest.test_case "who runs" `Quick test_who_runs ]) ]

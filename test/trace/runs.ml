@@ -81,7 +81,8 @@ let go ~seed ?period ~name ~source ~scenario host =
   let header : Header.t =
     { program = its_source; fleet = None; platform = "sim"; order = By_hearing; seed; speed = None; started;
       run = None;
-      fences = Fences.list program.fences; place = program.place }
+      fences = Fences.list program.fences; place = program.place;
+      begins = program.begins }
   in
   let recorder = Recorder.make ?period program header (write_to journal) in
   let r = { name; program; hash = its_source.hash; journal = ""; scenario; seed; period; host } in

@@ -92,7 +92,7 @@ let escaped () =
 let header ~platform : Header.t =
   { program = Header.source ~path:"mission.dol" ""; fleet = None; platform; order = By_hearing; seed = 7;
     speed = None;
-    started = "2026-03-01T12:00:00Z"; run = None; fences = []; place = None }
+    started = "2026-03-01T12:00:00Z"; run = None; fences = []; place = None; begins = None }
 
 (* Areas are lines of the map, with their meaning below it; the pointer shows their declarations. *)
 let fences () =

@@ -58,6 +58,7 @@ let load path ~set ~fleet:named ~journal =
   let* program = Program_file.load ~set path in
   let* present = read program journal in
   let* fleet = fleet present ~program:path ~named in
+  let fleet = Fleet_file.beginning present.past.header.begins fleet in
   let* program = Program_file.within fleet program in
   Ok (present, program, fleet)
 

@@ -46,5 +46,7 @@ let nobody =
   { path = None; source = ""; warnings = [];
     scenario =
       { vehicles = []; plans = []; answers = []; replies = []; inputs = []; samples = []; fences = [];
-        plans_at = None; recurrences = [] } }
+        plans_at = None; recurrences = []; begins = None; zone = None } }
+
+let beginning begins f = { f with scenario = { f.scenario with begins } }
 let header f = Option.map (fun path -> Dolphin_trace.Header.source ~path f.source) f.path

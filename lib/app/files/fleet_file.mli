@@ -19,6 +19,9 @@ val load : ?may_read:(string -> (unit, string) result) -> string option -> (t, E
 val load_for : program:string -> string option -> (t, Error.t) result
 (** [load_for ~program named] is [load (choose ~program named)]. *)
 
+val beginning : Dolphin_semantics.Calendar.t option -> t -> t
+(** [beginning date f] is [f] in which runs begin at [date]. *)
+
 val nobody : t
 (** A fleet in which there is nothing. *)
 

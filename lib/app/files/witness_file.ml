@@ -62,7 +62,8 @@ let draw program (fleet : Fleet_file.t) drawing run =
     (Header
        { program = Program_file.header program; fleet = Fleet_file.header fleet; platform = "sim"; order = By_hearing;
          seed = 0; speed = None; started = ""; run = None;
-         fences = Fences.list program.program.fences; place = program.program.place });
+         fences = Fences.list program.program.fences; place = program.program.place;
+         begins = program.program.begins });
   tell_fleet fleet add;
   tell_run program (witness program fleet run) (run.steps @ run.cycle) add;
   let count = List.length run.steps + List.length run.cycle in

@@ -22,7 +22,8 @@ let header (program : Program_file.t) fleet ~speed : Header.t =
   { program = Program_file.header program; fleet = Fleet_file.header fleet; platform = "sim";
     order = Simulator.Virtual.order; seed = 0; speed; started = Recording.utc_now (); run = None;
     fences = Dolphin_plans.Fences.list program.program.fences;
-    place = program.program.place }
+    place = program.program.place;
+    begins = program.program.begins }
 
 let enact (front : Run.front) recording ~interruption ~speed (program : Program_file.t) (fleet : Fleet_file.t) steps =
   let observer = 

@@ -59,6 +59,8 @@ let load t ~set ~hash path =
   let* program = Result.map_error wrong (Program_file.within t.run.fleet program) in
   if Option.fold hash ~none:false ~some:(fun hash -> (Program_file.header program).hash <> hash) then
     Error (Wrong_program (path ^ ": this file has changed since it was checked"))
+  else if program.program.reads_time_of_day && program.program.begins = None then
+    Error (Wrong_program (path ^ ": it reads the time of day, and the journal of this run does not have its date"))
   else if not (same_fences program.program.fences t.program.program.fences) then
     Error (Wrong_program (path ^ ": its fences differ: a run goes on with the fences that it began with"))
   else Ok program

@@ -141,7 +141,8 @@ let header r (fleet : Fleet_file.t) : Header.t =
     run = r.run;
     started = Recording.utc_now ();
     fences = Dolphin_plans.Fences.list r.program.program.fences;
-    place = r.program.program.place }
+    place = r.program.program.place;
+    begins = r.program.program.begins }
 
 (* {1 Platforms} *)
 
@@ -330,6 +331,19 @@ let run_on r recording ~interruption (Platform (_, fleet) as platform) =
       | Ok () -> drive r recording host ~interruption platform
       | Error _ as error -> close_host host >>= fun () -> give_up error)
 
+(* The date at which it begins: on a network that of the clock, in simulated time that of the fleet. *)
+let beginning_now settings (program : Program_file.t) (fleet : Fleet_file.t) =
+  let at begins =
+    Ok ({ program with program = { program.program with begins } }, Fleet_file.beginning begins fleet) in
+  let is_read = program.program.reads_time_of_day in
+  if not (is_simulated settings) then at (if is_read then Some (Local_time.now fleet.scenario.zone) else None)
+  else if is_read && fleet.scenario.begins = None then
+    Error
+      (Error.Bad_input
+         (program.path ^ ": it reads the time of day: give --begins '2026-06-01 21:00', or write in the fleet: \
+                          begins '2026-06-01 21:00'"))
+  else at fleet.scenario.begins
+
 (* The message about a run that was interrupted while its platform was opened. *)
 let unbegun r =
   match r.resumed with
@@ -355,6 +369,7 @@ let new_identity () =
   String.concat "" (List.init 4 (fun _ -> Printf.sprintf "%07x" (Random.State.bits random lsr 2)))
 
 let start front ~interruption (settings : settings) program (fleet : Fleet_file.t) =
+  let*? program, fleet = beginning_now settings program fleet in
   let seed = Option.value settings.seed ~default:0 in
   let run = if is_simulated settings then None else Some (new_identity ()) in
   let r = { front; settings; seed; run; program; fleet; resumed = None; fenced = None } in
@@ -400,6 +415,7 @@ let as_before (settings : settings) ~fleet (resumed : Resumed.t) =
 let resumption front settings ~changed ~fleet program path =
   let* resumed = Resumed.read ~changed ~tell:front.replayed program path in
   let* fleet, settings = as_before settings ~fleet resumed in
+  let fleet = Fleet_file.beginning resumed.past.header.begins fleet in
   let* program = Program_file.within fleet program in
   if settings.supplier = None && not (Replies.are_of fleet.scenario resumed.past.history) then
     Error

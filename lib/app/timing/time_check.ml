@@ -25,7 +25,7 @@ let check ?tolerance (p : Program_file.t) (fleet : Fleet_file.t) path =
     { environment =
         Scenario_world.environment ~answers:[] ~faults:Dolphin_environment.Faults.none p.program fleet.scenario;
       program = p.program; world = Scenario_world.still fleet.scenario;
-      durations = Durations.of_scenario fleet.scenario; dates = Ok [] }
+      durations = Durations.of_scenario fleet.scenario; dates = Ok Dolphin_semantics.Dated_code.no_dates }
   in
   let replay = ref (Replay.start ~hash:(Program_file.header p).hash p.program) in
   let recorded = ref (Dated_run.start ~tolerance:usual options) and findings = ref [] in

@@ -14,6 +14,13 @@ let time ms = Format.asprintf "%a" Bounds.pp_time ms
 
 let moments : Timed_system.moment list = [ Starts; Ends; Fails; Stopped ]
 
+(* A date of code. Those of times of day come again each day. *)
+let date (p : Program_file.t) k =
+  match Dated_code.named p.program, p.program.begins with
+  | Ok { once; daily = _ :: _ }, Some begins when not (List.mem k once) ->
+    Format.asprintf "timeOfDay() = %a" Calendar.pp_time (Calendar.at begins k)
+  | _, _ -> "now() = " ^ Dolphin_trace.Phrase.time (float_of_int k)
+
 (* The awaited events, and the party that defines their durations. *)
 let item ?at (p : Program_file.t) (pending : Clocked.pending) =
   let place = Option.fold (Option.bind at (Program_file.at p)) ~none:"" ~some:(fun at -> at ^ ": ") in
@@ -32,7 +39,7 @@ let item ?at (p : Program_file.t) (pending : Clocked.pending) =
   | Links, _ -> Option.value pending.prompt ~default:"a link"
   | Silence v, _ -> "nothing is heard of " ^ v
   | Course v, _ -> "the battery of " ^ v
-  | Date k, _ -> "now() = " ^ Dolphin_trace.Phrase.time (float_of_int k)
+  | Date k, _ -> date p k
 
 let hint (pending : Clocked.pending) =
   match pending.item, pending.task with

@@ -137,7 +137,7 @@ let rec sensors_in text =
          let after = String.sub rest (i + 1) (String.length rest - i - 1) in
          Printf.sprintf "%s(%s)" name (String.sub rest 0 i) :: sensors_in after
        | None -> [])
-    (List.filter_map opening ("now" :: of_vehicle))
+    (List.filter_map opening ("now" :: "timeOfDay" :: of_vehicle))
 
 let sensors : World.assumption -> string list = function
   | Claim (text, _) -> ( match sensors_in text with [] -> [ text ] | found -> found)

@@ -69,6 +69,7 @@ let table : (string * t) list =
     ("running", these Is_running [ Vehicles ] ~result:Truth);
     ("reading", these Reading_of [ Vehicles; String ] ~result:Number ~reads_sensors:true);
     ("now", these Now [] ~result:Number);
+    ("timeOfDay", these Time_of_day [] ~optional:[ String ] ~result:Number);
     ("eta", these Eta [ Vehicles; Position ] ~result:Number ~reads_sensors:true);
     ("location", location);
     ("area", these Area_of [ Position; Number ]);

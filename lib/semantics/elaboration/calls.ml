@@ -249,6 +249,7 @@ let rec to_builtin env at name (builtin : Builtins.t) arguments =
     if count < least || count > most then
       error env Wrong_arity at "%s takes %s, not %d" name (number_of_arguments least most) count;
     let kinds = required @ optional in
+    if operation = Time_of_day && arguments = [] then Scope.note_time_of_day env.program;
     if least <= count && count <= most then check_literals env at operation kinds arguments;
     let argument i a =
       (match a with

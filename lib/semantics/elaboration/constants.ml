@@ -82,7 +82,7 @@ let run place (lambda, locations, global_names, values) =
   let program =
     { source_name = ""; locations; global_names; functions = []; main = lambda; ordered_keys = Tuple_space.no_key;
       inputs = []; on_interrupt = None; recruits = false; goes_round = false; reads_sensors = false; reads_now = false;
-      asks_running = false; fences = Fences.none; place } in
+      reads_time_of_day = false; asks_running = false; fences = Fences.none; place; begins = None } in
   let store = snd (List.fold_left (fun (i, store) x -> (i + 1, Store.set i x store)) (0, Store.empty) values) in
   let context : Code.context =
     { program; world = World.empty; allocation = Vehicle_map.empty; bound = []; held = lazy []; needed = lazy []; store;

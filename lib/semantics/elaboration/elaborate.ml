@@ -254,9 +254,11 @@ let elaborated ?(chart = no_chart) ~source_name (ast : Ast.program) =
             goes_round = Scope.goes_round program;
             reads_sensors = Scope.reads_sensors program;
             reads_now = Scope.reads_now program;
+            reads_time_of_day = Scope.reads_time_of_day program;
             asks_running = Scope.asks_running program;
             fences;
             place;
+            begins = None;
           },
         reports )
 
@@ -288,7 +290,7 @@ let evaluated ?fallback ?(at_any_date = true) (p : Core.program) ~globals (e : A
   report_unknown ?fallback program;
   match List.filter is_error (Scope.reports program) with
   | [] when Scope.reads_now program && not at_any_date ->
-    Error "an answer does not read now(): type the number of seconds"
+    Error "an answer does not read the date: type the number of seconds"
   | [] -> Ok { lambda; captured = [||] }
   | errors -> Error (first_message errors)
 

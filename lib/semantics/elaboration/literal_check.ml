@@ -27,7 +27,7 @@ let context : Code.context =
   let program =
     { source_name = ""; locations = [||]; global_names = [||]; functions = []; main; ordered_keys = Tuple_space.no_key;
       inputs = []; on_interrupt = None; recruits = false; goes_round = false; reads_sensors = false; reads_now = false;
-      asks_running = false; fences = Fences.none; place = None }
+      reads_time_of_day = false; asks_running = false; fences = Fences.none; place = None; begins = None }
   in
   let tuples = Tuples.empty Tuple_space.no_key in
   { program; world = World.empty; allocation = Vehicle_map.empty; bound = []; held = lazy []; needed = lazy [];
@@ -35,7 +35,7 @@ let context : Code.context =
 
 let fault operation values =
   match operation with
-  | Platform_task | Make_idle | Pause | Location_of | Math _ -> (
+  | Platform_task | Make_idle | Pause | Location_of | Math _ | Time_of_day when values <> [] -> (
       match Procedures.apply context 0 operation values with Wrong message -> Some message | _ -> None)
   | _ -> None
 

@@ -35,6 +35,7 @@ type program = {
   mutable goes_round : bool;
   mutable reads_sensors : bool;
   mutable reads_now : bool;
+  mutable reads_time_of_day : bool;
   mutable asks_running : bool;
   mutable calls : call list;
   blocking : (string, string) Hashtbl.t;  (* function, and the names that it uses *)
@@ -86,6 +87,7 @@ let create ?(first_site = 0) ?(variables = Assigned.Names.empty) ?(parameters = 
       goes_round = false;
       reads_sensors = false;
       reads_now = false;
+      reads_time_of_day = false;
       asks_running = false;
       calls = [];
       blocking = Hashtbl.create 16;
@@ -154,6 +156,11 @@ let note_recruit program = program.recruits <- true
 let note_rounds program = program.goes_round <- true
 let note_sensor program = program.reads_sensors <- true
 let note_now program = program.reads_now <- true
+
+let note_time_of_day program =
+  note_now program;
+  program.reads_time_of_day <- true
+
 let note_running program = program.asks_running <- true
 let has_first_value program name = match program.given with Some names -> Assigned.Names.mem name names | None -> true
 let has_like program name = Diagnostic.suggest name (Assigned.Names.elements program.variables) <> None
@@ -169,6 +176,7 @@ let recruits program = program.recruits
 let goes_round program = program.goes_round
 let reads_sensors program = program.reads_sensors
 let reads_now program = program.reads_now
+let reads_time_of_day program = program.reads_time_of_day
 let asks_running program = program.asks_running
 
 type code = {

@@ -102,6 +102,9 @@ val note_sensor : program -> unit
 val note_now : program -> unit
 (** Something reads the date. *)
 
+val note_time_of_day : program -> unit
+(** Something reads the date as a time of day. *)
+
 val note_running : program -> unit
 (** Something asks whether a vehicle runs a task. *)
 
@@ -121,7 +124,10 @@ val reads_sensors : program -> bool
 (** Whether {!note_sensor} was called. *)
 
 val reads_now : program -> bool
-(** Whether {!note_now} was called. *)
+(** Whether {!note_now} or {!note_time_of_day} was called. *)
+
+val reads_time_of_day : program -> bool
+(** Whether {!note_time_of_day} was called. *)
 
 val asks_running : program -> bool
 (** Whether {!note_running} was called. *)

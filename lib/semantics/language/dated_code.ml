@@ -1,9 +1,11 @@
 open Core
 module Ast = Dolphin_syntax.Ast
 
+type clock = Since_start | Time_of_day
+
 (* [now() + later op bound] and [now() - earlier op bound]. *)
 type shift = Nothing | Later of expression | Earlier of expression
-type comparison = { op : Ast.binary; shift : shift; bound : expression; site : site }
+type comparison = { clock : clock; op : Ast.binary; shift : shift; bound : expression; site : site }
 
 type t = {
   comparisons : comparison list;
@@ -13,7 +15,14 @@ type t = {
 
 (* {1 What reads the date} *)
 
-let is_now e = match e.node with Apply (Builtin Now, []) -> true | _ -> false
+let clock e =
+  match e.node with
+  | Apply (Builtin Now, []) -> Some Since_start
+  | Apply (Builtin Time_of_day, []) -> Some Time_of_day
+  | _ -> None
+
+let is_date e = clock e <> None
+let is_now e = clock e = Some Since_start
 
 let mirrored : Ast.binary -> Ast.binary = function
   | Less -> Greater
@@ -27,13 +36,10 @@ let is_comparison : Ast.binary -> bool = function
   | Sequence | Append | Add | Subtract | Multiply | Divide | Remainder | Power | Around | Intersect | Parallel | And
   | Or | Member_of -> false
 
-(* Expressions of variables and numbers, without any effect. *)
-let rec is_steady e =
-  match e.node with
-  | Constant (Integer _ | Number _) | Global _ -> true
-  | Apply ((Unary Negate | Binary (Add | Subtract | Multiply | Divide | Remainder | Power) | Property _), es)
-  | Apply (Builtin (Math _), es) -> List.for_all is_steady es
-  | _ -> false
+let rec has_locals e = match e.node with Local _ -> true | _ -> List.exists has_locals (Code_walk.parts e)
+
+(* Expressions of variables at the top of the program and numbers, without any effect. *)
+let is_steady e = Code_flow.computes e && not (has_locals e)
 
 (* [e] as the date, earlier or later by something; with the [now()] in it. *)
 let shifted e =
@@ -41,24 +47,71 @@ let shifted e =
   | Apply (Binary Add, [ a; b ]) when is_now a && is_steady b -> Some (a, Later b)
   | Apply (Binary Add, [ a; b ]) when is_now b && is_steady a -> Some (b, Later a)
   | Apply (Binary Subtract, [ a; b ]) when is_now a && is_steady b -> Some (a, Earlier b)
-  | _ -> if is_now e then Some (e, Nothing) else None
+  | _ -> if is_date e then Some (e, Nothing) else None
 
-let comparison e =
+(* The comparison that [e] is, for each bound that it may have; with the date in it. *)
+let comparison e ~bounds =
+  let with_bounds (read, shift) op bound =
+    let of_clock its_clock =
+      let each bound = { clock = its_clock; op; shift; bound; site = (read : expression).site } in
+      Option.map (fun found -> ((read : expression), List.map each found)) (bounds bound)
+    in
+    Option.bind (clock read) of_clock
+  in
   match e.node with
   | Apply (Binary op, [ a; b ]) when is_comparison op -> (
       match shifted a, shifted b with
-      | Some (now, shift), None when is_steady b -> Some (now, { op; shift; bound = b; site = now.site })
-      | None, Some (now, shift) when is_steady a ->
-        Some (now, { op = mirrored op; shift; bound = a; site = now.site })
-      | _, _ -> None)
+      | Some found, None -> with_bounds found op b
+      | None, Some found -> with_bounds found (mirrored op) a
+      | Some _, Some _ | None, None -> None)
   | _ -> None
+
+(* {1 Values that do not change} *)
+
+exception Not_constant
+
+type constants = { assigned : (int, expression) Hashtbl.t; flow : Code_flow.t Lazy.t }
+
+let constants (program : program) =
+  let assigned = Hashtbl.create 16 in
+  let note e = List.iter (fun (i, e) -> Hashtbl.add assigned i e) (Code_walk.assigned e) in
+  Code_walk.iter note (Code_walk.pieces program);
+  { assigned; flow = lazy (Code_flow.of_program program) }
+
+(* The expressions without variables that [e], which [owner] has, may stand for. A variable at the top of the program
+   that is assigned has no owner to ask: what it is assigned has no locals. *)
+let rec possible c ~seen owner e =
+  let again x = if List.mem x seen then raise Not_constant else x :: seen in
+  match e.node with
+  | Constant (Integer _ | Number _ | String _) -> [ e ]
+  | Global i ->
+    let seen = again (`Global i) in
+    List.concat_map (possible c ~seen None) (Hashtbl.find_all c.assigned i)
+  | Local i -> (
+      let owner = match owner with Some owner -> owner | None -> raise Not_constant in
+      let seen = again (`Local (owner.id, i)) in
+      match Code_flow.values (Lazy.force c.flow) owner i with
+      | Some found -> List.concat_map (fun (owner, e) -> possible c ~seen (Some owner) e) found
+      | None -> raise Not_constant)
+  | Apply (operation, es) when Code_flow.computes e ->
+    let each = List.map (possible c ~seen owner) es in
+    let add rest xs = List.concat_map (fun x -> List.map (fun others -> x :: others) rest) xs in
+    let arguments = List.fold_left add [ [] ] (List.rev each) in
+    List.map (fun es -> { e with node = Apply (operation, es) }) arguments
+  | _ -> raise Not_constant
+
+(* What [e], which [owner] has, is compared as: a variable at the top of the program is looked at when it matters. *)
+let bounds c owner e =
+  if is_steady e then Some [ e ]
+  else if not (Code_flow.computes e) then None
+  else match possible c ~seen:[] (Some owner) e with found -> Some found | exception Not_constant -> None
 
 (* Those in printed text, on which nothing depends: in texts, and in numbers that are computed for them. *)
 let rec said e =
   match e.node with
   | Apply ((Builtin Message | Concatenate | Unary Negate | Binary (Add | Subtract | Multiply | Divide)), es)
   | Apply (Method (("round" | "abs" | "toInteger"), _), es) -> List.concat_map said es
-  | _ -> if is_now e then [ e ] else []
+  | _ -> if is_date e then [ e ] else []
 
 (* The code that runs once and for all: it reads the values of that moment. *)
 let running_once (program : program) =
@@ -75,12 +128,13 @@ let running_once (program : program) =
 
 let of_program (program : program) =
   let comparisons = ref [] and known = ref [] and all = ref [] in
+  let constants = constants program in
   let visit within e =
-    (match comparison e with
-     | Some (now, found) -> comparisons := found :: !comparisons; known := now :: !known
+    (match comparison e ~bounds:(bounds constants within) with
+     | Some (read, found) -> comparisons := List.rev_append found !comparisons; known := read :: !known
      | None -> ());
     (match e.node with Apply (Builtin Message, _) -> known := said e @ !known | _ -> ());
-    if is_now e then all := (within, e) :: !all
+    if is_date e then all := (within, e) :: !all
   in
   if not program.reads_now then { comparisons = []; others = []; asked = false }
   else begin
@@ -122,55 +176,78 @@ let turns (op : Ast.binary) x =
     | Less_equal | Greater -> [ passed ]
     | _ -> [ reached; passed ]
 
+(* {1 Dates} *)
+
+type dates = { once : int list; daily : int list  (* each below the length of a day, and that much later each day *) }
+
+let no_dates = { once = []; daily = [] }
+let both a b = { once = a.once @ b.once; daily = a.daily @ b.daily }
+let remainder n = ((n mod Calendar.day_length) + Calendar.day_length) mod Calendar.day_length
+
+(* The time of day goes back at midnight. *)
+let of_day (begins : Calendar.t) op x =
+  let times = 0 :: List.filter (fun n -> n > 0 && n < Calendar.day_length) (turns op x) in
+  { once = []; daily = List.map (fun n -> remainder (n - begins.second)) times }
+
+let of_clock clock begins op x =
+  match clock, begins with
+  | Since_start, _ -> { once = turns op x; daily = [] }
+  | Time_of_day, Some begins -> of_day begins op x
+  | Time_of_day, None -> no_dates
+
+(* The first of [daily] after [n]. *)
+let following { once; daily } n =
+  let again k = n + 1 + remainder (k - n - 1) in
+  match List.sort Int.compare (List.filter (fun k -> k > n) once @ List.map again daily) with
+  | [] -> None
+  | first :: _ -> Some first
+
 (* {1 The next date} *)
 
-let next t program world ~now store =
+let next t (program : program) world ~now store =
   let number = number program world store in
-  let of_comparison { op; shift; bound; site = _ } =
-    let around c = List.concat_map (fun k -> [ k - 1; k; k + 1 ]) (turns op c) in
+  let of_comparison { clock; op; shift; bound; site = _ } =
+    let around c = { no_dates with once = List.concat_map (fun k -> [ k - 1; k; k + 1 ]) (turns op c) } in
     match number bound, shift with
-    | None, _ -> []
-    | Some bound, Nothing -> turns op bound
-    | Some bound, Later e -> Option.fold (number e) ~none:[] ~some:(fun x -> around (bound -. x))
-    | Some bound, Earlier e -> Option.fold (number e) ~none:[] ~some:(fun x -> around (bound +. x))
+    | None, _ -> no_dates
+    | Some bound, Nothing -> of_clock clock program.begins op bound
+    | Some bound, Later e -> Option.fold (number e) ~none:no_dates ~some:(fun x -> around (bound -. x))
+    | Some bound, Earlier e -> Option.fold (number e) ~none:no_dates ~some:(fun x -> around (bound +. x))
   in
-  let later = List.filter (fun k -> k > now) (List.concat_map of_comparison t.comparisons) in
-  let later = if t.asked then (now + 1) :: later else later in
-  match List.sort Int.compare later with [] -> None | first :: _ -> Some first
+  let found = List.fold_left (fun found c -> both found (of_comparison c)) no_dates t.comparisons in
+  following (if t.asked then { found with once = (now + 1) :: found.once } else found) now
 
 let is_exact t = not t.asked
 
 (* {1 Dates that the program names} *)
 
-exception Not_constant
-
-(* The expressions without variables that [e] may stand for. *)
-let rec possible assigned seen e =
-  match e.node with
-  | Constant (Integer _ | Number _) -> [ e ]
-  | Global i when not (List.mem i seen) ->
-    List.concat_map (possible assigned (i :: seen)) (Hashtbl.find_all assigned i)
-  | Apply (operation, es) when is_steady e ->
-    let each = List.map (possible assigned seen) es in
-    let add rest xs = List.concat_map (fun x -> List.map (fun others -> x :: others) rest) xs in
-    let arguments = List.fold_left add [ [] ] (List.rev each) in
-    List.map (fun es -> { e with node = Apply (operation, es) }) arguments
-  | _ -> raise Not_constant
-
 let named (program : program) =
   let t = of_program program in
-  let assigned = Hashtbl.create 16 in
-  let note e = List.iter (fun (i, e) -> Hashtbl.add assigned i e) (Code_walk.assigned e) in
-  Code_walk.iter note (Code_walk.pieces program);
-  let of_comparison { op; shift; bound; site } =
-    match shift, possible assigned [] bound with
-    | Nothing, es ->
+  let constants = constants program in
+  let of_comparison { clock; op; shift; bound; site } =
+    match clock, shift, possible constants ~seen:[] None bound with
+    | Time_of_day, _, _ when program.begins = None -> Error site
+    | _, Nothing, es ->
       let numbers = List.filter_map (number program World.empty Store.empty) es in
-      Ok (List.concat_map (turns op) numbers)
-    | (Later _ | Earlier _), _ | (exception Not_constant) -> Error site
+      Ok (List.map (of_clock clock program.begins op) numbers)
+    | _, (Later _ | Earlier _), _ | (exception Not_constant) -> Error site
   in
   match t.others with
   | site :: _ -> Error site
   | [] ->
-    let dates = Dolphin_results.Results.concat_map of_comparison t.comparisons in
-    Result.map (fun dates -> List.sort_uniq Int.compare (List.filter (fun k -> k > 0) dates)) dates
+    let all = Dolphin_results.Results.concat_map of_comparison t.comparisons in
+    let in_order keeps dates = List.sort_uniq Int.compare (List.filter keeps dates) in
+    let in_order { once; daily } = { once = in_order (fun k -> k > 0) once; daily = in_order (fun _ -> true) daily } in
+    Result.map (fun found -> in_order (List.fold_left both no_dates found)) all
+
+let latest { once; daily } n =
+  let again k = n - remainder (n - k) in
+  List.fold_left max 0 (List.filter (fun k -> k <= n) (once @ List.map again daily))
+
+(* The last day of [once] is followed by days that are alike. *)
+let repeated { once; daily } n =
+  if daily = [] then n
+  else
+    let last = List.fold_left max 0 once in
+    let first = (last / Calendar.day_length + 1) * Calendar.day_length in
+    if n < first + Calendar.day_length then n else first + remainder n

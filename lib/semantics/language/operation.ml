@@ -147,7 +147,7 @@ let rec apply context at operation arguments =
 
 and apply_known context at operation arguments =
   if World.is_open context.world && List.exists Reading.is_reading arguments then
-    match Reading.apply context.world at operation arguments with
+    match Reading.apply ~begins:context.program.begins context.world at operation arguments with
     | Gives result -> of_result result
     | Asks question -> Asks (question, fun world -> apply { context with world } at operation arguments)
     | Unclear fault -> Unclear fault

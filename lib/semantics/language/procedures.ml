@@ -328,6 +328,12 @@ let apply context at operation arguments =
   | Reading_of, [ Vehicles vs; String name ] -> sense context (Sensor (Measurement name)) vs
   | Reading_of, [ Vehicles _; x ] -> expected "the name of a measurement, as in reading(v, 'Temperature')" x
   | Now, [] -> Value (Reading.now context.world)
+  | Time_of_day, [] -> (
+      match Reading.time_of_day ~begins:context.program.begins context.world with
+      | Some time -> Value time
+      | None -> Wrong "the time of day is not known, because the date at which the run begins is not given")
+  | Time_of_day, [ String text ] -> of_result (Result.map (fun n -> Integer n) (Calendar.time_of_day text))
+  | Time_of_day, [ x ] -> expected "a time of day, as in timeOfDay '21:30'" x
   | Is_running, [ Vehicles vs ] ->
     let is_running (v : World.vehicle_state) = Boolean (Vehicle_map.mem v.id context.allocation) in
     of_result (Result.map is_running (Methods.one_vehicle context.world vs))
@@ -362,6 +368,6 @@ let apply context at operation arguments =
   | Math name, arguments -> mathematics name arguments
   | Geometry (name, keys), arguments -> of_result (Geometry.apply name keys arguments)
   | ( ( Execute | Release | Set_connection_timeout | Ask | Message | Pause | Halt | Position_of | Sensor_of _
-      | Is_running | Reading_of | Now | Eta | Location_of | Area_of | Assert | Fail | Ignore | Propagate | Retry
-      | Dismiss | Get_supplier | Interrupted | Is_host | Is_there | Values_of ),
+      | Is_running | Reading_of | Now | Time_of_day | Eta | Location_of | Area_of | Assert | Fail | Ignore | Propagate
+      | Retry | Dismiss | Get_supplier | Interrupted | Is_host | Is_there | Values_of ),
       _ ) -> Wrong (Printf.sprintf "wrong number of arguments, %d" (List.length arguments))

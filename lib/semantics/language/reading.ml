@@ -31,6 +31,14 @@ let of_now = "now()"
 let now world : value =
   match World.date world with Exactly n -> Integer n | Since _ | Any -> reading Amount of_now
 
+let of_day = "timeOfDay()"
+
+let time_of_day ~begins world : value option =
+  match World.date world, begins with
+  | Exactly n, Some begins -> Some (Integer (Calendar.at begins n))
+  | Exactly _, None -> None
+  | (Since _ | Any), _ -> Some (reading Amount of_day)
+
 let keep (program : program) store =
   let one store (i, x) =
     match x with
@@ -85,13 +93,15 @@ let claim world at ~is text =
   | Error question -> Asks question
 
 (* [x] as a number to compare: the date, if it is certain. *)
-let dated world x =
-  match x, World.date world with
-  | Reading { quantity = Amount; text }, Since n when String.equal text of_now -> Some (float_of_int n)
-  | x, _ -> Value.to_number x
+let dated ~begins world x =
+  match x, World.date world, begins with
+  | Reading { quantity = Amount; text }, Since n, _ when String.equal text of_now -> Some (float_of_int n)
+  | Reading { quantity = Amount; text }, Since n, Some begins when String.equal text of_day ->
+    Some (float_of_int (Calendar.at begins n))
+  | x, _, _ -> Value.to_number x
 
-let compared world (op : Ast.binary) x y =
-  match dated world x, dated world y with
+let compared ~begins world (op : Ast.binary) x y =
+  match dated ~begins world x, dated ~begins world y with
   | Some a, Some b -> (
       match op with
       | Less -> Some (a < b)
@@ -143,11 +153,13 @@ let method_call world at name arguments =
 
 let calls_code = function Closure _ :: _ -> true | _ -> false
 
-let apply world at operation arguments =
+let apply ~begins world at operation arguments =
   let result =
     match operation, arguments with
     | Binary op, [ x; y ] -> (
-        match compared world op x y with Some holds -> Gives (Ok (Boolean holds)) | None -> binary world at op x y)
+        match compared ~begins world op x y with
+        | Some holds -> Gives (Ok (Boolean holds))
+        | None -> binary world at op x y)
     | Unary Negate, [ Reading { quantity = Amount; text } ] -> Gives (Ok (reading Amount ("-" ^ enclosed text)))
     | Concatenate, parts -> Gives (Ok (reading Words (String.concat "" (List.map Value.to_string parts))))
     | Builtin (Math name), xs when List.mem name mathematical && List.for_all is_amount xs ->

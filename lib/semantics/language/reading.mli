@@ -17,6 +17,10 @@ val look : World.t -> subject -> World.vehicle_state -> (value, World.question) 
 val now : World.t -> value
 (** [now w] is the date: if that is open, a reading whose text is [now()]. *)
 
+val time_of_day : begins:Calendar.t option -> World.t -> value option
+(** [time_of_day ~begins w] is the time of day in seconds, if the date 0 is [begins]: if the date is open, a reading
+    whose text is [timeOfDay()]; [None] if only [begins] is not known. *)
+
 val is_reading : value -> bool
 (** Whether it is a reading. *)
 
@@ -34,5 +38,6 @@ type applied =
   | Unclear of Fault.t
   | As_any  (** the operation treats readings as it does any values *)
 
-val apply : World.t -> site -> operation -> value list -> applied
-(** [apply w at o xs] is the result of [o], which stands at [at], for [xs] in the world [w]. *)
+val apply : begins:Calendar.t option -> World.t -> site -> operation -> value list -> applied
+(** [apply ~begins w at o xs] is the result of [o], which stands at [at], for [xs] in the world [w], if the date 0 is
+    [begins]. *)

@@ -1,17 +1,24 @@
 open Core
 
 type key = { code : int; parameter : int }
-type content = { lambdas : lambda list; keys : key list; unknown : bool }
+type content = {
+  lambdas : lambda list;
+  keys : key list;
+  computed : (lambda * expression) list;  (* expressions of numbers and texts, each with the code that owns it *)
+  unknown : bool;
+}
 
-let nothing = { lambdas = []; keys = []; unknown = false }
+let nothing = { lambdas = []; keys = []; computed = []; unknown = false }
 let unknown = { nothing with unknown = true }
 
 let both a b =
   let more xs ys ~mem = List.fold_left (fun xs y -> if mem y xs then xs else y :: xs) xs ys in
+  let mem_computed (_, e) = List.exists (fun (_, e') -> e == e') in
   { lambdas = more a.lambdas b.lambdas ~mem:List.memq; keys = more a.keys b.keys ~mem:List.mem;
+    computed = more a.computed b.computed ~mem:mem_computed;
     unknown = a.unknown || b.unknown }
 
-let size c = List.length c.lambdas + List.length c.keys + Bool.to_int c.unknown
+let size c = List.length c.lambdas + List.length c.keys + List.length c.computed + Bool.to_int c.unknown
 
 type t = { slots : (int * int, content) Hashtbl.t; mutable grown : bool }
 
@@ -25,6 +32,14 @@ let add t (lambda : lambda) i c =
     Hashtbl.replace t.slots (lambda.id, i) after
   end
 
+let rec computes e =
+  match e.node with
+  | Constant (Integer _ | Number _ | String _) | Global _ | Local _ -> true
+  | Apply ((Unary Negate | Binary (Add | Subtract | Multiply | Divide | Remainder | Power) | Property _), es)
+  | Apply (Builtin (Math _), es) -> List.for_all computes es
+  | Apply (Builtin Time_of_day, [ e ]) -> computes e
+  | _ -> false
+
 let rec content t lambda e =
   match e.node with
   | Local i -> slot t lambda i
@@ -32,6 +47,7 @@ let rec content t lambda e =
   | Set_local (_, e) -> content t lambda e
   | If (_, a, b) -> both (content t lambda a) (content t lambda b)
   | Block es -> List.fold_left (fun _ e -> content t lambda e) unknown es
+  | _ when computes e -> { nothing with computed = [ (lambda, e) ] }
   | _ -> unknown
 
 let give t (lambda : lambda) given = for i = 0 to lambda.parameters - 1 do add t lambda i (given i) done
@@ -66,7 +82,7 @@ let rec follow t lambda ~passed e =
     let fit, others = List.partition (fun (made : lambda) -> made.parameters = List.length given) code.lambdas in
     List.iter (fun made -> give t made (List.nth given)) fit;
     escape t { nothing with lambdas = others };
-    if code.unknown || others <> [] then List.iter (escape t) given
+    if code.unknown || code.computed <> [] || others <> [] then List.iter (escape t) given
   | _ -> parts ~passed:true (Code_walk.parts e)
 
 let of_program program =
@@ -81,7 +97,12 @@ let of_program program =
   t
 
 let callees t lambda e =
-  match content t lambda e with { unknown = false; keys = []; lambdas } -> Some lambdas | _ -> None
+  match content t lambda e with { unknown = false; keys = []; computed = []; lambdas } -> Some lambdas | _ -> None
 
 let key t lambda e =
-  match content t lambda e with { unknown = false; keys = [ key ]; lambdas = [] } -> Some key | _ -> None
+  match content t lambda e with { unknown = false; keys = [ key ]; computed = []; lambdas = [] } -> Some key | _ -> None
+
+let values t lambda i =
+  match slot t lambda i with
+  | { unknown = false; keys = []; lambdas = []; computed = _ :: _ as computed } -> Some computed
+  | _ -> None

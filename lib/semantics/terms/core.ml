@@ -172,6 +172,7 @@ and builtin =
   | Is_running                                  (* whether A has the vehicle *)
   | Reading_of
   | Now                                         (* whole seconds since the start *)
+  | Time_of_day                                 (* of the date; of a text: the seconds from midnight until then *)
   | Eta
   | Location_of
   | Area_of
@@ -219,7 +220,9 @@ type program = {
   goes_round : bool;                            (* some task may begin rounds without a number *)
   reads_sensors : bool;                         (* some code may read sensors, places included *)
   reads_now : bool;                             (* some code may read the date *)
+  reads_time_of_day : bool;                     (* some code may read the date as a time of day; so [reads_now] *)
   asks_running : bool;                          (* some code may ask which vehicles run a task *)
   fences : Dolphin_plans.Fences.t;              (* the limits that platforms enforce on vehicles: no rule asks *)
   place : Dolphin_geo.Position.t option;        (* of inline plans without a [locate] *)
+  begins : Calendar.t option;                   (* the date 0, if that is known *)
 }

@@ -140,6 +140,16 @@ let told_of_themselves =
        def t() { race([watch p onError { ignore() }, condition { false }]) >> action { n++ } }\n\
        execute (t() until { n > 0 }) | t()\n\
        assert { n >= 1 }";
+    holds "parallel: never more at once"
+      "n = 0\n\
+       def t(x) { action { n++\n if (n > 2) { halt() } } >> x >> action { n-- } }\n\
+       execute parallel(2, [t(p), t(q), t(r)])\n\
+       assert { n == 0 }";
+    holds "parallel: as many at once" ~ends:[ "completed"; "halted" ]
+      "n = 0\n\
+       def t(x) { action { n++\n if (n > 1) { halt() } } >> x >> action { n-- } }\n\
+       execute parallel(2, [t(p), t(q), t(r)])";
+    nothing "parallel: leaves nothing" "execute parallel(2, [p, q, r])";
     holds "team: two with the same goals at once"
       "n = 0\n\
        def t(v) { team(1, 1, v, ['p', 'q']) { g -> imcPlan(g) >> action { n++ } } }\n\

@@ -1,7 +1,7 @@
 (* On random programs, the packed search finds what the plain search over configurations finds: as many states and
    transitions, the same depth, the same properties broken, each by as short a run; and each run that it shows is one of
    the semantics. Of one program in three the states are compressed, of another they are on disk. PROGRAMS in the
-   environment is how many programs are tried, 2,000 by default. *)
+   environment is how many programs are tried, 1,200 by default. *)
 
 open Dolphin_explore
 module Property = Dolphin_explore.Property
@@ -9,7 +9,7 @@ module Property = Dolphin_explore.Property
 open Cases
 module Environment = Dolphin_environment.Environment
 
-let programs = match Sys.getenv_opt "PROGRAMS" with Some n -> int_of_string n | None -> 2_000
+let programs = match Sys.getenv_opt "PROGRAMS" with Some n -> int_of_string n | None -> 1_200
 
 let limit = 5_000
 let skipped = ref 0

@@ -2,7 +2,7 @@
    transitions, the same depth, the same verdicts, with all orders of steps and with those that partial order leaves.
    Two instances, which stand for two processes, share the states by their digests: states are the same bytes to
    both, although each has met other states before; each gets the parts that the other sent. PROGRAMS in the
-   environment is how many random programs are tried, 300 by default. *)
+   environment is how many random programs are tried, 150 by default. *)
 
 open Dolphin_environment
 open Dolphin_explore
@@ -18,7 +18,7 @@ module Strings = Hashtbl.Make (struct
     let hash = Hashtbl.hash
   end)
 
-let programs = match Sys.getenv_opt "PROGRAMS" with Some n -> int_of_string n | None -> 300
+let programs = match Sys.getenv_opt "PROGRAMS" with Some n -> int_of_string n | None -> 150
 let limit = 3_000
 
 (* {1 A search} *)

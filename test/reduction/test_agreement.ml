@@ -1,5 +1,5 @@
 (* On random programs, every verdict of a reduced search is that of the plain one, with failures and without, and
-   every run that it shows is one of the semantics. PROGRAMS in the environment is the number of programs, 2,000 by
+   every run that it shows is one of the semantics. PROGRAMS in the environment is the number of programs, 1,200 by
    default; SEED is their start. *)
 
 open Dolphin_environment
@@ -8,7 +8,7 @@ module Posts = Test_support.Posts
 module Calls = Test_support.Calls
 
 let number name default = match Sys.getenv_opt name with Some n -> int_of_string n | None -> default
-let programs = number "PROGRAMS" 2_000
+let programs = number "PROGRAMS" 1_200
 let usual = 20_260_911
 let limit = number "LIMIT" 3_000
 

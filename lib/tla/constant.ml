@@ -4,7 +4,7 @@ open Core
 let is_computation : operation -> bool = function
   | Unary _ | Binary _ | Make_list | Make_map _ | Make_range _ | Concatenate | Element | Property _ | Add_setting _
   | Build ((Pos | Imc_plan | Mission), _)
-  | Builtin (Location_of | Area_of | Math _ | Geometry _) -> true
+  | Builtin (Location_of | Area_of | Math _ | Geometry _ | Time_of_day) -> true
   | Replace_element | Replace_member _ | Call _ | Method _
   | Build ((Pick | All_of | One_of | Recruit), _) | Pick_if_any
   | Builtin _ | Make_branch | Make_recruit -> false
@@ -20,6 +20,7 @@ let is_closed e =
       let is_closed = closed e in
       Hashtbl.replace own slot ();
       is_closed
+    | Apply (Builtin Time_of_day, []) -> false
     | Apply (operation, arguments) -> is_computation operation && List.for_all closed arguments
     | Block parts -> List.for_all closed parts
     | Global _ | Set_global _ | Make_closure _ | If _ | While _ | For _ | Return _ | Break | Continue -> false

@@ -300,6 +300,10 @@ and expression t (e : expression) =
   | Apply (Builtin Time_of_day, [ _ ])
     when Constant.is_closed e -> folded t e
   | Apply (Property name, _) when Supported.is_refused_property name && Constant.is_closed e -> folded t e
+  | Apply (Builtin Time_of_day, [ _ ]) ->
+    refuse t e.site "timeOfDay of a text that is not a constant: TLA+ does not read texts"
+      ~hint:"the translator computes it once, so the text may not be a variable";
+    unfolded t e
   | _ -> unfolded t e
 
 and folded t (e : expression) =

@@ -66,6 +66,7 @@ let refusals =
     case "how long plans take"
       (refused "v = pick { }\np = imcPlan { locate Location.APDL; goTo() }\nmessage p.duration(v)" 3 "the duration of a plan");
     case "how long plans are" (refused "p = imcPlan { locate Location.APDL; goTo() }\nmessage p.length" 2 "length, which may be that of a plan");
+    case "a text as a time of day" (refused "t = '21:30'\nmessage timeOfDay(t)" 2 "timeOfDay");
     case "when a vehicle is there" (refused "v = pick { }\nmessage eta(v, Location.APDL)" 2 "eta");
     case "methods of strings" (refused "message 'a'.toUpperCase()" 1 "toUpperCase") ]
 

@@ -333,6 +333,7 @@ let elements =
   [ takes "of a short list" 1 3 (many 900 "ys = xs.sort()");
     takes "that are sorted" 20 40 (many 2_000 "ys = xs.sort()");
     takes "that are compared" 10 20 (many 100_000 "ys = xs.reverse() == xs");
+    takes "that are copied, as several are added" 4 8 (many 100_000 "ys = xs + [1, 2]");
     takes "by index, and one more at the end" 1 3 (many 100_000 "xs << xs[i] + xs.size()");
     case "in code inside of a task" (fun () ->
         let source = many 200_000 "message xs.size()" in

@@ -15,6 +15,8 @@ let of_operation operation arguments =
   match operation, arguments with
   | (Call _ | Make_list | Make_map _ | Build _ | Add_setting _ | Make_branch), _
   | (Element | Method (("get" | "size" | "length" | "isEmpty" | "first" | "last" | "head"), _)), List _ :: _ -> 0
+  | (Binary Add | Method ("addAll", _)), [ List _; List ys ] when Vector.length ys <> 1 ->
+    beyond (elements arguments) (fun n -> n / 200)
   | (Binary (Append | Add) | Method (("add" | "push" | "leftShift" | "addAll"), _)), List _ :: ys ->
     beyond (elements ~copied:true ys) (fun n -> n / 200)
   | (Concatenate | Binary Add), xs -> beyond (elements ~copied:true xs) (fun n -> n / 200)

@@ -10,4 +10,5 @@ val of_operation : operation -> value list -> int
 (** [of_operation f xs] is the number of expressions that [f] of the operands [xs] counts as, besides itself: one for
     every 200 elements that it looks at or copies, of which a string that is only copied has a hundredth of its bytes;
     where it sorts [n] elements, [n log2 n / 10]. Operations that take constant time count as none. Of an operation
-    that adds elements to a list only these are counted: if it adds one, the result shares the others. *)
+    that adds one element to a list only this one is counted, since the result shares the others; if it adds the
+    elements of another list, all are copied. *)

@@ -379,10 +379,27 @@ let after_rounds place =
             operator operator)
   else None
 
+(* [{ task('a') } >> b] at the beginning of a statement, which the brace ends. *)
+let task_in_braces place =
+  let last = if before place 1 = SEPARATOR then place.index - 2 else place.index - 1 in
+  let is_block () =
+    let opener = opener { place with index = last } in
+    kind place last = RBRACE && kind place opener = BLOCK && statement { place with index = opener } = opener
+  in
+  match this place with
+  | (SHIFT_RIGHT | BAR) when is_block () ->
+    let operator = text_of place place.index in
+    let hint =
+      Printf.sprintf
+        "a '{' at the beginning of a statement opens a block; a task stands in parentheses: (task) %s ..." operator
+    in
+    Some (Printf.sprintf "unexpected '%s'" operator, hint)
+  | _ -> None
+
 let rules = [
-  after_rounds; missing_parenthesis; missing_block; assigned_word; missing_brace; missing_parameters; negative_argument;
-  greedy_bracket; assignment; missing_word; misplaced_word; command; unit_without_point; percent_sign;
-  described_parameter; stray;
+  after_rounds; task_in_braces; missing_parenthesis; missing_block; assigned_word; missing_brace;
+  missing_parameters; negative_argument; greedy_bracket; assignment; missing_word; misplaced_word; command;
+  unit_without_point; percent_sign; described_parameter; stray;
 ]
 
 let fault ~source ~tokens ~index ~acceptable =

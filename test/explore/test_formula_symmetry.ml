@@ -1,6 +1,6 @@
 (* Formulas, on random programs that pick vehicles of which some are alike: a search that exchanges these has the
    verdict of the plain one, after as many steps if a step decides it, and shows a run of the semantics that violates
-   the formula by its definition. PROGRAMS in the environment is the number of programs, each with three formulas, 150
+   the formula by its definition. PROGRAMS in the environment is the number of programs, each with three formulas, 80
    by default. *)
 
 open Dolphin_semantics
@@ -10,7 +10,7 @@ module Pure_run = Test_support.Pure_run
 module Linear = Test_support.Linear
 module Formula = Dolphin_ltl.Formula
 
-let programs = match Sys.getenv_opt "PROGRAMS" with Some n -> int_of_string n | None -> 150
+let programs = match Sys.getenv_opt "PROGRAMS" with Some n -> int_of_string n | None -> 80
 let limits = { Dolphin_checker.Limits.none with max_states = Some 1_500 }
 let answering = { Environment.default with replies = Picking.replies; answers = (fun _ -> [ [ "1"; "null" ] ]) }
 

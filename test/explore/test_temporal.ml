@@ -1,6 +1,6 @@
 (* On random programs and random formulas, the verdict is that of the formula on the plain state graph; a run that is
    shown is a run, and violates the formula by its definition. And some formulas state the built-in properties.
-   PROGRAMS in the environment is how many programs are tried, each with three formulas, 250 by default. *)
+   PROGRAMS in the environment is how many programs are tried, each with three formulas, 150 by default. *)
 
 open Dolphin_semantics
 open Dolphin_environment
@@ -205,7 +205,7 @@ let agrees ((ast, world), looped, (_, environment), formulas) =
     List.for_all judge formulas
 
 let test_agreement () =
-  let programs = number "PROGRAMS" 250 in
+  let programs = number "PROGRAMS" 150 in
   let test = QCheck2.Test.make ~count:programs ~print ~name:"verdicts agree with the plain graph" case agrees in
   Test_support.Property.on_each_seed ~usual:20_261_122 ~programs test;
   Hashtbl.iter (fun what n -> Printf.printf "%d %s\n" n what) judged

@@ -30,7 +30,7 @@ What must hold of every state or every run may be broken by it. The run can be f
 
   $ explore lock.dol --faults interrupt --ltl 'G (start(survey) -> F done(survey))' --trace cut.run | sed -n '/^formula/,$p'
   formula G (start(survey) -> F done(survey)): violated after 6 steps: it does not hold
-  12 states, 16 transitions, depth 8; reduced by partial order, symmetry of vehicles; 25 states for formulas
+  12 states, 16 transitions, depth 8; reduced by partial order, symmetry of vehicles; 11 states for formulas
   
   formula G (start(survey) -> F done(survey)): a shortest run in which it does not hold
       program                        noptilus-1     where       variables
@@ -53,7 +53,7 @@ What must hold of every state or every run may be broken by it. The run can be f
   [130]
   $ explore lock.dol --faults interrupt=0 --ltl 'G (start(survey) -> F done(survey))' | grep formula
   formula G (start(survey) -> F done(survey)): holds
-  9 states, 8 transitions, depth 8; reduced by partial order, symmetry of vehicles; 23 states for formulas
+  9 states, 8 transitions, depth 8; reduced by partial order, symmetry of vehicles; 9 states for formulas
   $ explore lock.dol --faults interrupt --ltl 'F (ended & !poll(lock: 1))' --ltl 'F ended' | grep '^formula.*: [hv]'
   formula F (ended & !poll(lock: 1)): violated after 4 steps: it does not hold
   formula F ended: holds

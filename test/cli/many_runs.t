@@ -154,10 +154,10 @@ What does not go together.
   dolphin: --each prints runs and draws none: use --runs-from to draw them
   [2]
   $ dolphin exec relay.dol --runs 3 --journal relay.run
-  dolphin: many runs (--runs, --until) have one answer: of the other options only --fleet, --sim, --set, --seed, --answer and --draw are allowed
+  dolphin: many runs (--runs, --until) have one answer: of the other options only --fleet, --sim, --set, --begins, --zone, --seed, --answer and --draw are allowed
   [2]
   $ dolphin exec relay.dol --runs 3 --quiet
-  dolphin: many runs (--runs, --until) have one answer: of the other options only --fleet, --sim, --set, --seed, --answer and --draw are allowed
+  dolphin: many runs (--runs, --until) have one answer: of the other options only --fleet, --sim, --set, --begins, --zone, --seed, --answer and --draw are allowed
   [2]
   $ dolphin exec relay.dol --runs 3 --speed 2
   dolphin: --runs and --until are for simulated runs, as fast as they go: without --imc, --platform and --speed

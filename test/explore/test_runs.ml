@@ -153,6 +153,7 @@ let example name =
     | Error _ -> Alcotest.fail "the fleet is wrong"
     | Ok scenario ->
       let program = Test_support.Pure_run.compile_exn ?place:scenario.plans_at (contents (file ".dol")) in
+      let program = { program with begins = scenario.begins } in
       List.iter (fun seed -> is_explored ~seed scenario program) [ 0; 1; 2; 3; 4 ]
   in
   Alcotest.test_case name `Quick check

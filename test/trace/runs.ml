@@ -75,7 +75,7 @@ let drive r recorder platform ?beginning ?fenced ~answered host =
 let write_to journal entry = Buffer.add_string journal (Entry.to_string entry ^ "\n")
 
 let go ~seed ?period ~name ~source ~scenario host =
-  let program = compile ?place:scenario.Scenario.plans_at name source in
+  let program = { (compile ?place:scenario.Scenario.plans_at name source) with begins = scenario.begins } in
   let journal = Buffer.create 65536 in
   let its_source = Header.source ~path:name source in
   let header : Header.t =

@@ -146,9 +146,6 @@ let is_awaited ts g world c (awaited : Transition.awaited) =
   | Expiry_of timer -> Result.is_ok (ts.accept g.program world c (Timer_expired timer))
   | End_of _ | Answer_to _ | Recruit_for _ | Answer | Reply -> true
 
-let has_ended (c : Configuration.t) =
-  match c.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false
-
 let awaited ts g world c = List.filter (is_awaited ts g world c) (Transition.awaited c)
 
 (* Those of vehicles that are there. *)
@@ -160,8 +157,8 @@ let recruited ts g world c =
 let of_awaited (g : given) c events recruits : json =
   let all = List.concat_map (patterns c) events @ List.map Event.members recruits in
   let input key = [ ("event", `String "input"); ("key", `String key) ] in
-  let all = if has_ended c then all else all @ List.map input g.program.inputs in
-  let all = if has_ended c then all else all @ [ [ ("event", `String "interruption") ] ] in
+  let all = if Configuration.has_ended c then all else all @ List.map input g.program.inputs in
+  let all = if Configuration.has_ended c then all else all @ [ [ ("event", `String "interruption") ] ] in
   `List (List.map (fun members -> `Assoc members) all)
 
 (* Requests without further members. *)

@@ -577,6 +577,5 @@ let holds_up steps =
 
 let is_stuck o s steps =
   let c = s.configuration in
-  let is_over = match c.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false in
   let waits = Environment.only_recruits o.environment s.outside (List.map (fun step -> step.transition) steps) in
-  (not is_over) && waits && not (Environment.owes o.environment o.program s.outside)
+  (not (Configuration.has_ended c)) && waits && not (Environment.owes o.environment o.program s.outside)

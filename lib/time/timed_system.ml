@@ -321,7 +321,7 @@ let passage t (before : Zone_node.t) zone step =
     | None -> { may_do; least; most; turns = false; seen = Course.anything; binds = false }
     | Some (step : Clocked.step) ->
       let is_first = Zone.latest_date zone = Some 0 in
-      let is_last = match step.next.configuration.control with Ended _ -> true | _ -> false in
+      let is_last = Configuration.has_ended step.next.configuration in
       { may_do; least; most; turns = Course.turns c before.state step; seen = Course.seen c before.state step;
         binds = Course.is_newly_bound c step && not (is_first || is_last) }
   in
@@ -531,7 +531,7 @@ let edges t = Option.map (List.map (fun e -> { e with target = standing_for t e.
 let along t edges = List.map (arrival_by t) edges
 
 let ends t =
-  let is_end n = match t.nodes.(n).place.state.configuration.control with Ended _ -> true | _ -> false in
+  let is_end n = Configuration.has_ended t.nodes.(n).place.state.configuration in
   List.map (fun n -> (n, date t t.nodes.(n).zone)) (List.filter is_end (List.init t.count Fun.id))
 
 let count t = t.count

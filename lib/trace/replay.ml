@@ -213,7 +213,7 @@ let caused r (step : Step.t) event =
 
 (* {1 Lines} *)
 
-let has_ended r = match r.configuration.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false
+let has_ended r = Configuration.has_ended r.configuration
 
 (* Of rounds and loops without end it is not known whether there were as many as make a program stuck. *)
 let ended_stuck r (ending : Configuration.ending) =

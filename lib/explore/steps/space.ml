@@ -59,9 +59,7 @@ let expand_script t number (visitor : via System.visitor) =
   in
   Seq.iter go (choices t outside c);
   t.tick := ignore;
-  let is_over =
-    match c.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false in
-  if is_over || not (!goes_on || owes t outside) then visitor.rest ();
+  if Configuration.has_ended c || not (!goes_on || owes t outside) then visitor.rest ();
   !taken
 
 (* {1 All steps} *)

@@ -52,9 +52,6 @@ let names_vehicles r x = named r x <> []
 
 let forget r c = Liveness.forget r.liveness (names_vehicles r) c
 
-let is_end (c : Configuration.t) =
-  match c.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false
-
 (* [c] and [outside] with each vehicle [v] as [f v]. [f] meets the vehicles in an order that does not depend on their
    names; after [unordered ()] in one that does. *)
 let renamed r f ~unordered (c : Configuration.t) outside =
@@ -69,7 +66,7 @@ let renamed r f ~unordered (c : Configuration.t) outside =
   let outside () = Environment.renamed f outside in
   let tuples, outside =
     (* Of an end only what it breaks matters, and not which vehicles N names. *)
-    if is_end c then
+    if Configuration.has_ended c then
       let outside = outside () in
       (tuples (), outside)
     else
@@ -116,7 +113,7 @@ let canonical r c outside =
   match
     let c = forget r c in
     let unordered () =
-      if not (is_end c) then
+      if not (Configuration.has_ended c) then
         List.iter (fun v -> ignore (name v)) (named_by_pairs r (Vehicle_orbits.name_of naming) c outside)
     in
     let form = renamed r name ~unordered c outside in

@@ -176,7 +176,7 @@ let holds_after p t = match p with Action action -> holds_after_action action t 
 let holds_in program world p (c : Configuration.t) =
   match p with
   | Action _ -> Ok false
-  | Ended_now -> Ok (match c.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false)
+  | Ended_now -> Ok (Configuration.has_ended c)
   | State condition -> (
       match Condition.eval program world condition c with
       | Holds -> Ok true

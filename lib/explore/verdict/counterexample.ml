@@ -29,13 +29,10 @@ let valuation x (t : Transition.t) =
   let valuations = Labelling.valuations x.labelling in
   Valuation.valuation valuations (Valuation.action valuations t) (Valuation.state valuations t.next)
 
-let is_end (c : Configuration.t) =
-  match c.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false
-
 (* The text of an error may name another vehicle than that of its representative. *)
 let ends_alike x (c : Configuration.t) (c' : Configuration.t) =
   let state = Valuation.state (Labelling.valuations x.labelling) in
-  is_end c && is_end c' && state c = state c'
+  Configuration.has_ended c && Configuration.has_ended c' && state c = state c'
 
 (* A transition from [state] to one that is represented by that numbered [j]. *)
 let step x (state : state) j is_right : Transition.t * state =

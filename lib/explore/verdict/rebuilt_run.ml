@@ -77,14 +77,11 @@ let follow ({ graph; _ } as x) g start ~from states after =
 
 (* {1 In the names of the graph} *)
 
-let is_end (c : Configuration.t) =
-  match c.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false
-
 let broken_by_end graph = Property.broken_by_end (Space.program (State_graph.system graph))
 
 (* An end by an error may have another text than its representative. *)
 let ends_in_same_way graph property ((t : Transition.t), _) =
-  broken_by_end graph t.rules t.next = property && is_end t.next
+  broken_by_end graph t.rules t.next = property && Configuration.has_ended t.next
 
 let leads_to ({ graph; _ } as x) i state =
   let is_it ((t : Transition.t), e) =
@@ -136,7 +133,7 @@ let real ({ graph; _ } as x) state images =
         | Some choice -> choice
         | None -> (
             match find x (ends_in_same_way graph (broken_by_end graph image.rules image.next)) offered with
-            | Some choice when is_end image.next -> choice
+            | Some choice when Configuration.has_ended image.next -> choice
             | Some _ | None -> invalid_arg "Replay: a configuration of the orbit has no such transition")
     in
     ((t.next, e), t :: found)

@@ -96,10 +96,11 @@ let rec are_apart (r : Residual.t) =
 
 let is_apart c = match c.control with Executing (_, r) -> are_apart r | Script _ | Waiting _ | Ended _ -> true
 
+let has_ended c = match c.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false
+
 let invariant c =
   let running = match c.control with Executing (_, r) -> Residual.running r | Script _ | Waiting _ | Ended _ -> [] in
   let allocated = List.map fst (Vehicle_map.bindings c.shared.allocation) in
-  let ended = match c.control with Ended _ -> true | Script _ | Waiting _ | Executing _ -> false in
   let recruits = recruits c in
   let is_bound v = List.mem v c.shared.bound || List.mem v recruits in
   if not (List.for_all is_bound allocated) then Error "A has a vehicle that is not in B"
@@ -110,5 +111,5 @@ let invariant c =
     Error "a vehicle was recruited twice"
   else if List.exists (fun v -> List.mem v c.shared.bound) recruits then Error "a recruited vehicle is in B"
   else if List.sort String.compare running <> allocated then Error "A is not what the control runs"
-  else if ended && c.shared.bound <> [] then Error "B is not empty after the end"
+  else if has_ended c && c.shared.bound <> [] then Error "B is not empty after the end"
   else Ok ()

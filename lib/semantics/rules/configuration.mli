@@ -46,6 +46,9 @@ val initial : program -> t
 val site : t -> site
 (** [site c] is the place in the program where its script stands; {!Fault.unknown_site} after the end. *)
 
+val has_ended : t -> bool
+(** Whether its control is {!Ended}. *)
+
 val waits : t -> (Residual.timer * Residual.wait) list
 (** [waits c] is the timers that run in [c] and the questions that stand: those of its residual, or the script's. *)
 

@@ -64,7 +64,6 @@ let way_place =
   let degrees x = Float.round (x *. 1e7) /. 1e7 in
   let of_list = function
     | [ latitude; longitude ] ->
-      let latitude = degrees latitude and longitude = degrees longitude in
       Result.map_error (Format.asprintf "%a" Position.pp_error) (Position.make ~latitude ~longitude ~height:0.)
     | _ -> Error "not a place: [latitude, longitude]"
   in

@@ -3,7 +3,6 @@
    the formula by its definition. PROGRAMS in the environment is the number of programs, each with three formulas, 80
    by default. *)
 
-open Dolphin_semantics
 open Dolphin_environment
 open Dolphin_explore
 module Pure_run = Test_support.Pure_run
@@ -73,13 +72,6 @@ let print ((p : Picking.t), (name, _), formulas, fairness) =
   Printf.sprintf "%s, %s runs:\n%s\n%s" name (if fairness = Search.Weak then "fair" else "all") (Picking.print p)
     (String.concat "\n" (List.map shown formulas))
 
-let word program (run : Search.run) : _ Linear.word =
-  let position (t : Transition.t) = (Some t, t.next) in
-  let steps = (None, Configuration.initial program) :: List.map position run.steps in
-  let stays = (None, snd (List.nth steps (List.length steps - 1))) in
-  let cycle = if run.cycle = [] then [ stays ] else List.map position run.cycle in
-  { letters = Array.of_list (steps @ cycle); back = List.length steps }
-
 let tally = Hashtbl.create 8
 let note what n = Hashtbl.replace tally what (n + Option.value (Hashtbl.find_opt tally what) ~default:0)
 
@@ -99,7 +91,7 @@ let agrees ((p : Picking.t), (_, environment), formulas, fairness) =
     in
     let is_violation f (run : Search.run) =
       Cases.is_run program world environment run
-      && not (Linear.holds (Letters.holds program world) (word program run) f)
+      && not (Linear.holds (Letters.holds program world) (Letters.word program run) f)
     in
     let judge f =
       let expected, plain = search f Whole in

@@ -107,13 +107,6 @@ let graph_of program (g : Reference.t) : _ Product_search.graph =
   in
   { start = (0, (None, Configuration.initial program)); successors }
 
-let word_of program (run : Search.run) : _ Linear.word =
-  let position (t : Transition.t) = (Some t, t.next) in
-  let steps = (None, Configuration.initial program) :: List.map position run.steps in
-  let stays = (None, snd (List.nth steps (List.length steps - 1))) in
-  let cycle = if run.cycle = [] then [ stays ] else List.map position run.cycle in
-  { letters = Array.of_list (steps @ cycle); back = List.length steps }
-
 let limit = 800
 let judged = Hashtbl.create 7
 let note what = Hashtbl.replace judged what (1 + Option.value (Hashtbl.find_opt judged what) ~default:0)
@@ -163,7 +156,7 @@ let agrees_on_fair_runs program world environment at plain (f, verdict) =
   | Violated run ->
     Product_search.satisfying ~holds:at plain (Not f) <> None
     && is_run program world environment run
-    && not (Linear.holds at (word_of program run) f)
+    && not (Linear.holds at (Letters.word program run) f)
   | Unreached _ | Holds_if _ | By_design _ | Inconclusive _ -> false
 
 let agrees_on program world environment at plain (f, verdict) =
@@ -174,7 +167,7 @@ let agrees_on program world environment at plain (f, verdict) =
     note (if run.cycle = [] then "are violated by a run that ends" else "are violated by a run without end");
     if run.decided <> None then note "are violated whatever follows";
     (not expected) && is_run program world environment run && is_soonest at plain f run
-    && not (Linear.holds at (word_of program run) f)
+    && not (Linear.holds at (Letters.word program run) f)
   | Unreached _ | Holds_if _ | By_design _ | Inconclusive _ -> false
 
 let agrees ((ast, world), looped, (_, environment), formulas) =

@@ -119,16 +119,16 @@ let dated (fleet : Fleet_file.t) ~begins ~zone ~is_simulated ~again =
   let { Dolphin_scenario.Scenario.begins = of_fleet; zone = zone_of_fleet; _ } = fleet.scenario in
   let zone' = if zone = None then zone_of_fleet else zone in
   let in_zone (t : Dolphin_semantics.Calendar.t) = { t with zone = Option.value zone' ~default:t.zone } in
-  match begins with
-  | (None | Some _) when again && (begins <> None || zone <> None) ->
+  match begins, zone with
+  | Some _, _ | _, Some _ when again ->
     Error (Error.Bad_input "a run goes on at the date at which it began: leave out --begins and --zone")
-  | Some _ when not is_simulated ->
+  | Some _, _ when not is_simulated ->
     Error (Error.Bad_input "vehicles of a network (--imc, --platform) have the time of the clock: leave out --begins")
-  | Some text ->
+  | Some text, _ ->
     let read = Dolphin_semantics.Calendar.read ~zone:(Option.value zone' ~default:0) text in
     let read = Result.map_error (fun why -> Error.Bad_input ("--begins: " ^ why)) read in
     Result.map (fun begins -> Fleet_file.beginning (Some begins) fleet) read
-  | None ->
+  | None, _ ->
     let fleet = Fleet_file.beginning (Option.map in_zone of_fleet) fleet in
     Ok { fleet with scenario = { fleet.scenario with zone = zone' } }
 

@@ -319,7 +319,10 @@ let zone state word =
 let entries =
   [ "vehicle"; "plan"; "answer"; "reply"; "input"; "field"; "fence"; "locate"; "begins"; "zone"; Recurrence.word ]
 
-let words = "vehicle, plan, answer, reply, input, field, fence, locate, begins, zone and assume"
+let words =
+  match List.rev entries with
+  | last :: others -> String.concat ", " (List.rev others) ^ " and " ^ last
+  | [] -> ""
 
 let entry state (word : string located) arguments =
   let misused state = add_fault state (Diagnostic.error word.at (usage word.it)) in

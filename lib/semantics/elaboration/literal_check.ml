@@ -35,7 +35,8 @@ let context : Code.context =
 
 let fault operation values =
   match operation with
-  | Platform_task | Make_idle | Pause | Location_of | Math _ | Time_of_day when values <> [] -> (
+  | Time_of_day when values = [] -> None
+  | Platform_task | Make_idle | Pause | Location_of | Math _ | Time_of_day -> (
       match Procedures.apply context 0 operation values with Wrong message -> Some message | _ -> None)
   | _ -> None
 

@@ -29,6 +29,13 @@ The time of day: of the fleet's date in simulated time, of the journal afterward
   $ dolphin trace check mission.dol mission.run
   mission.run: a run, of 9 transitions in 1:15:00; completed
 
+A journal whose date is none is refused.
+
+  $ sed 's/"begins":"[^"]*"/"begins":"2026-13-01T21:00:00+01:00"/' mission.run > damaged.run
+  $ dolphin trace check mission.dol damaged.run
+  dolphin: damaged.run:1: "begins" is not a date such as 2026-06-01T21:30:00+01:00
+  [2]
+
 A run goes on at the date of its journal.
 
   $ head -n "$(grep -n 'starts\|start' mission.run | tail -1 | cut -d: -f1)" mission.run > part.run

@@ -95,12 +95,12 @@ let of_unix ~zone seconds =
   { year; month; day; second; zone }
 
 let of_string text =
-  let wrong = Printf.sprintf "'%s' is not a date such as 2026-06-01T21:30:00+01:00" text in
-  let n = String.length text in
-  if n <> 25 || text.[10] <> 'T' then Error wrong
-  else
-    match offset (String.sub text 19 6) with
-    | Some zone -> read ~zone (String.sub text 0 10 ^ " " ^ String.sub text 11 8)
-    | None -> Error wrong
+  let found =
+    if String.length text <> 25 || text.[10] <> 'T' then None
+    else
+      let in_zone zone = Result.to_option (read ~zone (String.sub text 0 10 ^ " " ^ String.sub text 11 8)) in
+      Option.bind (offset (String.sub text 19 6)) in_zone
+  in
+  Option.to_result found ~none:"not a date such as 2026-06-01T21:30:00+01:00"
 
 let at t n = (t.second + n) mod day_length

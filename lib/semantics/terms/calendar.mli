@@ -50,7 +50,7 @@ val pp : Format.formatter -> t -> unit
 (** ["2026-06-01T21:30:00+01:00"], as RFC 3339 has it. *)
 
 val of_string : string -> (t, string) result
-(** Reads the output of {!pp}. *)
+(** Reads the output of {!pp}. The error goes on after the name of the text: ["not a date such as ..."]. *)
 
 val at : t -> int -> int
 (** [at t n] is the time of day [n] seconds after [t], in seconds since midnight, by the offset of [t]. *)

@@ -26,6 +26,7 @@ type files = {
   violation : string option;  (* of [trace] and [drawing] *)
   junit : string option;
   sarif : string option;
+  certificate : string option;
 }
 
 (* Before anything is explored. *)
@@ -33,13 +34,14 @@ let check_files files =
   let check path f = Option.fold ~none:(Ok ()) ~some:f path in
   let* () =
     match files with
-    | { violation = Some _; trace = None; drawing = None; junit = _; sarif = _ } ->
+    | { violation = Some _; trace = None; drawing = None; junit = _; sarif = _; certificate = _ } ->
       Error (Error.Bad_input "--violation chooses the run of --trace and --draw: give one of these too")
-    | { violation = _; trace = _; drawing = _; junit = _; sarif = _ } -> Ok ()
+    | { violation = _; trace = _; drawing = _; junit = _; sarif = _; certificate = _ } -> Ok ()
   in
   let* () = check files.trace Text_file.check in
   let* () = check files.drawing Drawing.check in
   let* () = check files.junit Text_file.check in
+  let* () = check files.certificate Text_file.check in
   check files.sarif Text_file.check
 
 (* All of them, although one cannot be written; the first error. *)
@@ -84,6 +86,16 @@ let check_search (s : Exploration.settings) =
     not_both "bitstate hashing keeps no states that could be compressed: give --bitstate or --compress"
   | _, _, _ -> Ok ()
 
+let check_certificate (s : Exploration.settings) files =
+  if files.certificate <> None && (s.walks <> None || s.bitstate <> None) then
+    Error (Error.Bad_input "a certificate is of all states: give --certify without --sample and --bitstate")
+  else Ok ()
+
+let certify settings program fleet ~json ~period outcome path =
+  let make ~interrupted ~progress = State_certificate.make ~interrupted ~progress settings program fleet outcome in
+  let* certificate = Watched.search ~json ?period make in
+  State_certificate.write path certificate
+
 let of_program settings (program : Program_file.t) fleet ~from ~strict ~json ~period ~files ~cache =
   Report.diagnostics ~source:program.source program.warnings;
   let* outcome = find_or_explore settings program fleet ~from ~json ~period ~cache in
@@ -91,6 +103,9 @@ let of_program settings (program : Program_file.t) fleet ~from ~strict ~json ~pe
   Result.iter_error Report.tell written;
   if json then print_endline (Dolphin_json.Canonical.to_string (Exploration_report.to_json ?from program outcome))
   else Exploration_report.print ?from ~strict program outcome;
+  let certified =
+    Option.fold files.certificate ~none:(Ok ()) ~some:(certify settings program fleet ~json ~period outcome) in
+  let* () = certified in
   match written with
   | Ok () -> Ok (Exit_status.of_verdict (Exploration.verdict ~strict outcome))
   | Error (Error.Bad_input _) -> Ok Exit_status.Bad_input
@@ -99,11 +114,11 @@ let of_program settings (program : Program_file.t) fleet ~from ~strict ~json ~pe
 let of_values settings sweep fleet ~strict ~json ~period ~files ~cache =
   let are_files =
     match files with
-    | { trace = None; drawing = None; violation = _; junit = None; sarif = None } -> false
-    | { trace = _; drawing = _; violation = _; junit = _; sarif = _ } -> true
+    | { trace = None; drawing = None; violation = _; junit = None; sarif = None; certificate = None } -> false
+    | { trace = _; drawing = _; violation = _; junit = _; sarif = _; certificate = _ } -> true
   in
   if cache || are_files then
-    let options = "--trace, --draw, --junit, --sarif and --cache" in
+    let options = "--trace, --draw, --junit, --sarif, --certify and --cache" in
     Error (Error.Bad_input (options ^ " are for one program: give --set no range of values"))
   else
     let ask ~interrupted ~progress =
@@ -120,9 +135,10 @@ let of_values settings sweep fleet ~strict ~json ~period ~files ~cache =
 let rest_of_run settings path set named ~journal ~strict ~json ~period ~files ~cache =
   let* () =
     match files, cache with
-    | { trace = None; drawing = None; violation = _; junit = _; sarif = _ }, false -> Ok ()
-    | { trace = _; drawing = _; violation = _; junit = _; sarif = _ }, _ ->
-      Error (Error.Bad_input "--trace, --draw and --cache are for runs from the beginning: leave them out with --from")
+    | { trace = None; drawing = None; violation = _; junit = _; sarif = _; certificate = None }, false -> Ok ()
+    | { trace = _; drawing = _; violation = _; junit = _; sarif = _; certificate = _ }, _ ->
+      let options = "--trace, --draw, --certify and --cache" in
+      Error (Error.Bad_input (options ^ " are for runs from the beginning: leave them out with --from"))
   in
   let* present, program, fleet = Present.load path ~set ~fleet:named ~journal in
   let remarks = Present.remarks present program fleet in
@@ -159,6 +175,7 @@ let run { path; set; fleet; from; strict; json; period; files; cache } settings 
   Report.result
     (let* () = check_search settings in
      let* () = check_files files in
+     let* () = check_certificate settings files in
      match from with
      | Some journal -> rest_of_run settings path set fleet ~journal ~strict ~json ~period ~files ~cache
      | None -> all_runs settings path set fleet ~strict ~json ~period ~files ~cache)
@@ -206,7 +223,8 @@ let timeout = bound Arg.float "timeout" "SECONDS" "Stop after $(docv) seconds."
 let from =
   Options.from
     "Explore the possible continuations of the run $(docv), from the end of its journal. Vehicles start where they \
-     were seen last; tasks of a vehicle out of contact may fail. Not with $(b,--trace), $(b,--draw) and $(b,--cache)."
+     were seen last; tasks of a vehicle out of contact may fail. Not with $(b,--trace), $(b,--draw), \
+     $(b,--certify) and $(b,--cache)."
 
 let answers =
   let doc =
@@ -292,8 +310,21 @@ let files =
     in
     Arg.(value & opt (some string) None & info [ "violation" ] ~docv:"NAME" ~doc)
   in
-  let make trace drawing violation junit sarif = { trace; drawing; violation; junit; sarif } in
-  Term.(const make $ trace $ drawing $ violation $ junit $ sarif)
+  let certificate =
+    file "certify"
+      "Write all states of $(i,PROG) with their transitions into $(docv), without any reduction, and the properties \
+       that hold. The checker in $(i,proofs/reference), which is proved, compares it with the rules: see \
+       $(i,docs/proofs.md). Invariants, formulas and distances are not in it. Not with $(b,--from), $(b,--sample) and \
+       $(b,--bitstate)."
+  in
+  let open Options.Syntax in
+  let+ trace = trace
+  and+ drawing = drawing
+  and+ violation = violation
+  and+ junit = junit
+  and+ sarif = sarif
+  and+ certificate = certificate in
+  { trace; drawing; violation; junit; sarif; certificate }
 
 let period =
   let doc =

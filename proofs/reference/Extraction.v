@@ -1,6 +1,6 @@
-(** The functions of Derivations.v as OCaml: proofs/reference/extracted. Types that are parameters of the calculus are
+(** The functions of Derivations.v and Certificates.v as OCaml: proofs/reference/extracted. Types that are parameters of the calculus are
     those of lib/semantics. *)
-From Dolphin Require Import Derivations Progress.
+From Dolphin Require Import Derivations Progress Certificates.
 From Coq Require Extraction ExtrOcamlBasic ExtrOcamlZInt ExtrOcamlNatInt ExtrOcamlNativeString.
 From Coq Require Import List NArith.
 
@@ -30,4 +30,4 @@ Extract Constant machine => "Dolphin_semantics.Machine.t".
 Extract Constant assignment => "int * string * Dolphin_semantics.Core.value".
 Extract Constant host_call => "Dolphin_semantics.Code.request".
 
-Extraction "interpreter.ml" cderivations awaits.
+Extraction "interpreter.ml" cderivations awaits program_accepts.

@@ -11,7 +11,7 @@ let context program world ~held ~needed (s : Shared.t) mode : Code.context =
     deeds = [] }
 
 (* The code runs to its end: why it stopped, its deeds, and the state that it leaves. *)
-let atomic program world ~vehicles ~held ~needed (s : I.shared) mode (code : Core.closure) given =
+let atomic ~undecided program world ~vehicles ~held ~needed (s : I.shared) mode (code : Core.closure) given =
   let chosen f = lazy (List.filter f vehicles) in
   let context =
     context program world ~held:(chosen held) ~needed:(chosen needed) (Terms.to_shared ~vehicles s) mode in
@@ -19,13 +19,16 @@ let atomic program world ~vehicles ~held ~needed (s : I.shared) mode (code : Cor
   | Decided (Exhausted, _, after) ->
     let why = "this code does not come to an end, and code inside of a task is atomic" in
     Some (Machine.Faulted (Fault.make code.lambda.lambda_site why), [], after)
-  | Decided (stop, _, after) -> Some (stop, Terms.deeds (List.rev after.deeds), after)
-  | Open _ | Unclear _ -> None
+  | Decided (stop, _, after) ->
+    let after = { after with store = Reading.keep program after.store } in
+    Some (stop, Terms.deeds (List.rev after.deeds), after)
+  | Open cases -> undecided (List.map fst cases); None
+  | Unclear _ -> None
 
 let nobody _ = false
 
-let run program ~vehicles code given world held (s : I.shared) : I.result =
-  match atomic program world ~vehicles ~held ~needed:nobody s Task_code code given with
+let run ~undecided program ~vehicles code given world held (s : I.shared) : I.result =
+  match atomic ~undecided program world ~vehicles ~held ~needed:nobody s Task_code code given with
   | Some (Finished x, deeds, after) -> Gives (x, after.store, after.tuples, deeds)
   | Some (Faulted fault, deeds, _) when Fault.is_assertion fault -> Asserts (fault, deeds)
   | Some (Faulted fault, deeds, _) -> Faulty (fault, deeds)
@@ -48,9 +51,9 @@ let arguments (fault : Fault.t) : Core.value list =
   | Task { vehicle; task } -> [ String fault.message; Vehicles [ vehicle ]; String task ]
   | Code | Assertion | Unknown -> [ String fault.message; Null; Null ]
 
-let run_handler program ~vehicles handler fault world held needed (s : I.shared) : I.handled =
+let run_handler ~undecided program ~vehicles handler fault world held needed (s : I.shared) : I.handled =
   let gone (after : Code.context) = List.filter (fun v -> not (List.mem v after.bound)) s.bound in
-  match atomic program world ~vehicles ~held ~needed s (Handler Propagated) handler (arguments fault) with
+  match atomic ~undecided program world ~vehicles ~held ~needed s (Handler Propagated) handler (arguments fault) with
   | Some (Finished x, deeds, after) ->
     Rules (verdict handler x after.mode, after.store, gone after, after.tuples, deeds)
   | Some (Faulted fault, deeds, _) when Fault.is_assertion fault -> Asserts_ (fault, deeds)
@@ -174,25 +177,28 @@ let stop : Machine.stop -> I.stop = function
   | Halted why -> Halts_script (Fault.make Fault.unknown_site why)
   | Faulted fault -> Faults fault
 
-let run_script program m world (s : I.shared) =
+exception Undecided
+
+let run_script ~undecided program m world (s : I.shared) =
   let nobody = lazy [] in
   let context = context program world ~held:nobody ~needed:nobody (Terms.to_shared ~vehicles:[] s) Script in
   match Machine.run ~fuel context m with
-  | Decided (why, m, context) -> ((stop why, m), context.store)
-  | Open _ | Unclear _ -> invalid_arg "the script is unclear in a closed world"
+  | Decided (why, m, context) -> ((stop why, Machine.keep_readings m), Reading.keep program context.store)
+  | Open cases -> undecided (List.map fst cases); raise Undecided
+  | Unclear _ -> raise Undecided
 
 let post pairs n = List.fold_left (fun n (k, x) -> Tuples.post k (Value.canonical x) n) n pairs
 
 let take pairs n =
   List.fold_left (fun n (k, x) -> Option.bind n (fun n -> Tuples.consume k (Value.canonical x) n)) (Some n) pairs
 
-let answer_of program answer _ world (s : I.shared) =
+let answer_of ~undecided program answer text world (s : I.shared) =
   let value code =
-    match atomic program world ~vehicles:[] ~held:nobody ~needed:nobody s Task_code code [] with
+    match atomic ~undecided program world ~vehicles:[] ~held:nobody ~needed:nobody s Task_code code [] with
     | Some (Finished x, [], after) when Store.compare after.store s.variables = 0 -> Some x
     | Some _ | None -> None
   in
-  Option.bind answer value
+  Option.bind (answer text) value
 
 (* The text of PICK-ERR and PICK-ELSE, of which there is one only. *)
 let no_pick program machine (pick : I.pick) world s =
@@ -204,7 +210,7 @@ let no_pick program machine (pick : I.pick) world s =
       | Ok { label = No_vehicles message; _ } -> Fault.make (Machine.site m) message
       | Ok _ | Error _ -> invalid_arg "Interpretation.no_pick: the pick can be met")
 
-let code (program : Core.program) ~vehicles ~machine ~answer : I.code0 =
+let code ?(undecided = ignore) (program : Core.program) ~vehicles ~machine ~answer : I.code0 =
   let site = Option.fold ~none:Fault.unknown_site ~some:Machine.site machine in
   let no_text prompt (why : Fault.t) = Fault.make site (Printf.sprintf "no answer to '%s': %s" prompt why.message) in
   let no_reply call (why : Fault.t) =
@@ -215,12 +221,13 @@ let code (program : Core.program) ~vehicles ~machine ~answer : I.code0 =
   in
   let forget_all tuples = (Shared.without_fresh { (Shared.initial program) with tuples }).tuples in
   let interrupted lambda vs = Machine.call { lambda; captured = [||] } [ Core.Vehicles vs ] in
-  { may_ensure = (fun _ -> true); run = run program ~vehicles; run_handler = run_handler program ~vehicles; truth;
-    is_unknown = Fault.is_unknown; time_of; task_of; takes; parameters = (fun c -> c.lambda.parameters);
-    may_recover = (fun c -> Recovery.possible c.lambda); vehicle_value = (fun v -> Vehicles [ v ]);
-    key_value = (fun i -> String (Residual.key i)); forget; forget_all; assign_to; fit = fit program;
-    assign; not_assured; not_in_time; answered_no; not_answered; plan_failed; no_task; no_opened_task; too_deep;
-    foreign_retry; run_script = run_script program; give = Machine.give; null = Null;
-    vehicles_value = (fun vs -> Vehicles vs); post; take; answer_of = answer_of program answer;
-    no_pick = no_pick program machine; no_text; no_reply; declares = (fun k -> List.mem k program.inputs);
-    on_interrupt = Option.map interrupted program.on_interrupt; leaving = Machine.is_leaving }
+  { may_ensure = (fun _ -> true); run = run ~undecided program ~vehicles;
+    run_handler = run_handler ~undecided program ~vehicles; truth; is_unknown = Fault.is_unknown; time_of; task_of;
+    takes; parameters = (fun c -> c.lambda.parameters); may_recover = (fun c -> Recovery.possible c.lambda);
+    vehicle_value = (fun v -> Vehicles [ v ]); key_value = (fun i -> String (Residual.key i)); forget; forget_all;
+    assign_to; fit = fit program; assign; not_assured; not_in_time; answered_no; not_answered; plan_failed; no_task;
+    no_opened_task; too_deep; foreign_retry; run_script = run_script ~undecided program; give = Machine.give;
+    null = Null; vehicles_value = (fun vs -> Vehicles vs); post; take;
+    answer_of = answer_of ~undecided program answer; no_pick = no_pick program machine; no_text; no_reply;
+    declares = (fun k -> List.mem k program.inputs); on_interrupt = Option.map interrupted program.on_interrupt;
+    leaving = Machine.is_leaving }

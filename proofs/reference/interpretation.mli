@@ -3,8 +3,12 @@
 
 open Dolphin_semantics
 
+exception Undecided
+(** The script depends on a value that the world leaves open. *)
+
 val code :
-  Core.program -> vehicles:Core.vehicle list -> machine:Machine.t option -> answer:Core.closure option ->
-  Interpreter.code0
-(** [code p ~vehicles ~machine ~answer] is the code of [p] in a closed world, in a configuration of which [vehicles]
-    may be held or run tasks, with the script's [machine]; [answer] is the code of the text that answers [ask]. *)
+  ?undecided:(World.question -> unit) -> Core.program -> vehicles:Core.vehicle list -> machine:Machine.t option ->
+  answer:(string -> Core.closure option) -> Interpreter.code0
+(** [code ~undecided p ~vehicles ~machine ~answer] is the code of [p] in a configuration of which [vehicles] may be held
+    or run tasks, with the script's [machine]; [answer text] is the code of [text], if that answers [ask]. Code that
+    depends on an open value calls [undecided], by default [ignore], with the question, and has no result. *)

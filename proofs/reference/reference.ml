@@ -13,7 +13,7 @@ let vehicles world (c : Configuration.t) =
 
 let transitions ?answer program world event (c : Configuration.t) =
   let vehicles = vehicles world c in
-  let code = Interpretation.code program ~vehicles ~machine:(machine c) ~answer in
+  let code = Interpretation.code program ~vehicles ~machine:(machine c) ~answer:(fun _ -> answer) in
   let found = I.cderivations Terms.names code world (Option.map Terms.event event) (Terms.configuration c) in
   List.map (Terms.transition ~vehicles) found
 

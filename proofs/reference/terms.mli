@@ -41,6 +41,9 @@ val to_configuration : vehicles:Core.vehicle list -> Interpreter.configuration -
 val event : Transition.event -> Interpreter.event
 (** The same event. The text of an answer goes without its code. *)
 
+val label : Interpreter.label -> Label.t
+(** The same label. *)
+
 val transition :
   vehicles:Core.vehicle list -> Interpreter.ctransition * string list -> Transition.t
 (** The same transition with its derivation; [vehicles] may run tasks after it. *)

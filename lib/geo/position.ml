@@ -2,13 +2,18 @@ type t = { latitude : float; longitude : float; height : float }
 
 type error = Latitude of float | Longitude of float | Height of float
 
+let lowest = -20_000.
+let highest = 1e6
+
 let within bound x = Float.abs x <= bound (* false for NaN *)
 
 let make ~latitude ~longitude ~height =
   if not (within 90. latitude) then Error (Latitude latitude)
   else if not (within 180. longitude) then Error (Longitude longitude)
-  else if not (Float.is_finite height) then Error (Height height)
+  else if not (lowest <= height && height <= highest) then Error (Height height)
   else Ok { latitude; longitude; height }
+
+let at_height height p = { p with height = Float.max lowest (Float.min highest height) }
 
 let compare a b =
   match Float.compare a.latitude b.latitude with
@@ -32,4 +37,4 @@ let pp ppf { latitude; longitude; height } =
 let pp_error ppf = function
   | Latitude x -> Fmt.pf ppf "latitude %g is not from -90 to 90 degrees" x
   | Longitude x -> Fmt.pf ppf "longitude %g is not from -180 to 180 degrees" x
-  | Height x -> Fmt.pf ppf "height %g is not a finite number of metres" x
+  | Height x -> Fmt.pf ppf "height %g is not from %.0f to %.0f metres" x lowest highest

@@ -39,7 +39,8 @@ let area = members area_fields
 
 let inside = case "inside" area_fields (fun a -> Fences.Inside a)
 let outside = case "outside" area_fields (fun a -> Fences.Outside a)
-let metres = one "metres" (number ())
+let limit = number ~least:0. ~most:Wgs84.farthest ()
+let metres = one "metres" limit
 let depth = case "depth" metres (fun n -> Fences.Depth n)
 let height = case "height" metres (fun n -> Fences.Height n)
 let distance = case "distance" metres (fun n -> Fences.Distance n)
@@ -54,7 +55,7 @@ let fence =
   in
   let rule =
     union_around ~tag:"rule"
-      (default 0. "margin" (number ()) Fun.id ~doc:"metres")
+      (default 0. "margin" limit Fun.id ~doc:"metres")
       [ Case inside; Case outside; Case depth; Case height; Case distance ]
       choose
   in

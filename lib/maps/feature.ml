@@ -5,7 +5,13 @@ type geometry = Point of Position.t | Line of Position.t list | Track of sample 
 type property = Text of string | Number of float
 type t = { name : string; geometry : geometry; properties : (string * property) list }
 
+let begin_of_year year =
+  let before = year - 1 in
+  let leap_days = (before / 4) - (before / 100) + (before / 400) in
+  86400. *. float_of_int ((365 * before) + leap_days - 719_162)
+
 let utc seconds =
+  let seconds = Float.min seconds (begin_of_year 10_000 -. 1.) in
   let milliseconds = Float.round (seconds *. 1000.) in
   let whole = Float.floor (milliseconds /. 1000.) in
   let rest = int_of_float (milliseconds -. (whole *. 1000.)) in

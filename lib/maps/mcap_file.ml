@@ -7,6 +7,9 @@ let nanoseconds time =
   let microseconds = Float.to_int (Float.round (Float.max 0. time *. 1e6)) in
   (microseconds / 1_000_000, microseconds mod 1_000_000 * 1000)
 
+(* Whole nanoseconds of an [int] end in 2116. *)
+let last_year = 2115
+
 let stamp time = let seconds, rest = nanoseconds time in (seconds * 1_000_000_000) + rest
 
 (* {1 Parts of records: little-endian} *)

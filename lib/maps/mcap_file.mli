@@ -13,6 +13,9 @@ type channel = { topic : string; schema : schema }
 (** A message of a channel. *)
 type message = { channel : channel; time : float;  (** seconds since the beginning of 1970 *) content : Yojson.Safe.t }
 
+val last_year : int
+(** The last year of which times can be written. *)
+
 val nanoseconds : float -> int * int
 (** [nanoseconds time] is the whole seconds of [time], at least 0, and the rest in nanoseconds. *)
 

@@ -145,7 +145,7 @@ let path ~from ~speed m =
         let s, waypoints, dwell = carry_out item s in
         let dwell = if dwell = infinity && i = Array.length items - 1 then 0. else dwell in
         let at_height (p : Position.t) =
-          if level.measured_from = Unspecified then p else { p with height = level.stays_at } in
+          if level.measured_from = Unspecified then p else Position.at_height level.stays_at p in
         let radius = if goes_round item then radius item else 0. in
         let leg =
           { item = named; waypoints = List.rev (List.rev_map at_height waypoints); level; dwell; speed = s.now; radius }

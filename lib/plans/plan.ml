@@ -110,7 +110,7 @@ let turned bearing (x, y) =
 let unending seconds = if seconds > 0. then seconds else infinity
 
 let leg (m : maneuver) =
-  let place down = { m.location with height = height m down } in
+  let place down = Dolphin_geo.Position.at_height (height m down) m.location in
   let along waypoints dwell = { maneuver = m.id; waypoints; level = level m; dwell; radius = 0. } in
   let at_location = along [ place 0. ] in
   let through offsets =

@@ -151,7 +151,7 @@ let estimated ~now ~sent state n =
   | Some position when newer sent n.position ->
     let speed = Float.hypot state.vx state.vy in
     let speed = if Float.is_finite speed then Some (sent, speed) else n.speed in
-    let told x = if Float.is_finite x && x >= 0. then Some x else None in
+    let told x = if 0. <= x && x <= Position.highest then Some x else None in
     let depth, altitude =
       match n.kind with
       | Uuv | Usv -> (told state.depth, None)

@@ -1,5 +1,6 @@
 open Dolphin_semantics
 open Dolphin_json
+open Dolphin_geo
 open Codec
 
 type greeting = {
@@ -97,15 +98,19 @@ let place =
         and+ longitude = absent "longitude" (decimal ~least:(-180.) ~most:180. ()) (Option.map snd) ~doc:"degrees" in
         (latitude, longitude)))
 
+(* As journals have them: a run whose journal cannot be read is not resumed. *)
+let height = decimal ~least:Position.lowest ~most:Position.highest ()
+let metres = decimal ~least:(-.Position.highest) ~most:Position.highest ()
+
 let vehicle =
   case "vehicle"
     (let+ vehicle = field "vehicle" word (fun s -> s.vehicle)
      and+ kind = absent "type" word (fun s -> s.kind)
      and+ payload = absent "payload" (list text) (fun s -> s.payload)
      and+ place = part (fun s -> s.place) place
-     and+ height = absent "height" (decimal ()) (fun s -> s.height) ~doc:"metres"
-     and+ depth = as_before "depth" (decimal ()) (fun s -> s.depth) ~doc:"metres; null: not known"
-     and+ altitude = as_before "altitude" (decimal ()) (fun s -> s.altitude) ~doc:"metres; null: not known"
+     and+ height = absent "height" height (fun s -> s.height) ~doc:"metres"
+     and+ depth = as_before "depth" metres (fun s -> s.depth) ~doc:"metres; null: not known"
+     and+ altitude = as_before "altitude" metres (fun s -> s.altitude) ~doc:"metres; null: not known"
      and+ battery =
        as_before "battery" (decimal ~least:0. ~most:1. ()) (fun s -> s.battery) ~doc:"a share; null: not known"
      and+ speed = as_before "speed" (decimal ~least:0. ()) (fun s -> s.speed) ~doc:"m/s; null: not known"

@@ -40,7 +40,7 @@ let leg kind ({ waypoints; level; dwell; speed; _ } : Inline_plan.leg) : Track.l
   match reached kind level.measured_from with
   | None -> { waypoints; vertical = Level; dwell; speed }
   | Some height ->
-    let at (p : Dolphin_geo.Position.t) = { p with height = height p.height } in
+    let at (p : Dolphin_geo.Position.t) = Dolphin_geo.Position.at_height (height p.height) p in
     let swing =
       if level.amplitude = 0. then None
       else

@@ -108,7 +108,7 @@ let position way time =
   let here = on_ground way time in
   match way with
   | Stretches { heights = Some profile; duration; _ } ->
-    { here with height = Profile.height profile (Float.min time duration) }
+    Dolphin_geo.Position.at_height (Profile.height profile (Float.min time duration)) here
   | Stretches { heights = None; _ } | Circuit _ -> here
 
 let speed way time =

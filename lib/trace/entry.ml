@@ -26,13 +26,13 @@ let time = function
 
 (* Impossible values of a vehicle are not read: a share is from 0 to 1, metres are near the earth. *)
 let from_zero = number ~least:0. ()
-let metres = number ~least:(-1e6) ~most:1e6 ()
+let metres = number ~least:(-.Position.highest) ~most:Position.highest ()
 
 (* Limit on times: a million of the longest waits, one after the other. *)
 let moment = named "time" (number ~least:0. ~most:(1e6 *. Time.longest) ())
 let time_field = one "time" moment ~doc:"seconds since the start"
 
-let position = Header.place ~height:(number ~least:(-20_000.) ~most:1e6 ())
+let position = Header.place
 
 let state =
   let readings =

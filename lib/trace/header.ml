@@ -45,13 +45,14 @@ let of_utc text =
 
 (* {1 JSON} *)
 
-let place ~height =
+let place =
   let of_parts (latitude, (longitude, height)) =
     Result.map_error (Format.asprintf "%a" Dolphin_geo.Position.pp_error)
       (Dolphin_geo.Position.make ~latitude ~longitude ~height)
   in
   let to_parts (p : Dolphin_geo.Position.t) = (p.latitude, (p.longitude, p.height)) in
   let degrees most = limited [ ("minimum", `Int (-most)); ("maximum", `Int most) ] (number ()) in
+  let height = number ~least:Dolphin_geo.Position.lowest ~most:Dolphin_geo.Position.highest () in
   let latitude = one "latitude" (degrees 90) ~doc:"degrees"
   and longitude = one "longitude" (degrees 180) ~doc:"degrees" in
   check of_parts (part to_parts (latitude @& longitude @& one "height" height ~doc:"metres"))
@@ -100,7 +101,7 @@ let codec =
         and+ order = default Dolphin_semantics.World.By_hearing "order" order (fun h -> h.order) ~doc:"of vehicles"
         and+ fences = default [] "fences" (list On_map.fence) (fun h -> h.fences)
         and+ place =
-          optional "place" (record (place ~height:(number ()))) (fun h -> h.place) ~doc:"of plans without one"
+          optional "place" (record place) (fun h -> h.place) ~doc:"of plans without one"
         and+ begins = optional "begins" date (fun h -> h.begins) ~doc:"the date 0, with its offset from UTC" in
         { program; fleet; platform; order; seed; speed; started; run; fences; place; begins }))
 

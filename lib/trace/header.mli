@@ -28,9 +28,8 @@ val source : ?set:(string * string) list -> path:string -> string -> source
 val source_codec : source Dolphin_json.Codec.t
 (** Its path, its hash, and its parameters. *)
 
-val place :
-  height:float Dolphin_json.Codec.t -> (Dolphin_geo.Position.t, Dolphin_geo.Position.t) Dolphin_json.Codec.fields
-(** [place ~height] is [latitude], [longitude] and [height]. *)
+val place : (Dolphin_geo.Position.t, Dolphin_geo.Position.t) Dolphin_json.Codec.fields
+(** Its [latitude], [longitude] and [height]. *)
 
 val utc : string Dolphin_json.Codec.t
 (** A time, as {!of_utc} reads it. *)

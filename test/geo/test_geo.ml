@@ -27,8 +27,11 @@ let make_checks_ranges () =
     (rejected ~latitude:Float.nan ~longitude:0. ~height:0.);
   check "longitude" "longitude -181 is not from -180 to 180 degrees"
     (rejected ~latitude:0. ~longitude:(-181.) ~height:0.);
-  check "height" "height inf is not a finite number of metres"
-    (rejected ~latitude:0. ~longitude:0. ~height:Float.infinity)
+  List.iter
+    (fun (height, shown) ->
+       check "height" (Printf.sprintf "height %s is not from -20000 to 1000000 metres" shown)
+         (rejected ~latitude:0. ~longitude:0. ~height))
+    [ (Float.infinity, "inf"); (Float.nan, "nan"); (1e308, "1e+308"); (-20001., "-20001"); (1000001., "1e+06") ]
 
 let angles () =
   let check = Alcotest.(check (float 1e-15)) in

@@ -18,6 +18,34 @@ let law (Formats.Format { name; codec; refuses; _ } as format) =
   in
   Test_support.Property.case ~count:500 name ~print (generator format) read_and_written
 
+(* {1 Vehicles}
+
+   A run whose journal cannot be read is not resumed. *)
+
+let extremes = [ 0.; -0.; 1.; -1.; 7.; -90.; 180.; 1e5; -2e4; 1e6; -1e6; 2e6; -2e6; 1e17; -1e17; 1e308; -1e308; 5e-324 ]
+
+let reports () =
+  let number name x = (name, `Float x) in
+  let known = List.map (fun name -> number name 0.) [ "latitude"; "longitude"; "height"; "depth"; "altitude"; "battery"; "speed" ] in
+  let with_one name x =
+    List.map (fun (other, zero) -> if other = name then number name x else (other, zero)) known in
+  let is_taken name x =
+    let report = `Assoc ([ ("kind", `String "vehicle"); ("vehicle", `String "v") ] @ with_one name x) in
+    let line =
+      `Assoc
+        ([ ("kind", `String "vehicle"); ("time", `Int 0); ("vehicle", `String "v"); ("type", `String "UUV");
+           ("payload", `List []); ("connected", `Bool true) ]
+         @ with_one name x)
+    in
+    let is_report = Result.is_ok (Codec.read Dolphin_platform_protocol.Report.codec report)
+    and is_line = Result.is_ok (Dolphin_trace.Entry.of_string (print line)) in
+    if is_report && not is_line then Alcotest.failf "%s %g is taken from adapters, and not in a journal" name x;
+    is_report
+  in
+  let taken = List.concat_map (fun (name, _) -> List.map (is_taken name) extremes) known in
+  Alcotest.(check bool) "some are taken" true (List.mem true taken);
+  Alcotest.(check bool) "some are not" true (List.mem false taken)
+
 (* {1 Lines} *)
 
 let lines (Formats.Format { codec; _ } as format) =
@@ -31,4 +59,7 @@ let lines (Formats.Format { codec; _ } as format) =
 let () =
   match Sys.argv with
   | [| _; "lines"; name |] -> lines (Formats.find name)
-  | _ -> Alcotest.run "formats" [ ("laws", List.map law Formats.all) ]
+  | _ ->
+    Alcotest.run "formats"
+      [ ("laws", List.map law Formats.all);
+        ("vehicles", [ Alcotest.test_case "a journal has what adapters may report" `Quick reports ]) ]

@@ -42,6 +42,16 @@ What no vehicle can have shown is not the line of a run, nor is what JSON does n
   $ sed 's/"seconds":[0-9.]*/"seconds":1e13/' pause.run > changed.run; dolphin trace check pause.dol changed.run
   dolphin: changed.run:2: "effects[0].seconds" is 1e+13, not a number from -1e+12 to 1e+12
   [2]
+  $ sed '1s/"started"/"place":{"latitude":1,"longitude":1,"height":1e308},"started"/' pick.run > changed.run
+  $ dolphin trace check pick.dol changed.run
+  dolphin: changed.run:1: "place.height" is 1e+308, not a number from -20000 to 1e+06
+  [2]
+  $ for metres in 1e308 -1; do
+  >   sed '1s/"started"/"fences":[{"fence":"depth","rule":"depth","metres":'$metres'}],"started"/' pick.run > changed.run
+  >   dolphin trace check pick.dol changed.run 2>&1 | cut -c 1-70
+  > done
+  dolphin: changed.run:1: "fences[0].metres" is 1e+308, not a number fro
+  dolphin: changed.run:1: "fences[0].metres" is -1, not a number from 0 
   $ for speed in 0 -1; do check '1s/"speed":null/"speed":'$speed'/' | head -n 1; done
   dolphin: changed.run:1: "speed" is 0, not a number above 0
   dolphin: changed.run:1: "speed" is -1, not a number above 0
@@ -50,6 +60,22 @@ What no vehicle can have shown is not the line of a run, nor is what JSON does n
   $ sed 's/"type":"UUV"/"type":"UU\xff"/' pick.run > changed.run; dolphin trace check pick.dol changed.run
   dolphin: changed.run:3: this is not JSON: a text in it is not UTF-8
   [2]
+
+A run may end after the last date of a format.
+
+  $ sed 's/"time":0,/"time":1e17,/' pick.run > late.run
+  $ sed 's/"time":0,/"time":3e9,/' pick.run > mcap.run
+  $ for format in geojson kml gpx csv mcap; do dolphin trace export late.run -o late.$format; done
+  dolphin: pick.dol: the run ends after the year 9999, the last one of this format
+  dolphin: pick.dol: the run ends after the year 9999, the last one of this format
+  dolphin: pick.dol: the run ends after the year 9999, the last one of this format
+  dolphin: pick.dol: the run ends after the year 9999, the last one of this format
+  dolphin: pick.dol: the run ends after the year 2115, the last one of this format
+  [2]
+  $ dolphin trace export mcap.run -o late.mcap; ls late.*
+  dolphin: pick.dol: the run ends after the year 2115, the last one of this format
+  late.run
+  $ dolphin trace export mcap.run -o mcap.geojson
 
 An export that fails leaves the file as it was, and nothing beside it.
 

@@ -6,6 +6,7 @@ module Map_text = Dolphin_maps.Map_text
 
 type t = {
   title : string;
+  until : float;
   features : Feature.t list;
   columns : string list;
   rows : Feature.property list list;
@@ -62,7 +63,8 @@ let run_rows ~started (v : Summary.vehicle) =
 let of_run (run : Summary.t) =
   let started = Option.bind run.header (fun h -> Header.of_utc h.started) |> Option.value ~default:0. in
   let rows = List.concat_map (run_rows ~started) run.vehicles in
-  { title = Option.fold run.header ~none:"a run" ~some:(fun (h : Header.t) -> Filename.basename h.program.path);
+  { until = started +. run.duration;
+    title = Option.fold run.header ~none:"a run" ~some:(fun (h : Header.t) -> Filename.basename h.program.path);
     features =
       List.filter_map (track ~started) run.vehicles @ List.concat_map (starts ~started) run.vehicles;
     columns = run_columns;
@@ -101,7 +103,7 @@ let of_plans ~title found =
   let way ({ name; plan; from; speed; vehicles = _ } : Inline_plans.found) =
     Option.map (fun plan -> (name, Inline_plan.path ~from ~speed plan)) plan in
   let ways = List.filter_map way found in
-  { title;
+  { title; until = 0.;
     features = List.concat_map (fun (name, legs) -> plan_features name legs) ways;
     columns = plan_columns;
     rows = List.concat_map (fun (name, legs) -> plan_rows name legs) ways;
@@ -117,8 +119,16 @@ let to_string (format : Dolphin_maps.Map_format.t) map =
   | Gpx -> Map_text.gpx ~title:map.title map.features
   | Mcap -> Dolphin_maps.Mcap_file.to_string (Lazy.force map.messages)
 
+let last_year : Dolphin_maps.Map_format.t -> int = function
+  | Csv | Geojson | Kml | Gpx -> 9999
+  | Mcap -> Dolphin_maps.Mcap_file.last_year
+
 let write format path map =
-  if map.features = [] then Error (Error.Bad_input (map.title ^ ": nothing here has a place on a map"))
+  let bad_input why = Error (Error.Bad_input (map.title ^ ": " ^ why)) in
+  let last_year = last_year format in
+  if map.features = [] then bad_input "nothing here has a place on a map"
+  else if map.until >= Feature.begin_of_year (last_year + 1) then
+    bad_input (Printf.sprintf "the run ends after the year %d, the last one of this format" last_year)
   else
     let text = to_string format map in
     match path with

@@ -2,6 +2,7 @@
 
 type t = {
   title : string;
+  until : float;  (** the date of the last time in it, in seconds since the beginning of 1970 *)
   features : Dolphin_maps.Feature.t list;
   columns : string list;  (** of the table *)
   rows : Dolphin_maps.Feature.property list list;
@@ -17,5 +18,5 @@ val of_plans : title:string -> Inline_plans.found list -> t
     maneuvers. The rows are the way points. Plans that vehicles know by name are left out. *)
 
 val write : Dolphin_maps.Map_format.t -> string option -> t -> (unit, Error.t) result
-(** [write format path map] writes into the file [path], to standard output without one. Nothing to write is an error:
-    {!Error.Bad_input}. *)
+(** [write format path map] writes into the file [path], to standard output without one. Nothing to write is an
+    {!Error.Bad_input}, and so is a run that ends later than the format has dates. *)

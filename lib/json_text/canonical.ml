@@ -11,9 +11,13 @@ let of_float x =
   let is_marked c = c = '.' || c = 'e' in
   if String.exists is_marked text then text else text ^ ".0"
 
+(* Control characters are escaped: texts are shown on terminals, too. *)
 let write_string buffer text =
-  let character c =
+  let text = Dolphin_utf8.Utf8.repaired text in
+  let character i c =
     match c with
+    | '\xc2' when Dolphin_utf8.Utf8.is_control text i -> Printf.bprintf buffer "\\u%04x" (Char.code text.[i + 1])
+    | '\x80' .. '\x9f' when i > 0 && text.[i - 1] = '\xc2' -> ()
     | '"' -> Buffer.add_string buffer "\\\""
     | '\\' -> Buffer.add_string buffer "\\\\"
     | '\n' -> Buffer.add_string buffer "\\n"
@@ -22,7 +26,7 @@ let write_string buffer text =
     | c -> Buffer.add_char buffer c
   in
   Buffer.add_char buffer '"';
-  String.iter character (Dolphin_utf8.Utf8.repaired text);
+  String.iteri character text;
   Buffer.add_char buffer '"'
 
 let rec write buffer (json : Yojson.Safe.t) =

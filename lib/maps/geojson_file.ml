@@ -59,6 +59,7 @@ let is_separator c = c = ':' || c = '/' || c = '#'
 let is_wgs_84 name =
   let name = String.uppercase_ascii (String.trim name) in
   let parts = String.split_on_char ':' (String.map (fun c -> if is_separator c then ':' else c) name) in
+  let parts = List.filter (( <> ) "") parts in
   let is_of_epsg = List.mem "EPSG" parts || List.mem "EPSG.XML" parts in
   match List.rev parts with
   | ("CRS84" | "CRS84H") :: _ -> true
@@ -70,13 +71,14 @@ let check_system place json =
     wrong place "its coordinates are in the system %s: they have to be in WGS 84, longitude first (EPSG:4326)" name in
   match Json_text.member "crs" json with
   | `Null -> ()
+  | `String name -> if not (is_wgs_84 name) then refuse name
   | crs -> (
-      let properties = Json_text.member "properties" crs in
-      match Json_text.member "name" properties, Json_text.member "code" properties with
-      | `String name, _ -> if not (is_wgs_84 name) then refuse name
-      | _, `Int 4326 -> ()
-      | _, `Int code -> refuse (Printf.sprintf "EPSG:%d" code)
-      | _, _ -> refuse "of a crs that names none")
+      let member name = Json_text.text (Json_text.member name (Json_text.member "properties" crs)) in
+      let of_code code = "EPSG:" ^ code in
+      match member "name", Option.map of_code (member "code"), member "href" with
+      | Some name, _, _ | None, Some name, _ -> if not (is_wgs_84 name) then refuse name
+      | None, None, Some address -> refuse (Printf.sprintf "at '%s', which is not looked up" address)
+      | None, None, None -> refuse "of a crs that names none")
 
 (* {1 Features} *)
 

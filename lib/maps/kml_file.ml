@@ -14,14 +14,15 @@ let words text =
 
 let position x parts =
   match List.map (number x) (List.filter (fun part -> part <> "") parts) with
-  | longitude :: latitude :: rest ->
-    Drawn.position x.place ~latitude ~longitude ~height:(match rest with h :: _ -> h | [] -> 0.)
-  | [ _ ] | [] -> wrong x.place "coordinates are LONGITUDE,LATITUDE or LONGITUDE,LATITUDE,HEIGHT"
+  | [ longitude; latitude ] -> Drawn.position x.place ~latitude ~longitude ~height:0.
+  | [ longitude; latitude; height ] -> Drawn.position x.place ~latitude ~longitude ~height
+  | [] | _ :: _ -> wrong x.place "coordinates are LONGITUDE,LATITUDE or LONGITUDE,LATITUDE,HEIGHT"
 
 let coordinates x =
-  match child "coordinates" x with
-  | None -> []
-  | Some c -> List.rev (List.rev_map (fun word -> position c (String.split_on_char ',' word)) (words c.text))
+  match children "coordinates" x with
+  | [] -> []
+  | _ :: second :: _ -> wrong second.place "%s has coordinates twice" x.tag
+  | [ c ] -> List.rev (List.rev_map (fun word -> position c (String.split_on_char ',' word)) (words c.text))
 
 let way x = function
   | [] -> [ empty ]
@@ -37,7 +38,8 @@ let polygon x =
   let rings side = List.concat_map (children "LinearRing") (children side x) in
   let non_empty rings = List.filter (( <> ) []) (List.map coordinates rings) in
   match non_empty (rings "outerBoundaryIs"), non_empty (rings "innerBoundaryIs") with
-  | rim :: _, holes -> [ Ground [ { rim; holes } ] ]
+  | [ rim ], holes -> [ Ground [ { rim; holes } ] ]
+  | _ :: _ :: _, _ -> wrong x.place "a polygon has one outer ring: several are a MultiGeometry of polygons"
   | [], [] -> [ empty ]
   | [], _ :: _ -> wrong x.place "a polygon has an outerBoundaryIs with a LinearRing"
 
@@ -48,7 +50,11 @@ let rec has_coordinates x =
 
 let rec shapes x =
   match x.tag with
-  | "Point" -> ( match coordinates x with p :: _ -> [ Spot p ] | [] -> [ empty ])
+  | "Point" -> (
+      match coordinates x with
+      | [ p ] -> [ Spot p ]
+      | [] -> [ empty ]
+      | _ :: _ :: _ as ps -> wrong x.place "a point has one position, not %d" (List.length ps))
   | "LineString" -> way x (coordinates x)
   | "LinearRing" -> ring x
   | "Polygon" -> polygon x
@@ -76,6 +82,7 @@ let rec things ~follow x =
   | "NetworkLink" ->
     let href = link x in
     if follow href then [] else left_out ~name x.place "the link to '%s' is not followed" href
+  | "GroundOverlay" | "PhotoOverlay" -> left_out ~name x.place "%s is a picture" x.tag
   | _ -> List.concat_map (things ~follow) x.inside
 
 let read ~follow text =

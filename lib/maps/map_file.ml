@@ -41,14 +41,15 @@ let beside file href =
 (* One file is the map: doc.kml, or else the first. It may link to others in the archive. *)
 let kmz text =
   let files = archived ".kml" text in
-  let read = Hashtbl.create 4 in
+  let contents = Hashtbl.of_seq (List.to_seq files) and read = Hashtbl.create 4 in
   let rec of_file (name, text) =
     Hashtbl.replace read name ();
-    let linked = ref [] in
+    let linked = ref [] and found = Hashtbl.create 4 in
     let follow href =
       let target = beside name href in
-      match List.assoc_opt target files with
-      | Some text when not (Hashtbl.mem read target || List.mem_assoc target !linked) ->
+      match Hashtbl.find_opt contents target with
+      | Some text when not (Hashtbl.mem read target || Hashtbl.mem found target) ->
+        Hashtbl.replace found target ();
         linked := (target, text) :: !linked;
         true
       | Some _ | None -> false

@@ -17,7 +17,12 @@ let numbered things =
 
 (* {1 The fence} *)
 
-let side json = match Json_text.member "inclusion" json with `Bool false -> "outside" | _ -> "inside"
+(* Without the member it is one to stay in, as QGroundControl reads it. *)
+let on_side place json shape =
+  match Json_text.member "inclusion" json with
+  | `Bool false -> ("outside", place, shape)
+  | `Bool true | `Null -> ("inside", place, shape)
+  | _ -> ("fence", place, fun () -> wrong place "inclusion is true or false")
 
 let fence json =
   let circle i json =
@@ -27,11 +32,12 @@ let fence json =
       let radius = Json_text.number place (Json_text.member "radius" circle) in
       Round { centre = position place (Json_text.member "center" circle); radius }
     in
-    (side json, place, shape)
+    on_side place json shape
   in
   let polygon i json =
     let place = Printf.sprintf "polygon %d of the fence" (i + 1) in
-    (side json, place, fun () -> Ground [ { rim = positions place (Json_text.member "polygon" json); holes = [] } ])
+    on_side place json (fun () ->
+        Ground [ { rim = positions place (Json_text.member "polygon" json); holes = [] } ])
   in
   let each name f = List.mapi f (listed ("the fence's " ^ name) (Json_text.member name json)) in
   each "polygons" polygon @ each "circles" circle
@@ -52,23 +58,31 @@ let whole = function `Int n -> Some n | _ -> None
 
 (* The place is the fifth to the seventh parameter; 0 and null mean none. *)
 let place_of place item =
-  match Json_text.member "params" item with
-  | `List [ _; _; _; _; latitude; longitude; height ] when latitude <> `Null && longitude <> `Null ->
+  match Json_text.elements place (Json_text.member "params" item) with
+  | [ _; _; _; _; `Null; `Null; _ ] -> None
+  | [ _; _; _; _; latitude; longitude; height ] ->
     let latitude = Json_text.number place latitude and longitude = Json_text.number place longitude in
     let height = if height = `Null then 0. else Json_text.number place height in
     if latitude = 0. && longitude = 0. then None else Some (Drawn.position place ~latitude ~longitude ~height)
-  | _ -> None
+  | params -> wrong place "an item has seven parameters, not %d" (List.length params)
+
+(* A number that is missing or of another kind would leave a piece out of the way. *)
+let number_of place item name =
+  match whole (Json_text.member name item) with
+  | Some n -> n
+  | None -> wrong place "an item has a %s, a whole number" name
 
 (* The part of the mission's way at this item, and the omissions. *)
 let way_point (place, item) =
-  let is_simple = match Json_text.member "type" item with `Null | `String "SimpleItem" -> true | _ -> false in
-  let command = Option.bind (whole (Json_text.member "command" item)) (fun n -> List.assoc_opt n flown) in
-  let is_global frame = List.mem frame global_frames in
-  match command, whole (Json_text.member "frame" item) with
-  | Some command, Some frame when is_simple && not (is_global frame) ->
-    Either.Right (left_out place "%s in frame %d has no place on the globe" command frame)
-  | Some _, (Some _ | None) when is_simple -> Left (place_of place item)
-  | (Some _ | None), (Some _ | None) -> Left None
+  match Json_text.member "type" item with
+  | `Null | `String "SimpleItem" -> (
+      match List.assoc_opt (number_of place item "command") flown with
+      | None -> Either.Left None
+      | Some command ->
+        let frame = if Json_text.member "frame" item = `Null then 0 else number_of place item "frame" in
+        if List.mem frame global_frames then Left (place_of place item)
+        else Right (left_out place "%s in frame %d has no place on the globe" command frame))
+  | _ -> Left None
 
 let way items =
   let way, notes = List.partition_map way_point items in

@@ -27,11 +27,21 @@ let upper =
      0x8F; 0x90; 0x2018; 0x2019; 0x201C; 0x201D; 0x2022; 0x2013; 0x2014; 0x2DC; 0x2122; 0x161; 0x203A; 0x153; 0x9D;
      0x17E; 0x178 |]
 
-let of_windows_1252 text =
+let of_bytes character text =
   let b = Buffer.create (String.length text + 64) in
-  String.iter
-    (fun c ->
-       let n = Char.code c in
-       Buffer.add_utf_8_uchar b (Uchar.of_int (if 0x80 <= n && n <= 0x9F then upper.(n - 0x80) else n)))
-    text;
+  String.iter (fun c -> Buffer.add_utf_8_uchar b (Uchar.of_int (character (Char.code c)))) text;
   Buffer.contents b
+
+let of_windows_1252 = of_bytes (fun n -> if 0x80 <= n && n <= 0x9F then upper.(n - 0x80) else n)
+
+let of_iso_8859_15 =
+  of_bytes (function
+      | 0xA4 -> 0x20AC
+      | 0xA6 -> 0x160
+      | 0xA8 -> 0x161
+      | 0xB4 -> 0x17D
+      | 0xB8 -> 0x17E
+      | 0xBC -> 0x152
+      | 0xBD -> 0x153
+      | 0xBE -> 0x178
+      | n -> n)

@@ -13,3 +13,6 @@ val harmless : string -> string
 
 val of_windows_1252 : string -> string
 (** [of_windows_1252 text] is [text], which is in windows-1252, in UTF-8. *)
+
+val of_iso_8859_15 : string -> string
+(** [of_iso_8859_15 text] is [text], which is in ISO 8859-15, in UTF-8. *)

@@ -37,17 +37,24 @@ let tree input =
   in
   go [] 0
 
-(* By the declaration, which is in ASCII; Xmlm does not know this encoding. *)
-let is_windows_1252 text =
+(* Encodings that Xmlm does not know. *)
+let other_encodings =
+  [ ("windows-1252", Utf8_text.of_windows_1252); ("cp1252", Utf8_text.of_windows_1252);
+    ("iso-8859-15", Utf8_text.of_iso_8859_15); ("iso8859-15", Utf8_text.of_iso_8859_15);
+    ("latin-9", Utf8_text.of_iso_8859_15) ]
+
+(* That of the declaration, which is in ASCII. *)
+let other_encoding text =
   let head = String.lowercase_ascii (String.sub text 0 (Int.min 200 (String.length text))) in
   let declaration = match String.index_opt head '>' with Some i -> String.sub head 0 i | None -> "" in
   let quoted = String.concat "\"" (String.split_on_char '\'' declaration) in
-  String.starts_with ~prefix:"<?xml" declaration
-  && List.exists (fun word -> word = "windows-1252" || word = "cp1252") (String.split_on_char '"' quoted)
+  if not (String.starts_with ~prefix:"<?xml" declaration) then None
+  else List.find_map (fun word -> List.assoc_opt word other_encodings) (String.split_on_char '"' quoted)
 
 let read text =
   (* Prefixes without a declaration are common, and mean nothing here. *)
-  let text, enc = if is_windows_1252 text then (Utf8_text.of_windows_1252 text, Some `UTF_8) else (text, None) in
+  let text, enc =
+    match other_encoding text with Some in_utf_8 -> (in_utf_8 text, Some `UTF_8) | None -> (text, None) in
   let input = Xmlm.make_input ~enc ~strip:true ~ns:(fun prefix -> Some prefix) (`String (0, text)) in
   try tree input
   with Xmlm.Error (position, error) ->

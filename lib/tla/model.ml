@@ -160,7 +160,9 @@ let small =
 
 let definition ppf name e = Format.fprintf ppf "%s == %a@.@." name Tla.pp e
 
-let site (_, at) = Tla.String (match at with Some at -> Format.asprintf "%a" Location.pp at | None -> "")
+let site (_, at) =
+  let text at = Tla.comment (Format.asprintf "%a" Location.pp at) in
+  Tla.String (Option.fold at ~none:"" ~some:text)
 let sites rows = Tla.Tuple (List.map site rows)
 
 (* A row for each number, with the place in the program that it stands for. *)

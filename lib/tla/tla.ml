@@ -40,4 +40,4 @@ let rec pp ppf e =
   | Set es -> print "{ %a }" (commas pp) es
   | Name name -> print "%s" name
 
-let comment text = String.concat " " (String.split_on_char '\n' text)
+let comment text = String.concat " " (String.split_on_char '\n' (Dolphin_syntax.Character.printable text))

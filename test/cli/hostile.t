@@ -62,3 +62,23 @@ bytes that are not UTF-8. None of them reaches the terminal.
     x?
     trace: step 1: the label: expected ?[2J, seen post a:1
   0 passed, 1 failed
+
+The name of a program may have them, too: as a comment of a model, and in JSON.
+
+  $ name=$(printf 'n\302\233\377\nm').dol; echo "v = pick { type 'UUV' }" > "$name"
+  $ dolphin tla "$name" -o model > /dev/null && judged cat model/MC.tla; sed -n 2p out
+  0
+  UTF-8
+  \* n?? m.dol in its world. Made by dolphin tla: generate it again rather than edit it.
+  $ for command in 'time --json' 'explore --json' 'exec --json --runs 2'; do
+  >   judged dolphin $command "$name"; LC_ALL=C grep -c "$(printf '\302')[$(printf '\200-\237')]" out || true
+  > done
+  0
+  UTF-8
+  0
+  0
+  UTF-8
+  0
+  0
+  UTF-8
+  0

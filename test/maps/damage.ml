@@ -5,13 +5,17 @@ open Shown
 
 let checksum text = Int32.to_int (Zlib.update_crc_string 0l text 0 (String.length text))
 
-(* [pack text] is how a file is packed, 0 for not at all, and its bytes then. *)
-let archive ?(check = checksum) ?(pack = fun text -> (0, text)) files =
+(* [pack text] is how a file is packed, 0 for not at all, and its bytes then. [count] is written in place of the number
+   of files. With [is_zip64] the numbers of the list stand in extra fields, and those of the end in a record of its
+   own. *)
+let archive ?(check = checksum) ?(pack = fun text -> (0, text)) ?count ?(is_zip64 = false) files =
   let b = Buffer.create 1000 and directory = Buffer.create 1000 in
   let u16 b n = Buffer.add_uint16_le b n and u32 b n = Buffer.add_int32_le b (Int32.of_int n) in
+  let u64 b n = Buffer.add_int64_le b (Int64.of_int n) in
+  let unless_zip64 n = if is_zip64 then 0xFFFF_FFFF else n in
   let common b text (how, packed) =
     List.iter (u16 b) [ 20; 0; how; 0; 0 ];
-    List.iter (u32 b) [ check text; String.length packed; String.length text ]
+    List.iter (u32 b) [ check text; unless_zip64 (String.length packed); unless_zip64 (String.length text) ]
   in
   let add (name, text) =
     let start = Buffer.length b and packed = pack text in
@@ -22,16 +26,33 @@ let archive ?(check = checksum) ?(pack = fun text -> (0, text)) files =
     u32 directory 0x02014b50;
     u16 directory 20;
     common directory text packed;
-    List.iter (u16 directory) [ String.length name; 0; 0; 0; 0 ];
-    List.iter (u32 directory) [ 0; start ];
-    Buffer.add_string directory name
+    List.iter (u16 directory) [ String.length name; (if is_zip64 then 32 else 0); 0; 0; 0 ];
+    List.iter (u32 directory) [ 0; unless_zip64 start ];
+    Buffer.add_string directory name;
+    if is_zip64 then begin
+      List.iter (u16 directory) [ 7; 0; 1; 24 ];
+      List.iter (u64 directory) [ String.length text; String.length (snd packed); start ]
+    end
   in
   List.iter add files;
   let start = Buffer.length b in
   Buffer.add_buffer b directory;
+  let count = Option.value count ~default:(List.length files) and listed = Buffer.length b in
+  if is_zip64 then begin
+    u32 b 0x06064b50;
+    u64 b 44;
+    List.iter (u16 b) [ 45; 45 ];
+    List.iter (u32 b) [ 0; 0 ];
+    List.iter (u64 b) [ count; count; Buffer.length directory; start ];
+    u32 b 0x07064b50;
+    u32 b 0;
+    u64 b listed;
+    u32 b 1
+  end;
   u32 b 0x06054b50;
-  List.iter (u16 b) [ 0; 0; List.length files; List.length files ];
-  List.iter (u32 b) [ Buffer.length directory; start ];
+  let count = if is_zip64 then 0xFFFF else count in
+  List.iter (u16 b) [ 0; 0; count; count ];
+  List.iter (u32 b) [ Buffer.length directory; unless_zip64 start ];
   u16 b 0;
   Buffer.contents b
 
@@ -51,16 +72,34 @@ let archives () =
     ("a" ^ at ^ "; b" ^ at ^ "; note: files/b.kml, line 1: the link to '../doc.kml' is not followed, and left out")
     (read
        [ ("doc.kml", kml (place "a" ^ link "files/b.kml")); ("files/b.kml", kml (place "b" ^ link "../doc.kml")) ]);
+  let two = [ ("doc.kml", kml (place "a" ^ link "b.kml")); ("b.kml", kml (place "b")) ] in
+  check "ZIP64" ("a" ^ at ^ "; b" ^ at) (shown "m.kmz" (archive ~is_zip64:true two));
+  List.iter
+    (fun is_zip64 ->
+       List.iter
+         (fun count ->
+            check "another number of files" "wrong: this ZIP archive is broken"
+              (shown "m.kmz" (archive ~count ~is_zip64 two)))
+         [ 1; 3 ])
+    [ false; true ];
+  check "two files of one name" "wrong: this archive has two files 'doc.kml'"
+    (read [ ("doc.kml", kml (place "a")); ("doc.kml", kml (place "b")) ]);
+  let file i = Printf.sprintf "%d.kml" i in
+  let links = kml (place "a" ^ String.concat "" (List.init 20_000 (fun i -> link (file i)))) in
+  let before = Sys.time () in
+  check "many links" ("a" ^ at)
+    (read (("doc.kml", links) :: List.init 20_000 (fun i -> (file i, kml ""))));
+  Alcotest.(check bool) "soon" true (Sys.time () -. before < 5.);
   check "another checksum" "wrong: 'doc.kml' in this archive is damaged: its checksum is another"
     (shown "m.kmz" (archive ~check:(fun _ -> 7) [ ("doc.kml", kml (place "a")) ]))
 
 (* An archive by another program, cut or changed at any byte, ends at once: as an error or as the same map. *)
-let damaged_archives =
-  let whole =
-    archive [ ("doc.kml", kml (place "a")) ] in
+let damaged_archives is_zip64 =
+  let whole = archive ~is_zip64 [ ("doc.kml", kml (place "a")) ] in
   let good = shown "m.kmz" whole in
   let gen = QCheck2.Gen.(pair (int_bound (String.length whole - 1)) (int_bound 255)) in
-  Test_support.Property.case ~count:2000 "a byte of an archive is changed" gen
+  Test_support.Property.case ~count:2000
+    (if is_zip64 then "a byte of a ZIP64 archive is changed" else "a byte of an archive is changed") gen
     ~print:(fun (i, c) -> Printf.sprintf "%d is %d" i c)
     (fun (i, c) ->
        let text = String.mapi (fun j old -> if i = j then Char.chr c else old) whole in
@@ -159,5 +198,6 @@ let damaged_files =
 let cases =
   [ case "archives" archives;
     case "streams cut short" cut_streams;
-    damaged_archives;
+    damaged_archives false;
+    damaged_archives true;
     damaged_files ]

@@ -156,7 +156,8 @@ let coordinate_systems () =
   List.iter
     (fun name -> check name "a: (1.000000, 2.000000)" (read (named name)))
     [ "urn:ogc:def:crs:OGC:1.3:CRS84"; "urn:ogc:def:crs:OGC::CRS84"; "EPSG:4326"; "urn:ogc:def:crs:EPSG::4326"; "epsg:4326";
-      "http://www.opengis.net/def/crs/OGC/1.3/CRS84"; "http://www.opengis.net/def/crs/EPSG/0/4326"; "WGS84" ];
+      "http://www.opengis.net/def/crs/OGC/1.3/CRS84"; "http://www.opengis.net/def/crs/EPSG/0/4326"; "WGS84";
+      "http://spatialreference.org/ref/epsg/4326/" ];
   List.iter
     (fun name ->
        check name
@@ -169,10 +170,13 @@ let coordinate_systems () =
   check "another code"
     "wrong: its coordinates are in the system EPSG:3763: they have to be in WGS 84, longitude first (EPSG:4326)"
     (read (with_crs {|{"type":"EPSG","properties":{"code":3763}}|}));
-  check "a link"
-    "wrong: its coordinates are in the system of a crs that names none: they have to be in WGS 84, longitude first \
-     (EPSG:4326)"
-    (read (with_crs {|{"type":"link","properties":{"href":"a"}}|}))
+  check "a code as text" "a: (1.000000, 2.000000)" (read (with_crs {|{"type":"EPSG","properties":{"code":"4326"}}|}));
+  check "a name by itself" "a: (1.000000, 2.000000)" (read (with_crs {|"EPSG:4326"|}));
+  let refused = Printf.sprintf "wrong: its coordinates are in the system %s: they have to be in WGS 84, longitude first (EPSG:4326)" in
+  check "another name by itself" (refused "EPSG:3857") (read (with_crs {|"EPSG:3857"|}));
+  check "a link" (refused "at 'a', which is not looked up")
+    (read (with_crs {|{"type":"link","properties":{"href":"a"}}|}));
+  check "nothing" (refused "of a crs that names none") (read (with_crs "{}"))
 
 let encodings () =
   let geojson name = collection [ feature ~properties:(Printf.sprintf {|{"name":"%s"}|} name) "Point" "[1,0]" ] in
@@ -187,8 +191,49 @@ let encodings () =
     (gpx "<?xml version=\"1.0\" encoding=\"windows-1252\"?>" "\x80 Leix\xf5es");
   check "windows-1252, in capitals" ("\xe2\x80\x99" ^ place) (gpx "<?xml version='1.0' encoding='Windows-1252'?>" "\x92");
   check "ISO 8859-1" ("Leix\xc3\xb5es" ^ place) (gpx "<?xml version='1.0' encoding='ISO-8859-1'?>" "Leix\xf5es");
+  check "ISO 8859-15" ("\xe2\x82\xac Leix\xc3\xb5es" ^ place) (gpx "<?xml version='1.0' encoding='ISO-8859-15'?>" "\xa4 Leix\xf5es");
   check "a byte order mark before XML" ("a" ^ place) (gpx "\xef\xbb\xbf<?xml version='1.0'?>" "a");
   check "not UTF-8" "wrong" (String.sub (gpx "" "\xf5") 0 5)
+
+(* What a reader would take the first of, or leave out. *)
+let several () =
+  let at = Printf.sprintf "<%s><coordinates>%s</coordinates></%s>" in
+  let good = Printf.sprintf "<Placemark><name>b</name>%s</Placemark>" (at "Point" "1,0" "Point") in
+  let kml inside = shown "m.kml" (Printf.sprintf "<kml><Placemark><name>a</name>%s</Placemark>%s</kml>" inside good) in
+  let wrong why = "a: flawed: line 1: " ^ why ^ "; b: (0.000000, 1.000000)" in
+  let ring = at "LinearRing" "1,2 1,2.1 1.1,2" "LinearRing" in
+  check "a decimal comma" (wrong "coordinates are LONGITUDE,LATITUDE or LONGITUDE,LATITUDE,HEIGHT")
+    (kml (at "Point" "-8,7,41,2" "Point"));
+  check "two positions of a point" (wrong "a point has one position, not 2") (kml (at "Point" "1,2 3,4" "Point"));
+  check "coordinates twice" (wrong "LineString has coordinates twice")
+    (kml "<LineString><coordinates>1,2 3,4</coordinates><coordinates>5,6 7,8</coordinates></LineString>");
+  check "two outer rings" (wrong "a polygon has one outer ring: several are a MultiGeometry of polygons")
+    (kml (Printf.sprintf "<Polygon><outerBoundaryIs>%s%s</outerBoundaryIs></Polygon>" ring ring));
+  check "an overlay" "b: (0.000000, 1.000000); note: line 1 ('a'): GroundOverlay is a picture, and left out"
+    (shown "m.kml" (Printf.sprintf "<kml><GroundOverlay><name>a</name></GroundOverlay>%s</kml>" good))
+
+(* An item that would leave a piece out of the way. *)
+let items_of_plans () =
+  let plan ?(fence = "") item =
+    shown "m.plan"
+      (Printf.sprintf
+         {|{"fileType":"Plan","mission":{"plannedHomePosition":[1,2,0],"items":[{"command":16,"frame":3,"params":[0,0,0,0,1,2,0]},%s]}%s}|} item fence)
+  in
+  let way = {|{"command":16,"frame":3,"params":[0,0,0,0,1,3,0]}|} in
+  let home = "home: (1.000000, 2.000000); " in
+  let wrong why = home ^ "mission: flawed: item 2 of the mission: " ^ why in
+  check "six parameters" (wrong "an item has seven parameters, not 6")
+    (plan {|{"command":16,"frame":3,"params":[0,0,0,0,1,3]}|});
+  check "half of a place" (wrong "a number belongs here") (plan {|{"command":16,"frame":3,"params":[0,0,0,0,1,null,0]}|});
+  check "no parameters" (wrong "a list [...] belongs here") (plan {|{"command":16,"frame":3,"coordinate":[1,3,0]}|});
+  check "a text as frame" (wrong "an item has a frame, a whole number")
+    (plan {|{"command":16,"frame":"3","params":[0,0,0,0,1,3,0]}|});
+  check "a text as command" (wrong "an item has a command, a whole number")
+    (plan {|{"command":"16","frame":3,"params":[0,0,0,0,1,3,0]}|});
+  check "no object" (wrong "an item has a command, a whole number") (plan "7");
+  let fence = {|,"geoFence":{"circles":[{"circle":{"center":[1,2],"radius":9},"inclusion":"false"}]}|} in
+  check "a fence on neither side" (home ^ "mission: line of 2; fence 1: flawed: circle 1 of the fence: inclusion is true or false")
+    (plan ~fence way)
 
 let cases =
   [ case "empty geometries" empty_geometries;
@@ -196,4 +241,6 @@ let cases =
     case "bad features" bad_features;
     case "slightly wrong polygons" repaired;
     case "coordinate systems" coordinate_systems;
-    case "encodings" encodings ]
+    case "encodings" encodings;
+    case "several of which one is meant" several;
+    case "items of plans" items_of_plans ]

@@ -85,7 +85,7 @@ let observer r : Observer.t =
     r.last <- time;
     step r;
     note_timers r ~time t;
-    let stuck = Interruption.is_unasked r.interruption (Narrator.configuration r.narrator) in
+    let stuck = Interruption.is_unasked r.interruption in
     Narrator.transition r.narrator ~stuck ~time t;
     will_tell_waiting r;
     r.changed ()

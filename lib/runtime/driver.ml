@@ -97,6 +97,7 @@ module Make (P : Platform.S) = struct
     observer : Observer.t;
     always_telemetry : bool;
     breakable : Breakable.t;
+    giving_up : (unit -> unit) -> unit;  (* calls it *)
     inputs : Inputs.t;
     replacements : (unit -> replacement option) Lwt_mvar.t option;
     mutable offered : news Lwt.t option;  (* the next of them, if it was asked for *)
@@ -554,7 +555,7 @@ module Make (P : Platform.S) = struct
 
   (* The program cannot go on; it executes what it declares by onInterrupt, which may fail in its own way. *)
   and give_up s outcome =
-    interrupt s;
+    s.giving_up (fun () -> interrupt s);
     forget_rounds s;
     advance s >|= function
     | Ended Interrupted -> outcome
@@ -641,11 +642,11 @@ module Make (P : Platform.S) = struct
     Lwt.catch (fun () -> finish s) (fun _ -> Lwt.return_unit)
 
   let run platform ~always_telemetry ~observer ~call ~inputs ~replacements ~console ~interruptions ~breakable
-      ~(beginning : beginning) program =
+      ~giving_up ~(beginning : beginning) program =
     let interruption promise = Lwt.protected promise >|= fun () -> Event (Ok Interruption) in
     let s =
       { platform; program; console; call; observer; always_telemetry; inputs; replacements; offered = None;
-        breakable;
+        breakable; giving_up;
         interruptions = List.map interruption interruptions;
         configuration = beginning.configuration;
         taken = beginning.transitions;
@@ -669,7 +670,8 @@ end
 
 let run (type platform) (module P : Platform.S with type t = platform) (platform : platform)
     ?(always_telemetry = false) ?(observer = Observer.nobody) ?(host = no_host) ?inputs ?replacements ?beginning ?fenced
-    ~console ~interruption ?again ?breakable (program : Core.program) =
+    ~console ~interruption ?again ?breakable ?(giving_up = fun interrupt -> interrupt ())
+    (program : Core.program) =
   let inputs = match inputs with Some inputs -> inputs | None -> Inputs.create () in
   let interruptions = interruption :: Option.to_list again in
   let breakable = match breakable with Some breakable -> breakable | None -> Breakable.make () in
@@ -677,11 +679,11 @@ let run (type platform) (module P : Platform.S with type t = platform) (platform
   if Fences.is_none program.fences then
     let module Driver = Make (P) in
     Driver.run platform ~always_telemetry ~observer ~call:host ~inputs ~replacements ~console ~interruptions
-      ~breakable ~beginning program
+      ~breakable ~giving_up ~beginning program
   else
     let module Fenced = Fenced.Make (P) in
     let module Driver = Make (Fenced) in
     let past : Fence_guard.past = Option.value fenced ~default:(Fence_guard.replay program.fences []) in
     let platform = Fenced.make past.guard ~untold:past.untold platform in
     Driver.run platform ~always_telemetry ~observer ~call:host ~inputs ~replacements ~console ~interruptions
-      ~breakable ~beginning program
+      ~breakable ~giving_up ~beginning program

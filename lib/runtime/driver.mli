@@ -80,6 +80,7 @@ val run :
   interruption:unit Lwt.t ->
   ?again:unit Lwt.t ->
   ?breakable:Breakable.t ->
+  ?giving_up:((unit -> unit) -> unit) ->
   Core.program ->
   outcome Lwt.t
 (** [run (module P) platform ~console ~interruption program] runs [program] until it ends, closes [platform], and is
@@ -88,6 +89,9 @@ val run :
 
     Transitions that the program makes by itself are computed within [breakable], by default one that nothing breaks
     off: a handler of a signal that breaks it off makes [interruption] or [again] resolve.
+
+    A program that is stuck is interrupted by [giving_up interrupt], by default [interrupt ()]: observers that are
+    called meanwhile see an interruption that no person asked for.
 
     The platform's telemetry is on while it may matter to the program, or with [~always_telemetry:true] (by default
     false), for displays and journals, all the time; in virtual time, a run is the same with and without it. Without

@@ -8,6 +8,7 @@ module Make (P : Platform.S) = struct
     platform : P.t;
     program : Core.program;
     observer : Observer.t;
+    giving_up : (unit -> unit) -> unit;  (* calls it *)
     mutable configuration : Configuration.t;
     mutable world : World.t;
     mutable taken : int;  (* transitions *)
@@ -103,9 +104,9 @@ module Make (P : Platform.S) = struct
     match s.configuration.control with
     | Ended ending -> Ended ending
     | Script _ | Waiting _ | Executing _ ->
-      let stuck = is_stuck s in
-      stop s;
-      (match stuck with Some r -> Stuck r | None -> Ended Interrupted)
+      match is_stuck s with
+      | Some r -> s.giving_up (fun () -> stop s); Stuck r
+      | None -> stop s; Ended Interrupted
 
   let rec go s ~interruption = function
     | [] -> Lwt.return (over s)
@@ -116,10 +117,10 @@ module Make (P : Platform.S) = struct
         | `Now -> take s step; go s ~interruption rest
         | `Interrupted -> stop s; Lwt.return (Driver.Ended Interrupted))
 
-  let run platform ~observer ~interruption program steps =
+  let run platform ~observer ~interruption ~giving_up program steps =
     let s =
-      { platform; program; observer; configuration = Configuration.initial program; world = World.nobody P.order;
-        taken = 0; upcoming = None; held = [] }
+      { platform; program; observer; giving_up; configuration = Configuration.initial program;
+        world = World.nobody P.order; taken = 0; upcoming = None; held = [] }
     in
     let close () = Option.iter Lwt.cancel s.upcoming; P.close platform in
     Lwt.finalize
@@ -130,6 +131,6 @@ module Make (P : Platform.S) = struct
 end
 
 let run (type platform) (module P : Platform.S with type t = platform) (platform : platform) ~observer ~interruption
-    program steps =
+    ?(giving_up = fun interrupt -> interrupt ()) program steps =
   let module Enactment = Make (P) in
-  Enactment.run platform ~observer ~interruption program steps
+  Enactment.run platform ~observer ~interruption ~giving_up program steps

@@ -14,9 +14,10 @@ type step = {
 }
 
 val run :
-  (module Platform.S with type t = 'p) -> 'p -> observer:Observer.t -> interruption:unit Lwt.t -> Core.program ->
-  step list -> Driver.outcome Lwt.t
+  (module Platform.S with type t = 'p) -> 'p -> observer:Observer.t -> interruption:unit Lwt.t ->
+  ?giving_up:((unit -> unit) -> unit) -> Core.program -> step list -> Driver.outcome Lwt.t
 (** [run (module P) platform ~observer ~interruption program steps] takes [steps], which are one after the other from
     the initial configuration, until they are over or [interruption] resolves. Tasks that still run then are stopped
-    and their vehicles released: the outcome is [Stuck] if the program cannot continue at the end of the steps.
+    and their vehicles released: the outcome is [Stuck] if the program cannot continue at the end of the steps;
+    [giving_up] is as of {!Driver.run}.
     Resolves once [platform] is closed. *)

@@ -111,10 +111,10 @@ let ways r (t : Transition.t) : (Core.vehicle * Entry.way) list =
   in
   List.filter_map of_effect t.effects
 
-let transition ?(unasked = fun _ -> false) r ~time ~cause (t : Transition.t) =
+let transition ?(unasked = fun () -> false) r ~time ~cause (t : Transition.t) =
   pass r time;
   if r.behind <> [] && may_depend_on_vehicles r t then catch_up r;
-  let stuck = t.label = Interrupt && unasked r.configuration in
+  let stuck = t.label = Interrupt && unasked () in
   let event event = r.write (Event { time = r.time; event = Event.of_event ~stuck event }) in
   Option.iter event cause;
   let step = Step.of_transition r.program r.configuration t in

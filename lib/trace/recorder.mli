@@ -22,10 +22,10 @@ val write : t -> time:float -> (time:float -> Entry.t) -> unit
 (** [write r ~time line] writes [line ~time], at [time] or, if that is later, the time of the line before. *)
 
 val transition :
-  ?unasked:(Configuration.t -> bool) -> t -> time:float -> cause:Transition.event option -> Transition.t -> unit
+  ?unasked:(unit -> bool) -> t -> time:float -> cause:Transition.event option -> Transition.t -> unit
 (** [transition r ~time ~cause t] writes the line of [t], and before it that of the event that caused it, and of
-    vehicles what [t] may depend on. An interruption of a configuration that is [unasked], by default none, is that of
-    a program that is stuck. *)
+    vehicles what [t] may depend on. An interruption while [unasked ()], which by default is false, is that of a
+    program that is stuck. *)
 
 val news : t -> time:float -> World.vehicle_state -> unit
 (** [news r ~time state] writes what is known of a vehicle now, or keeps it to be written later. *)

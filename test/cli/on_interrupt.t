@@ -202,3 +202,34 @@ A program that is stuck goes home.
   [1]
   $ dolphin trace check stuck.dol stuck.run
   stuck.run: a run, of 8 transitions in 2:00; stuck
+
+A way home that is stuck has its own end, after a signal too: in the log, in the journal, and where it is resumed.
+
+  $ cat > lost.dol <<'END'
+  > onInterrupt task('home') >> condition { poll never: 1 }
+  > v = pick { type 'UUV' }
+  > execute task('survey')
+  > END
+  $ sed -i 's/home., { duration 2.hours/home'"'"', { duration 5.seconds/' long.fleet
+  $ rm log.txt; dolphin exec lost.dol --fleet long.fleet --speed 5 --journal lost.run > log.txt 2> errors.txt & run=$!
+  $ signal INT 'starts survey' log.txt
+  [1]
+  $ grep -A 9 "ends home" log.txt | cut -c 10-
+  a           ends home
+  program     releases a
+  program     is stuck
+  $ cat errors.txt
+  lost.dol:1:39: error: the program is stuck: nothing can make this condition true any more
+    1 | onInterrupt task('home') >> condition { poll never: 1 }
+      |                                       ^^^^^^^^^^^^^^^^^
+  $ dolphin trace check lost.dol lost.run | sed 's/ in .*;/;/'
+  lost.run: a run, of 9 transitions; stuck
+  $ head -n -2 lost.run > cut.run
+  $ dolphin exec lost.dol --resume cut.run 2> errors.txt | cut -c 10-; cat errors.txt
+  program     releases a
+  program     is stuck
+  lost.dol:1:39: error: the program is stuck: nothing can make this condition true any more
+    1 | onInterrupt task('home') >> condition { poll never: 1 }
+      |                                       ^^^^^^^^^^^^^^^^^
+  $ tail -1 cut.run | grep -o '"ending".*'
+  "ending":"stuck"}

@@ -27,12 +27,14 @@ let header (program : Program_file.t) fleet ~speed : Header.t =
 
 let enact (front : Run.front) recording ~interruption ~speed (program : Program_file.t) (fleet : Fleet_file.t) steps =
   let observer = 
-    Observer.both (Recording.observer recording ~unasked:(Interruption.is_unasked interruption)) front.observer in
+    let unasked () = Interruption.is_unasked interruption in
+    Observer.both (Recording.observer recording ~unasked) front.observer in
   let on (type p) (module P : Platform.S with type t = p) (platform : p) =
     front.opened
       { now = (fun () -> P.now platform); estimates = (fun () -> []); post = (fun _ _ -> Lwt.return_false);
         questions = (fun () -> []); replace = Replacement.refused; acted = (fun _ -> Ok ()) };
-    Enactment.run (module P) platform ~observer ~interruption:(Interruption.promise interruption) program.program steps
+    Enactment.run (module P) platform ~observer ~interruption:(Interruption.promise interruption)
+      ~giving_up:(Interruption.unasked interruption) program.program steps
     >|= fun outcome -> (P.now platform, outcome)
   in
   let seed = 0 and scenario = fleet.scenario in

@@ -1,13 +1,18 @@
 open Lwt.Infix
 
 type stage = { promise : unit Lwt.t; wake : unit Lwt.u; mutable happened : bool }
-type t = { first : stage; second : stage; breakable : Dolphin_runtime.Breakable.t }
+type t = {
+  first : stage;
+  second : stage;
+  breakable : Dolphin_runtime.Breakable.t;
+  mutable unasked : bool;
+}
 
 let stage () =
   let promise, wake = Lwt.wait () in
   { promise; wake; happened = false }
 
-let make () = { first = stage (); second = stage (); breakable = Dolphin_runtime.Breakable.make () }
+let make () = { first = stage (); second = stage (); breakable = Dolphin_runtime.Breakable.make (); unasked = false }
 
 let happen stage =
   if not stage.happened then begin
@@ -62,4 +67,8 @@ let unless i f =
   Lwt.cancel result;
   Lwt.catch (fun () -> result >|= Option.some) (function Lwt.Canceled -> Lwt.return_none | error -> Lwt.fail error)
 
-let is_unasked i c = not (happened i || Dolphin_semantics.Transition.is_leaving c)
+let unasked i interrupt =
+  i.unasked <- true;
+  Fun.protect ~finally:(fun () -> i.unasked <- false) interrupt
+
+let is_unasked i = i.unasked

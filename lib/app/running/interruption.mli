@@ -26,9 +26,11 @@ val happened : t -> bool
 val unless : t -> (unit -> 'a Lwt.t) -> 'a option Lwt.t
 (** [unless i f] is the result of [f ()]. If [i] happens before, [f ()] is cancelled: [None], once it has cleared up. *)
 
-val is_unasked : t -> Dolphin_semantics.Configuration.t -> bool
-(** [is_unasked i c] is whether an interruption of [c] now comes from no person: the driver interrupts stuck programs
-    by itself. The end of the task of [onInterrupt] is not such an interruption. *)
+val unasked : t -> (unit -> unit) -> unit
+(** [unasked i interrupt] is [interrupt ()], which interrupts a program that is stuck: no person asked for it. *)
+
+val is_unasked : t -> bool
+(** Whether this is within a call of {!unasked}. *)
 
 val on_signals : ?goes_on:(unit -> bool) -> ?again:(unit -> 'a) -> t -> unit
 (** From now on SIGINT, SIGTERM, SIGQUIT and SIGHUP make it happen. If it has happened already and [goes_on ()], which

@@ -54,7 +54,7 @@ val sync : t -> (unit -> unit Lwt.t) option
 val journal : t -> string option
 (** The path of the journal, if there is one. *)
 
-val observer : ?unasked:(Dolphin_semantics.Configuration.t -> bool) -> t -> Dolphin_runtime.Observer.t
+val observer : ?unasked:(unit -> bool) -> t -> Dolphin_runtime.Observer.t
 (** The observer that writes the journal; it comes before others and may raise {!Broken}. [unasked] is as of
     {!Recorder.transition}. *)
 

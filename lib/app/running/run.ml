@@ -284,7 +284,8 @@ let drive r recording host ~interruption (Platform ((module P), { platform; esti
   in
   let unmet = ref None in
   let observer =
-    List.fold_left Observer.both (Recording.observer recording ~unasked:(Interruption.is_unasked interruption))
+    let unasked () = Interruption.is_unasked interruption in
+    List.fold_left Observer.both (Recording.observer recording ~unasked)
       [ telling_followers socket; r.front.observer; watching_picks r unmet ]
   in
   let run () =
@@ -299,7 +300,8 @@ let drive r recording host ~interruption (Platform ((module P), { platform; esti
       ~host:(match host with Some host -> Host.call host | None -> Replies.call ~past:(history r) scenario)
       ~inputs ~replacements:(Replacement.inbox replacement) ?beginning:(beginning r.resumed news) ?fenced:r.fenced
       ~console ~interruption:(Interruption.promise interruption)
-      ~again:(Interruption.again interruption) ~breakable:(Interruption.breakable interruption) r.program.program
+      ~again:(Interruption.again interruption) ~breakable:(Interruption.breakable interruption)
+      ~giving_up:(Interruption.unasked interruption) r.program.program
   in
   let finish (outcome : Driver.outcome) =
     let outcome = as_it_began r outcome in

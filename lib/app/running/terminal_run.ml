@@ -57,7 +57,7 @@ let tell_answer t ~time cause =
   | Some _ | None -> ()
 
 let transition t ~time ~cause transition =
-  let stuck = Interruption.is_unasked t.interruption t.configuration in
+  let stuck = Interruption.is_unasked t.interruption in
   tell_answer t ~time cause;
   see_transition t ~time transition;
   let log, lines = Log.transition ~stuck t.log ~time transition in

@@ -60,15 +60,15 @@ let is_prefix (pieces : Piece.t array) i =
   | Sign | Step -> pieces.(i).starts || not (ends_operand pieces (i - 1))
   | Operand | Word | Infix | Joint | Comma | Colon | Opening | Closing | Brace | Closing_brace -> false
 
-(* [execute (a | b) >> c], [execute (a | b) until { c }]: parentheses at the start of a command's argument that goes on,
-   if they were set apart. *)
+(* [execute (a | b) >> c], [execute (a | b) until { c }], [region (a + b).hull()]: parentheses at the start of a
+   command's argument that goes on, if they were set apart. *)
 let is_set_apart (pieces : Piece.t array) i =
   let next = pieces.(i).partner + 1 in
   pieces.(i - 1).starts && pieces.(i).set_apart
   && match manner (token pieces next) with
-  | Infix | Sign -> true
+  | Infix | Sign | Joint -> true
   | Word -> not pieces.(next).starts
-  | Operand | Prefix | Step | Joint | Comma | Colon | Opening | Closing | Brace | Closing_brace -> false
+  | Operand | Prefix | Step | Comma | Colon | Opening | Closing | Brace | Closing_brace -> false
 
 let before (pieces : Piece.t array) i =
   i > 0

@@ -74,8 +74,8 @@ let long_body =
     \    battery 80.percent\n    drops 2.min, 3.min\n}\n"
 
 let spacing =
-  formats "blanks" "x=-1+ (2*3)\nf ( x,y:2 ) [ 1 ]\nif(a){b  }\nelse  {c}\nm=[ : ]\nxs=[1 ..3 , 4]\nz=!a&&- b\ni ++\nexecute (a|b)>>c\nexecute (a|b)until{ c }\nexecute (a)\nif(c) { d }\n"
-    "x = -1 + (2 * 3)\nf(x, y: 2)[1]\nif (a) { b } else { c }\nm = [:]\nxs = [1..3, 4]\nz = !a && -b\ni++\nexecute (a | b) >> c\nexecute (a | b) until { c }\nexecute(a)\nif (c) { d }\n"
+  formats "blanks" "x=-1+ (2*3)\nf ( x,y:2 ) [ 1 ]\nif(a){b  }\nelse  {c}\nm=[ : ]\nxs=[1 ..3 , 4]\nz=!a&&- b\ni ++\nexecute (a|b)>>c\nexecute (a|b)until{ c }\nexecute (a)\nregion (a+b).hull( )\nif(c) { d }\n"
+    "x = -1 + (2 * 3)\nf(x, y: 2)[1]\nif (a) { b } else { c }\nm = [:]\nxs = [1..3, 4]\nz = !a && -b\ni++\nexecute (a | b) >> c\nexecute (a | b) until { c }\nexecute(a)\nregion (a + b).hull()\nif (c) { d }\n"
 
 let repository =
   let formats path () = Alcotest.(check bool) path true (holds (Support.read_file path)) in

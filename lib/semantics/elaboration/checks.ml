@@ -226,6 +226,37 @@ let rec dotted (e : Ast.expression) =
     Option.map (fun subject -> subject ^ "." ^ name.it) (dotted subject)
   | _ -> None
 
+(* The beginning of an expression, and the expression around it. *)
+let first_operand (e : Ast.expression) : (Ast.expression * (Ast.expression -> Ast.expression_node)) option =
+  let begins (first : Ast.expression) = first.at.start.pos_cnum = e.at.start.pos_cnum in
+  match e.it with
+  | Binary (op, first, second) -> Some (first, fun first -> Binary (op, first, second))
+  | Index (first, index) -> Some (first, fun first -> Index (first, index))
+  | Member m -> Some (m.subject, fun subject -> Member { m with subject })
+  | Call c -> Some (c.callee, fun callee -> Call { c with callee })
+  | Range r -> Some (r.first, fun first -> Range { r with first })
+  | Conditional (test, yes, no) -> Some (test, fun test -> Conditional (test, yes, no))
+  | Elvis (first, otherwise) -> Some (first, fun first -> Elvis (first, otherwise))
+  | During (e, d, t) when begins t -> Some (t, fun t -> During (e, d, t))
+  | Until (e, c, t) when begins t -> Some (t, fun t -> Until (e, c, t))
+  | Ensure (t, c) -> Some (t, fun t -> Ensure (t, c))
+  | _ -> None
+
+let rec regrouped ~is_procedure (e : Ast.expression) : Ast.expression option =
+  match e.it with
+  | Call { callee = { it = Variable name; _ }; arguments = [ Positional _ ] } ->
+    if is_procedure name then Some e else None
+  | _ ->
+    let around (first, rebuild) =
+      match regrouped ~is_procedure first with
+      | Some ({ it = Call { callee; arguments = [ Positional argument ] }; _ } as whole) ->
+        let at = { e.at with start = argument.at.start } in
+        let argument = Ast.Positional { Ast.it = rebuild argument; at } in
+        Some { Ast.it = Ast.Call { callee; arguments = [ argument ] }; at = { whole.at with stop = e.at.stop } }
+      | Some _ | None -> None
+    in
+    Option.bind (first_operand e) around
+
 let root name = match String.index_opt name '.' with Some i -> String.sub name 0 i | None -> name
 
 let in_settings env name =

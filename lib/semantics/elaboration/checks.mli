@@ -106,6 +106,10 @@ val root : string -> string
 val is_hidden : env -> string -> bool
 (** Whether the program gives the name a meaning of its own. *)
 
+val regrouped : is_procedure:(string -> bool) -> Ast.expression -> Ast.expression option
+(** [regrouped ~is_procedure e] is [f ((x) + y)] for an [e] such as [f (x) + y], if [is_procedure f]: a call that has no
+    value cannot be an operand. It is [None] for an [e] that does not begin with such a call of one value. *)
+
 val in_settings : env -> string -> int option
 (** The slot of the block of settings around, if it has a setting of this name. *)
 

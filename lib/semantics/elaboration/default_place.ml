@@ -7,11 +7,13 @@ let word = Checks.locate
 (* {1 The declaration} *)
 
 let declaration (s : Ast.statement) =
-  match s.it with
-  | Expression { it = Call { callee = { it = Variable name; at }; arguments }; _ } when name = word ->
-    Some (at, arguments)
-  | Expression { it = Variable name; at } when name = word -> Some (at, [])
-  | _ -> None
+  let read (e : Ast.expression) =
+    match (Option.value (Checks.regrouped ~is_procedure:(String.equal word) e) ~default:e).it with
+    | Call { callee = { it = Variable name; at }; arguments } when name = word -> Some (at, arguments)
+    | Variable name when name = word -> Some (e.at, [])
+    | _ -> None
+  in
+  match s.it with Expression e -> read e | _ -> None
 
 let is_declaration s = declaration s <> None
 

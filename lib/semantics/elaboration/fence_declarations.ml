@@ -91,6 +91,9 @@ let text kind e key (others : Ast.argument list) =
   Format.asprintf "%s %s%s%s" word kind shown (String.concat "" (List.map margin others))
 
 let read constants at (arguments : Ast.argument list) =
+  let regrouped e = Option.value (Checks.regrouped ~is_procedure:(fun kind -> List.mem kind kinds) e) ~default:e in
+  let arguments =
+    match arguments with Positional e :: others -> Ast.Positional (regrouped e) :: others | _ -> arguments in
   match arguments with
   | Positional { it = Call { callee = { it = Variable kind; _ }; arguments = [ Positional e ] }; _ } :: others
     when List.mem kind kinds ->

@@ -40,38 +40,13 @@ let each_of_branches env (e : Ast.expression) =
       | None | Some _ -> None)
   | _, _ -> None
 
-(* The beginning of an expression, and the expression around it. *)
-let first_operand (e : Ast.expression) : (Ast.expression * (Ast.expression -> Ast.expression_node)) option =
-  let begins (first : Ast.expression) = first.at.start.pos_cnum = e.at.start.pos_cnum in
-  match e.it with
-  | Binary (op, first, second) -> Some (first, fun first -> Binary (op, first, second))
-  | Index (first, index) -> Some (first, fun first -> Index (first, index))
-  | Member m -> Some (m.subject, fun subject -> Member { m with subject })
-  | Call c -> Some (c.callee, fun callee -> Call { c with callee })
-  | Range r -> Some (r.first, fun first -> Range { r with first })
-  | Conditional (test, yes, no) -> Some (test, fun test -> Conditional (test, yes, no))
-  | Elvis (first, otherwise) -> Some (first, fun first -> Elvis (first, otherwise))
-  | During (e, d, t) when begins t -> Some (t, fun t -> During (e, d, t))
-  | Until (e, c, t) when begins t -> Some (t, fun t -> Until (e, c, t))
-  | Ensure (t, c) -> Some (t, fun t -> Ensure (t, c))
-  | _ -> None
-
-(* [execute (a | b) >> c] executes all of [(a | b) >> c]: a procedure without a value cannot be an operand, so the
-   text after its parenthesis belongs to its argument. *)
-let rec regroup env (e : Ast.expression) : Ast.expression option =
-  match e.it with
-  | Call { callee = { it = Variable name; _ }; arguments = [ Positional _ ] } when not (is_hidden env name) -> (
-      match Builtins.find name with Some { result = Other; _ } -> Some e | Some _ | None -> None)
-  | _ ->
-    let around (first, rebuild) =
-      match regroup env first with
-      | Some ({ it = Call { callee; arguments = [ Positional argument ] }; _ } as whole) ->
-        let at = { e.at with start = argument.at.start } in
-        let argument = Ast.Positional { Ast.it = rebuild argument; at } in
-        Some { Ast.it = Ast.Call { callee; arguments = [ argument ] }; at = { whole.at with stop = e.at.stop } }
-      | Some _ | None -> None
-    in
-    Option.bind (first_operand e) around
+(* [execute (a | b) >> c] executes all of [(a | b) >> c], and [region (a + b).offset(20)] in [pick] is that of the whole
+   area: what has no value cannot be an operand, so the text after its parenthesis belongs to its argument. *)
+let regroup env =
+  regrouped ~is_procedure:(fun name ->
+      not (is_hidden env name)
+      && (in_settings env name <> None
+          || match Builtins.find name with Some { result = Other; _ } -> true | Some _ | None -> false))
 
 let check_index env (subject : Ast.expression) (index : Ast.expression) =
   (match subject.it with
@@ -90,8 +65,11 @@ let declares_fence env name =
   name = fence && (not (is_hidden env name)) && not (Scope.is_assigned env.program name)
 
 (* So does {!Default_place}. *)
-let declares_place env name =
-  name = locate && (not (is_hidden env name)) && not (Scope.is_assigned env.program name)
+let declares_place env (e : Ast.expression) =
+  match (Option.value (regrouped ~is_procedure:(String.equal locate) e) ~default:e).it with
+  | Call { callee = { it = Variable name; _ }; _ } | Variable name ->
+    name = locate && (not (is_hidden env name)) && not (Scope.is_assigned env.program name)
+  | _ -> false
 
 (* {1 Expressions} *)
 
@@ -276,8 +254,7 @@ and statement env (s : Ast.statement) : expression =
     Calls.input env at arguments
   | Expression { it = Call { callee = { it = Variable name; _ }; _ } | Variable name; _ }
     when Scope.at_top env.code && declares_fence env name -> null env at
-  | Expression { it = Call { callee = { it = Variable name; _ }; _ } | Variable name; _ }
-    when Scope.at_top env.code && declares_place env name -> null env at
+  | Expression e when Scope.at_top env.code && declares_place env e -> null env at
   | Expression ({ it = Call { arguments; _ }; _ } as e)
     when Scope.may_give_task env.code && confirmation env e <> None -> confirm_task env at arguments
   | Expression e when each_of_branches env e <> None ->

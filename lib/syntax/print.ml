@@ -31,8 +31,7 @@ let is_closure = function
 (* Whether [e] is spelt with a call at its start, of a name with one argument. *)
 let rec begins_with_call e =
   match e.it with
-  | Call { callee = { it = Variable name; _ }; arguments = [ (Positional _ as argument) ] } ->
-    is_plain name && not (is_closure argument)
+  | Call { callee = { it = Variable name; _ }; arguments = [ Positional _ ] } -> is_plain name
   | Binary (_, e, _) | Index (e, _) | Member { subject = e; _ } | Call { callee = e; _ } -> begins_with_call e
   | _ -> false
 
@@ -42,6 +41,13 @@ let rec is_limited_call e =
   | During (_, d, e) -> (not (is_closure (Positional d))) && is_limited_call e
   | Until (_, _, e) | Ensure (e, _) -> is_limited_call e
   | _ -> begins_with_call e
+
+(* Whether [e] is spelt, at this level, with such a call and a limit behind it at its start. *)
+let rec begins_with_limit level e =
+  match e.it with
+  | Binary (o, e, _) -> level_of_operator o >= level && begins_with_limit (level_of_operator o) e
+  | During _ | Until _ | Ensure _ -> is_limited_call e
+  | _ -> false
 
 (* The arguments between parentheses, and the closure after them. *)
 let split_trailing callee arguments =
@@ -376,7 +382,8 @@ and conditional_statement out condition yes no =
     put out " else ";
     body out no
 
-(* [execute(t) during d] as a statement is read as [execute(t during d)]; [during d run execute(t)] is not. *)
+(* [execute(t) during d | u] as a statement is read as [execute(t during d | u)]; [(during d run execute(t)) | u] is
+   not. *)
 and limited ?(inside = false) out e =
   match e.it with
   | During (on_cut, d, t) when is_limited_call e ->
@@ -392,6 +399,10 @@ and limited ?(inside = false) out e =
     put out " ensure ";
     closure out c
   | Binary _ when inside -> expression out postfix e
+  | Binary (o, a, b) when begins_with_limit whole e ->
+    limited out a;
+    put out (" " ^ operator o ^ " ");
+    expression out (level_of_operator o + 1) b
   | _ -> opening out e
 
 (* An expression at the start of a statement, where a brace opens a block. *)

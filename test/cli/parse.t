@@ -22,6 +22,14 @@ Limits behind a command stay there, where they belong to its argument.
   execute(task('a')) until { poll 'k' } within 5.min
   $ dolphin parse limits.dol > printed.dol && dolphin check printed.dol
   printed.dol: no errors
+  $ for statement in "(task('a') >> task('b')) until { poll k: 1 } >> task('c')" "{ task('a') } during 5.min"; do
+  >   echo "v = pick { count 2 }; execute $statement" > limits.dol
+  >   dolphin parse limits.dol | tee printed.dol | tail -1; dolphin check printed.dol
+  > done
+  execute(task('a') >> task('b')) until { poll k: 1 } >> task('c')
+  printed.dol: no errors
+  execute { task 'a' } during 5.min
+  printed.dol: no errors
 
 Nobody need read all of it.
 

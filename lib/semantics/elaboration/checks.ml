@@ -125,6 +125,14 @@ let operand_kind env (e : Ast.expression) =
   | Call _ -> known_kind env e
   | _ -> kind_by variable e
 
+let describe_other (e : Ast.expression) =
+  match e.it with
+  | Null -> "null"
+  | List _ -> "a list"
+  | Map _ -> "a map"
+  | Range _ -> "a range"
+  | _ -> "something else"
+
 let check_found env what wanted found (e : Ast.expression) =
   let hint =
     match wanted, e.it with
@@ -134,7 +142,7 @@ let check_found env what wanted found (e : Ast.expression) =
   in
   if not (could_be wanted found) then
     error env ?hint Wrong_kind e.at "%s takes %s, this is %s" what (Builtins.describe wanted)
-      (match found with Builtins.Other -> "none" | found -> Builtins.describe found)
+      (match found with Builtins.Other -> describe_other e | found -> Builtins.describe found)
 
 let check_kind env what wanted e = check_found env what wanted (known_kind env e) e
 let check_operand env what wanted e = check_found env what wanted (operand_kind env e) e
@@ -194,7 +202,13 @@ let check_operator env (op : Ast.binary) (a : Ast.expression) (b : Ast.expressio
   | (Multiply | Divide | Remainder | Power | Add | Subtract), found, other
     when (found = Task || other = Task) && (op <> Add || (found <> String && other <> String)) ->
     let e = if operand_kind env a = Task then a else b in
-    let hint = if found = other then Some "tasks one after the other are a >> b, tasks at once a | b" else None in
+    let hint =
+      match op, b.it with
+      | Divide, (During (_, _, { it = Closure _; _ }) | Until (_, _, { it = Closure _; _ })) ->
+        Some "parentheses around the task and its condition: (T / { condition }) ..., or T until { condition } ..."
+      | _, _ when found = other -> Some "tasks one after the other are a >> b, tasks at once a | b"
+      | _, _ -> None
+    in
     wrong e ?hint "%s takes no task" symbol
   | (Less | Less_equal | Greater | Greater_equal), found, other
     when not (List.exists (fun kind -> could_be kind found && could_be kind other) [ Builtins.Number; String ]) ->

@@ -57,6 +57,15 @@ let replace_all text target by =
     Buffer.contents b
   end
 
+let occurrences text target =
+  let n = String.length target in
+  let rec from i found =
+    if i + n > String.length text then found
+    else if String.sub text i n = target then from (i + n) (found + 1)
+    else from (i + 1) found
+  in
+  from 0 0
+
 let split text separator =
   match separator with
   | "" -> [ text ]
@@ -212,7 +221,12 @@ let on_string s name arguments =
   | "trim", [] -> Some (Ok (String (String.trim s)))
   | "startsWith", [ String t ] -> Some (Ok (Boolean (starts_with t s)))
   | "endsWith", [ String t ] -> Some (Ok (Boolean (ends_with t s)))
-  | "replace", [ String target; String by ] -> Some (Ok (String (replace_all s target by)))
+  | "replace", [ String target; String by ] ->
+    let longer = String.length by - String.length target in
+    Some
+      (if target <> "" && String.length s + (occurrences s target * longer) > Value.most_items then
+         Operators.too_long "a string"
+       else Ok (String (replace_all s target by)))
   | "split", [ String separator ] -> Some (Ok (strings (split s separator)))
   | "toInteger", [] ->
     Some (parse_number "a whole number" s (fun s -> Option.map (fun i -> Integer i) (Numeral.whole s)))
@@ -263,7 +277,9 @@ let on_items items name arguments =
   | "toList", [] -> Some (Ok (List (Vector.of_array items)))
   | "join", ([] | [ String _ ]) ->
     let separator = match arguments with [ String s ] -> s | _ -> "" in
-    Some (Ok (String (String.concat separator (List.map Value.to_string (Array.to_list items)))))
+    Some
+      (if Array.length items * String.length separator > Value.most_items then Operators.too_long "a string"
+       else Ok (String (String.concat separator (List.map Value.to_string (Array.to_list items)))))
   | "sort", [] ->
     let order a b =
       match Value.to_number a, Value.to_number b with

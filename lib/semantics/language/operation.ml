@@ -133,11 +133,19 @@ let takes_all_parts operation arguments =
 
 let is_too_large x = not (Value.has_at_most Value.most_items x)
 
+(* The text that they make is that of all strings in their arguments, and more. *)
+let makes_text operation arguments =
+  match operation with
+  | Builtin (Post _ | Consume _ | Poll _) -> false
+  | _ -> takes_all_parts operation arguments
+
 let rec apply context at operation arguments =
   if takes_all_parts operation arguments && List.exists is_too_large arguments then
     Wrong
       (Printf.sprintf "a value of more than %d parts, each counted as often as it stands there, is too large for this"
          Value.most_items)
+  else if makes_text operation arguments && not (Value.have_characters_at_most Value.most_items arguments) then
+    of_result (Operators.too_long "a string")
   else if List.exists Unknown.is arguments then
     match Unknown.apply operation arguments with
     | Gives x -> Value x

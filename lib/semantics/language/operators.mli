@@ -33,6 +33,9 @@ val unit_hint : string -> string
 val in_unit : value -> string -> (value, string) result
 (** [in_unit n name] is [n.name]. *)
 
+val too_long : string -> ('any, string) result
+(** [too_long what] is the error of a list or string, [what], of more than {!Value.most_items} elements. *)
+
 val instead_of : string -> value -> string
 (** [instead_of what x] is "expected [what], found [kind and text of x]". *)
 

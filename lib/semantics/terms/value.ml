@@ -285,6 +285,18 @@ let has_at_most n x =
   in
   fits x
 
+let have_characters_at_most n xs =
+  let left = ref n in
+  let rec fits x =
+    match x with
+    | String s -> left := !left - String.length s; !left >= 0
+    | List xs -> Vector.for_all fits xs
+    | Map entries -> List.for_all (fun (k, x) -> fits (String k) && fits x) entries
+    | Null | Boolean _ | Integer _ | Number _ | Wildcard | Symbol _ | Range _ | Position _ | Area _ | Vehicles _
+    | Task _ | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ -> true
+  in
+  List.for_all fits xs
+
 let rec made_at site x =
   match x with
   | Task (Platform p) -> Task (Platform { p with task_site = site })

@@ -90,6 +90,10 @@ val has_at_most : int -> t -> bool
 (** [has_at_most n x] is whether [x] has at most [n] parts, in all of its lists and maps, each counted as often as it
     stands there. It takes [n] steps at most. *)
 
+val have_characters_at_most : int -> t list -> bool
+(** [have_characters_at_most n xs] is whether the strings in [xs], in all of their lists and maps, have at most [n]
+    bytes together, each counted as often as it stands there. *)
+
 val length : t -> int option
 (** [length x] is the number of items of [x]. *)
 

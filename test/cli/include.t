@@ -128,10 +128,19 @@ The prelude comes with the command. A program may have its name; a function that
      0:00  program     says: 1
      0:00  program     says: 2
      0:00  program     fails: a number has no method 'tail'
-  <prelude>:17:12: error: a number has no method 'tail'
-    17 |     return tasks.tail().inject(tasks[0]) { beside, t -> beside | t }
+  <prelude>:19:12: error: a number has no method 'tail'
+    19 |     return tasks.tail().inject(tasks[0]) { beside, t -> beside | t }
        |            ^^^^^^^^^^^^
   [1]
+  $ for call in 'race([])' 'seq([])' 'parallel(0, [idle(1)])'; do
+  >   printf "include 'prelude'\nexecute $call\n" > none.dol; dolphin exec none.dol --fleet one.fleet 2> errors; head -1 errors
+  > done
+     0:00  program     fails: the list of tasks is empty
+  <prelude>:18:22: error: the list of tasks is empty
+     0:00  program     fails: the list of tasks is empty
+  <prelude>:10:22: error: the list of tasks is empty
+     0:00  program     fails: parallel runs at least 1 task at once, not 0
+  <prelude>:52:16: error: parallel runs at least 1 task at once, not 0
   $ cat > near.dol <<'END'
   > include 'prelude'
   > v = pick { type 'UUV' }

@@ -49,6 +49,7 @@ let hint_for_setting builder name =
   if builder = Ast.Mission && name = sends_message then Some hint_for_message
   else if builder = Ast.Mission && name = "moveAndLoiterTurns" then
     Some "turns are an argument here: moveAndLoiter 50, 0, turns: 3"
+  else if builder = Ast.Mission && name = "land" then Some "as in landingPoint p, or returnHomeAndLand()"
   else if builder = Ast.Imc_plan && name = "surveyArea" then
     Some
       "surveyArea is an item of mission { ... }; in a plan, for (p in coverage(area, spacing: 20.m)) goTo location: p"

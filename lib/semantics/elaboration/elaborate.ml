@@ -36,6 +36,7 @@ let hint_for_unknown name names =
   if name = "include" then Some "include 'lib.dol' stands at the top of a file, outside of all braces"
   else if name = "parameter" then Some "a parameter has a value: parameter n = 3, 'what it is'"
   else if name = "setCommunicationTimeout" then Some "it is called setConnectionTimeout here"
+  else if List.mem name [ "sleep"; "wait" ] then Some "the script waits by pause 5.seconds, a task by idle(5.seconds)"
   else if name = Checks.sends_message then Some Checks.hint_for_message
   else if Builtins.math name then Some (Printf.sprintf "write Math.%s" name)
   else if Builtins.constant ("Math." ^ name) <> None then Some (Printf.sprintf "write Math.%s" name)

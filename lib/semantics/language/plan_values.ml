@@ -70,10 +70,15 @@ let bearing s what x =
   Ok (if degrees = 360. then 0. else degrees)
 
 let coordinates s latitude longitude =
-  let* latitude = number s "latitude" latitude in
-  let* longitude = number s "longitude" longitude in
-  Position.make ~latitude ~longitude ~height:0.
-  |> Result.map_error (fun e -> Fault.make s.setting_site (Format.asprintf "%a" Position.pp_error e))
+  match latitude with
+  | Position _ ->
+    let others = if s.setting = "locate" then "" else "; other arguments have names, such as altitude: 50" in
+    fault s "%s takes one position, or latitude and longitude in degrees%s" s.setting others
+  | _ ->
+    let* latitude = number s "latitude" latitude in
+    let* longitude = number s "longitude" longitude in
+    Position.make ~latitude ~longitude ~height:0.
+    |> Result.map_error (fun e -> Fault.make s.setting_site (Format.asprintf "%a" Position.pp_error e))
 
 let position s what = function
   | Position p -> Ok p

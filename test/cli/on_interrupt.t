@@ -224,7 +224,7 @@ A way home that is stuck has its own end, after a signal too: in the log, in the
       |                                       ^^^^^^^^^^^^^^^^^
   $ dolphin trace check lost.dol lost.run | sed 's/ in .*;/;/'
   lost.run: a run, of 9 transitions; stuck
-  $ head -n -2 lost.run > cut.run
+  $ sed '/"stuck":true/,$d' lost.run > cut.run
   $ dolphin exec lost.dol --resume cut.run 2> errors.txt | cut -c 10-; cat errors.txt
   program     releases a
   program     is stuck

@@ -98,6 +98,7 @@ let certify settings program fleet ~json ~period outcome path =
 
 let of_program settings (program : Program_file.t) fleet ~from ~strict ~json ~period ~files ~cache =
   Report.diagnostics ~source:program.source program.warnings;
+  let* () = Option.fold files.violation ~none:(Ok ()) ~some:(Exploration.check_violation settings program) in
   let* outcome = find_or_explore settings program fleet ~from ~json ~period ~cache in
   let written = write_files files program fleet ~strict outcome in
   Result.iter_error Report.tell written;

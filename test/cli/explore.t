@@ -25,6 +25,10 @@ The same, if a plan may fail once.
   no deadlock: holds
   termination: holds
   no unhandled error: violated after 10 steps, with 1 fault: an unhandled error ends the program
+    also at ../../examples/rendezvous.dol:20:9: sk1 failed on noptilus-1: failure
+    also at ../../examples/rendezvous.dol:37:26: rv3 failed on x8-02: failure
+    also at ../../examples/rendezvous.dol:33:26: rv1 failed on x8-02: failure
+    also at ../../examples/rendezvous.dol:35:26: rv2 failed on x8-02: failure
   assertions: holds
   vehicles for all tasks: holds
   41 states, 50 transitions, depth 35; reduced by partial order, symmetry
@@ -602,7 +606,10 @@ Which of several runs is written can be chosen, also one that is only noted.
   $ grep -c 'no leftover tuples: tuples are left when the program completes' several.svg
   1
   $ explore several.dol --faults fail --trace other.run --violation terminaton > shown
-  dolphin: --violation 'terminaton': no run that violates it is known; these have one: no unhandled error, no leftover tuples
+  dolphin: --violation 'terminaton': there is no such property; the properties are no deadlock, termination, no unhandled error, assertions, vehicles for all picks, vehicles for all tasks, no halt, no leftover tuples, all code reached
+  [2]
+  $ explore several.dol --faults fail --trace other.run --violation 'no deadlock' > shown
+  dolphin: --violation 'no deadlock': no run that violates it is known; these have one: no unhandled error, no leftover tuples
   [2]
   $ tail -n 1 shown; test -e other.run
   5                                         fails in a: failure  several.dol:2

@@ -122,7 +122,7 @@ What cannot be asked.
   dolphin: --set n=1..3: 'n' is a whole number, as in n = 2 (how many vehicles)
   [2]
   $ dolphin explore lanes.dol --set n=1..3 --junit verdicts.xml
-  dolphin: --trace, --draw, --junit, --sarif and --cache are for one program: give --set no range of values
+  dolphin: --trace, --draw, --junit, --sarif, --certify and --cache are for one program: give --set no range of values
   [2]
   $ dolphin time lanes.dol --set n=1..3 --fewest
   dolphin: --fewest looks for the least fleet of one program: give --set no range with it

@@ -117,10 +117,10 @@ A run is named as for the other commands. A run that is over has nothing left; t
   dolphin: ./ride.dol: line 1: this is not a journal: its first line is not the header of one
   [2]
   $ dolphin explore ride.dol --from ./out.run --trace t.run
-  dolphin: --trace, --draw and --cache are for runs from the beginning: leave them out with --from
+  dolphin: --trace, --draw, --certify and --cache are for runs from the beginning: leave them out with --from
   [2]
   $ dolphin explore ride.dol --from ./out.run --cache
-  dolphin: --trace, --draw and --cache are for runs from the beginning: leave them out with --from
+  dolphin: --trace, --draw, --certify and --cache are for runs from the beginning: leave them out with --from
   [2]
 
 It is known when the run will be over, in times since its start: tasks and timers have gone on since they began.

@@ -148,6 +148,14 @@ let agrees ?termination options program world reference unreached (property, ver
     | Unreached _, _ -> wrong "other pieces are reached"
     | Inconclusive _, _ -> wrong "inconclusive"
 
+(* Partial order visits each state in which a step may end the run. *)
+let same_places (reduction : Reduction.t) (whole : Search.outcome) (reduced : Search.outcome) =
+  let places (o : Search.outcome) =
+    let of_property (property, faults) = List.map (fun (f : Fault.t) -> (property, f.site)) faults in
+    List.sort compare (List.concat_map of_property o.ending_faults)
+  in
+  reduction <> Partial_order || places whole = places reduced
+
 let check_graph ~reductions environment program world graph =
   let reference = Reference.broken graph in
   let search reduction = Search.run { Search.default with environment; reduction; search_again = 0 } program world in
@@ -176,6 +184,7 @@ let check_graph ~reductions environment program world graph =
     in
     match List.fold_left each (Ok ()) reduced.verdicts with
     | Error what -> named what
+    | Ok () when not (same_places reduction whole reduced) -> named "faults at other places"
     | Ok () -> if reduced.states > whole.states then named "more states than there are" else Ok reduced.states
   in
   let* reduced = List.fold_left compare (Ok 0) reductions in

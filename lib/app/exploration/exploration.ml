@@ -41,10 +41,30 @@ let read_all option of_string texts =
 
 let invariants program texts = read_all "--invariant" (Dolphin_explore.Condition.of_string program) texts
 
+let formulas program texts = read_all "--ltl" (Dolphin_explore.Temporal.of_string program) texts
+
+let check_violation s (program : Program_file.t) name =
+  let core = program.program in
+  let* invariants = invariants core s.invariants in
+  let* formulas = formulas core s.formulas in
+  let apart = Option.map (fun (fence : Dolphin_plans.Fences.fence) -> Property.Apart fence.text)
+      (Dolphin_plans.Fences.least_distance core.fences) in
+  let properties =
+    Property.all
+    @ List.map (fun i -> Property.Invariant (Dolphin_explore.Condition.to_string i)) invariants
+    @ List.map (fun f -> Property.Formula (Dolphin_explore.Temporal.to_string f)) formulas
+    @ Option.to_list apart
+  in
+  let names = List.map Property.name properties in
+  if List.mem name names then Ok ()
+  else
+    Error (Error.Bad_input (Printf.sprintf "--violation '%s': there is no such property; the properties are %s"
+                              (Dolphin_syntax.Character.printable name) (String.concat ", " names)))
+
 let explore ?from ~interrupted ~progress s (program : Program_file.t) (fleet : Fleet_file.t) =
   let core = program.program in
   let* invariants = invariants core s.invariants in
-  let* formulas = read_all "--ltl" (Dolphin_explore.Temporal.of_string core) s.formulas in
+  let* formulas = formulas core s.formulas in
   let environment = Scenario_world.environment ~answers:s.answers ~faults:s.faults core fleet.scenario in
   let options : Search.options =
     { environment;

@@ -30,6 +30,10 @@ val invariants :
   Dolphin_semantics.Core.program -> string list -> (Dolphin_explore.Condition.t list, Error.t) result
 (** [invariants program texts] is the conditions that [texts] spell, or the first that is wrong: {!Error.Bad_input}. *)
 
+val check_violation : settings -> Program_file.t -> string -> (unit, Error.t) result
+(** [check_violation s program name] fails with {!Error.Bad_input}, which lists the properties that {!explore} judges,
+    if none of them has this {!Property.name}, or if an invariant or a formula of [s] is wrong. *)
+
 val explore :
   ?from:Present.t -> interrupted:(unit -> bool) -> progress:(Dolphin_checker.Limits.progress -> unit) -> settings ->
   Program_file.t ->

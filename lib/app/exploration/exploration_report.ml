@@ -7,6 +7,32 @@ let mebibytes bytes = bytes / 1024 / 1024
 
 (* {1 For people} *)
 
+(* The faults that violate [property] too, at other places of the text than that of the run that is shown. *)
+let other_faults (o : Search.outcome) property (run : Search.run) =
+  let shown (f : Fault.t) =
+    match List.rev run.steps with
+    | { next = { control = Ended (Failed fault); _ }; _ } :: _ -> fault.site = f.site
+    | _ -> false
+  in
+  List.filter (fun f -> not (shown f)) (Option.value (List.assoc_opt property o.ending_faults) ~default:[])
+
+let most_others = 10
+
+let print_others program o (property, (verdict : Search.verdict), remark) =
+  match verdict with
+  | Violated run when not remark ->
+    let others = other_faults o property run in
+    let print i (f : Fault.t) =
+      if i < most_others then
+        match Fault.location program f with
+        | Some at -> Safe_print.format "  also at %a: %s@." Dolphin_syntax.Location.pp at f.message
+        | None -> Safe_print.format "  also: %s@." f.message
+    in
+    List.iteri print others;
+    let more = List.length others - most_others in
+    if more > 0 then Safe_print.printf "  and at %d more places\n" more
+  | Violated _ | Holds | Holds_if _ | By_design _ | Unreached _ | Inconclusive _ -> ()
+
 let print_verdict program (property, (verdict : Search.verdict), remark) =
   match verdict with
   | (Holds | Holds_if _ | Inconclusive _) when remark -> ()
@@ -86,7 +112,11 @@ let print_violations ~strict program o = List.iter (print_violation program) (wi
 let print ?from ~strict (program : Program_file.t) (o : Search.outcome) =
   let verdicts = with_remarks ~strict o in
   Option.iter (Safe_print.format "%a@." Present.pp) from;
-  List.iter (print_verdict program.program) verdicts;
+  let print_one verdict =
+    print_verdict program.program verdict;
+    print_others program.program o verdict
+  in
+  List.iter print_one verdicts;
   print_counts o;
   Option.iter (print_sample ~seen:o.states) o.sample;
   Option.iter print_bitstate o.bitstate;
@@ -123,13 +153,20 @@ let json_of_run (run : Search.run) =
 
 let to_json ?from (p : Program_file.t) (o : Search.outcome) : Yojson.Safe.t =
   let program = p.program in
+  let also property run =
+    let fault (f : Fault.t) =
+      let at = Option.map (Format.asprintf "%a" Dolphin_syntax.Location.pp) (Fault.location program f) in
+      `Assoc (Option.fold at ~none:[] ~some:(fun at -> [ ("at", `String at) ]) @ [ ("fault", `String f.message) ])
+    in
+    match other_faults o property run with [] -> [] | others -> [ ("also", `List (List.map fault others)) ]
+  in
   let verdict (property, verdict) =
     let name = `String (Property.name property) in
     let result, more =
       match (verdict : Search.verdict) with
       | Holds -> ("holds", [])
       | Holds_if needs -> ("holds", [ recurring "assuming" needs ])
-      | Violated run -> ("violated", json_of_run run)
+      | Violated run -> ("violated", json_of_run run @ also property run)
       | By_design { repeats; retries; left_by; needs } ->
         let at site = `String (Format.asprintf "%a" Dolphin_syntax.Location.pp program.locations.(site)) in
         let what = List.map (fun text -> `String text) left_by in

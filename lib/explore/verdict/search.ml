@@ -81,6 +81,7 @@ type outcome = {
   sample : Sample.summary option;
   bitstate : Bitstate.summary option;
   beside : Side_by_side.pair list;
+  ending_faults : (Property.t * Fault.t list) list;
   verdicts : (Property.t * verdict) list;
 }
 
@@ -263,6 +264,24 @@ let verdicts x (options : options) graph invariants =
   let is_asked property = property <> Property.All_reached || x.start = None in
   let asked = List.filter is_asked Property.all in
   List.map (fun property -> (property, told (fun () -> verdict property))) asked @ List.map given invariants
+
+(* The faults that end runs, of each place in the text the first that was met; of no larger graphs. *)
+let most_listed = 100_000
+
+let faults_of_runs (options : options) graph =
+  let note found i =
+    match State_graph.broken_by graph i with
+    | Some ((No_error | Assertions | Vehicles | Allocation) as property) -> (
+        match fst (State_graph.state graph i) with
+        | { control = Ended (Failed fault); _ } ->
+          let before = Option.value (List.assoc_opt property found) ~default:[] in
+          if List.exists (fun (f : Fault.t) -> f.site = fault.site) before then found
+          else (property, before @ [ fault ]) :: List.remove_assoc property found
+        | _ -> found)
+    | Some _ | None -> found
+  in
+  let is_kept = options.walks = None && options.bitstate = None && State_graph.count graph <= most_listed in
+  if is_kept then List.fold_left note [] (State_graph.all graph) else []
 
 (* The first state that shows that [property] is violated. *)
 let shown graph = function
@@ -514,6 +533,7 @@ let without_formulas x (options : options) =
     sample = State_graph.sample graph;
     bitstate;
     beside = [];
+    ending_faults = faults_of_runs options graph;
     verdicts;
   }
 

@@ -127,6 +127,10 @@ type outcome = {
   sample : Sample.summary option;  (** the result of random walks *)
   bitstate : Bitstate.summary option;
   beside : Side_by_side.pair list;  (** plans that may run side by side, near each other or at an unknown distance *)
+  ending_faults : (Property.t * Fault.t list) list;
+  (** the faults that end runs and violate {!Property.No_error}, [Assertions], [Vehicles] or [Allocation]: for each
+      place in the text one, if no more than 100,000 states were kept; [[]] otherwise. With symmetry of tasks, not of
+      all places *)
   verdicts : (Property.t * verdict) list;
   (** for each of {!Property.all}, but for [All_reached] if there is a [start], then for each invariant and formula, and
       for the least distance between vehicles if the program has one *)

@@ -143,7 +143,7 @@ let is_graph edges =
   let n = Array.length edges in
   n > 0 && Array.for_all (List.for_all (fun (e : State_certificate.edge) -> 0 <= e.target && e.target < n)) edges
 
-let check options program world ~holds edges =
+let compared options program world ~holds edges =
   let x = outside options program world in
   let n = Array.length edges in
   let state = ref (-1) and why = ref "" in
@@ -192,5 +192,5 @@ let check options program world ~holds edges =
     Refuted { state = !state + 1; why = "the script depends on a value that the world leaves open" }
 
 let check options program world ~holds edges =
-  if is_graph edges then check options program world ~holds edges
+  if is_graph edges then compared options program world ~holds edges
   else Refuted { state = 0; why = "a transition leads to no state of the certificate" }

@@ -84,6 +84,9 @@ A definition that is none, one that contradicts itself, and one of another proto
     100001 | <message/>
            |         ^
   [2]
+  $ python3 -c "print('<messages\n' + ' '.join(f'a{i}=\"1\"' for i in range(1000000)) + '/>')" > long.xml
+  $ dolphin exec hello.dol --imc-xml long.xml 2>&1 | grep -o 'long.xml:2.*error.*' | sed 's/:2:[0-9]*/:2:N/'
+  long.xml:2:N: error: this element has too many attributes
   $ dolphin exec hello.dol --imc-xml nowhere.xml
   dolphin: nowhere.xml: No such file or directory
   [2]

@@ -39,13 +39,17 @@ and elements ~depth reader parts =
   | `El_end -> List.rev parts
   | `Data _ | `Dtd _ -> elements ~depth reader parts
 
-let document text =
-  let input = Xmlm.make_input ~strip:true (`String (0, text)) in
+let root input =
   ignore (Xmlm.input input);
   let at = Xmlm.pos input in
   match Xmlm.input input with
   | `El_start tag -> element ~depth:0 { input; count = 0 } at tag
   | `El_end | `Data _ | `Dtd _ -> fail at "expected an element"
+
+(* The library recurs once for each attribute. *)
+let document text =
+  let input = Xmlm.make_input ~strip:true (`String (0, text)) in
+  try root input with Stack_overflow -> fail (Xmlm.pos input) "this element has too many attributes"
 
 (* {1 Attributes} *)
 

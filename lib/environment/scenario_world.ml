@@ -34,14 +34,17 @@ let ending_when_empty scenario vehicle (plan : Scenario.plan option) : Environme
   | Some { ending = Fails; _ } -> Fails
   | Some _ | None -> May_fail
 
-let ending (scenario : Scenario.t) v name : Environment.ending =
-  let vehicle = List.find_opt (fun (vehicle : Scenario.vehicle) -> vehicle.id = v) scenario.vehicles in
-  match Scenario.plan scenario name, vehicle with
-  | Some plan, Some vehicle when not (Scenario.knows plan vehicle) -> Fails
-  | plan, Some vehicle when is_empty vehicle -> ending_when_empty scenario vehicle plan
-  | None, _ -> Succeeds
-  | Some plan, _ -> (
-      match plan.ending with Succeeds -> Succeeds | May_fail _ -> May_fail | Fails -> Fails)
+(* It is asked of each task of each state, so vehicles are found by a table. *)
+let ending (scenario : Scenario.t) =
+  let vehicles = Hashtbl.create 16 in
+  List.iter (fun (vehicle : Scenario.vehicle) -> Hashtbl.replace vehicles vehicle.id vehicle) scenario.vehicles;
+  fun v name : Environment.ending ->
+    match Scenario.plan scenario name, Hashtbl.find_opt vehicles v with
+    | Some plan, Some vehicle when not (Scenario.knows plan vehicle) -> Fails
+    | plan, Some vehicle when is_empty vehicle -> ending_when_empty scenario vehicle plan
+    | None, _ -> Succeeds
+    | Some plan, _ -> (
+        match plan.ending with Succeeds -> Succeeds | May_fail _ -> May_fail | Fails -> Fails)
 
 let answers given (scenario : Scenario.t) prompt =
   match given, List.find_opt (fun (a : Scenario.answer) -> a.prompt = prompt) scenario.answers with
@@ -56,10 +59,12 @@ let input (i : Scenario.input) : Environment.input =
 
 (* A task that is not started, or stopped, because it breaks a fence is to the program a task that fails. The
    affected plans depend on the vehicles' places. *)
-let ending_within (fences : Fences.t) (scenario : Scenario.t) v name : Environment.ending =
-  match ending scenario v name with
-  | Succeeds when not (Fences.is_none fences && scenario.fences = []) -> May_fail
-  | (Succeeds | May_fail | Fails) as ending -> ending
+let ending_within (fences : Fences.t) (scenario : Scenario.t) =
+  let ending = ending scenario in
+  fun v name : Environment.ending ->
+    match ending v name with
+    | Succeeds when not (Fences.is_none fences && scenario.fences = []) -> May_fail
+    | (Succeeds | May_fail | Fails) as ending -> ending
 
 let environment ~answers:given ~faults (program : Core.program) (scenario : Scenario.t) =
   let unsteady = List.filter is_unsteady scenario.vehicles in

@@ -217,10 +217,10 @@ and branches s bs =
   tree s ~ordered:false Some_of (List.map branch bs)
 
 (* Without what is inert, but for tasks that move their vehicle. *)
-let root s inert (r : Residual.t) =
+let root s ~is_inert (r : Residual.t) =
   let is_gone : Residual.t -> bool = function
-    | Running (p, v) -> List.mem (Clocked.Task v) inert && Durations.moves p = None
-    | Idle { timer; _ } -> List.mem (Clocked.Timer timer) inert
+    | Running (p, v) -> is_inert (Clocked.Task v) && Durations.moves p = None
+    | Idle { timer; _ } -> is_inert (Clocked.Timer timer)
     | _ -> false
   in
   let components = match r with Parallel bs -> Branches.to_list bs | r -> [ r ] in
@@ -250,11 +250,16 @@ type parts = { tree : Form.tree; awaited : Clocked.item array; placed : (int * i
 type spelled = { likeness : t; execution : execution; parts : parts }
 
 let parts t ~orbit ~pairs inert (state : Clocked.state) m r =
-  let inert = List.map (fun (i : Inert.item) -> i.awaited) inert in
-  let is_awaited item = List.exists (fun (p : Clocked.pending) -> p.item = item) state.pending in
-  let awaited item = is_awaited item && not (List.mem item inert) in
+  let table items =
+    let table = Hashtbl.create 16 in
+    List.iter (fun (item : Clocked.item) -> Hashtbl.replace table item ()) items;
+    Hashtbl.mem table
+  in
+  let is_inert = table (List.map (fun (i : Inert.item) -> i.awaited) inert) in
+  let is_awaited = table (List.map (fun (p : Clocked.pending) -> p.item) state.pending) in
+  let awaited item = is_awaited item && not (is_inert item) in
   let s = { t; orbit; pairs; awaited; items = [] } in
-  let tree = root s inert r in
+  let tree = root s ~is_inert r in
   { tree; awaited = Array.of_list (List.rev s.items); placed = in_space t pairs state.configuration.shared.tuples;
     constant = constant t state m }
 
@@ -310,7 +315,7 @@ let classes key xs =
 
 let has_several members = Hashtbl.fold (fun _ xs found -> found || List.length xs > 1) members false
 
-let find_execution t (s : Clocked.state) m r =
+let find_execution ~tick t (s : Clocked.state) m r =
   let skeletons = List.map (fun (handler, c) -> Skeleton.of_code t.skeletons ~handler c) (closures r) in
   if List.exists (fun (k : Skeleton.t) -> k.unclear) skeletons then None
   else
@@ -331,6 +336,7 @@ let find_execution t (s : Clocked.state) m r =
     let by_key, _ = classes (Skeleton.key_of t.skeletons) numbers in
     let by_key = Array.map (Hashtbl.find by_key) pairs.numbers in
     let form orbits orbit =
+      tick ();
       let { tree; awaited; placed; constant = _ } = parts t ~orbit ~pairs [] s m r in
       let colors = Array.map (fun _ -> 0) awaited in
       (Form.make t.numbers ~orbits ~colors ~colored:false ~placed [] tree).number
@@ -349,13 +355,13 @@ let find_execution t (s : Clocked.state) m r =
       Some { number = Clocked.Table.length t.executions; orbits; members; pairs; pair_orbits; renamed }
     else None
 
-let execution t (s : Clocked.state) =
+let execution ~tick t (s : Clocked.state) =
   match s.configuration.control with
   | Executing (m, r) when t.possible && not (Residual.makes_tasks r || Residual.may_go_round r) -> (
       match Clocked.Table.find_opt t.executions s with
       | Some found -> found
       | None ->
-        let found = find_execution t s m r in
+        let found = find_execution ~tick t s m r in
         Clocked.Table.add t.executions s found;
         found)
   | Executing _ | Script _ | Waiting _ | Ended _ -> None

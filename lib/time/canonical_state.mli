@@ -17,9 +17,9 @@ type label = { name : string; vehicle : Core.vehicle; site : Core.site }
 type execution
 (** A task as its execution begins, with its automorphisms. *)
 
-val execution : t -> Clocked.state -> execution option
-(** [execution t s] is for the task that is about to be executed in [s]; [None] if it has no automorphism but the
-    identity. *)
+val execution : tick:(unit -> unit) -> t -> Clocked.state -> execution option
+(** [execution ~tick t s] is for the task that is about to be executed in [s]; [None] if it has no automorphism but the
+    identity. [tick] is called for each of its parts, and may raise. *)
 
 val orbit : execution -> label -> label list
 (** [orbit e l] is the platform tasks that automorphisms make of [l], itself included. *)

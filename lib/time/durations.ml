@@ -51,7 +51,9 @@ let announced = 10.
 let silence = 60.
 
 let of_scenario (s : Scenario.t) =
-  let vehicle id = List.find_opt (fun (v : Scenario.vehicle) -> v.id = id) s.vehicles in
+  let vehicles = Hashtbl.create 16 in
+  List.iter (fun (v : Scenario.vehicle) -> Hashtbl.replace vehicles v.id v) s.vehicles;
+  let vehicle = Hashtbl.find_opt vehicles in
   let task id from (p : Core.platform_task) =
     let entry = Scenario.plan s p.name in
     let is_refused = match entry, vehicle id with Some plan, Some v -> not (Scenario.knows plan v) | _ -> false in

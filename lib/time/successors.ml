@@ -45,6 +45,7 @@ let successor t (step : Clocked.step) =
     match List.assq_opt e !known with
     | Some spelled -> spelled
     | None ->
+      t.tick ();
       let spelled = Canonical_state.spell (Option.get t.likeness) e (Lazy.force inert) step.next in
       known := (e, spelled) :: !known;
       spelled
@@ -61,6 +62,8 @@ let all t state =
     let successors = List.map (successor t) (Clocked.all_steps ~tick:t.tick t.options state) in
     if Clocked.Table.length t.known < most then Clocked.Table.add t.known state successors;
     successors
+
+let tick t () = t.tick ()
 
 let ticking t tick f =
   t.tick <- tick;

@@ -35,6 +35,9 @@ val all : t -> Clocked.state -> successor list
 val ticking : t -> (unit -> unit) -> (unit -> 'a) -> 'a
 (** [ticking t tick f] is [f ()], in which [tick] is called at each step that is computed. It may raise. *)
 
+val tick : t -> unit -> unit
+(** [tick t ()] is that of {!ticking}; nothing outside of it. *)
+
 val followed : t -> Clocked.state -> successor list
 (** [followed t s] is {!Clocked.steps} of [s], reduced in the same way. *)
 

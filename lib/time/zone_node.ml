@@ -307,5 +307,6 @@ let check_left t before (next : Clocked.state) =
 let execution_after t before (next : Clocked.state) =
   match likeness t, before.state.configuration.control, next.configuration.control with
   | Some _, Executing _, Executing _ -> before.execution
-  | Some likeness, _, Executing _ -> Canonical_state.execution likeness next
+  | Some likeness, _, Executing _ -> 
+    Canonical_state.execution ~tick:(Successors.tick (successors t)) likeness next
   | _, _, _ -> check_left t before next; None

@@ -131,7 +131,11 @@ let takes_all_parts operation arguments =
   | Binary Add, [ x; y ] -> (match x, y with String _, _ | _, String _ -> true | _, _ -> false)
   | _, _ -> false
 
-let is_too_large x = not (Value.has_at_most Value.most_items x)
+let too_large : Value.excess -> string = function
+  | Parts ->
+    Printf.sprintf "a value of more than %d parts, each counted as often as it stands there, is too large for this"
+      Value.most_items
+  | Depth -> Printf.sprintf "a value that is nested more than %d deep is too large for this" Value.deepest
 
 (* The text that they make is that of all strings in their arguments, and more. *)
 let makes_text operation arguments =
@@ -140,18 +144,17 @@ let makes_text operation arguments =
   | _ -> takes_all_parts operation arguments
 
 let rec apply context at operation arguments =
-  if takes_all_parts operation arguments && List.exists is_too_large arguments then
-    Wrong
-      (Printf.sprintf "a value of more than %d parts, each counted as often as it stands there, is too large for this"
-         Value.most_items)
-  else if makes_text operation arguments && not (Value.have_characters_at_most Value.most_items arguments) then
+  let kept = if takes_all_parts operation arguments then arguments else [] in
+  match List.find_map (Value.excess ~most:Value.most_items) kept with
+  | Some excess -> Wrong (too_large excess)
+  | None when makes_text operation arguments && not (Value.have_characters_at_most Value.most_items arguments) ->
     of_result (Operators.too_long "a string")
-  else if List.exists Unknown.is arguments then
-    match Unknown.apply operation arguments with
-    | Gives x -> Value x
-    | Needs u -> Wrong_at (Fault.unknown at u)
-    | As_any -> apply_known context at operation arguments
-  else apply_known context at operation arguments
+  | None when List.exists Unknown.is arguments -> (
+      match Unknown.apply operation arguments with
+      | Gives x -> Value x
+      | Needs u -> Wrong_at (Fault.unknown at u)
+      | As_any -> apply_known context at operation arguments)
+  | None -> apply_known context at operation arguments
 
 and apply_known context at operation arguments =
   if World.is_open context.world && List.exists Reading.is_reading arguments then

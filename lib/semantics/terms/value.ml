@@ -271,19 +271,28 @@ let equals x y =
   in
   same x y
 
-let has_at_most n x =
-  let left = ref n in
-  let rec fits x =
+type excess = Parts | Depth
+
+let deepest = 10_000
+
+let excess ~most x =
+  let left = ref most and found = ref None in
+  let exceeds what = found := Some what; false in
+  let rec fits depth x =
     decr left;
-    !left >= 0
-    &&
-    match x with
-    | List xs -> Vector.for_all fits xs
-    | Map entries -> List.for_all (fun (_, x) -> fits x) entries
-    | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Range _ | Position _ | Area _
-    | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ -> true
+    if !left < 0 then exceeds Parts
+    else if depth > deepest then exceeds Depth
+    else
+      match x with
+      | List xs -> Vector.for_all (fits (depth + 1)) xs
+      | Map entries -> List.for_all (fun (_, x) -> fits (depth + 1) x) entries
+      | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Range _ | Position _ | Area _
+      | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ -> true
   in
-  fits x
+  ignore (fits 0 x : bool);
+  !found
+
+let has_at_most n x = excess ~most:n x = None
 
 let have_characters_at_most n xs =
   let left = ref n in

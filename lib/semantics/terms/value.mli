@@ -86,9 +86,18 @@ val most_items : int
 (** How long lists and strings may become, and a range that is made into a list: one million. A program that doubles a
     list in a loop must end in a fault, not without memory. *)
 
+(** Of which a value has too much. *)
+type excess = Parts | Depth
+
+val deepest : int
+(** The most lists and maps inside of each other, so that functions that recur over values have the stack for it. *)
+
+val excess : most:int -> t -> excess option
+(** [excess ~most x] is [None] if [x] has at most [most] parts, in all of its lists and maps, each counted as often as
+    it stands there, and is nested at most {!deepest} deep. It takes [most] steps at most. *)
+
 val has_at_most : int -> t -> bool
-(** [has_at_most n x] is whether [x] has at most [n] parts, in all of its lists and maps, each counted as often as it
-    stands there. It takes [n] steps at most. *)
+(** [has_at_most n x] is [excess ~most:n x = None]. It takes [n] steps at most. *)
 
 val have_characters_at_most : int -> t list -> bool
 (** [have_characters_at_most n xs] is whether the strings in [xs], in all of their lists and maps, have at most [n]

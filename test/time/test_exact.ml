@@ -1,6 +1,6 @@
 (* On random programs, the earliest and latest dates of ends and tasks are those of the enumeration second by second,
    and some run never ends in one if it does in the other; each run that is shown, with its dates, is one of the timed
-   semantics. PROGRAMS in the environment is how many programs are tried, 600 by default. *)
+   semantics. PROGRAMS in the environment is how many programs are tried, 400 by default. *)
 
 open Dolphin_plans
 open Dolphin_semantics
@@ -10,7 +10,7 @@ module Generate = Test_support.Generate
 module Calls = Test_support.Calls
 module Posts = Test_support.Posts
 
-let programs = match Sys.getenv_opt "PROGRAMS" with Some n -> int_of_string n | None -> 600
+let programs = match Sys.getenv_opt "PROGRAMS" with Some n -> int_of_string n | None -> 400
 let answering = Calls.answering
 
 (* An uncertain event may come at any time, and no enumeration ends. *)

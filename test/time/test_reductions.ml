@@ -1,12 +1,12 @@
 (* On random programs, the reductions make no difference: all dates, whether some run never ends, the missed
    [within], and the dates of the runs that are shown are those of the search that follows everything. Many of the
    programs execute copies of a task side by side, with plans that take the same time. PROGRAMS in the environment is
-   how many programs are tried, 600 by default. *)
+   how many programs are tried, 400 by default. *)
 
 open Dolphin_time
 open Random_missions
 
-let programs = match Sys.getenv_opt "PROGRAMS" with Some n -> int_of_string n | None -> 600
+let programs = match Sys.getenv_opt "PROGRAMS" with Some n -> int_of_string n | None -> 400
 let skipped = ref 0
 let with_inert = ref 0 and with_likeness = ref 0
 let few = { Dolphin_checker.Limits.none with max_states = Some 3_000 }

@@ -55,6 +55,13 @@ let start p =
   let first leg = match leg.waypoints with place :: _ -> Some (place, leg.speed) | [] -> None in
   if is_fixed p then List.find_map first (path ~from:Dolphin_geo.Place.apdl ~speed:nan p) else None
 
+let from_share x p =
+  if not (x > 0. && is_fixed p) then p
+  else
+    match p with
+    | Maneuvers p -> Maneuvers (Plan_rest.from_share x p)
+    | Mission m -> Mission (Mission_rest.from_share x m)
+
 let compare a b =
   match a, b with
   | Maneuvers p, Maneuvers q -> Plan.compare p q

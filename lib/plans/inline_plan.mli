@@ -74,6 +74,22 @@ val start : t -> (Position.t * float) option
 (** [start p] is the first place of {!path} and the speed on the way there, [nan] if that is the vehicle's; [None]
     without one, or if it depends on the vehicle's place. *)
 
+(** {1:rest The rest of a plan that was cut} *)
+
+val from_share : float -> t -> t
+(** [from_share x p] is the part of [p] that remains once the share [x] of its way is done: a plan of the same name,
+    for the same vehicles. [p] itself for [x <= 0]; for [x >= 1], its last place and what takes no time there.
+
+    A share is one of time: that of [path ~speed:1.], from the first place on. A dwell without end counts 0. A way
+    without time is not cut: the rest is [p] itself. So it is if [p] is not {!is_fixed}, or has no place.
+
+    The rest begins at the place of the cut. It has all that was not done: a dwell goes on for the seconds that remain,
+    in whole seconds, turns in whole turns. It begins with the launch or the last take-off before the cut, as the
+    vehicle may have landed since, and with the home, altitude, speed and photos in force. Rows become the points of a
+    [followPath], the lines of a [surveyArea] become [goPos] items, and the rounds under way are written out. A mission
+    is begun again as a whole, and the rest is [p] itself, if its rounds cannot be told apart: its jumps lead forward
+    or cross each other, or it has items with [up] besides its jumps. *)
+
 val compare : t -> t -> int
 (** A total order; plans are equal if all that is written in them is. *)
 

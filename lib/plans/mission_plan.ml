@@ -122,18 +122,21 @@ let carry_out item s =
 (* More than any vehicle's battery lasts for. *)
 let most_steps = 20_000
 
+type step = { index : int; leg : leg; taken : (int * float) list }
+
 (* [jumps] is how often each jump was taken. *)
-let path ~from ~speed m =
+let steps ~from ~speed m =
   let items = Array.of_list (List.filter is_numbered m.items) in
   let heights = Array.of_list (List.map snd (heights m)) in
   let rec go i steps jumps s legs =
+    let add leg = { index = i; leg; taken = jumps } :: legs in
     if i >= Array.length items then legs
     else
       let item = items.(i) in
       let named = Printf.sprintf "%d.%s" (i + 1) item.word in
       let level = level items.(i) heights.(i) in
       let stays = { item = named; waypoints = []; level; dwell = infinity; speed = s.now; radius = 0. } in
-      if steps = most_steps then stays :: legs
+      if steps = most_steps then add stays
       else if item.word = "jumpToItem" then
         let taken = Option.value (List.assoc_opt i jumps) ~default:0. in
         let times = number "times" ~default:1. item in
@@ -150,9 +153,11 @@ let path ~from ~speed m =
         let leg =
           { item = named; waypoints = List.rev (List.rev_map at_height waypoints); level; dwell; speed = s.now; radius }
         in
-        go (i + 1) (steps + 1) jumps s (leg :: legs)
+        go (i + 1) (steps + 1) jumps s (add leg)
   in
   List.rev (go 0 0 [] { here = from; home = from; now = speed } [])
+
+let path ~from ~speed m = List.rev (List.rev_map (fun step -> step.leg) (steps ~from ~speed m))
 
 (* Missions are plain data without functions or cycles. *)
 let compare (a : t) (b : t) = Stdlib.compare a b

@@ -50,6 +50,16 @@ val path : from:Position.t -> speed:float -> t -> leg list
     known: it takes no time. A vehicle that circles without end as the last item is done once there; other missions
     without end end with a dwell without end. *)
 
+(** A leg of {!path}, and how the vehicle came to it. *)
+type step = {
+  index : int;  (** of its item among the numbered ones, from 0 *)
+  leg : leg;
+  taken : (int * float) list;  (** the jumps under way, by their indices, and how often each was taken *)
+}
+
+val steps : from:Position.t -> speed:float -> t -> step list
+(** [steps ~from ~speed m] is the steps of [path ~from ~speed m]. *)
+
 val heights : t -> (string * float option) list
 (** [heights m] is each numbered item, as in {!path}, with its metres above home: the last altitude, and the item's
     climb; [None] if it goes up again with each of several rounds. *)

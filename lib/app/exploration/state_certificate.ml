@@ -1,5 +1,6 @@
 open Dolphin_semantics
 module Codec = Dolphin_json.Codec
+module Graph = Dolphin_lts.Graph
 module Property = Dolphin_explore.Property
 module Transition_system = Dolphin_explore.Transition_system
 module Environment = Dolphin_environment.Environment
@@ -33,21 +34,6 @@ let digest program ((c : Configuration.t), e) =
 
 (* {1 Making} *)
 
-(* Labels are few, and shared. *)
-let collected () =
-  let labels = Hashtbl.create 100 and states = Hashtbl.create 1000 in
-  let add i label target =
-    let label =
-      match Hashtbl.find_opt labels label with
-      | Some label -> label
-      | None -> Hashtbl.add labels label label; label
-    in
-    let before = Option.value (Hashtbl.find_opt states i) ~default:[] in
-    Hashtbl.replace states i ({ label; target; digest = None } :: before)
-  in
-  let all n = Array.init n (fun i -> List.rev (Option.value (Hashtbl.find_opt states i) ~default:[])) in
-  (add, all)
-
 let with_digests program system edges =
   let is_ambiguous e = List.exists (fun e' -> e'.label = e.label && e'.target <> e.target) edges in
   let digested e = { e with digest = Some (digest program (Transition_system.state system e.target)) } in
@@ -62,11 +48,16 @@ let holding (o : Dolphin_explore.Search.outcome) =
   List.filter holds certifiable
 
 let edges ?workers limits environment program world =
-  let add, all = collected () in
-  let found = Transition_system.explore ?workers limits environment program world add in
-  let with_digests system =
-    Array.map (with_digests program system) (all (Transition_system.states system)) in
-  Result.map with_digests found
+  let builder = Graph.Builder.create () in
+  let of_system system =
+    let states = Transition_system.states system in
+    let graph = Graph.Builder.finish ~doubles:true ~states builder in
+    let add edges l target = { label = Graph.label graph l; target; digest = None } :: edges in
+    let of_state i = List.rev (Graph.fold_from graph i add []) in
+    Array.init states (fun i -> with_digests program system (of_state i))
+  in
+  Result.map of_system
+    (Transition_system.explore ?workers limits environment program world (Graph.Builder.add builder))
 
 let make ~interrupted ~progress (s : Exploration.settings) (program : Program_file.t) (fleet : Fleet_file.t) outcome =
   let core = program.program in
@@ -141,10 +132,10 @@ let edge ~states labels : Yojson.Safe.t -> edge option = function
 (* [n] is the number of the line, for messages. *)
 let line path channel n read =
   let wrong why = Error (Error.Bad_input (Printf.sprintf "%s:%d: %s" path n why)) in
-  match Yojson.Safe.from_string (input_line channel) with
-  | json -> Result.fold (read json) ~ok:Result.ok ~error:wrong
+  match Dolphin_json.Host_value.parse (input_line channel) with
+  | Ok json -> Result.fold (read json) ~ok:Result.ok ~error:wrong
+  | Error _ -> wrong "not a line of JSON"
   | exception End_of_file -> wrong "the certificate ends before its last state"
-  | exception Yojson.Json_error _ -> wrong "not a line of JSON"
 
 let read path =
   Text_file.with_channel path @@ fun channel ->

@@ -268,7 +268,7 @@ let verdicts x (options : options) graph invariants =
 (* The faults that end runs, of each place in the text the first that was met; of no larger graphs. *)
 let most_listed = 100_000
 
-let faults_of_runs (options : options) graph =
+let faults_of_runs (options : options) graph verdicts =
   let note found i =
     match State_graph.broken_by graph i with
     | Some ((No_error | Assertions | Vehicles | Allocation) as property) -> (
@@ -280,8 +280,12 @@ let faults_of_runs (options : options) graph =
         | _ -> found)
     | Some _ | None -> found
   in
+  let is_sought = function
+    | (Property.No_error | Assertions | Vehicles | Allocation), Violated _ -> true
+    | _, (Holds | Holds_if _ | By_design _ | Violated _ | Unreached _ | Inconclusive _) -> false
+  in
   let is_kept = options.walks = None && options.bitstate = None && State_graph.count graph <= most_listed in
-  if is_kept then List.fold_left note [] (State_graph.all graph) else []
+  if is_kept && List.exists is_sought verdicts then List.fold_left note [] (State_graph.all graph) else []
 
 (* The first state that shows that [property] is violated. *)
 let shown graph = function
@@ -533,7 +537,7 @@ let without_formulas x (options : options) =
     sample = State_graph.sample graph;
     bitstate;
     beside = [];
-    ending_faults = faults_of_runs options graph;
+    ending_faults = faults_of_runs options graph verdicts;
     verdicts;
   }
 

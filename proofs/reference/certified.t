@@ -82,6 +82,19 @@ Its program and its fleet are those of the certificate.
   dolphin_certified: other.certificate:1: "format" is missing
   [2]
 
+  $ head -c 100000 /dev/zero | tr '\0' '[' > other.certificate
+  $ check other.certificate
+  dolphin_certified: other.certificate:1: not a line of JSON
+  [2]
+
+The output may have nowhere to go.
+
+  $ check waits.certificate > /dev/full
+  dolphin_certified: the output cannot be written: No space left on device
+  [3]
+  $ check --help
+  usage: dolphin_certified FILE, where dolphin explore PROG --certify FILE wrote FILE
+
 A certificate is of all states of one program.
 
   $ dolphin explore waits.dol --certify w.certificate --sample 10

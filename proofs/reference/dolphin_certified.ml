@@ -32,14 +32,25 @@ let check path =
     Option.iter (Printf.printf "termination: certified: no run has more than %d transitions\n") most;
     Ok 0
 
+let usage = "usage: dolphin_certified FILE, where dolphin explore PROG --certify FILE wrote FILE"
+
 let () =
   match Sys.argv with
+  | [| _; "--help" |] -> print_endline usage
   | [| _; path |] -> (
-      match check path with
+      match
+        let checked = check path in
+        flush stdout;
+        checked
+      with
       | Ok status -> exit status
       | Error e ->
         Format.eprintf "dolphin_certified: %a@." Error.pp e;
-        exit 2)
+        exit 2
+      | exception Sys_error why ->
+        prerr_endline ("dolphin_certified: the output cannot be written: " ^ why);
+        (* The output at exit would be tried once more. *)
+        Unix._exit 3)
   | _ ->
-    prerr_endline "usage: dolphin_certified FILE, where dolphin explore PROG --certify FILE wrote FILE";
+    prerr_endline usage;
     exit 2

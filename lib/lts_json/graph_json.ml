@@ -97,6 +97,7 @@ let of_string source =
   | `Assoc members -> ( try Ok (graph members) with Problem error -> Error error)
   | _ -> Error Not_a_graph
   | exception Yojson.Json_error message -> Error (Not_json message)
+  | exception Stack_overflow -> Error (Not_json "it is nested too deep")
 
 let pp_error ppf = function
   | Not_json message -> Fmt.pf ppf "this is not JSON: %s" message

@@ -255,9 +255,7 @@ let of_header json =
   | _ -> Error "this is not a run to follow: its first line is not the header of one"
 
 let parsed number line =
-  match Yojson.Safe.from_string line with
-  | json -> Ok json
-  | exception Yojson.Json_error _ -> Error (Printf.sprintf "line %d is not JSON" number)
+  Result.map_error (fun _ -> Printf.sprintf "line %d is not JSON" number) (Dolphin_json.Host_value.parse line)
 
 let of_lines lines =
   match lines with

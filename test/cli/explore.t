@@ -621,6 +621,16 @@ Which of several runs is written can be chosen, also one that is only noted.
   dolphin: --violation chooses the run of --trace and --draw: give one of these too
   [2]
 
+A run to follow, or a graph, whose brackets nest too deep is an error.
+
+  $ head -c 1000000 /dev/zero | tr '\0' '[' > deep.run; cp deep.run deep.json
+  $ dolphin exec several.dol --follow deep.run
+  dolphin: deep.run: line 1 is not JSON
+  [2]
+  $ dolphin lts deep.json
+  dolphin: deep.json: this is not JSON: it is nested too deep
+  [2]
+
 That a file cannot be written is known before anything is explored.
 
   $ explore deadlock.dol --trace missing/deadlock.run

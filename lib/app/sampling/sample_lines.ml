@@ -109,11 +109,8 @@ let follows before seed =
   | Run last -> Error (Printf.sprintf "the run with the seed %d is to follow that with %d" (last + 1) last)
 
 let read_line ~header ~before ~add line =
-  let* members =
-    match Yojson.Safe.from_string line with
-    | json -> Field.members json
-    | exception Yojson.Json_error _ -> Error "this is not JSON"
-  in
+  let* json = Result.map_error (fun _ -> "this is not JSON") (Dolphin_json.Host_value.parse line) in
+  let* members = Field.members json in
   if not (List.mem_assoc "dolphin" members) then
     let* seed, sample = to_sample members in
     let* () = follows before seed in

@@ -104,13 +104,12 @@ execute until { poll over: true } run (imcPlan {
     await choose(page, "many.dol");
     await page.waitForFunction(() => document.querySelectorAll("#map .vehicle .name").length === 40);
     await page.click(".map-buttons >> text=All");
-    const upon = () => {
+    // A function, not a text: a text that is polled is evaluated in the page, which its policy forbids.
+    await page.waitForFunction(() => {
       const shown = [...document.querySelectorAll("#map .vehicle .name")].filter((n) => n.style.visibility !== "hidden").map((n) => n.getBoundingClientRect());
-      let bad = 0;
-      shown.forEach((a, i) => shown.slice(i + 1).forEach((b) => { if (a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 1 && b.top < a.bottom - 1) bad++; }));
-      return { bad, shown: shown.length };
-    };
-    await page.waitForFunction(`(${upon})().bad === 0 && (${upon})().shown >= 20`);
+      const upon = (a, b) => a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 1 && b.top < a.bottom - 1;
+      return shown.length >= 20 && !shown.some((a, i) => shown.slice(i + 1).some((b) => upon(a, b)));
+    });
     await picture(page, "many");
   });
 }

@@ -61,8 +61,9 @@ let of_run (program : Program_file.t) (fleet : Fleet_file.t) ~seed ~answers =
   let outcome = Lwt_main.run run in
   (List.rev !found, outcome)
 
-let to_json definition (plan : Inline_plan.t) =
+let rec to_json definition (plan : Inline_plan.t) =
   match plan with
+  | Rest r -> to_json definition r.plan
   | Mission m ->
     Dolphin_platform_protocol.Plan_body.to_json { name = m.name; plan = Some plan; task_site = 0 }
   | Maneuvers p -> (

@@ -134,13 +134,18 @@ let item json : Mission_plan.item =
   let word, arguments = pair text (list (pair text argument)) json in
   { word; arguments }
 
-let of_inline : Inline_plan.t -> json = function
+let rec of_inline : Inline_plan.t -> json = function
+  | Rest { whole; share; plan } ->
+    let share = of_option of_float share in
+    `Assoc [ ("rest", `List [ `String whole; share; of_inline plan ]) ]
   | Maneuvers p -> to_json p
   | Mission m ->
     let vehicles = of_list (fun v -> `String v) m.vehicles in
     `Assoc [ ("mission", `List [ `String m.name; vehicles; of_list of_item m.items ]) ]
 
-let inline : json -> Inline_plan.t = function
+let rec inline : json -> Inline_plan.t = function
+  | `Assoc [ ("rest", `List [ whole; share; plan ]) ] ->
+    Rest { whole = text whole; share = option float share; plan = inline plan }
   | `Assoc [ ("mission", `List [ name; vehicles; items ]) ] ->
     Mission { name = text name; vehicles = list text vehicles; items = list item items }
   | json -> Maneuvers (of_json json)

@@ -1,11 +1,19 @@
 module Position = Dolphin_geo.Position
 
-type t = Maneuvers of Plan.t | Mission of Mission_plan.t
+type t = Maneuvers of Plan.t | Mission of Mission_plan.t | Rest of { whole : string; share : float option; plan : t }
 
-let name = function Maneuvers p -> p.name | Mission m -> m.name
-let vehicles = function Maneuvers p -> p.vehicles | Mission m -> m.vehicles
-let required_payload = function Maneuvers p -> Plan.required_payload p | Mission m -> Mission_plan.required_payload m
-let reference = function Maneuvers p -> Plan.reference p | Mission m -> Mission_plan.reference m
+let rec name = function Maneuvers p -> p.name | Mission m -> m.name | Rest r -> name r.plan
+let rec vehicles = function Maneuvers p -> p.vehicles | Mission m -> m.vehicles | Rest r -> vehicles r.plan
+
+let rec required_payload = function
+  | Maneuvers p -> Plan.required_payload p
+  | Mission m -> Mission_plan.required_payload m
+  | Rest r -> required_payload r.plan
+
+let rec reference = function
+  | Maneuvers p -> Plan.reference p
+  | Mission m -> Mission_plan.reference m
+  | Rest r -> reference r.plan
 
 type leg = {
   named : string;
@@ -16,7 +24,8 @@ type leg = {
   radius : float;
 }
 
-let path ~from ~speed = function
+let rec path ~from ~speed = function
+  | Rest r -> path ~from ~speed r.plan
   | Maneuvers p ->
     let leg (m : Plan.maneuver) ({ maneuver = named; waypoints; level; dwell; radius } : Plan.leg) =
       let metres = Plan.metres_per_second m ~default:speed in
@@ -55,18 +64,46 @@ let start p =
   let first leg = match leg.waypoints with place :: _ -> Some (place, leg.speed) | [] -> None in
   if is_fixed p then List.find_map first (path ~from:Dolphin_geo.Place.apdl ~speed:nan p) else None
 
-let from_share x p =
-  if not (x > 0. && is_fixed p) then p
-  else
-    match p with
-    | Maneuvers p -> Maneuvers (Plan_rest.from_share x p)
-    | Mission m -> Mission (Mission_rest.from_share x m)
+let digest p = Digest.to_hex (Digest.string (Marshal.to_string p [ Marshal.No_sharing ]))
+let rank = function Maneuvers _ -> 0 | Mission _ -> 1 | Rest _ -> 2
 
-let compare a b =
+let rec compare a b =
   match a, b with
   | Maneuvers p, Maneuvers q -> Plan.compare p q
   | Mission m, Mission n -> Mission_plan.compare m n
-  | Maneuvers _, Mission _ -> -1
-  | Mission _, Maneuvers _ -> 1
+  | Rest r, Rest r' ->
+    let c = String.compare r.whole r'.whole in
+    let c = if c <> 0 then c else Option.compare Float.compare r.share r'.share in
+    if c <> 0 then c else compare r.plan r'.plan
+  | (Maneuvers _ | Mission _ | Rest _), _ -> Int.compare (rank a) (rank b)
 
-let pp ppf = function Maneuvers p -> Plan.pp ppf p | Mission m -> Mission_plan.pp ppf m
+let rec pp ppf = function
+  | Maneuvers p -> Plan.pp ppf p
+  | Mission m -> Mission_plan.pp ppf m
+  | Rest r -> pp ppf r.plan
+
+let begun = function
+  | Rest { whole; share; plan = _ } -> (whole, share)
+  | (Maneuvers _ | Mission _) as p -> (digest p, Some 0.)
+
+let rec without x = function
+  | Maneuvers p -> Maneuvers (Plan_rest.from_share x p)
+  | Mission m -> Mission (Mission_rest.from_share x m)
+  | Rest r -> without x r.plan
+
+(* A plan that is begun again as a whole is no rest. *)
+let from_share x p =
+  let rest whole ~begun plan =
+    let left = without x plan in
+    if compare left plan = 0 then p
+    else Rest { whole; share = Some (begun +. ((1. -. begun) *. Float.min x 1.)); plan = left }
+  in
+  match p with
+  | Rest { share = None; _ } -> p
+  | _ when not (x > 0. && is_fixed p) -> p
+  | Rest { whole; share = Some begun; plan } -> rest whole ~begun plan
+  | Maneuvers _ | Mission _ -> rest (digest p) ~begun:0. p
+
+let some_rest = function
+  | Rest r -> Rest { r with share = None }
+  | (Maneuvers _ | Mission _) as p -> Rest { whole = digest p; share = None; plan = p }

@@ -25,6 +25,10 @@ module Position = Dolphin_geo.Position
 type t =
   | Maneuvers of Plan.t  (** [imcPlan { ... }] *)
   | Mission of Mission_plan.t  (** [mission { ... }] *)
+  | Rest of { whole : string; share : float option; plan : t }
+  (** [plan] is the part that remains of the plan with the {!digest} [whole], once this share of its way is done, from 0
+      to 1. For analyses of open worlds, the share is [None]: any part up to its end, perhaps all of it, remains, and
+      [plan] is the whole. *)
 
 val name : t -> string
 (** The name in the program, by which journals and vehicles know the plan. *)
@@ -74,7 +78,16 @@ val start : t -> (Position.t * float) option
 (** [start p] is the first place of {!path} and the speed on the way there, [nan] if that is the vehicle's; [None]
     without one, or if it depends on the vehicle's place. *)
 
-(** {1:rest The rest of a plan that was cut} *)
+val digest : t -> string
+(** [digest p] is the same for equal plans only, in 32 hexadecimal digits. *)
+
+val compare : t -> t -> int
+(** A total order; plans are equal if all that is written in them is. *)
+
+val pp : Format.formatter -> t -> unit
+(** As {!Plan.pp} and {!Mission_plan.pp}. *)
+
+(** {1:rest The rest of a plan} *)
 
 val from_share : float -> t -> t
 (** [from_share x p] is the part of [p] that remains once the share [x] of its way is done: a plan of the same name,
@@ -90,8 +103,9 @@ val from_share : float -> t -> t
     is begun again as a whole, and the rest is [p] itself, if its rounds cannot be told apart: its jumps lead forward
     or cross each other, or it has items with [up] besides its jumps. *)
 
-val compare : t -> t -> int
-(** A total order; plans are equal if all that is written in them is. *)
+val some_rest : t -> t
+(** [some_rest p] is a rest of [p] that is not known. *)
 
-val pp : Format.formatter -> t -> unit
-(** As {!Plan.pp} and {!Mission_plan.pp}. *)
+val begun : t -> string * float option
+(** [begun p] is the digest of the whole plan that [p] is a rest of, and the share of it that is done before [p] begins:
+    of [p] itself and 0, if it is no rest. *)

@@ -67,7 +67,8 @@ let vertical_of_maneuver (m : Plan.maneuver) =
   | Altitude -> At_altitude (z +. up)
   | Unspecified -> Not_told
 
-let verticals : Inline_plan.t -> _ = function
+let rec verticals : Inline_plan.t -> _ = function
+  | Rest r -> verticals r.plan
   | Maneuvers p -> List.map (fun (m : Plan.maneuver) -> (m.id, vertical_of_maneuver m)) p.maneuvers
   | Mission m ->
     let vertical (item, height) = (item, Option.fold height ~none:Not_told ~some:(fun metres -> Above metres)) in

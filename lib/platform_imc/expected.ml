@@ -17,12 +17,13 @@ type t = intent Names.t
 let none = Names.empty
 let mem = Names.mem
 
-let order_of (task : Core.platform_task) : (Execution.order, string) result =
+let rec order_of (task : Core.platform_task) : (Execution.order, string) result =
   match task.plan with
   | None | Some (Maneuvers _) when not (Door.is_plain task.name) ->
     Error "the plan's name has control characters: vehicles would report another name"
   | None -> Ok { plan = task.name; specification = None }
   | Some (Maneuvers plan) -> Ok { plan = task.name; specification = Some (Plan_message.of_plan plan) }
+  | Some (Rest r) -> order_of { task with plan = Some r.plan }
   | Some (Mission _) -> Error "IMC vehicles take no missions of items: describe the plan by imcPlan { ... }"
 
 (* An order that is known to be over, or was certainly never sent, need not be halted. *)

@@ -279,7 +279,7 @@ let state ~now ~timeout ~kind ~payload ~held ~bound n : World.vehicle_state =
     readings = List.map (fun (name, (_, value)) -> (name, value)) n.readings;
     connected;
     unready = (if connected && is_free then unready ~now ~held ~bound n else None);
-    cruise = None; drain = None }
+    cruise = None; drain = None; progress = [] }
 
 let mode ~names n =
   match n.mode with

@@ -58,6 +58,6 @@ let describe x : World.vehicle_state =
     speed = x.speed;
     readings = x.readings;
     connected = x.link;
-    unready = (if x.link then x.unready else None); cruise = None; drain = None }
+    unready = (if x.link then x.unready else None); cruise = None; drain = None; progress = [] }
 
 let state x = if is_placed x then Some (describe x) else None

@@ -267,19 +267,21 @@ let codec =
         | Some _ -> Form other)
     | _ -> Form by_name
   in
-  let choose (task : Core.platform_task) =
+  let rec choose (task : Core.platform_task) =
     match task.plan with
     | None -> As (by_name, task.name)
     | Some (Maneuvers p) -> As (maneuvers, (task.name, p))
     | Some (Mission m) -> As (items, (task.name, m))
+    | Some (Rest r) -> choose { task with plan = Some r.plan }
   in
   either recognise choose [ Form by_name; Form maneuvers; Form items; Form other ]
 
 let to_json = write codec
 let of_json = read codec
 
-let language (task : Core.platform_task) =
+let rec language (task : Core.platform_task) =
   match task.plan with
   | None -> "name"
   | Some (Maneuvers _) -> "imcPlan"
   | Some (Mission _) -> "mission"
+  | Some (Rest r) -> language { task with plan = Some r.plan }

@@ -89,7 +89,7 @@ let state f craft : World.vehicle_state =
     speed = Some (Vehicle.speed craft.body ~at:f.now);
     readings = Scenario.readings f.samples v (Vehicle.position craft.body ~at:f.now) ~time:f.now;
     connected = craft.connected; unready = None;
-    cruise = Some v.speed; drain = Some v.drain }
+    cruise = Some v.speed; drain = Some v.drain; progress = [] }
 
 let not_stopped id f = if String_set.mem id f.stopped then { f with stopped = String_set.remove id f.stopped } else f
 

@@ -36,7 +36,9 @@ let rec until ~last fits s =
 (* In paced time rounding may let an event come later than it came then. *)
 let tolerance = 60.
 
+(* Progress was added by the driver. *)
 let see time (state : World.vehicle_state) s =
+  let state = { state with progress = [] } in
   let said = { s with unsaid = without state.id s.unsaid } in
   if Fleet.told state.id s.f = Some state then said
   else

@@ -109,6 +109,7 @@ module Make (P : Platform.S) = struct
     mutable moment : float;  (* the time of the world, if the program reads it *)
     mutable alarm : int option;  (* the date for which the platform's timer is set *)
     mutable alarms : int;  (* that rang since the latest event *)
+    mutable progress : Vehicle_progress.t option;  (* if the program asks for it *)
     mutable telemetry : Platform.telemetry;  (* as the platform was asked last *)
     mutable upcoming : (Platform.event Lwt.t * news Lwt.t) option;
     (* the platform's next event, if it was asked for, as it is reported and as it is read *)
@@ -131,6 +132,34 @@ module Make (P : Platform.S) = struct
   }
 
   let is_resolved promise = match Lwt.state promise with Lwt.Sleep -> false | Return _ | Fail _ -> true
+
+  (* {1 News of vehicles} *)
+
+  let with_progress s ~time state =
+    match s.progress with
+    | None -> state
+    | Some progress ->
+      let progress, state = Vehicle_progress.see ~at:time state progress in
+      s.progress <- Some progress;
+      state
+
+  let see s state =
+    s.since_pause <- s.since_pause + 1;
+    let time = P.now s.platform in
+    let state = with_progress s ~time state in
+    s.world <- World.add state s.world;
+    Log.vehicle ~time state;
+    s.observer.news ~time state
+
+  (* The program may look at its progress from now on: it is written like a report. *)
+  let note_progress s v change =
+    match s.progress, World.find v s.world with
+    | Some progress, Some state -> s.progress <- Some (change state progress); see s state
+    | _, _ -> ()
+
+  let note_start s v p = note_progress s v (fun state -> Vehicle_progress.start state p)
+  let note_end s v = note_progress s v (fun _ -> Vehicle_progress.finish v)
+  let note_stop s v = s.progress <- Option.map (Vehicle_progress.stop v) s.progress
 
   (* {1 Effects} *)
 
@@ -196,8 +225,8 @@ module Make (P : Platform.S) = struct
     P.set_timer s.platform timer seconds
 
   let carry_out s ~number : Effect.t -> unit = function
-    | Start (v, p) -> P.start s.platform ~number v p
-    | Stop v -> drop s (Overtaken.by_stop v); P.stop s.platform v
+    | Start (v, p) -> note_start s v p; P.start s.platform ~number v p
+    | Stop v -> note_stop s v; drop s (Overtaken.by_stop v); P.stop s.platform v
     | Set_timer (timer, seconds) -> set_timer s timer seconds
     | Cancel_timer timer ->
       Hashtbl.remove s.immediate timer;
@@ -323,13 +352,6 @@ module Make (P : Platform.S) = struct
      | Some _ | None -> ());
     carry_out_all s ~number t.effects
 
-  let see s state =
-    s.since_pause <- s.since_pause + 1;
-    s.world <- World.add state s.world;
-    let time = P.now s.platform in
-    Log.vehicle ~time state;
-    s.observer.news ~time state
-
   let refuse_answer s why =
     s.console.refused why;
     match s.configuration.control with
@@ -337,8 +359,12 @@ module Make (P : Platform.S) = struct
     | Waiting (_, (Pick _ | Pause _ | Execute _ | Host_call _)) | Script _ | Executing _ | Ended _ -> ()
 
   (* [deliver s e] is whether [e] changed the configuration. *)
-  let deliver s event =
+  let deliver s (event : Transition.event) =
     look_at_clock s;
+    (match event with
+     | Vehicle_done v when Vehicle_map.mem v s.configuration.shared.allocation -> note_end s v
+     | Vehicle_failed (v, _) -> note_stop s v
+     | _ -> ());
     match Transition.accept s.program s.world s.configuration event with
     | Ok t -> take s ~cause:(Some event) t; true
     | Error Not_awaited ->
@@ -506,10 +532,15 @@ module Make (P : Platform.S) = struct
   (* {2 Another program} *)
 
   (* Tasks, timers, questions and calls that go on are those of the new configuration, so nothing is commanded. *)
+  let progress_of ~at program world (c : Configuration.t) =
+    if not (Vehicle_progress.is_asked_for program) then None
+    else Some (Vehicle_progress.resume ~at world c.shared.allocation)
+
   let replace s ({ program; configuration } : replacement) =
     s.program <- program;
     s.configuration <- configuration;
     s.dates <- Dated_code.of_program program;
+    s.progress <- progress_of ~at:(P.now s.platform) program s.world configuration;
     s.unknown <- [];
     s.steps <- 0;
     forget_rounds s
@@ -652,6 +683,7 @@ module Make (P : Platform.S) = struct
         taken = beginning.transitions;
         world = beginning.world;
         dates = Dated_code.of_program program; moment = beginning.time; alarm = None; alarms = 0;
+        progress = progress_of ~at:beginning.time program beginning.world beginning.configuration;
         telemetry = Off; upcoming = None; reply = None; questions = Task_questions.create (); posted = None;
         input_before = false; unknown = []; since_pause = 0; rounds = 0;
         round_began = beginning.time; counted_since = (beginning.time, Clock.system.elapsed ());

@@ -1,8 +1,9 @@
 open Dolphin_semantics
 
-(* Its battery, speed and link show anything. *)
+(* Its battery, speed, link and progress show anything. *)
 let of_vehicle v ~places ~batteries world =
   let world = World.open_position v places (World.open_battery v batteries world) in
+  let world = World.open_sensor Progress v [] world in
   World.open_sensor Connected v [ Boolean true; Boolean false ] (World.open_sensor Speed v [] world)
 
 let of_entry world (v : Entry.vehicle) =

@@ -62,7 +62,7 @@ let state (v : Entry.vehicle) : World.vehicle_state =
   { id = v.id; kind = v.kind; payload = v.payload; position = v.position; depth = None; altitude = None;
     battery = (if v.tells_battery then Some v.battery else None); speed = Some 0.;
     readings = List.map measured v.shows; connected = true; unready = None; cruise = Some v.speed;
-    drain = Some v.drain }
+    drain = Some v.drain; progress = [] }
 
 let world vehicles =
   let all = List.fold_left (fun w v -> World.add (state v) w) World.empty vehicles in

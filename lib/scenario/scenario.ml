@@ -100,7 +100,7 @@ let states s =
       depth = (if v.position.height < 0. then Some (-.v.position.height) else None); altitude = None;
       battery = (if v.tells_battery then Some v.battery else None); speed = Some 0.;
       readings = readings s.samples v v.position ~time:0.; connected; unready = None;
-      cruise = Some v.speed; drain = Some v.drain }
+      cruise = Some v.speed; drain = Some v.drain; progress = [] }
   in
   List.map state s.vehicles
 

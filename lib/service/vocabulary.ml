@@ -22,6 +22,7 @@ let procedures =
   @ List.map (entry Procedure)
     [ "position", "position(v)", "The vehicle's present position.";
       "battery", "battery(v)", "The charge left in the vehicle's battery, from 0 to 1.";
+      "progress", "progress(v)", "The share of the way of its last plan that the vehicle has done, from 0 to 1.";
       "speed", "speed(v)", "The vehicle's speed over the ground, in metres per second.";
       "connected", "connected(v)", "Whether there is a link to the vehicle.";
       "reading", "reading(v, 'Temperature')", "The last value that the vehicle has reported of a quantity that it \
@@ -226,6 +227,8 @@ let members =
       "duration", "p.duration(v)", "The seconds that the plan takes the vehicle, from its position on.";
       "energy", "p.energy(v)", "The share of the vehicle's battery that the plan takes, from its position on, from 0 \
                                 to 1.";
+      "rest", "p.rest(v)", "The part of a plan that the vehicle has not done; `p.rest(0.5)`: all but this share \
+                            of its way.";
       "name", "t.name", "The name of a plan.";
       "call", "f.call(...)", "The value of the closure." ]
 

@@ -36,7 +36,13 @@ let inline (v : Scenario.vehicle) from plan =
   let { Inline_plan.moving; staying; _ } = Inline_plan.extent ~from:here ~speed:v.speed plan in
   let goes = not (List.for_all Inline_plan.is_stay (Inline_plan.path ~from:here ~speed:1. plan)) in
   if from = None && goes then if staying = infinity then Bounds.Never else Bounds.Some_time
-  else Bounds.between ((moving *. (1. -. tolerance)) +. staying) ((moving *. (1. +. tolerance)) +. staying)
+  else
+    let least =
+      match (plan : Inline_plan.t) with
+      | Rest { share = None; _ } -> 0.
+      | Rest _ | Maneuvers _ | Mission _ -> (moving *. (1. -. tolerance)) +. staying
+    in
+    Bounds.between least ((moving *. (1. +. tolerance)) +. staying)
 
 (* {1 Fleets} *)
 

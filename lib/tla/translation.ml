@@ -47,6 +47,7 @@ let name_of_sensor = function
   | Battery -> "battery"
   | Speed -> "speed"
   | Connected -> "connected"
+  | Progress -> "progress"
   | Measurement name -> "reading " ^ name
 
 let location t site =
@@ -184,7 +185,7 @@ and operation t ~known site op : Tla.t =
     note_member t site name;
     record "property" [ ("name", String name) ]
   | Call names' -> record "call" [ ("names", names names') ]
-  | Method (("duration" | "energy") as name, _) ->
+  | Method (("duration" | "energy" | "rest") as name, _) ->
     refuse t site "the %s of a plan: TLA+ has whole numbers only" name;
     record "list" []
   | Method (name, names') ->

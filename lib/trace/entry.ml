@@ -34,6 +34,15 @@ let time_field = one "time" moment ~doc:"seconds since the start"
 
 let position = Header.place
 
+let progress =
+  let digest = limited [ ("maxLength", `Int 32) ] text in
+  let fields =
+    let+ whole = field "plan" digest fst
+    and+ share = field "share" (number ~least:0. ~most:1. ()) snd in
+    (whole, share)
+  in
+  list (record fields)
+
 let state =
   let readings =
     let sorted found = Ok (List.sort Stdlib.compare found) in
@@ -53,8 +62,12 @@ let state =
   and+ readings = default [] "readings" readings (fun (s : World.vehicle_state) -> s.readings)
   and+ unready = optional "unready" text (fun (s : World.vehicle_state) -> s.unready)
   and+ cruise = optional "cruise" from_zero (fun (s : World.vehicle_state) -> s.cruise) ~doc:"m/s"
-  and+ drain = optional "drain" from_zero (fun (s : World.vehicle_state) -> s.drain) in
-  { World.id; kind; payload; position; depth; altitude; battery; speed; readings; connected; unready; cruise; drain }
+  and+ drain = optional "drain" from_zero (fun (s : World.vehicle_state) -> s.drain)
+  and+ progress =
+    default [] "progress" progress (fun (s : World.vehicle_state) -> s.progress)
+      ~doc:"in its plans, by their digests, the latest first" in
+  { World.id; kind; payload; position; depth; altitude; battery; speed; readings; connected; unready; cruise; drain;
+    progress }
 
 let of_state = Codec.members state
 let to_state = Codec.of_members state

@@ -64,8 +64,8 @@ let news r ~time (state : World.vehicle_state) =
     Hashtbl.replace r.vehicles state.id vehicle;
     write_state r vehicle state
   | Some vehicle ->
-    let { World.position; depth; altitude; battery; speed; readings; _ } = vehicle.written in
-    let is_sample = { state with position; depth; altitude; battery; speed; readings } = vehicle.written in
+    let { World.position; depth; altitude; battery; speed; readings; progress; _ } = vehicle.written in
+    let is_sample = { state with position; depth; altitude; battery; speed; readings; progress } = vehicle.written in
     let is_near () = Dolphin_geo.Wgs84.distance position state.position < nearby in
     if is_sample && r.time -. vehicle.written_at < r.period && is_near () then begin
       if vehicle.untold = None then r.behind <- vehicle :: r.behind;

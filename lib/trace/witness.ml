@@ -167,6 +167,7 @@ let json_of_assumption (a : World.assumption) : Yojson.Safe.t =
       | Battery -> [ ("battery", `String v) ]
       | Speed -> [ ("speed", `String v) ]
       | Connected -> [ ("connected", `String v) ]
+      | Progress -> [ ("progress", `String v) ]
       | Measurement name -> [ ("reading", `String name); ("vehicle", `String v) ]
     in
     `Assoc (vehicle @ [ ("is", of_sensed x) ])
@@ -187,9 +188,16 @@ let assumption_of_json json : (World.assumption, string) result =
   | (("late" | "missing") as kind, name) :: _ ->
     let* v = text name in
     Ok (if kind = "late" then World.Late v else Missing v)
-  | (("battery" | "speed" | "connected") as sensor, name) :: _ ->
+  | (("battery" | "speed" | "connected" | "progress") as sensor, name) :: _ ->
     let* v = text name in
-    sensed (match sensor with "battery" -> Battery | "speed" -> Speed | _ -> Connected) v found
+    let sensor : Core.sensor =
+      match sensor with
+      | "battery" -> Battery
+      | "speed" -> Speed
+      | "progress" -> Progress
+      | _ -> Connected
+    in
+    sensed sensor v found
   | ("reading", name) :: _ ->
     let* name = text name in
     let* v = get text "vehicle" found in
@@ -207,7 +215,8 @@ let assumption_of_json json : (World.assumption, string) result =
     let* claimed = text claimed in
     let* holds = get truth "is" found in
     Ok (World.Claim (claimed, holds))
-  | _ -> Error "unknown assumption: expected late, missing, battery, speed, connected, reading, position or claim"
+  | _ -> Error "unknown assumption: expected late, missing, battery, speed, connected, progress, reading, position or \
+                claim"
 
 let json_of_step s : Yojson.Safe.t =
   let cause = match s.cause with Choice i -> [ ("choice", `Int i) ] | Event h -> Event.members h in

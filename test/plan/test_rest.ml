@@ -103,7 +103,8 @@ let setting (i : Mission_plan.item) =
   { Core.setting = i.word; positional = []; named = List.map (fun (k, x) -> (k, value x)) i.arguments;
     setting_site = 0 }
 
-let is_valid = function
+let rec is_valid = function
+  | Rest r -> is_valid r.plan
   | Mission m ->
     (match Mission_builder.build ~name:m.name 0 (List.map setting m.items) with
      | Ok built -> Mission_plan.compare { built with vehicles = m.vehicles } m = 0
@@ -125,7 +126,8 @@ let is_valid = function
 
 (* {1 Cases} *)
 
-let kinds = function
+let rec kinds = function
+  | Rest r -> kinds r.plan
   | Maneuvers p -> List.map (fun (m : Plan.maneuver) -> m.id) p.maneuvers
   | Mission m -> List.map (fun (i : Mission_plan.item) -> i.word) m.items
 
@@ -138,8 +140,9 @@ let there_and_stay =
   plan [ maneuver Go_to (0., 0.) ~speed:(1000., Revolutions_per_minute);
          maneuver (loiter 100.) (north 100.) ~speed:(1000., Revolutions_per_minute) ]
 
-let duration_of p =
+let rec duration_of p =
   match p with
+  | Rest r -> duration_of r.plan
   | Maneuvers { maneuvers; _ } -> (
       match List.rev maneuvers with
       | { kind = Loiter { duration; _ }; _ } :: _ -> duration
@@ -193,7 +196,8 @@ let of_maneuvers =
 let square = [ at (0., 0.); at (100., 0.); at (100., 40.); at (0., 40.) ]
 let survey = item "surveyArea" [ ("area", Mission_plan.Places square); number "spacing" 20. ]
 
-let arguments n = function
+let rec arguments n = function
+  | Rest r -> arguments n r.plan
   | Mission m -> (List.nth m.items n).arguments
   | Maneuvers _ -> []
 
@@ -321,7 +325,8 @@ let missions =
     [ item "takeOff" [ number "altitude" height ]; item "home" [ position (10., 10.) ]; go (0., 0.) ] in
   mission (List.rev (snd (List.fold_left add (4, List.rev beginning) blocks)))
 
-let written = function
+let rec written = function
+  | Rest r -> written r.plan
   | Maneuvers p ->
     let of_maneuver (m : Plan.maneuver) =
       Format.asprintf "%s %a %g" m.id Position.pp m.location (fst m.speed) in
@@ -340,7 +345,7 @@ let print (p, x, y) = Printf.sprintf "%s\n%.17g, %.17g\nrest:\n%s" (written p) x
 let cuts p = Gen.triple p (Gen.float_range 0. 1.) (Gen.float_range 0. 1.)
 
 (* The longest turn that is flown whole: a circle of the usual radius at the slowest speed, or seconds made whole. *)
-let spare = function Maneuvers _ -> 1. | Mission _ -> 1. +. (2. *. Float.pi *. 50. /. 0.25)
+let rec spare = function Rest r -> spare r.plan | Maneuvers _ -> 1. | Mission _ -> 1. +. (2. *. Float.pi *. 50. /. 0.25)
 
 let begins_where_cut (p, x, _) =
   let all = parts p in

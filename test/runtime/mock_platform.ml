@@ -40,7 +40,7 @@ let make ?(fate = fun _ _ -> Succeeds 10.) events =
 let vehicle ?(kind = "UUV") ?(battery = 1.) ?(connected = true) id : World.vehicle_state =
   { id; kind; payload = []; position = { latitude = 41.; longitude = -8.; height = 0. }; battery = Some battery;
     depth = None; altitude = None; speed = Some 0.; readings = []; connected; unready = None; cruise = None;
-    drain = None }
+    drain = None; progress = [] }
 
 let silent time id = (time, Platform.Vehicle { (vehicle id) with battery = None })
 let seen ?battery time id = (time, Platform.Vehicle (vehicle ?battery id))

@@ -19,7 +19,7 @@ let compile_exn ?place source =
 let vehicle ?(kind = "UUV") ?(payload = [ "DVL"; "Sidescan"; "Camera" ]) ?(battery = 1.) ?(north = 0.) ?(readings = []) id =
   let position = Dolphin_geo.Wgs84.displace Dolphin_geo.Place.apdl ~north ~east:0. in
   { World.id; kind; payload; position; battery = Some battery; speed = Some 0.; readings; connected = true;
-    unready = None; cruise = None; drain = None; depth = None; altitude = None }
+    unready = None; cruise = None; drain = None; progress = []; depth = None; altitude = None }
 
 let world vehicles = List.fold_left (fun w v -> World.add v w) World.empty vehicles
 

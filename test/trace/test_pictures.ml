@@ -42,7 +42,7 @@ let few_samples () =
   for i = 0 to 99_999 do
     let state : Dolphin_semantics.World.vehicle_state =
       { id = "v"; kind = "UUV"; payload = []; position; battery = Some (1. -. (float_of_int i /. 1e5)); speed = None; readings = []; connected = true;
-        unready = None; cruise = None; drain = None; depth = None; altitude = None }
+        unready = None; cruise = None; drain = None; progress = []; depth = None; altitude = None }
     in
     Summary.add builder (Vehicle { time = float_of_int i; state })
   done;
@@ -107,7 +107,7 @@ let fences () =
       let position : Dolphin_geo.Position.t = { latitude; longitude = -8.; height = 0. } in
       let state : Dolphin_semantics.World.vehicle_state =
         { id = "v"; kind = "UUV"; payload = []; position; battery = None; speed = None; readings = []; connected = true;
-          unready = None; cruise = None; drain = None; depth = None; altitude = None } in
+          unready = None; cruise = None; drain = None; progress = []; depth = None; altitude = None } in
       Summary.add builder (Vehicle { time; state })
     in
     see 0. 41.;
@@ -150,7 +150,7 @@ let unknown_batteries () =
     let see time battery =
       let state : Dolphin_semantics.World.vehicle_state =
         { id = "v"; kind = "UUV"; payload = []; position; battery; speed = None; readings = []; connected = true;
-          unready = None; cruise = None; drain = None; depth = None; altitude = None } in
+          unready = None; cruise = None; drain = None; progress = []; depth = None; altitude = None } in
       Summary.add builder (Vehicle { time; state })
     in
     see 0. at_first;
@@ -178,7 +178,7 @@ let many_names () =
       let position : Dolphin_geo.Position.t = { latitude = 41.; longitude = -8.; height = 0. } in
       let state : Dolphin_semantics.World.vehicle_state =
         { id; kind = "UUV"; payload = []; position; battery = None; speed = None; readings = []; connected = true;
-          unready = None; cruise = None; drain = None; depth = None; altitude = None } in
+          unready = None; cruise = None; drain = None; progress = []; depth = None; altitude = None } in
       Summary.add builder (Vehicle { time = 0.; state })
     in
     List.iter see vs;
@@ -224,7 +224,7 @@ let ways_of ~platform =
     let position : Dolphin_geo.Position.t = { latitude = 41. +. (time /. 1e4); longitude = -8.; height = 0. } in
     let state : Dolphin_semantics.World.vehicle_state =
       { id = "v"; kind = "UUV"; payload = []; position; battery = None; connected = true; unready = None;
-        cruise = None; drain = None; depth = None; altitude = None; speed = None;
+        cruise = None; drain = None; progress = []; depth = None; altitude = None; speed = None;
         readings = [] } in
     Summary.add builder (Vehicle { time; state })
   in
@@ -300,7 +300,7 @@ let of_vehicles ?(platform = "imc") vehicles =
     let state : Dolphin_semantics.World.vehicle_state =
       { id; kind = "UUV"; payload = []; position; battery = Some 0.5; speed = None; readings = [];
         connected = true; unready = None; cruise = None;
-        drain = None; depth = None; altitude = None } in
+        drain = None; progress = []; depth = None; altitude = None } in
     Summary.add builder (Vehicle { time; state })
   in
   let transition time requests =

@@ -13,8 +13,8 @@ syntax keyword dolphinConstant null _
 syntax keyword dolphinTask task imcPlan action condition assert idle confirm fresh mission pick pos
 syntax keyword dolphinProcedure ignore propagate retry dismiss fail post consume poll message println release
 syntax keyword dolphinProcedure setConnectionTimeout ask pause getSupplier execute input halt onInterrupt position
-syntax keyword dolphinProcedure battery speed connected reading running now timeOfDay eta location polygon map fence
-syntax keyword dolphinProcedure corridor along coverage expandingSquare sector spiral footprint area
+syntax keyword dolphinProcedure battery progress speed connected reading running now timeOfDay eta location polygon
+syntax keyword dolphinProcedure map fence corridor along coverage expandingSquare sector spiral footprint area
 syntax keyword dolphinFleet vehicle plan answer reply field
 
 syntax match dolphinNumber '\v<\d[0-9_]*(\.\d[0-9_]*)?([eE][-+]?\d+)?>'

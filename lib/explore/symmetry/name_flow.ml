@@ -99,7 +99,7 @@ let call_value w e k given =
 (* {1 Methods} *)
 
 (* Methods of sets of vehicles, and of values that contain vehicles, whose result does not depend on their names. *)
-let of_numbers = [ "size"; "length"; "isEmpty"; "empty"; "contains"; "equals"; "indexOf"; "duration"; "energy" ]
+let of_numbers = [ "size"; "length"; "isEmpty"; "empty"; "contains"; "equals"; "indexOf"; "duration"; "energy"; "rest" ]
 let of_texts = [ "getType"; "type"; "getPayload"; "payload" ]
 let of_elements =
   [ "first"; "last"; "head"; "tail"; "get"; "add"; "push"; "leftShift"; "addAll"; "remove"; "removeAt"; "removeElement";
@@ -244,6 +244,7 @@ and applied w lambda at operation arguments =
     let ks = List.map value_of es in
     let asks_how_far = Dolphin_semantics.Travel.quantity name <> None && List.compare_length_with es 1 > 0 in
     if asks_how_far then travels w;
+    if name = "rest" then reads_sensors w;
     let calls given = all (List.map2 (fun e k -> call_value w e k (fun _ -> given)) es ks) in
     let result = called_method w at name (all ks lor named_arguments names) calls in
     if asks_how_far then result lor reading else result

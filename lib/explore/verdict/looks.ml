@@ -20,7 +20,7 @@ let is_letter c = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c = '_'
 let is_digit c = c >= '0' && c <= '9'
 
 (* The sensors that take a vehicle. *)
-let of_vehicle = [ "battery"; "position"; "speed"; "connected"; "reading" ]
+let of_vehicle = [ "battery"; "position"; "speed"; "connected"; "progress"; "reading" ]
 
 (* The names in a text; a name does not begin with a digit. The vehicle and the quantity of a sensor are not among
    them, though a variable may have the name of a vehicle. *)
@@ -44,7 +44,8 @@ let mentions_variable (program : Core.program) text =
   List.exists (fun name -> Array.exists (String.equal name) program.global_names) (names text)
 
 let at_one_moment program : concerns = function
-  | Claim (text, _) -> not (mentions_variable program text)
+  | Claim (text, _) -> not (mentions_variable program text || List.mem "progress" (names text))
+  | Sensed (Progress, _, _) -> false
   | Sensed _ | Placed _ -> true
   | Late _ | Missing _ -> false
 

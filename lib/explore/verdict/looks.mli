@@ -21,7 +21,8 @@ type concerns = World.assumption -> bool
 (** The assumptions that count; others are left out. *)
 
 val at_one_moment : Core.program -> concerns
-(** All that sensors and the date show. A comparison with a variable is left out, for the variable may be assigned. *)
+(** All that sensors and the date show. A comparison with a variable is left out, for the variable may be assigned; so
+    is one of progress, which is 0 again once a task begins. *)
 
 val of_date : Core.program -> concerns
 (** Comparisons of the date with numbers: on a run without end each of them comes to one outcome, and keeps it. *)

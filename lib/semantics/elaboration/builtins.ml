@@ -65,6 +65,7 @@ let table : (string * t) list =
     ("position", these Position_of [ Vehicles ] ~result:Position ~reads_sensors:true);
     ("battery", these (Sensor_of Battery) [ Vehicles ] ~result:Number ~reads_sensors:true);
     ("speed", these (Sensor_of Speed) [ Vehicles ] ~result:Number ~reads_sensors:true);
+    ("progress", these (Sensor_of Progress) [ Vehicles ] ~result:Number ~reads_sensors:true);
     ("connected", these (Sensor_of Connected) [ Vehicles ] ~result:Truth ~reads_sensors:true);
     ("running", these Is_running [ Vehicles ] ~result:Truth);
     ("reading", these Reading_of [ Vehicles; String ] ~result:Number ~reads_sensors:true);

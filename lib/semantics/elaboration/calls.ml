@@ -354,8 +354,8 @@ let by_name env at name (callee : Ast.expression) arguments =
 let to_method env at subject name safe arguments =
   check_supplier env subject name;
   if not safe then Member_check.member env ~called:true ~arguments subject name;
-  let asks_how_far = arguments <> [] && Travel.quantity name.Ast.it <> None in
-  if List.mem name.it sensor_members || asks_how_far then Scope.note_sensor env.program;
+  let looks_at_vehicle = arguments <> [] && (Travel.quantity name.Ast.it <> None || name.it = "rest") in
+  if List.mem name.it sensor_members || looks_at_vehicle then Scope.note_sensor env.program;
   let keys = keys_of arguments in
   let on e = apply env at (Method (name.it, keys)) (e :: values env arguments) in
   if safe then unless_null env at (elaborate env subject) on

@@ -6,13 +6,13 @@ let computing =
   [ "abs"; "bearing"; "bearingTo"; "capitalize"; "contains"; "containsKey"; "containsValue"; "displace"; "distance";
     "distanceTo"; "drop"; "duration"; "endsWith"; "energy"; "equals"; "equalsIgnoreCase"; "first"; "get";
     "getBattery"; "getId"; "getPosition"; "getType"; "head"; "indexOf"; "isEmpty"; "isNumber"; "join"; "keySet";
-    "keys"; "last"; "length"; "max"; "min"; "padLeft"; "padRight"; "replace"; "reverse"; "round"; "size"; "sort";
-    "split"; "startsWith"; "substring"; "sum"; "tail"; "take"; "toDouble"; "toInteger"; "toList"; "toLowerCase";
-    "toString"; "toUpperCase"; "trim"; "unique"; "values" ]
+    "keys"; "last"; "length"; "max"; "min"; "padLeft"; "padRight"; "replace"; "rest"; "reverse"; "round"; "size";
+    "sort"; "split"; "startsWith"; "substring"; "sum"; "tail"; "take"; "toDouble"; "toInteger"; "toList";
+    "toLowerCase"; "toString"; "toUpperCase"; "trim"; "unique"; "values" ]
 
 let procedures =
   [ "task"; "imcPlan"; "action"; "condition"; "fresh"; "idle"; "location"; "area"; "position"; "battery"; "speed";
-    "connected"; "reading"; "running"; "now"; "timeOfDay"; "eta"; "poll" ]
+    "connected"; "reading"; "running"; "now"; "timeOfDay"; "eta"; "poll"; "progress" ]
 
 (* Expressions that surely only compute. [is_own x] is whether the program itself defines [x]; [has_host], whether
    there may be objects of the supplier, whose members may do anything. *)

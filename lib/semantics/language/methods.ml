@@ -346,6 +346,11 @@ let on_position p name arguments =
       | None, _ -> Some (Operators.expected "metres to the north" x))
   | _, _ -> None
 
+let on_plan p name arguments =
+  match name, arguments with
+  | "rest", [ x ] -> Option.map (Rest.from_share p) (Value.to_number x)
+  | _, _ -> None
+
 let updates = function
   | "add" | "push" | "addAll" | "leftShift" | "remove" | "removeAt" | "removeElement" | "clear" | "put" -> true
   | _ -> false
@@ -358,6 +363,7 @@ let specific x name arguments =
   | Integer _ | Number _ -> on_number (number_text x) x name arguments
   | Position p -> on_position p name arguments
   | Area a -> on_area a name arguments
+  | Task (Platform p) -> on_plan p name arguments
   | Null | Boolean _ | Wildcard | Symbol _ | Task _ | Closure _ | Host _ | Settings _ | Reading _
   | Unknown _ -> None
 
@@ -387,7 +393,7 @@ let known x =
     | Position _ -> [ "distance"; "bearing"; "displace"; "getLatitude"; "getLongitude"; "getHeight" ]
     | Area _ ->
       [ "contains"; "getCentre"; "getRadius"; "getSize"; "getCorners"; "getBounds"; "hull"; "offset"; "grid"; "split" ]
-    | Task _ -> [ "getName"; "length"; "duration"; "energy" ]
+    | Task _ -> [ "getName"; "length"; "duration"; "energy"; "rest" ]
     | Closure _ -> [ "call" ]
     | Null | Boolean _ | Wildcard | Symbol _ | Host _ | Settings _ | Reading _ | Unknown _ -> []
   in

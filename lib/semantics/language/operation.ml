@@ -91,6 +91,7 @@ let call_method context name names arguments =
       | None, None -> (
           match subject, Travel.quantity name, arguments with
           | Task (Platform p), Some quantity, [ Vehicles vs ] -> Procedures.travel context p quantity vs
+          | Task (Platform p), None, [ Vehicles vs ] when name = "rest" -> Procedures.rest context p vs
           | _, _, _ -> of_result (Methods.call context.world subject name arguments)))
   | [] -> Wrong "a method needs something to be called on"
 

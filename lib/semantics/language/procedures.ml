@@ -199,6 +199,9 @@ let looked context vs look =
 
 let sense context subject vs = looked context vs (fun world -> Reading.look world subject)
 
+let rest context p vs =
+  of_result (Result.bind (Methods.one_vehicle context.world vs) (Rest.of_vehicle context.world p))
+
 let travel context (p : platform_task) quantity vs =
   match looked context vs (fun world -> Travel.of_plan world p quantity) with
   | Value (Number n) when n = infinity ->

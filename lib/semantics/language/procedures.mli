@@ -22,5 +22,8 @@ val of_result : (value, string) result -> Code.outcome
 val sense : Code.context -> Reading.subject -> vehicle list -> Code.outcome
 (** [sense x subject vs] is the reading of that sensor of the only vehicle of [vs]. *)
 
+val rest : Code.context -> platform_task -> vehicle list -> Code.outcome
+(** [rest c p vs] is the rest of [p] for the only vehicle of [vs] ({!Rest}). *)
+
 val travel : Code.context -> platform_task -> Travel.quantity -> vehicle list -> Code.outcome
 (** [travel x p q vs] is [q] of [p] for the only vehicle of [vs], from its place. *)

@@ -10,7 +10,12 @@ let subject = function
 
 let reading quantity text = Reading { quantity; text }
 
-let name = function Battery -> "battery" | Speed -> "speed" | Connected -> "connected" | Measurement name -> name
+let name = function
+  | Battery -> "battery"
+  | Speed -> "speed"
+  | Connected -> "connected"
+  | Progress -> "progress"
+  | Measurement name -> name
 
 let look world subject (s : World.vehicle_state) =
   match subject with
@@ -147,6 +152,7 @@ let method_call world at name arguments =
     Gives (Ok (reading Amount (Printf.sprintf "%s.round(%d)" (enclosed (spell x)) digits)))
   | [ x; y ] when is_place x && is_place y && List.mem name distances ->
     Gives (Ok (reading Amount (Printf.sprintf "%s.%s(%s)" (spell x) name (spell y))))
+  | [ Task (Platform p); x ] when name = "rest" && is_amount x -> Gives (Rest.from_reading p)
   | [ x; y ] when name = "contains" -> binary world at Member_of y x
   | [ x; y ] when name = "equals" -> binary world at Equal x y
   | _ -> As_any

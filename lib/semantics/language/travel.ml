@@ -10,8 +10,13 @@ let quantity = function
   | "energy" -> Some Energy
   | _ -> None
 
+(* Of a rest that is open, whatever is left of the whole. *)
+let of_some_rest (p : platform_task) whole named =
+  Reading { quantity = Amount; text = Printf.sprintf "%s of a rest of %s %s" named p.name whole }
+
 let length (p : platform_task) =
   match p.plan with
+  | Some (Rest { whole; share = None; _ }) -> Ok (of_some_rest p whole "length")
   | None -> Error (Printf.sprintf "the way of plan '%s' is not described here: only its vehicle knows it" p.name)
   | Some plan -> (
       match Inline_plan.start plan with
@@ -72,6 +77,8 @@ let reading quantity (p : platform_task) plan (s : World.vehicle_state) =
 let of_plan world (p : platform_task) quantity s =
   match p.plan, World.position world s with
   | None, _ -> Ok (Unknown { sensor = sensor p quantity; of_vehicle = s.id })
+  | Some (Rest { whole; share = None; _ }), _ ->
+    Ok (of_some_rest p whole (Printf.sprintf "%s(%s)" (sensor p quantity) s.id))
   | Some plan, Shows here -> Ok (from_here quantity p plan s here)
   | Some _, One_of places -> Error (World.places s places)
   | Some plan, Anything -> Ok (reading quantity p plan s)

@@ -41,8 +41,9 @@ and reading = { quantity : quantity; text : string }
 (** The value of [sensor] of [of_vehicle]: ["battery"]. *)
 and unknown = { sensor : string; of_vehicle : vehicle }
 
-(** The reports of a vehicle, beside its place; [Measurement] of a quantity that it measures. *)
-and sensor = Battery | Speed | Connected | Measurement of string
+(** The reports of a vehicle, beside its place; [Progress] in the plan that it was given last; [Measurement] of a
+    quantity that it measures. *)
+and sensor = Battery | Speed | Connected | Progress | Measurement of string
 
 and quantity = Amount | Place | Region | Words  (* a number, a position, an area, a string *)
 

@@ -22,6 +22,7 @@ type vehicle_state = {
   unready : string option;
   cruise : float option;
   drain : float option;
+  progress : (string * float) list;
 }
 
 type assumption =
@@ -108,6 +109,7 @@ let spell (s : Core.sensor) v =
   | Battery -> Printf.sprintf "battery(%s)" v
   | Speed -> Printf.sprintf "speed(%s)" v
   | Connected -> Printf.sprintf "connected(%s)" v
+  | Progress -> Printf.sprintf "progress(%s)" v
   | Measurement name -> Printf.sprintf "reading(%s,'%s')" v name
 
 let pp_assumption ppf = function
@@ -161,6 +163,7 @@ let known (s : Core.sensor) state : Core.value option =
   | Battery -> number state.battery
   | Speed -> number state.speed
   | Connected -> Some (Boolean state.connected)
+  | Progress -> Some (Number (match state.progress with (_, share) :: _ -> share | [] -> 0.))
   | Measurement name -> number (List.assoc_opt name state.readings)
 
 let sensor world s state =
@@ -170,7 +173,7 @@ let sensor world s state =
 
 let sensors world state =
   let measured = List.map (fun (name, _) -> Core.Measurement name) state.readings in
-  List.map (fun s -> (s, sensor world s state)) (Core.Battery :: Speed :: Connected :: measured)
+  List.map (fun s -> (s, sensor world s state)) (Core.Battery :: Speed :: Connected :: Progress :: measured)
 
 let position world state =
   let supposed = function Placed (v, p) when v = state.id -> Some p | _ -> None in

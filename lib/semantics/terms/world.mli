@@ -7,7 +7,7 @@
       let noptilus =
         { World.id = "noptilus-1"; kind = "UUV"; payload = [ "DVL" ]; position = Dolphin_geo.Place.apdl; depth = None;
           altitude = None; battery = Some 0.9; speed = None; readings = []; connected = true; unready = None;
-          cruise = Some 1.5; drain = None }
+          cruise = Some 1.5; drain = None; progress = [] }
 
       let world = World.add { noptilus with connected = false } (World.add noptilus World.empty)
 
@@ -34,6 +34,10 @@ type vehicle_state = {
   (** the reason why it cannot be given a plan though it has a link, as a predicate: ["is in mode ERROR: leak"] *)
   cruise : float option;  (** metres per second where a plan has none; [None]: not reported *)
   drain : float option;  (** the share of its battery that an hour under way takes; [None]: not reported *)
+  progress : (string * float) list;
+  (** the shares of their ways that it has done of its plans, from 0 to 1, each with the
+      {!Dolphin_plans.Inline_plan.digest} of the whole plan ([""] if its way is not known); the latest plan first. Only
+      for programs that ask for them. *)
 }
 
 type t

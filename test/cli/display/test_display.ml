@@ -94,7 +94,8 @@ let log_of_deeds () =
 
 let state ?(connected = true) ?unready id : World.vehicle_state =
   { id; kind = "UUV"; payload = []; position = { latitude = 41.; longitude = -8.; height = 0. }; battery = Some 0.5;
-    depth = None; altitude = None; speed = Some 0.; readings = []; connected; unready; cruise = None; drain = None }
+    depth = None; altitude = None; speed = Some 0.; readings = []; connected; unready; cruise = None;
+    drain = None; progress = [] }
 
 let news log ~time state =
   let log, lines = Log.news log ~time state in

@@ -1,0 +1,34 @@
+open Dolphin_plans
+open Core
+
+let unknown_way (p : platform_task) why = Error (Printf.sprintf "the rest of plan '%s' is not known: %s" p.name why)
+
+let described (p : platform_task) =
+  match p.plan with
+  | None -> unknown_way p "only its vehicle knows its way"
+  | Some plan when not (Inline_plan.is_fixed plan) -> unknown_way p "its way depends on the place where it begins"
+  | Some plan -> Ok plan
+
+let of_plan p plan = Task (Platform { p with plan = Some plan })
+
+let from_share p share =
+  if Float.is_nan share then Error "the share that is done is a number from 0 to 1"
+  else Result.map (fun plan -> of_plan p (Inline_plan.from_share share plan)) (described p)
+
+let from_reading p = Result.map (fun plan -> of_plan p (Inline_plan.some_rest plan)) (described p)
+
+(* The share of [plan] itself, perhaps a rest, that is done with [share] of the whole. *)
+let of_whole plan ~share =
+  match Inline_plan.begun plan with
+  | _, Some begun when begun < 1. -> (share -. begun) /. (1. -. begun)
+  | _, (Some _ | None) -> 0.
+
+let of_vehicle world (p : platform_task) (s : World.vehicle_state) =
+  let rest plan =
+    match List.assoc_opt (fst (Inline_plan.begun plan)) s.progress with
+    | Some share -> Inline_plan.from_share (of_whole plan ~share) plan
+    | None -> plan
+  in
+  match World.sensor world Progress s with
+  | Some (One_of _ | Anything) -> from_reading p
+  | Some (Shows _) | None -> Result.map (fun plan -> of_plan p (rest plan)) (described p)

@@ -132,6 +132,9 @@ let cost ~off ~takes ~speed ~seconds =
    is early. *)
 let backwards metres = Float.min 4.5 (squared (Float.max 0. (metres -. error) /. (0.8 *. error)))
 
+(* How unlikely it is that it leaves a place before its time is over. *)
+let leaving = 12.
+
 (* The place nearest to [p] between the places [i] and [i + 1]: metres from the former, and metres off. *)
 let project way i p =
   let x, y = Wgs84.displacement p way.places.(i) and x', y' = Wgs84.displacement p way.places.(i + 1) in
@@ -175,11 +178,14 @@ let whole dwell = if Float.is_finite dwell then dwell else 0.
 (* The best place within [window] metres from [from] on, where the vehicle was [seconds] ago but for [after] of them. *)
 let search t ~from ~after ~window p ~seconds =
   let { places; dwells; metres; _ } = t.way in
-  let rec go i ~stayed ~ahead ~after ~behind best =
-    let best = if ahead > 0. then best else better best (staying t i ~stayed ~after p ~seconds) in
+  let rec go i ~stayed ~ahead ~after ~behind ~early best =
+    let unless_early c = { c with cost = c.cost +. early } in
+    let best = if ahead > 0. then best else better best (unless_early (staying t i ~stayed ~after p ~seconds)) in
     if i = Array.length places - 1 then best
     else
-      let after = if ahead > 0. then after else after +. dwells.(i) -. stayed in
+      let left = if ahead > 0. then 0. else dwells.(i) -. stayed in
+      let after = after +. left in
+      let early = if left > 0. && after > seconds +. slack ~speed:(speed t i) seconds then leaving else early in
       let seen, off = project t.way i p in
       let metres_ahead = Float.max ahead seen in
       let takes = after +. ((metres_ahead -. ahead) /. speed t i) in
@@ -188,14 +194,14 @@ let search t ~from ~after ~window p ~seconds =
         else { at = i; ahead = metres_ahead; stayed = (if metres_ahead > 0. then 0. else whole dwells.(i)) }
       in
       let c = candidate ~off ~takes ~speed:(speed t i) ~seconds reaches in
-      let best = better best { c with cost = c.cost +. backwards (metres_ahead -. seen) } in
+      let best = better best { c with cost = c.cost +. early +. backwards (metres_ahead -. seen) } in
       let behind = behind +. metres.(i) -. ahead in
       if behind > window then best
       else
         let after = after +. ((metres.(i) -. ahead) /. speed t i) in
-        go (i + 1) ~stayed:0. ~ahead:0. ~after ~behind best
+        go (i + 1) ~stayed:0. ~ahead:0. ~after ~behind ~early best
   in
-  go from.at ~stayed:from.stayed ~ahead:from.ahead ~after ~behind:0.
+  go from.at ~stayed:from.stayed ~ahead:from.ahead ~after ~behind:0. ~early:0.
     { cost = infinity; off = infinity; takes = infinity; reaches = from }
 
 let reach ~moved ~speed ~seconds = (1.5 *. Float.max moved (speed *. seconds)) +. 30.
@@ -215,8 +221,10 @@ let await ~at p t =
 let advance ~at p t =
   let seconds = Float.max 0. (at -. t.matched.time) in
   let moved = Wgs84.distance t.matched.place p in
+  let seen = if seconds > 0. then (moved -. (2. *. error)) /. seconds else 0. in
+  let pace = Float.max t.pace seen in
   let window = reach ~moved ~speed:(speed t t.point.at) ~seconds in
-  let best = search t ~from:t.point ~after:0. ~window p ~seconds in
+  let best = search { t with pace } ~from:t.point ~after:0. ~window p ~seconds in
   if best.off > off_way then t
   else await ~at p { t with point = best.reaches; matched = { time = at; place = p } }
 

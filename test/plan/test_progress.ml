@@ -200,7 +200,16 @@ let cases =
         check "on the way" 0.1 (see (see t (150., (0., 0.))) (180., (30., 0.))));
     case "a vehicle that waits on the way has not begun" (fun () ->
         let wait t i = see t (float_of_int i, (60., 0.)) in
-        check "waits" 0. (List.fold_left wait (started with_stay) (List.init 600 Fun.id)));
+        check "seen often" 0. (List.fold_left wait (started with_stay) (List.init 600 Fun.id));
+        check "seen seldom" 0. (List.fold_left wait (started with_stay) [ 0; 100; 200; 300 ]));
+    case "its beginning was not seen" (fun () ->
+        let t = List.fold_left see (started with_stay) [ (0., (42., -9.)); (80., (38., 0.)) ] in
+        check "where it was before" 0. t;
+        check "it goes away" 0.193 (see t (100., (58., 0.))));
+    case "late, and nearer to its way after a stay" (fun () ->
+        let m = maneuver ~speed:20. in
+        let t = started ~speed:20. (plan [ m Go_to (0., 0.); m (loiter 240.) (200., 0.); m Go_to (0., 50.) ]) in
+        check "before the stay" 0.019 (List.fold_left see t [ (0., (0., 0.)); (30., (100., 17.)) ]));
     case "its time counts anywhere around" (fun () ->
         let t = there (started with_stay) in
         check "arrives" 0.333 t;

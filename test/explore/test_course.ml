@@ -72,7 +72,7 @@ let refused =
     ([ header ], "1 steps are announced, and 0 are there"); ([ header; "{}" ], {|line 2: "label" is missing|});
     ([ header; {|{"label":"end","choice":-1}|} ], "line 2: a choice is a number from 0");
     ([ header; {|{"label":"end","choice":0,"assumed":[{"wind":"a"}]}|} ],
-     "line 2: unknown assumption: expected late, missing, battery, speed, connected, reading, position or claim");
+     "line 2: unknown assumption: expected late, missing, battery, speed, connected, progress, reading, position or claim");
     ([ header; {|{"label":"end","choice":0,"assumed":[{"battery":"a"}]}|} ], {|line 2: "is" is missing|});
     ([ header; {|{"label":"end","choice":0,"assumed":[{"position":"a","is":[91,0,0]}]}|} ],
      "line 2: latitude 91 is not from -90 to 90 degrees");

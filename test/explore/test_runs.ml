@@ -65,6 +65,31 @@ let same_store (found : Store.t) (store : Store.t) =
   let found = Store.bindings found and store = Store.bindings store in
   List.compare_lengths found store = 0 && List.for_all2 same found store
 
+let no_plan : Dolphin_plans.Plan.t = { name = ""; description = ""; vehicles = []; maneuvers = [] }
+
+(* The explorer knows no rest of a plan, only that it is one. *)
+let some_rest (p : Core.platform_task) =
+  match p.plan with
+  | Some (Rest r) -> { p with plan = Some (Rest { r with share = None; plan = Maneuvers no_plan }) }
+  | Some (Maneuvers _ | Mission _) | None -> p
+
+(* A plan of which nothing is done yet is its rest. *)
+let whole (p : Core.platform_task) =
+  match p.plan with Some plan -> some_rest { p with plan = Some (Dolphin_plans.Inline_plan.some_rest plan) } | None -> p
+
+let rec of_task : Core.task -> Core.task = function
+  | Platform p -> Platform (whole p)
+  | t -> Task.map { part = of_task; code = Fun.id; value = Fun.id; vehicle = Fun.id } t
+
+let rec of_residual : Residual.t -> Residual.t = function
+  | Ready (p, v) -> Ready (whole p, v)
+  | Running (p, v) -> Running (whole p, v)
+  | r ->
+    Residual.map
+      { part = of_residual; code = Fun.id; handler = Fun.id; maker = Fun.id; value = Fun.id; term = of_task;
+        vehicle = Fun.id }
+      r
+
 (* Messages of the explorer speak of vehicles and sensors as it knows them, and so do machines. *)
 let same_control ~senses (found : Configuration.control) (control : Configuration.control) =
   match found, control with
@@ -75,7 +100,7 @@ let same_control ~senses (found : Configuration.control) (control : Configuratio
     (Machine.compare m m' = 0 || (senses && Machine.site m = Machine.site m'))
     && Machine.compare_request request request' = 0
   | Executing (m, r), Executing (m', r') ->
-    (Machine.compare m m' = 0 || (senses && Machine.site m = Machine.site m')) && Residual.equal r r'
+    (Machine.compare m m' = 0 || (senses && Machine.site m = Machine.site m')) && (Residual.equal r r' || Residual.equal (of_residual r) (of_residual r'))
   | Ended e, Ended e' -> Configuration.compare_ending e e' = 0
   | (Script _ | Waiting _ | Executing _ | Ended _), _ -> false
 

@@ -100,7 +100,8 @@ let same_control ~senses (found : Configuration.control) (control : Configuratio
     (Machine.compare m m' = 0 || (senses && Machine.site m = Machine.site m'))
     && Machine.compare_request request request' = 0
   | Executing (m, r), Executing (m', r') ->
-    (Machine.compare m m' = 0 || (senses && Machine.site m = Machine.site m')) && (Residual.equal r r' || Residual.equal (of_residual r) (of_residual r'))
+    (Machine.compare m m' = 0 || (senses && Machine.site m = Machine.site m'))
+    && (Residual.equal r r' || Residual.equal (of_residual r) (of_residual r'))
   | Ended e, Ended e' -> Configuration.compare_ending e e' = 0
   | (Script _ | Waiting _ | Executing _ | Ended _), _ -> false
 

@@ -275,9 +275,19 @@ let all =
             {|Sys.Signal_ignore) [ Sys.sigint; Sys.sighup; Sys.sigxfsz ]|},
             {|Sys.Signal_default) [ Sys.sigint ]|} );
         ];
+      in_file "lib/platform_sim/reconstruction.ml" ~noticed_by:"trace/test_rest"
+        [ ("a resumed fleet reports old places again", {|{ state with progress = [] }|}, {|state|}) ];
       in_file "lib/runtime/driver.ml" ~noticed_by:"runtime/test_runtime"
         [
           ("the date is that of the start", {|(Exactly (World.whole s.moment))|}, {|(Exactly (World.whole 0.))|});
+        ];
+      in_file "lib/runtime/vehicle_progress.ml" ~noticed_by:"trace/test_rest"
+        [
+          ( "a rest counts from the beginning",
+            {|begun = Option.value begun ~default:0.|},
+            {|begun = 0. *. Option.value begun ~default:0.|} );
+          ("plans before the latest are forgotten", {|*. of_part))) :: v.earlier|}, {|*. of_part))) :: []|});
+          ("a plan that is done is not", {|{ vehicle with begun = 1.; under_way|}, {|{ vehicle with under_way|});
         ];
       in_file "lib/scenario/battery.ml" ~noticed_by:"time/test_missions"
         [
@@ -288,6 +298,8 @@ let all =
         [
           ("confirm takes any answer", {|expression env at (While (open_, again))|}, {|again|});
         ];
+      in_file "lib/semantics/language/rest.ml" ~noticed_by:"trace/test_rest"
+        [ ("the rest of a rest is cut as the whole is", {|(share -. begun) /. (1. -. begun)|}, {|share|}) ];
       in_file "lib/semantics/language/dated_code.ml" ~noticed_by:"time/test_exact"
         [
           ( "a date turns as it is passed",

@@ -5,7 +5,9 @@ open Dolphin_trace
 
 (* {1 Programs} *)
 
-type mission = { plan : string; stops : int list  (* seconds after which it is stopped, one start after the other *) }
+(* It is stopped after each of [stops], in seconds, one start after the other. The program keeps the whole plan, or the
+   part of it that is left. *)
+type mission = { plan : string; keeps_rest : bool; stops : int list }
 
 let maneuver =
   let open QCheck2.Gen in
@@ -24,13 +26,18 @@ let mission =
     Printf.sprintf "imcPlan { planName 'way'; speed 2, Speed.Units.METERS_PS; locate 41.185, -8.707; goTo(); %s }"
       (String.concat "; " maneuvers)
   in
-  return { plan; stops }
+  let* keeps_rest = bool in
+  return { plan; keeps_rest; stops }
 
 let program m ~stops =
-  let stopped seconds = Printf.sprintf "execute way.rest(v)[v] during %d\nexecute away[v]\n" seconds in
-  Printf.sprintf "v = pick { id 'auv' }\nway = %s\naway = imcPlan { speed 2, Speed.Units.METERS_PS; locate 41.187, -8.708; \
-                  goTo() }\n%sexecute way.rest(v)[v]\n"
-    m.plan (String.concat "" (List.map stopped stops))
+  let rest = if m.keeps_rest then "way = way.rest(v)\nexecute way[v]" else "execute way.rest(v)[v]" in
+  let stopped seconds = Printf.sprintf "%s during %d\nexecute away[v]\n" rest seconds in
+  Printf.sprintf
+    "v = pick { id 'auv' }\nway = %s\naway = imcPlan { speed 2, Speed.Units.METERS_PS; locate 41.187, -8.708; goTo() \
+     }\n%s%s\n"
+    m.plan
+    (String.concat "" (List.map stopped stops))
+    rest
 
 (* {1 The way gone} *)
 

@@ -44,6 +44,24 @@ let is_fixed p =
   let places from = List.concat_map (fun leg -> leg.waypoints) (path ~from ~speed:1. p) in
   List.equal Position.equal (places Dolphin_geo.Place.apdl) (places Dolphin_geo.Place.feup)
 
+let comes_home leg =
+  let is_return word = String.length leg.named >= String.length word && Filename.check_suffix leg.named word in
+  leg.waypoints = [] || List.exists is_return [ ".returnHome"; ".returnHomeAndLand"; ".returnHomeAndLoiter" ]
+
+(* From the end of the way that is the same from anywhere, what comes home is of no length. *)
+let way_from p =
+  let here = Dolphin_geo.Place.apdl in
+  if is_fixed p then Some here
+  else
+    let from place = path ~from:place ~speed:1. p in
+    let same leg leg' = List.equal Position.equal leg.waypoints leg'.waypoints in
+    let rec go last = function
+      | leg :: legs, leg' :: legs' when same leg leg' ->
+        go (match List.rev leg.waypoints with place :: _ -> Some place | [] -> last) (legs, legs')
+      | legs, _ -> if List.for_all comes_home legs then last else None
+    in
+    go None (from here, from Dolphin_geo.Place.feup)
+
 type extent = { metres : float; moving : float; staying : float }
 
 let extent ~from ~speed p =
@@ -86,23 +104,23 @@ let begun = function
   | Rest { whole; share; plan = _ } -> (whole, share)
   | (Maneuvers _ | Mission _) as p -> (digest p, Some 0.)
 
-let rec without x = function
+let rec without x ~from = function
   | Maneuvers p -> Maneuvers (Plan_rest.from_share x p)
-  | Mission m -> Mission (Mission_rest.from_share x m)
-  | Rest r -> without x r.plan
+  | Mission m -> Mission (Mission_rest.from_share x ~from m)
+  | Rest r -> without x ~from r.plan
 
 (* A plan that is begun again as a whole is no rest. *)
 let from_share x p =
-  let rest whole ~begun plan =
-    let left = without x plan in
+  let rest whole ~begun plan from =
+    let left = without x ~from plan in
     if compare left plan = 0 then p
     else Rest { whole; share = Some (begun +. ((1. -. begun) *. Float.min x 1.)); plan = left }
   in
-  match p with
-  | Rest { share = None; _ } -> p
-  | _ when not (x > 0. && is_fixed p) -> p
-  | Rest { whole; share = Some begun; plan } -> rest whole ~begun plan
-  | Maneuvers _ | Mission _ -> rest (digest p) ~begun:0. p
+  match p, way_from p with
+  | Rest { share = None; _ }, _ | _, None -> p
+  | _, Some _ when not (x > 0.) -> p
+  | Rest { whole; share = Some begun; plan }, Some from -> rest whole ~begun plan from
+  | (Maneuvers _ | Mission _), Some from -> rest (digest p) ~begun:0. p from
 
 let some_rest = function
   | Rest r -> Rest { r with share = None }

@@ -63,6 +63,11 @@ val is_stay : leg -> bool
 val is_fixed : t -> bool
 (** [is_fixed p] is whether the places of {!path} are the same wherever the vehicle is. *)
 
+val way_from : t -> Position.t option
+(** [way_from p] is a place from which {!path} is the way that shares of [p] count: its places are the same from
+    anywhere, but for a last part that comes home, which is of no length from there. [None] if [p] has no such way: it
+    goes from wherever the vehicle is. *)
+
 (** The totals of a way. *)
 type extent = {
   metres : float;  (** over ground *)
@@ -93,8 +98,8 @@ val from_share : float -> t -> t
 (** [from_share x p] is the part of [p] that remains once the share [x] of its way is done: a plan of the same name,
     for the same vehicles. [p] itself for [x <= 0]; for [x >= 1], its last place and what takes no time there.
 
-    A share is one of time: that of [path ~speed:1.], from the first place on. A dwell without end counts 0. A way
-    without time is not cut: the rest is [p] itself. So it is if [p] is not {!is_fixed}, or has no place.
+    A share is one of time: that of [path ~speed:1.] from {!way_from}, its first place on. A dwell without end counts 0.
+    A way without time is not cut: the rest is [p] itself. So it is if there is no such way.
 
     The rest begins at the place of the cut. It has all that was not done: a dwell goes on for the seconds that remain,
     in whole seconds, turns in whole turns. It begins with the launch or the last take-off before the cut, as the

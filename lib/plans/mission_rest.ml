@@ -209,11 +209,11 @@ let rest l steps (cut : Way.cut) seconds_since =
   let written = List.fold_left write { next = 1; latest_first = [] } beginning in
   List.rev (after l i step.taken written).latest_first
 
-let from_share x m =
+let from_share x ~from m =
   let l = layout m in
   if not (is_regular l) then m
   else
-    let steps = steps ~from:Dolphin_geo.Place.apdl ~speed:1. m in
+    let steps = steps ~from ~speed:1. m in
     let leg ({ leg = { waypoints; speed; dwell; _ }; _ } : step) = { Way.waypoints; speed; dwell } in
     let legs = List.rev (List.rev_map leg steps) in
     match Way.cut x legs with

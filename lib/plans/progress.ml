@@ -53,8 +53,8 @@ let way_of_stops stops =
     to_first = stops.(0).speed;
   }
 
-let way ~speed p =
-  let path speed = Inline_plan.path ~from:Dolphin_geo.Place.apdl ~speed p in
+let way ~speed ~from p =
+  let path speed = Inline_plan.path ~from ~speed p in
   match List.fold_left2 add_leg [] (path speed) (path 1.) with
   | [] -> None
   | latest_first -> Some (way_of_stops (List.rev latest_first))
@@ -86,14 +86,15 @@ let beginning = { at = 0; ahead = 0.; stayed = 0. }
 let usual_pace = 1.
 
 let start ~speed p =
-  if not (Inline_plan.is_fixed p) then None
-  else
+  match Inline_plan.way_from p with
+  | None -> None
+  | Some from ->
     let progress way =
       let matched = { time = 0.; place = way.places.(0) } in
       { way; point = beginning; begun = false; entered = None; nearest = None; matched; last = None; awaited = None;
         pace = usual_pace; timed_from = None; is_finished = false }
     in
-    Option.map progress (way ~speed p)
+    Option.map progress (way ~speed ~from p)
 
 let done_at way { at; ahead; stayed } =
   if ahead > 0. then

@@ -33,7 +33,7 @@ type t
 
 val start : speed:float -> Inline_plan.t -> t option
 (** [start ~speed p] is the progress of a vehicle that has been given [p], with [speed] where [p] has no speed in metres
-    per second; [nan] if that is not known. [None] if [p] is not {!Inline_plan.is_fixed}, or has no place. *)
+    per second; [nan] if that is not known. [None] if [p] has no {!Inline_plan.way_from}, or no place. *)
 
 val observe : at:float -> Position.t -> t -> t
 (** [observe ~at p t] is [t] once the vehicle was seen at [p] at the second [at], which is not before that of the report

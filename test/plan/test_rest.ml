@@ -218,6 +218,18 @@ let items =
     case "the lines of a survey" (fun () ->
         check_kinds "items" [ "goPos"; "goPos"; "goPos"; "goPos" ] (from_share 0.1 (mission [ survey ]));
         check_kinds "whole" [ "surveyArea" ] (from_share 0. (mission [ survey ])));
+    case "comes home" (fun () ->
+        let p =
+          mission
+            [ item "takeOff" [ number "altitude" 30. ]; go (0., 0.); go (north 100.); item "returnHomeAndLand" [] ] in
+        check_kinds "on the way" [ "takeOff"; "goPos"; "goPos"; "returnHomeAndLand" ] (from_share 0.5 p);
+        check_kinds "on the way home" [ "takeOff"; "goPos"; "returnHomeAndLand" ] (from_share 1. p);
+        let has_way items = Inline_plan.way_from (mission items) <> None in
+        let home = item "moveFromHome" [ number "north" 10. ] in
+        Alcotest.(check (list bool)) "ways" [ true; false; false; false ]
+          [ has_way [ item "takeOff" []; go (0., 0.); item "returnHome" []; item "delay" [ number "duration" 5. ] ];
+            has_way [ go (0., 0.); home; go (0., 0.) ]; has_way [ item "returnHome" []; go (0., 0.) ];
+            has_way [ item "takeOff" []; item "returnHomeAndLand" [] ] ]);
     case "rounds" (fun () ->
         let p = mission [ go (0., 0.); go (north 100.); jump 1. ~times:3.; go (0., 0.) ] in
         (* 800 m: there, and three times back and there, then back. *)

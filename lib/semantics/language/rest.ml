@@ -6,7 +6,7 @@ let unknown_way (p : platform_task) why = Error (Printf.sprintf "the rest of pla
 let described (p : platform_task) =
   match p.plan with
   | None -> unknown_way p "only its vehicle knows its way"
-  | Some plan when not (Inline_plan.is_fixed plan) -> unknown_way p "its way depends on the place where it begins"
+  | Some plan when Inline_plan.way_from plan = None -> unknown_way p "its way depends on the place where it begins"
   | Some plan -> Ok plan
 
 let of_plan p plan = Task (Platform { p with plan = Some plan })

@@ -9,7 +9,7 @@ type code =
   | Wildcard_value
   | Misplaced_jump | Misplaced_when | Misplaced_setting | Misplaced_function | Misplaced_input
   | Misplaced_parameter | Misplaced_interrupt
-  | Bad_map | Bad_fence | Broken_fence | No_place | Deed_in_answer
+  | Bad_map | Bad_fence | Broken_fence | No_place | No_way | Deed_in_answer
   | Deed_in_maker
   | Vehicle_twice
   | Unused_task | No_effect | Assigned_condition | Never_holds | Wide_value | Unknown_plan | Unread_input
@@ -27,6 +27,7 @@ let codes =
     (Misplaced_input, "misplaced-input"); (Misplaced_parameter, "misplaced-parameter");
     (Misplaced_interrupt, "misplaced-on-interrupt");
     (Bad_map, "bad-map"); (Bad_fence, "bad-fence"); (Broken_fence, "broken-fence"); (No_place, "no-place");
+    (No_way, "no-way");
     (Deed_in_answer, "deed-in-answer"); (Deed_in_maker, "deed-in-maker");
     (Vehicle_twice, "vehicle-twice"); (Unused_task, "unused-task");
     (No_effect, "no-effect"); (Assigned_condition, "assigned-condition"); (Never_holds, "never-holds");

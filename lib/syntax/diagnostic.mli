@@ -42,6 +42,7 @@ type code =
   | Bad_fence  (** [fence] with a value that is unknown, or is not a fence; or out of place *)
   | Broken_fence  (** a plan that breaks a fence wherever its vehicle is *)
   | No_place  (** a plan without a place, where neither program nor fleet has one for it *)
+  | No_way  (** the rest of a plan whose way is not known *)
   | Deed_in_answer  (** an answer may only compute *)
   | Deed_in_maker  (** so may code that makes a task *)
   | Vehicle_twice  (** one vehicle, needed twice at once *)

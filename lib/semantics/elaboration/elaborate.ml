@@ -236,7 +236,9 @@ let elaborated ?(chart = no_chart) ~source_name (ast : Ast.program) =
   let fences = fences program (lazy (Constants.of_program ~chart ~place ast)) ast in
   if not (List.exists is_error (Scope.reports program)) then begin
     let place = Some (Option.value place ~default:Dolphin_geo.Place.feup) in
-    report_plans program ~constants:(lazy (Constants.of_program ~chart ~place ast)) ast
+    let constants = lazy (Constants.of_program ~chart ~place ast) in
+    report_plans program ~constants ast;
+    List.iter (Scope.report program) (Rest_check.program constants ast)
   end;
   let reports = Scope.reports program in
   if List.exists is_error reports then Error reports

@@ -21,7 +21,8 @@ let fault constants (e : Ast.expression) =
   | Ok (Task (Platform p)) -> (
       match Rest.from_share p 0.5 with
       | Ok _ -> None
-      | Error why -> Some (Diagnostic.error ~code:No_way e.at why ~hint:"describe it, as in imcPlan { locate ...; goTo() }"))
+      | Error why ->
+        Some (Diagnostic.error ~code:No_way e.at why ~hint:"describe it, as in imcPlan { locate ...; goTo() }"))
   | Ok _ | Error _ -> None
 
 let program constants ast =

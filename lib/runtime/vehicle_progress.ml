@@ -50,8 +50,10 @@ let see ~at (s : World.vehicle_state) x =
   match Vehicle_map.find_opt s.id x with
   | None -> (x, s)
   | Some vehicle ->
+    (* Without a link its place is an earlier one. *)
     let vehicle =
-      if vehicle.under_way then { vehicle with way = Option.map (Progress.observe ~at s.position) vehicle.way }
+      if vehicle.under_way && s.connected then
+        { vehicle with way = Option.map (Progress.observe ~at s.position) vehicle.way }
       else vehicle
     in
     (Vehicle_map.add s.id vehicle x, { s with progress = progress vehicle })

@@ -26,4 +26,5 @@ val stop : Core.vehicle -> t -> t
     time between two reports, is done again by the rest. *)
 
 val see : at:float -> World.vehicle_state -> t -> t * World.vehicle_state
-(** [see ~at s x] is [x] once the report [s] was received at that second of the run, and [s] with its progress. *)
+(** [see ~at s x] is [x] once the report [s] was received at that second of the run, and [s] with its progress. The
+    report that a link is lost has an earlier place, and changes nothing. *)

@@ -288,6 +288,7 @@ let all =
             {|begun = 0. *. Option.value begun ~default:0.|} );
           ("plans before the latest are forgotten", {|*. of_part))) :: v.earlier|}, {|*. of_part))) :: []|});
           ("a plan that is done is not", {|{ vehicle with begun = 1.; under_way|}, {|{ vehicle with under_way|});
+          ("a lost link is a place", {|if vehicle.under_way && s.connected then|}, {|if vehicle.under_way then|});
         ];
       in_file "lib/scenario/battery.ml" ~noticed_by:"time/test_missions"
         [

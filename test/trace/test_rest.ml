@@ -116,6 +116,32 @@ let goes_on_the_same (m, line) =
     || QCheck2.Test.fail_reportf "after %d lines it ends at %s, not at %s" (List.length kept) (times resumed)
       (times r.journal)
 
+(* {1 Reports} *)
+
+(* A report that the link is lost, or a resumed run's first one, has an earlier place. *)
+let lost_link () =
+  let module Progress = Dolphin_runtime.Vehicle_progress in
+  let module Plans = Dolphin_plans in
+  let place north = Wgs84.displace Place.apdl ~north ~east:0. in
+  let item word arguments = { Plans.Mission_plan.word; arguments } in
+  let go north = item "goPos" [ ("position", Plans.Mission_plan.Place (place north)) ] in
+  let stay = item "loiterTime" [ ("position", Place (place 100.)); ("duration", Number 60.) ] in
+  let plan = Plans.Inline_plan.Mission { name = "way"; vehicles = []; items = [ go 0.; go 100.; stay ] } in
+  let vehicle ?(connected = true) north =
+    { Dolphin_semantics.World.id = "auv"; kind = "UAV"; payload = []; position = place north; depth = None;
+      altitude = None; battery = None; speed = None; readings = []; connected; unready = None; cruise = Some 2.;
+      drain = None; progress = [] }
+  in
+  let see x (time, state) = fst (Progress.see ~at:time state x) in
+  let begun = Progress.start (vehicle 0.) { name = "way"; plan = Some plan; task_site = 0 } Progress.none in
+  let reports = List.init 41 (fun second -> (float_of_int second, vehicle (2. *. float_of_int second))) in
+  let seen = List.fold_left see begun reports in
+  let share ~at x state = List.map snd (snd (Progress.see ~at state x)).progress in
+  let shares = Alcotest.(list (float 0.01)) in
+  Alcotest.check shares "without a link" [ 80. /. 160. ] (share ~at:55. seen (vehicle ~connected:false 80.));
+  let later = see seen (42., vehicle ~connected:false 80.) in
+  Alcotest.check shares "with a link again" [ 86. /. 160. ] (share ~at:43. later (vehicle 86.))
+
 let print m = program m ~stops:m.stops
 
 let () =
@@ -125,4 +151,5 @@ let () =
           Test_support.Property.case "a resumed run goes on at the same place" ~count:50
             QCheck2.Gen.(pair mission (int_range 0 100_000))
             ~print:(fun (m, line) -> Printf.sprintf "%s# line %d" (print m) line)
-            goes_on_the_same ] ) ]
+            goes_on_the_same ] );
+      ("reports", [ Alcotest.test_case "a lost link is not a place" `Quick lost_link ]) ]

@@ -90,7 +90,7 @@ def _passes(way, flown, off):
     return True
 
 
-def compare(whole, broken, stops):
+def compare(whole, broken, stops, twice=TWICE):
     """Metres by which a place of the way was missed, at most; and metres flown more than in the run without stops."""
     way = _dense([p for part in whole for p in part])
     flown = [p for part in broken for p in _dense(part)]
@@ -100,6 +100,6 @@ def compare(whole, broken, stops):
     more = sum(metres(part) for part in broken) - sum(metres(part) for part in whole)
     if off is None:
         raise Flown(f"a place of the way was missed by more than {OFF:g} m; {more:+.0f} m")
-    if abs(more) > TWICE * max(1, stops):
+    if abs(more) > twice * max(1, stops):
         raise Flown(f"{more:+.0f} m flown with {stops} stops; at most {off:g} m off")
     return off, more

@@ -65,7 +65,7 @@ def run(folder, spawn, adapter_options, text, kills, vehicle="mav-1"):
                     env=environment, stdout=output, stderr=output,
                 )
                 try:
-                    status = console.wait(kills[number] if number < len(kills) else 400)
+                    status = console.wait(kills[number] if number < len(kills) else 900)
                 except subprocess.TimeoutExpired:
                     console.send_signal(signal.SIGKILL)
                     status = console.wait() if number < len(kills) else 1
@@ -99,8 +99,7 @@ class Rests(unittest.TestCase):
 
             def one(case):
                 number, stops, kills = case
-                folder = os.path.join(top, f"rests-{self.id().rsplit('.', 1)[1]}-{number}")
-                os.makedirs(folder, exist_ok=True)
+                folder = tempfile.mkdtemp(prefix=f"rests-{number}-", dir=top)
                 try:
                     return run(folder, spawn, options, program(items, stops), kills, vehicle), None
                 except (flown.Flown, OSError) as why:
@@ -129,8 +128,8 @@ class Rests(unittest.TestCase):
         seed = int(os.environ.get("DOLPHIN_SEED", "0"))
         for kind, speed in KINDS.items():
             cases = [(seed + n, *drawn(seed + n, 900 // speed, 3, kind == "copter")) for n in range((MOMENTS + 1) // 2)]
-            # The time between two reports, and that of the order to stop
-            bound = max(flown.TWICE, 2.5 * speed)
+            # The time between two reports, that of the order to stop, and the turn back
+            bound = max(flown.TWICE, 3.5 * speed)
             off, again = self.flies_once(
                 lambda port, kind=kind: spawn_vehicle(kind, port), "", LONG, cases, twice=bound)
             print(f"{kind}: at most {off:g} m off the way, {again:.0f} m twice for each stop, {len(cases)} rests")

@@ -22,8 +22,8 @@ val finish : Core.vehicle -> t -> t
 (** [finish v x] is [x] once [v] has done its plan. *)
 
 val stop : Core.vehicle -> t -> t
-(** [stop v x] is [x] once [v] was stopped, or failed: later reports change nothing. So up to a second of its way, the
-    time between two reports, is done again by the rest. *)
+(** [stop v x] is [x] once [v] was stopped, or failed: later reports change nothing. So the rest does a second or two
+    of its way again, the time between two reports. *)
 
 val see : at:float -> World.vehicle_state -> t -> t * World.vehicle_state
 (** [see ~at s x] is [x] once the report [s] was received at that second of the run, and [s] with its progress. The

@@ -30,19 +30,21 @@ let moves (p : Core.platform_task) =
 
 (* {1 Inline plans} *)
 
-(* From an unknown place, the duration of a way is unknown. *)
-let inline (v : Scenario.vehicle) from plan =
+(* From an unknown place, the duration of a way is unknown. A rest that is not known is of no time at least. At most it
+   goes as far as the whole, for the way to the place of its cut is no longer than by the first place; but all of it
+   perhaps at the lowest of the speeds, at which that place is gone to. *)
+let inline (v : Scenario.vehicle) from (plan : Inline_plan.t) =
   let here = Option.value from ~default:Place.apdl in
-  let { Inline_plan.moving; staying; _ } = Inline_plan.extent ~from:here ~speed:v.speed plan in
-  let goes = not (List.for_all Inline_plan.is_stay (Inline_plan.path ~from:here ~speed:1. plan)) in
-  if from = None && goes then if staying = infinity then Bounds.Never else Bounds.Some_time
-  else
-    let least =
-      match (plan : Inline_plan.t) with
-      | Rest { share = None; _ } -> 0.
-      | Rest _ | Maneuvers _ | Mission _ -> (moving *. (1. -. tolerance)) +. staying
-    in
-    Bounds.between least ((moving *. (1. +. tolerance)) +. staying)
+  let { Inline_plan.metres; moving; staying } = Inline_plan.extent ~from:here ~speed:v.speed plan in
+  let legs = Inline_plan.path ~from:here ~speed:v.speed plan in
+  let goes = List.filter (fun leg -> not (Inline_plan.is_stay leg)) legs in
+  let slowest = List.fold_left (fun least (leg : Inline_plan.leg) -> Float.min least leg.speed) infinity goes in
+  let between least most =
+    Bounds.between ((least *. (1. -. tolerance)) +. staying) ((most *. (1. +. tolerance)) +. staying) in
+  match plan with
+  | _ when from = None && goes <> [] -> if staying = infinity then Bounds.Never else Bounds.Some_time
+  | Rest { share = None; _ } -> Bounds.from_the_start (between 0. (metres /. slowest))
+  | Rest _ | Maneuvers _ | Mission _ -> between moving moving
 
 (* {1 Fleets} *)
 

@@ -413,6 +413,24 @@ let test_meeting () =
   let posting = meeting ~post:"; post here: i" 10 in
   Alcotest.(check int) "pairs that no code reads cost nothing" o.states posting.states
 
+(* 3 km at 10 m/s, and 10 m at 1 m/s: a rest in the slow part is gone to at 1 m/s, so it may take longer than the whole.
+   10 percent more are granted for ways. *)
+let test_rest () =
+  let program =
+    "v = pick { id 'v' }\nw = pick { id 'w' }\n\
+     p = imcPlan {\n\
+    \  planName 'p'\n\
+    \  locate 41.185, -8.706\n\
+    \  speed 10, Speed.Units.METERS_PS; goTo(); move 3000, 0; goTo()\n\
+    \  speed 1, Speed.Units.METERS_PS; move 10, 0; goTo()\n\
+     }\n\
+     execute p[v] until { battery(v) < 0.5 }\nexecute p.rest(v)[w]\n"
+  in
+  let vehicle id = Printf.sprintf "vehicle '%s', { type 'UUV'; at 41.185, -8.706 }\n" id in
+  let earliest, latest = ends (outcome program (fleet (vehicle "v" ^ vehicle "w"))) in
+  Alcotest.(check (float 0.)) "nothing may be left" 0. earliest;
+  Alcotest.(check (float 2.)) "all of it, slowly" ((1.1 *. 310.) +. (1.1 *. 3010.)) latest
+
 let () =
   let case name f = Alcotest.test_case name `Quick f in
   Alcotest.run "missions"
@@ -423,4 +441,5 @@ let () =
          case "deadlines" test_deadline; case "slack" test_slack; case "batteries" test_batteries;
          case "batteries without a link" test_batteries_without_link; case "picks" test_picks; case "joins" test_joins;
          case "places" test_places; case "growth of a meeting" test_meeting;
-         case "a date set by an end" test_date_of_end; case "interrupted at the start" test_interrupted ]) ]
+         case "a date set by an end" test_date_of_end; case "interrupted at the start" test_interrupted;
+         case "the rest of a plan" test_rest ]) ]

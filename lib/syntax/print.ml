@@ -79,6 +79,21 @@ let rec takes_comma e =
   | During (_, _, t) -> takes_comma t
   | _ -> false
 
+(* Whether [e] is spelt with an [ensure] at its end. *)
+let rec ends_with_ensure e =
+  match e.it with
+  | Ensure _ -> true
+  | Binary (_, _, e) | Unary (_, e) | Elvis (_, e) | Conditional (_, _, e) | Range { last = e; _ } | When (_, e)
+  | Wait_for (_, e) | Until (_, _, e) | During (_, _, e) | Repeat { body = e; until = None; _ } -> ends_with_ensure e
+  | _ -> false
+
+let value_of = function Positional e | Named (_, e) | Keyed (_, e) -> e
+
+(* Whether a call without parentheses would have the [ensure] at the end of its last argument, as [f a ensure { }] is
+   [f(a) ensure { }]. It belongs to the task in [execute t ensure { }]. *)
+let takes_ensure name arguments =
+  name <> "execute" && ends_with_ensure (value_of (List.nth arguments (List.length arguments - 1)))
+
 (* Whether [e] is spelt with a brace at its start. *)
 let rec starts_with_brace e =
   match e.it with
@@ -428,7 +443,7 @@ and command out name arguments =
   (* A closure first, and more behind it: [assert { C }, 'text']. *)
   let begins_with_closure = is_closure (List.hd arguments) && List.compare_length_with arguments 1 > 0 in
   put out name;
-  if begins_argument (List.hd texts) || begins_with_closure then begin
+  if (begins_argument (List.hd texts) || begins_with_closure) && not (takes_ensure name arguments) then begin
     let long =
       List.fold_left (fun n text -> n + 2 + String.length text) (out.indent + String.length name) texts > width in
     if long && List.compare_length_with texts 1 > 0 && not (List.exists (fun text -> String.contains text '\n') texts)

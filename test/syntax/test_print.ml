@@ -13,5 +13,19 @@ let print program =
   | Ok read -> "read as:\n" ^ Support.printed read
   | Error _ -> ""
 
+(* An [ensure] at the end of a call without parentheses would be one of the whole call. *)
+let ends_in_ensure () =
+  let printed source =
+    match Dolphin_syntax.Parse.program ~file:"p" source with
+    | Ok program -> Support.printed program
+    | Error _ -> Alcotest.failf "not read: %s" source
+  in
+  let prints source expected = Alcotest.(check string) source (expected ^ "\n") (printed source) in
+  prints "f (t ensure { })" "f(t ensure { })";
+  prints "f k: 1, (t >> (u ensure { }))" "f(k: 1, t >> (u ensure { }))";
+  prints "f t ensure { }" "f(t) ensure { }";
+  prints "execute t ensure { }" "execute t ensure { }"
+
 let suite =
-  [ Test_support.Property.case "what is printed is read as the same" ~count:600 Generate.program ~print law ]
+  [ Alcotest.test_case "an ensure at the end of a call" `Quick ends_in_ensure;
+    Test_support.Property.case "what is printed is read as the same" ~count:600 Generate.program ~print law ]

@@ -129,6 +129,8 @@ let flights ?unit ?(paces = [ 1. ]) ?(tells_speed = true) ~least ~most () =
   let* speed = Gen.oneofl [ 1.; 1.5; 5.; 20. ] in
   let* name, plan = plans ?unit ~speed () in
   let* approach = Gen.pair (metres 400) (metres 400) in
+  (* Of a vehicle that goes on for more than 100 m unseen, reports may fit a way that it did not go. *)
+  let most = Float.min most (Float.max 3. (100. /. speed)) in
   let* gaps = Gen.(list_size (int_range 1 30) (float_range least most)) in
   let* pace = Gen.oneofl paces in
   let+ errors = Gen.(list_size (int_range 1 30) (pair (float_range (-3.5) 3.5) (float_range (-3.5) 3.5))) in
@@ -141,7 +143,9 @@ let silence f = Float.max 0. (longest f -. 5.)
 
 let tolerance f =
   let metres = if f.tells_speed && f.pace = 1. then 25. else 50. in
-  Float.max 2. (metres /. f.speed /. f.pace) +. (0.25 *. silence f)
+  (* It comes to a stay at some moment between two reports, and leaves it so. *)
+  let unseen = if f.name = "stays" then longest f else 0. in
+  Float.max 2. (metres /. f.speed /. f.pace) +. (0.25 *. silence f) +. unseen
 
 let misses f =
   let is_miss (_, truth, believed) = Float.abs (truth -. believed) > tolerance f in

@@ -44,23 +44,11 @@ let is_fixed p =
   let places from = List.concat_map (fun leg -> leg.waypoints) (path ~from ~speed:1. p) in
   List.equal Position.equal (places Dolphin_geo.Place.apdl) (places Dolphin_geo.Place.feup)
 
-let comes_home leg =
-  let is_return word = String.length leg.named >= String.length word && Filename.check_suffix leg.named word in
-  leg.waypoints = [] || List.exists is_return [ ".returnHome"; ".returnHomeAndLand"; ".returnHomeAndLoiter" ]
-
-(* From the end of the way that is the same from anywhere, what comes home is of no length. *)
-let way_from p =
-  let here = Dolphin_geo.Place.apdl in
-  if is_fixed p then Some here
-  else
-    let from place = path ~from:place ~speed:1. p in
-    let same leg leg' = List.equal Position.equal leg.waypoints leg'.waypoints in
-    let rec go last = function
-      | leg :: legs, leg' :: legs' when same leg leg' ->
-        go (match List.rev leg.waypoints with place :: _ -> Some place | [] -> last) (legs, legs')
-      | legs, _ -> if List.for_all comes_home legs then last else None
-    in
-    go None (from here, from Dolphin_geo.Place.feup)
+let rec way_from = function
+  | Rest r -> way_from r.plan
+  | (Maneuvers _ | Mission _) as p when is_fixed p -> Some Dolphin_geo.Place.apdl
+  | Maneuvers _ -> None
+  | Mission m -> Mission_plan.last_before_home m
 
 type extent = { metres : float; moving : float; staying : float }
 

@@ -159,6 +159,20 @@ let steps ~from ~speed m =
 
 let path ~from ~speed m = List.rev (List.rev_map (fun step -> step.leg) (steps ~from ~speed m))
 
+let comes_home item = List.mem item.word [ "returnHome"; "returnHomeAndLand"; "returnHomeAndLoiter" ]
+
+let last_before_home m =
+  let items = Array.of_list (List.filter is_numbered m.items) in
+  let steps from = steps ~from ~speed:1. m in
+  let same s s' = List.equal Position.equal s.leg.waypoints s'.leg.waypoints in
+  let is_last_part s = s.leg.waypoints = [] || comes_home items.(s.index) in
+  let rec go last = function
+    | s :: rest, s' :: rest' when same s s' ->
+      go (match List.rev s.leg.waypoints with place :: _ -> Some place | [] -> last) (rest, rest')
+    | rest, _ -> if List.for_all is_last_part rest then last else None
+  in
+  go None (steps Dolphin_geo.Place.apdl, steps Dolphin_geo.Place.feup)
+
 (* Missions are plain data without functions or cycles. *)
 let compare (a : t) (b : t) = Stdlib.compare a b
 

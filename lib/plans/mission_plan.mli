@@ -60,6 +60,10 @@ type step = {
 val steps : from:Position.t -> speed:float -> t -> step list
 (** [steps ~from ~speed m] is the steps of [path ~from ~speed m]. *)
 
+val last_before_home : t -> Position.t option
+(** [last_before_home m] is the last place of a way that is the same from anywhere, but for a last part that comes home:
+    from there that part is of no length. [None] if no place is the same from anywhere, or another part is not. *)
+
 val heights : t -> (string * float option) list
 (** [heights m] is each numbered item, as in {!path}, with its metres above home: the last altitude, and the item's
     climb; [None] if it goes up again with each of several rounds. *)

@@ -1,7 +1,5 @@
 open Mission_plan
-module Wgs84 = Dolphin_geo.Wgs84
 
-let rec drop n = function _ :: xs when n > 0 -> drop (n - 1) xs | xs -> xs
 let last_such is xs = List.find_opt is (List.rev xs)
 
 let number name item =
@@ -103,7 +101,6 @@ let after l i taken w =
 
 (* [way] is the altitude and the speed in force. *)
 let go way place = { word = "goPos"; arguments = ("position", flat place) :: way }
-let is_there place towards = Wgs84.distance place towards < 0.01
 
 let kept names item = List.filter (fun (name, _) -> List.mem name names) item.arguments
 
@@ -120,7 +117,7 @@ let at_its_place way place item =
   | _ -> go way place
 
 let on_the_way way item (leg : Mission_plan.leg) (cut : Way.cut) =
-  let rest = drop cut.passed leg.waypoints in
+  let rest = Way.drop cut.passed leg.waypoints in
   let items =
     match item.word with
     | "surveyArea" -> List.map (go way) rest
@@ -128,7 +125,7 @@ let on_the_way way item (leg : Mission_plan.leg) (cut : Way.cut) =
   in
   let carries_way = not (List.mem item.word [ "landingPoint"; "returnHomeAndLand" ]) in
   match rest with
-  | next :: _ when carries_way && is_there cut.place next -> (None, items)
+  | next :: _ when carries_way && Way.is_there cut.place next -> (None, items)
   | _ -> (Some (go way cut.place), items)
 
 (* Vehicles fly whole turns, and whole seconds. *)

@@ -1,8 +1,6 @@
 module Position = Dolphin_geo.Position
 module Wgs84 = Dolphin_geo.Wgs84
 
-let rec drop n = function _ :: xs when n > 0 -> drop (n - 1) xs | xs -> xs
-
 (* {1 Identifiers} *)
 
 let message : Plan.kind -> string = function
@@ -34,7 +32,6 @@ let numbered maneuvers =
 let located (m : Plan.maneuver) (place : Position.t) = { place with height = m.location.height }
 
 let go_to (m : Plan.maneuver) place = { m with id = ""; kind = Go_to; location = located m place }
-let is_there place towards = Wgs84.distance place towards < 0.01
 
 (* The limit of a point of [followPath], which the points of rows may exceed. *)
 let longest = 100_000.
@@ -64,11 +61,11 @@ let on_the_way (m : Plan.maneuver) (leg : Plan.leg) (cut : Way.cut) =
     | Go_to | Loiter _ | Yo_yo _ | Pop_up _ | Station_keeping _ | Compass_calibration _ | Launch | Rows _ ->
       List.map (fun _ -> 0.) leg.waypoints
   in
-  match m.kind, drop cut.passed (List.combine leg.waypoints downs) with
+  match m.kind, Way.drop cut.passed (List.combine leg.waypoints downs) with
   | (Rows _ | Follow_path _), ((next, down) :: _ as points) ->
-    let points = if is_there cut.place next then points else (cut.place, down) :: points in
+    let points = if Way.is_there cut.place next then points else (cut.place, down) :: points in
     through m cut.place points
-  | _, (next, _) :: _ when is_there cut.place next -> [ m ]
+  | _, (next, _) :: _ when Way.is_there cut.place next -> [ m ]
   | _, _ -> [ go_to m cut.place; m ]
 
 (* Seconds are whole, and 0 would be without end. *)
@@ -110,4 +107,4 @@ let from_share x (p : Plan.t) =
       | Some seconds -> staying m cut.place (leg.dwell -. seconds)
       | None -> on_the_way m leg cut
     in
-    { p with maneuvers = numbered (launch cut.place before @ rest @ drop (cut.leg + 1) p.maneuvers) }
+    { p with maneuvers = numbered (launch cut.place before @ rest @ Way.drop (cut.leg + 1) p.maneuvers) }

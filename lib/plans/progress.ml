@@ -79,7 +79,6 @@ type t = {
   awaited : (int * float) option;  (* the next place to stay at, once near, and when the vehicle will be there *)
   pace : float;  (* in metres per second: what was seen of it *)
   timed_from : report option;
-  is_finished : bool;
 }
 
 let beginning = { at = 0; ahead = 0.; stayed = 0. }
@@ -92,7 +91,7 @@ let start ~speed p =
     let progress way =
       let matched = { time = 0.; place = way.places.(0) } in
       { way; point = beginning; begun = false; entered = None; nearest = None; matched; last = None; awaited = None;
-        pace = usual_pace; timed_from = None; is_finished = false }
+        pace = usual_pace; timed_from = None }
     in
     Option.map progress (way ~speed ~from p)
 
@@ -105,11 +104,8 @@ let done_at way { at; ahead; stayed } =
     way.reached.(at) +. (way.stays.(at) *. share)
 
 let share t =
-  if t.is_finished then 1.
-  else if t.way.total > 0. then Float.max 0. (Float.min 1. (done_at t.way t.point /. t.way.total))
+  if t.way.total > 0. then Float.max 0. (Float.min 1. (done_at t.way t.point /. t.way.total))
   else 0.
-
-let finished t = { t with is_finished = true }
 
 (* {1 Matching a report with the way ahead} *)
 
@@ -304,8 +300,6 @@ let timed ~at p t =
   | Some _ -> t
 
 let observe ~at p t =
-  if t.is_finished then t
-  else
-    let t = timed ~at p t in
-    let t = if t.begun then advance ~at p t else approach ~at p t in
-    { t with last = Some { time = at; place = p } }
+  let t = timed ~at p t in
+  let t = if t.begun then advance ~at p t else approach ~at p t in
+  { t with last = Some { time = at; place = p } }

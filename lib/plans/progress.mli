@@ -42,6 +42,3 @@ val observe : at:float -> Position.t -> t -> t
 
 val share : t -> float
 (** [share t] is the share of the way that is done, from 0 to 1, as {!Inline_plan.from_share} takes it. *)
-
-val finished : t -> t
-(** [finished t] is [t] once the plan has ended: its share is 1. *)

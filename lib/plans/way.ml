@@ -4,6 +4,9 @@ module Wgs84 = Dolphin_geo.Wgs84
 type leg = { waypoints : Position.t list; speed : float; dwell : float }
 type cut = { leg : int; passed : int; place : Position.t; stayed : float option }
 
+let rec drop n = function _ :: xs when n > 0 -> drop (n - 1) xs | xs -> xs
+let is_there p q = Wgs84.distance p q < 0.01
+
 (* [towards] is [None] for a stay. *)
 type step = { of_leg : int; reached : int; from : Position.t; towards : Position.t option; seconds : float }
 

@@ -13,6 +13,12 @@ type cut = {
   stayed : float option;  (** seconds of its dwell, or [None] on the way to the next waypoint *)
 }
 
+val drop : int -> 'a list -> 'a list
+(** [drop n xs] is [xs] without its first [n]. *)
+
+val is_there : Position.t -> Position.t -> bool
+(** [is_there p q] is whether [p] and [q] are one place, to the centimetre: nothing remains between them. *)
+
 val seconds : leg list -> float
 (** [seconds legs] is how long the way takes from the first waypoint on, dwells without end left out. *)
 

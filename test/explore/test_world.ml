@@ -81,9 +81,9 @@ let sensors =
     happens "code that waits for a sensor has no end" (pick ^ "execute action { while (battery(v) > 0.3) { } }")
       ~some:[ "act"; "broken(this code does not come to an end, and code inside of a task is atomic)" ] ~none:[] ]
 
-let unsettled name source =
+let unsettled ?world name source =
   let check () =
-    match labels source with
+    match labels ?world source with
     | [ why ] when String.length why > 9 && String.sub why 0 9 = "unsettled" -> ()
     | found -> Alcotest.failf "it is told: %s" (String.concat ", " found)
   in
@@ -91,7 +91,12 @@ let unsettled name source =
 
 (* The outcomes of these cannot be listed. *)
 let beyond =
-  [ unsettled "as a truth value" (pick ^ "if (battery(v)) { halt 'h' }");
+  let rest = pick ^ "p = imcPlan { locate 41, -8; goTo() }\n" in
+  let unsettled_rest = unsettled ~world:(World.open_sensor Progress "a" [] Generate.open_world) in
+  [ unsettled_rest "the length of a rest" (rest ^ "if (p.rest(v).length < 100) { halt 'h' }");
+    unsettled_rest "a rest is the plan" (rest ^ "if (p.rest(v) == p) { halt 'h' }");
+    unsettled_rest "a rest among plans" (rest ^ "message p in [p.rest(v)]");
+    unsettled "as a truth value" (pick ^ "if (battery(v)) { halt 'h' }");
     unsettled "posted" (pick ^ "post level: battery(v)");
     unsettled "polled" (pick ^ "if (poll(level: battery(v))) { halt 'h' }");
     unsettled "as an index" (pick ^ "xs = [1, 2]\nmessage xs[battery(v)]");

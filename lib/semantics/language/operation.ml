@@ -158,7 +158,10 @@ let rec apply context at operation arguments =
   | None -> apply_known context at operation arguments
 
 and apply_known context at operation arguments =
-  if World.is_open context.world && List.exists Reading.is_reading arguments then
+  if not (World.is_open context.world) then apply_settled context at operation arguments
+  else if Rest.is_in_doubt operation arguments then
+    Unclear (Fault.make at "this depends on which part of a plan is left, and that is open")
+  else if List.exists Reading.is_reading arguments then
     match Reading.apply ~begins:context.program.begins context.world at operation arguments with
     | Gives result -> of_result result
     | Asks question -> Asks (question, fun world -> apply { context with world } at operation arguments)

@@ -17,6 +17,20 @@ let from_share p share =
 
 let from_reading p = Result.map (fun plan -> of_plan p (Inline_plan.some_rest plan)) (described p)
 
+let depends_on_way = function
+  | Binary (Equal | Not_equal | Member_of) | Property "length" | Builtin (Consume _ | Poll _) -> true
+  | Method (name, _) ->
+    List.mem name
+      [ "length"; "getLength"; "duration"; "energy"; "equals"; "contains"; "containsValue"; "indexOf"; "unique";
+        "removeElement" ]
+  | _ -> false
+
+let is_some_rest = function Task (Platform { plan = Some (Rest { share = None; _ }); _ }) -> true | _ -> false
+
+let is_in_doubt operation arguments =
+  let has_some_rest x = is_some_rest x || match x with List xs -> Vector.exists is_some_rest xs | _ -> false in
+  depends_on_way operation && List.exists has_some_rest arguments
+
 (* The share of [plan] itself, perhaps a rest, that is done with [share] of the whole. *)
 let of_whole plan ~share =
   match Inline_plan.begun plan with

@@ -10,6 +10,10 @@ val from_share : platform_task -> float -> (value, string) result
 val from_reading : platform_task -> (value, string) result
 (** The same for a share that is a reading: {!Dolphin_plans.Inline_plan.some_rest}. *)
 
+val is_in_doubt : operation -> value list -> bool
+(** [is_in_doubt o xs] is whether the result of [o] may depend on which part of a plan a rest of {!from_reading} is,
+    which is one of [xs] or an element of one: on its way, or on whether it equals another value. *)
+
 val of_vehicle : World.t -> platform_task -> World.vehicle_state -> (value, string) result
 (** [of_vehicle w p s] is [p] without the share that [s] has done of it; all of [p], if it was not given to [s]. Where
     the progress of [s] is open, it is {!Dolphin_plans.Inline_plan.some_rest} of [p]. *)

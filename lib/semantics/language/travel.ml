@@ -10,13 +10,8 @@ let quantity = function
   | "energy" -> Some Energy
   | _ -> None
 
-(* Of a rest that is open, whatever is left of the whole. *)
-let of_some_rest (p : platform_task) whole named =
-  Reading { quantity = Amount; text = Printf.sprintf "%s of a rest of %s %s" named p.name whole }
-
 let length (p : platform_task) =
   match p.plan with
-  | Some (Rest { whole; share = None; _ }) -> Ok (of_some_rest p whole "length")
   | None -> Error (Printf.sprintf "the way of plan '%s' is not described here: only its vehicle knows it" p.name)
   | Some plan -> (
       match Inline_plan.start plan with
@@ -62,8 +57,7 @@ let reading quantity (p : platform_task) plan (s : World.vehicle_state) =
   | None when Inline_plan.is_fixed plan -> from_here quantity p plan s s.position
   | None ->
     (* Plans of one name may differ. *)
-    let digest = Digest.to_hex (Digest.string (Marshal.to_string plan [ Marshal.No_sharing ])) in
-    reading (Printf.sprintf "%s(%s) of %s" named s.id digest)
+    reading (Printf.sprintf "%s(%s) of %s" named s.id (Inline_plan.digest plan))
   | Some (place, speed) -> (
       let speed = if Float.is_nan speed then told s.cruise else speed in
       let one_metre = measure quantity s ~metres:1. ~seconds:(1. /. speed) in
@@ -77,8 +71,6 @@ let reading quantity (p : platform_task) plan (s : World.vehicle_state) =
 let of_plan world (p : platform_task) quantity s =
   match p.plan, World.position world s with
   | None, _ -> Ok (Unknown { sensor = sensor p quantity; of_vehicle = s.id })
-  | Some (Rest { whole; share = None; _ }), _ ->
-    Ok (of_some_rest p whole (Printf.sprintf "%s(%s)" (sensor p quantity) s.id))
   | Some plan, Shows here -> Ok (from_here quantity p plan s here)
   | Some _, One_of places -> Error (World.places s places)
   | Some plan, Anything -> Ok (reading quantity p plan s)

@@ -3,6 +3,10 @@
 
 import json
 import math
+import os
+import signal
+import subprocess
+import time
 
 METRES_PER_DEGREE = 111194.9
 OFF = 20.0  # metres that a place of the way may be missed by
@@ -12,6 +16,29 @@ CORNERS = 0.03  # of the way that lines between reports may be shorter
 
 class Flown(Exception):
     """Why the plan was not flown once."""
+
+
+def fly(command, folder, kills, patience, **more):
+    """Runs the command `dolphin exec` with a journal in the folder, and returns the journal. The console is killed as
+    many seconds after its start, or resumption, as each of [kills], and resumed a moment later; the last one has
+    [patience] seconds to end."""
+    journal, output = os.path.join(folder, "run"), os.path.join(folder, "output")
+    for number in range(len(kills) + 1):
+        kept = ["--journal" if number == 0 else "--resume", journal]
+        with open(output, "a", encoding="utf-8") as printed:
+            console = subprocess.Popen([*command, *kept], stdout=printed, stderr=printed, **more)
+            try:
+                status = console.wait(kills[number] if number < len(kills) else patience)
+            except subprocess.TimeoutExpired:
+                console.send_signal(signal.SIGKILL)
+                status = console.wait() if number < len(kills) else 1
+        if status == 0:
+            break
+        if status != -signal.SIGKILL:
+            with open(output, encoding="utf-8") as printed:
+                raise Flown(f"the run ended with status {status}: {printed.read()[-600:]}")
+        time.sleep(0.5)
+    return journal
 
 
 def distance(p, q):

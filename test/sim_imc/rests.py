@@ -6,11 +6,9 @@ import argparse
 import concurrent.futures
 import os
 import random
-import signal
 import subprocess
 import sys
 import tempfile
-import time
 
 sys.path.append(os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "scripts"))
 import flown  # noqa: E402
@@ -34,9 +32,8 @@ def program(maneuvers, stops):
 
 
 def run(dolphin, folder, first, text, kills):
-    """The journal of the program, whose console is killed as many seconds after its start, or resumption, as each of
-    [kills], and resumed a moment later."""
-    source, fleet, journal = (os.path.join(folder, name) for name in ("mission.dol", "auv.fleet", "run"))
+    """The parts of the way that the vehicle went; consoles are killed after [kills] seconds, as by [flown.fly]."""
+    source, fleet = (os.path.join(folder, name) for name in ("mission.dol", "auv.fleet"))
     for path, content in ((source, text), (fleet, FLEET)):
         with open(path, "w", encoding="utf-8") as file:
             file.write(content)
@@ -47,21 +44,7 @@ def run(dolphin, folder, first, text, kills):
     try:
         vehicles.stdout.readline()
         console = [dolphin, "exec", source, "--imc-loopback", "--imc-discovery-ports", ports]
-        for number in range(len(kills) + 1):
-            kept = ["--journal", journal] if number == 0 else ["--resume", journal]
-            with open(os.path.join(folder, "output"), "a", encoding="utf-8") as output:
-                process = subprocess.Popen([*console, *kept], stdout=output, stderr=output)
-                try:
-                    status = process.wait(timeout=kills[number] if number < len(kills) else 400)
-                except subprocess.TimeoutExpired:
-                    process.send_signal(signal.SIGKILL)
-                    status = process.wait() if number < len(kills) else 1
-            if status == 0:
-                break
-            if status != -signal.SIGKILL:
-                with open(os.path.join(folder, "output"), encoding="utf-8") as output:
-                    raise flown.Flown("the run ended with status %d: %s" % (status, output.read()[-400:]))
-            time.sleep(0.5)
+        journal = flown.fly(console, folder, kills, 400)
     finally:
         vehicles.kill()
         vehicles.wait()

@@ -5,12 +5,10 @@ on."""
 import concurrent.futures
 import os
 import random
-import signal
 import subprocess
 import sys
 import tempfile
 import threading
-import time
 import unittest
 
 import flown
@@ -46,35 +44,18 @@ def spawn_vehicle(kind, port):
 
 
 def run(folder, spawn, adapter_options, text, kills, vehicle="mav-1"):
-    """What was flown of a program whose console is killed as many seconds after its start, or resumption, as each of
-    [kills], and resumed a moment later."""
+    """The parts of the way that the vehicle flew; consoles are killed after [kills] seconds, as by [flown.fly]."""
     with PORTS:
         port = free_port()
-    source, journal = os.path.join(folder, "mission.dol"), os.path.join(folder, "run")
+    source = os.path.join(folder, "mission.dol")
     with open(source, "w", encoding="utf-8") as file:
         file.write(text)
     adapter = f"{os.path.join(FOLDER, 'dolphin-mavlink')} --udp {port} {adapter_options}"
     environment = dict(os.environ, DOLPHIN_MAVLINK=sys.executable)
     sky = spawn(port)
     try:
-        for number in range(len(kills) + 1):
-            kept = ["--journal", journal] if number == 0 else ["--resume", journal]
-            with open(os.path.join(folder, "output"), "a", encoding="utf-8") as output:
-                console = subprocess.Popen(
-                    [DOLPHIN, "exec", source, "--platform", adapter, *kept],
-                    env=environment, stdout=output, stderr=output,
-                )
-                try:
-                    status = console.wait(kills[number] if number < len(kills) else 900)
-                except subprocess.TimeoutExpired:
-                    console.send_signal(signal.SIGKILL)
-                    status = console.wait() if number < len(kills) else 1
-            if status == 0:
-                break
-            if status != -signal.SIGKILL:
-                with open(os.path.join(folder, "output"), encoding="utf-8") as output:
-                    raise flown.Flown(f"the run ended with status {status}: {output.read()[-600:]}")
-            time.sleep(0.5)
+        command = [DOLPHIN, "exec", source, "--platform", adapter]
+        journal = flown.fly(command, folder, kills, 900, env=environment)
     finally:
         sky.kill()
         sky.wait()

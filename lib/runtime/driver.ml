@@ -531,11 +531,11 @@ module Make (P : Platform.S) = struct
 
   (* {2 Another program} *)
 
-  (* Tasks, timers, questions and calls that go on are those of the new configuration, so nothing is commanded. *)
   let progress_of ~at program world (c : Configuration.t) =
     if not (Vehicle_progress.is_asked_for program) then None
     else Some (Vehicle_progress.resume ~at world c.shared.allocation)
 
+  (* Tasks, timers, questions and calls that go on are those of the new configuration, so nothing is commanded. *)
   let replace s ({ program; configuration } : replacement) =
     s.program <- program;
     s.configuration <- configuration;

@@ -109,6 +109,12 @@ let with_failures team =
   "bad = 0\nexecute " ^ team
   ^ ", vs, ['p', 'q']) { g -> watch imcPlan(g) onError { bad++\n propagate() } }\nassert { bad == 0 }"
 
+let goals urgencies =
+  let post u = Printf.sprintf "post goal: %d\n" u in
+  String.concat "" (List.map post urgencies)
+
+let inspection vs = Printf.sprintf "byPriority(%s, 'goal', { it }) { g -> imcPlan { locate g, 2; goTo() } }" vs
+
 let told_of_themselves =
   [ holds "race: one is done, whichever" "n = 0\nexecute race([p >> action { n++ }, q >> action { n++ }])\nassert { n >= 1 }";
     holds "race: not all need be done" ~ends:[ "completed"; "failed: assertion failed" ]
@@ -196,6 +202,31 @@ let told_of_themselves =
     holds "near: only as far as said"
       "d = position(vs[0]).distance(position(vs[1]))\n\
        assert { d > 0 && near(vs[0], vs[1], d) == vs[1] && near(vs[0], vs[1], d / 2).size() == 0 }";
+    holds "isBest: the best pair first, of equal ones the oldest"
+      "said = []\n\
+       for (x in [2, 7, 7, 1]) { post goal: [n: x, of: said.size()]\n said = said + [x] }\n\
+       said = []\n\
+       def next() { waitFor { consume goal: { isBest('goal', it) { g -> g.n } } } then { g -> action { said = said + [g.of] } } }\n\
+       execute repeat 4, next()\n\
+       assert { said == [1, 2, 0, 3] }";
+    holds "byPriority: each goal is done, also those of vehicles that fail" ~failures:true
+      ~ends:[ "completed"; broken ]
+      (goals [ 1; 2 ] ^ "execute " ^ inspection "vs.take(2)" ^ "\nassert { !poll('goal') }");
+    holds "byPriority: one that comes later is done, too, whether a plan is stopped for it or not"
+      (goals [ 1; 2 ] ^ "execute (" ^ inspection "vs.take(2)" ^ " >> condition { poll(late: _) } >> " ^ inspection "vs[0]"
+       ^ ") | action { post goal: 3, late: true }\nassert { !poll('goal') }");
+    holds "byPriority: none is begun while a more urgent one is there"
+      (goals [ 1; 2; 1 ]
+       ^ "def make(g) { if (!isBest('goal', g) { it }) fail 'not the best'\n imcPlan { locate g, 2; goTo() } }\n\
+          execute byPriority(vs.take(2), 'goal', { it }) { g -> make(g) }");
+    holds "byPriority: a goal without a plan is an error of all vehicles" ~ends:[ "failed: no plan" ]
+      (goals [ 1 ] ^ "execute byPriority(vs.take(2), 'goal', { it }) { g -> fail 'no plan' }");
+    holds "byPriority: a plan whose way is not known is an error before it starts"
+      ~ends:[ "failed: the rest of plan 'p' is not known: only its vehicle knows its way" ]
+      (goals [ 1 ] ^ "execute byPriority(vs.take(2), 'goal', { it }) { g -> p }");
+    holds "byPriority: no vehicle" ~ends:[ "failed: byPriority needs a vehicle" ]
+      ("execute " ^ inspection "(vs - vs)");
+    nothing "byPriority: leaves nothing" (goals [ 1; 2; 2 ] ^ "execute " ^ inspection "vs.take(2)");
     nothing "race: leaves nothing" "execute race([p, q, r])";
     nothing "race: leaves nothing, cut off" "execute race([p, q]) during 1.minutes";
     nothing "team: leaves nothing, cut off" "execute team(1, 2, vs, [p, q]) { g -> g } during 1.minutes";

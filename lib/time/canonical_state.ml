@@ -219,7 +219,7 @@ and branches s bs =
 (* Without what is inert, but for tasks that move their vehicle. *)
 let root s ~is_inert (r : Residual.t) =
   let is_gone : Residual.t -> bool = function
-    | Running (p, v) -> is_inert (Clocked.Task v) && Durations.moves p = None
+    | Running (p, v) -> is_inert (Clocked.Task v) && not (Durations.moves p)
     | Idle { timer; _ } -> is_inert (Clocked.Timer timer)
     | _ -> false
   in

@@ -36,7 +36,7 @@ type state = {
   configuration : Configuration.t;
   outside : Environment.t;
   pending : pending list;
-  elsewhere : (Core.vehicle * Dolphin_geo.Position.t option) list;
+  elsewhere : (Core.vehicle * Whereabouts.t option) list;
   patience : (Core.vehicle option * Bounds.t) list;
   date : int;  (* reached by code; included in the pending events *)
   changes : int;  (* of links before this one are over, or do not matter *)
@@ -298,7 +298,7 @@ let onwards o s ~outside ~now ~began ~seen =
   let date = repeated o latest in
   let before = List.filter (fun p -> match p.item with Date _ -> false | _ -> true) s.pending in
   let runs v = List.exists (fun p -> is_same p.item (Task v)) before in
-  let place (v, place) = if runs v then None else Some (v, Some place) in
+  let place (v, place) = if runs v then None else Some (v, Some (Whereabouts.at place)) in
   let places = List.filter_map place seen in
   let others = List.filter (fun (v, _) -> not (List.mem_assoc v places)) s.elsewhere in
   let elsewhere = List.sort Stdlib.compare (places @ others) in
@@ -314,21 +314,23 @@ let onwards o s ~outside ~now ~began ~seen =
 
 let moved elsewhere v place = List.sort Stdlib.compare ((v, place) :: List.remove_assoc v elsewhere)
 
-let is_away before item =
-  List.exists (fun p -> p.item = item && Option.bind p.task Durations.moves <> None) before
+(* Where [v] is after its task, or some part of it. *)
+let gone o s v change elsewhere =
+  let task (p : pending) = if is_same p.item (Task v) then p.task else None in
+  match List.find_map task s.pending with
+  | Some ({ plan = Some plan; _ } as p) when Durations.moves p ->
+    moved elsewhere v (change (place o s.elsewhere v) plan)
+  | Some _ | None -> elsewhere
 
-let elsewhere_after s (t : Transition.t) (event : Transition.event option) =
+let elsewhere_after o s (t : Transition.t) (event : Transition.event option) =
   let stop elsewhere : Effect.t -> _ = function
-    | Stop v when is_away s.pending (Task v) -> moved elsewhere v None
+    | Stop v -> gone o s v Whereabouts.along elsewhere
     | _ -> elsewhere
   in
   let elsewhere =
     match event with
-    | Some (Vehicle_done v) -> (
-        match Option.bind (Vehicle_map.find_opt v s.configuration.shared.allocation) Durations.moves with
-        | Some place -> moved s.elsewhere v place
-        | None -> s.elsewhere)
-    | Some (Vehicle_failed (v, _)) when is_away s.pending (Task v) -> moved s.elsewhere v None
+    | Some (Vehicle_done v) -> gone o s v Whereabouts.after s.elsewhere
+    | Some (Vehicle_failed (v, _)) -> gone o s v Whereabouts.along s.elsewhere
     | Some _ | None -> s.elsewhere
   in
   List.fold_left stop elsewhere t.effects
@@ -429,7 +431,7 @@ let step o s (choice : Environment.choice) =
   let t = choice.transition in
   let next, fresh =
     with_pending o ~before:s.pending ~over:(Option.bind choice.on of_event) t.effects
-      { s with configuration = t.next; outside = choice.outside; elsewhere = elsewhere_after s t choice.on;
+      { s with configuration = t.next; outside = choice.outside; elsewhere = elsewhere_after o s t choice.on;
                patience = patience_after o s t }
   in
   check_patience o s next;
@@ -442,7 +444,7 @@ let taken o s ~on transition = step o s { transition; outside = s.outside; on }
 let is_possible step = match step.due with Some (_, Never) -> false | Some (_, (Within _ | Some_time)) | None -> true
 
 let starts_without_moving step =
-  match step.transition.effects with [ Start (_, p) ] -> Durations.moves p = None | _ -> false
+  match step.transition.effects with [ Start (_, p) ] -> not (Durations.moves p) | _ -> false
 
 (* {2 Steps outside of the program} *)
 

@@ -48,7 +48,7 @@ type state = private {
   configuration : Configuration.t;
   outside : Environment.t;
   pending : pending list;  (** in ascending order of [item] *)
-  elsewhere : (Core.vehicle * Dolphin_geo.Position.t option) list;
+  elsewhere : (Core.vehicle * Whereabouts.t option) list;
   (** the places of vehicles that have left their starting places; [None]: unknown *)
   patience : (Core.vehicle option * Bounds.t) list;
   (** how long the link of a vehicle, or of all others, may be silent, by the program; [[]] if none is lost

@@ -4,11 +4,11 @@ open Dolphin_geo
 module Scenario = Dolphin_scenario.Scenario
 
 type t = {
-  task : Core.vehicle -> Position.t option -> Core.platform_task -> Bounds.t;
+  task : Core.vehicle -> Whereabouts.t option -> Core.platform_task -> Bounds.t;
   announced : Bounds.t;
   silence : Bounds.t;
   posted : string -> Bounds.t;
-  place : Core.vehicle -> Position.t option;
+  place : Core.vehicle -> Whereabouts.t option;
   links : Links.t;
   charges : string -> float option;
   has_chargers : Core.vehicle -> bool;
@@ -16,35 +16,35 @@ type t = {
 
 let tolerance = 0.1
 
-(* The end of a way depends on its beginning if ways from different places end at different ones. *)
 let moves (p : Core.platform_task) =
-  let last place (leg : Inline_plan.leg) = List.fold_left (fun _ waypoint -> Some waypoint) place leg.waypoints in
-  let ends plan from = List.fold_left last None (Inline_plan.path ~from ~speed:1. plan) in
+  let goes (leg : Inline_plan.leg) = not (Inline_plan.is_stay leg) in
   match p.plan with
-  | None -> None
-  | Some plan -> (
-      match ends plan Place.apdl, ends plan Place.feup with
-      | None, None -> None
-      | Some here, Some there when Position.equal here there -> Some (Some here)
-      | (Some _ | None), (Some _ | None) -> Some None)
+  | None -> false
+  | Some plan -> List.exists goes (Inline_plan.path ~from:Place.apdl ~speed:1. plan)
 
 (* {1 Inline plans} *)
 
 (* From an unknown place, the duration of a way is unknown. A rest that is not known is of no time at least. At most it
    goes as far as the whole, for the way to the place of its cut is no longer than by the first place; but all of it
    perhaps at the lowest of the speeds, at which that place is gone to. *)
-let inline (v : Scenario.vehicle) from (plan : Inline_plan.t) =
-  let here = Option.value from ~default:Place.apdl in
-  let { Inline_plan.metres; moving; staying } = Inline_plan.extent ~from:here ~speed:v.speed plan in
-  let legs = Inline_plan.path ~from:here ~speed:v.speed plan in
-  let goes = List.filter (fun leg -> not (Inline_plan.is_stay leg)) legs in
-  let slowest = List.fold_left (fun least (leg : Inline_plan.leg) -> Float.min least leg.speed) infinity goes in
+let inline (v : Scenario.vehicle) from (plan : Inline_plan.t) : Bounds.t =
+  let here = Option.fold from ~none:Place.apdl ~some:(fun (here : Whereabouts.t) -> here.centre) in
+  let { Inline_plan.staying; _ } = Inline_plan.extent ~from:here ~speed:v.speed plan in
+  let goes =
+    List.filter (fun leg -> not (Inline_plan.is_stay leg)) (Inline_plan.path ~from:here ~speed:v.speed plan) in
   let between least most =
     Bounds.between ((least *. (1. -. tolerance)) +. staying) ((most *. (1. +. tolerance)) +. staying) in
-  match plan with
-  | _ when from = None && goes <> [] -> if staying = infinity then Bounds.Never else Bounds.Some_time
-  | Rest { share = None; _ } -> Bounds.from_the_start (between 0. (metres /. slowest))
-  | Rest _ | Maneuvers _ | Mission _ -> between moving moving
+  let slowest = List.fold_left (fun least (leg : Inline_plan.leg) -> Float.min least leg.speed) infinity goes in
+  let is_open = match plan with Rest { share = None; _ } -> true | Rest _ | Maneuvers _ | Mission _ -> false in
+  let pace (leg : Inline_plan.leg) = if is_open then slowest else leg.speed in
+  match from with
+  | _ when goes = [] -> between 0. 0.
+  | None -> if staying = infinity then Never else Some_time
+  | Some here -> (
+      match Whereabouts.moving here ~speed:v.speed ~pace plan with
+      | None -> if staying = infinity then Never else Some_time
+      | Some (_, most) when is_open -> Bounds.from_the_start (between 0. most)
+      | Some (least, most) -> between least most)
 
 (* {1 Fleets} *)
 
@@ -76,7 +76,7 @@ let of_scenario (s : Scenario.t) =
     | [ { after = Some seconds; _ } ] -> Bounds.exactly seconds
     | _ -> Some_time
   in
-  let place id = Option.map (fun (v : Scenario.vehicle) -> v.position) (vehicle id) in
+  let place id = Option.map (fun (v : Scenario.vehicle) -> Whereabouts.at v.position) (vehicle id) in
   let links = Links.of_silences (List.map (fun (v : Scenario.vehicle) -> (v.id, Scenario.silences v)) s.vehicles) in
   let has_chargers id = Option.fold (vehicle id) ~none:false ~some:(fun (v : Scenario.vehicle) -> v.chargers <> []) in
   let charges name = Option.bind (Scenario.plan s name) (fun (p : Scenario.plan) -> p.charges) in

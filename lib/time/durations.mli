@@ -3,12 +3,12 @@
 open Dolphin_semantics
 
 type t = {
-  task : Core.vehicle -> Dolphin_geo.Position.t option -> Core.platform_task -> Bounds.t;
-  (** from the start of a task until it is done, on a vehicle that is at this place then, if that is known *)
+  task : Core.vehicle -> Whereabouts.t option -> Core.platform_task -> Bounds.t;
+  (** from the start of a task until it is done, on a vehicle that is there then, if that is known *)
   announced : Bounds.t;  (** a [pick] without a time-out *)
   silence : Bounds.t;  (** the silence of a vehicle after which its task fails, unless the program sets another *)
   posted : string -> Bounds.t;  (** until a pair with this key is posted, from the start or the time before *)
-  place : Core.vehicle -> Dolphin_geo.Position.t option;  (** at the start *)
+  place : Core.vehicle -> Whereabouts.t option;  (** at the start *)
   links : Links.t;  (** when vehicles join, leave, and lose their links *)
   charges : string -> float option;
   (** the charge that an hour of the plan of this name gives the battery of its vehicle; [None]: it drains it *)
@@ -19,9 +19,8 @@ type t = {
 val tolerance : float
 (** 0.1: the way between two places takes up to this share less or more than by the vehicle's speed. *)
 
-val moves : Core.platform_task -> Dolphin_geo.Position.t option option
-(** [moves p] is the place where [p] leaves its vehicle, if that differs from the start: [Some None] if it depends on
-    the start. *)
+val moves : Core.platform_task -> bool
+(** Whether its way is known, and has a place. *)
 
 val links_with : Dolphin_environment.Faults.t -> t -> Links.t
 (** [links_with faults d] is the [links] of [d], as far as [faults] do not let them come and go at any time: with

@@ -375,13 +375,29 @@ let test_joins () =
   let two = two ^ "plan 'p', { duration 5, 9 }\n" in
   Alcotest.(check int) "as many states" (states two) (states (two ^ "vehicle 'd', { type 'UUV'; joins 3 }\n"))
 
-(* A vehicle whose plan was stopped half-way is at an unknown place, so the duration of its way back is unknown. *)
+(* A vehicle whose plan was stopped is somewhere on its way, and so the duration of its way back has bounds. *)
 let test_places () =
-  let go = "imcPlan { planName 'go'\n goTo location: (location 41.19, -8.70)\n}" in
-  let o = outcome (both ^ "p = " ^ go ^ "\nexecute p[va] >> p[va]\n") (fleet (two ^ "plan 'x'")) in
-  Alcotest.(check int) "from a known place" 0 (List.length o.unknown);
-  let o = outcome (both ^ "p = " ^ go ^ "\nexecute (p[va] during 1) >> p[va]\n") (fleet (two ^ "plan 'x'")) in
-  Alcotest.(check int) "from an unknown one" 1 (List.length o.unknown)
+  let goes = "p = imcPlan { planName 'go'\n goTo location: (location 41.19, -8.70)\n}\n" in
+  let drifts = "q = mission { name 'on'; takeOff 20; move north: 100 }\n" in
+  let unknown name n body =
+    let o = outcome (both ^ goes ^ drifts ^ "execute " ^ body ^ "\n") (fleet (two ^ "plan 'x'")) in
+    Alcotest.(check int) name n (List.length o.unknown)
+  in
+  unknown "from a known place" 0 "p[va] >> p[va]";
+  unknown "stopped on the way" 0 "(p[va] during 1) >> p[va]";
+  unknown "stopped again and again" 0 "(repeat 3, (p[va] during 1)) >> p[va]";
+  unknown "stopped on a way from wherever it is" 1 "(q[va] during 1) >> p[va]";
+  (* It goes there in 60 s or comes back in as many, and is between both places when it is stopped. *)
+  let there_and_back =
+    "here = location(41, -8)\n\
+     def to(p) { imcPlan { planName 'p'\n speed 1, Speed.Units.METERS_PS\n locate p\n goTo() } }\n\
+     execute (to(here.displace(60, 0))[v] during 30) >> to(here)[v]\n" in
+  let text = "vehicle 'a', { type 'UUV'; at 41, -8 }\n" in
+  Alcotest.check window "there and back" (30., 96.) (ends (outcome ("v = pick { id 'a' }\n" ^ there_and_back) (fleet text)));
+  (* A mission that comes home leaves its vehicle where it began, be that a certain place or not. *)
+  let home = "m = mission { takeOff 20; goPos location(41.001, -8); returnHomeAndLand() }\nexecute m[v] >> m[v]\n" in
+  let o = outcome ("v = pick { id 'a' }\n" ^ home) (fleet "vehicle 'a', { type 'UAV'; at 41, -8 }\n") in
+  Alcotest.(check int) "home again" 0 (List.length o.unknown)
 
 (* The end of a task sets the date that code waits for. *)
 let test_date_of_end () =

@@ -171,6 +171,64 @@ let test_silence () =
     ~fleet:"vehicle 'a', { type 'UUV'; drops 5.seconds, 40.seconds }\nplan 'p', { duration 10 }\n"
     "v = pick { id 'a' }\nsetConnectionTimeout v, 60\nexecute task('p')[v] | (idle(30) >> action { message 'x' })\n"
 
+(* {1 Ways that are cut} *)
+
+(* Plans with ways, one after the other, of which some are stopped on the way, or fail there: where a vehicle is then
+   follows from where it was. Its next plan begins there, comes home, or is the rest of one before. *)
+let ways_fleet =
+  let open QCheck2.Gen in
+  let degrees = map (fun n -> float_of_int n *. 1e-4) (int_range (-40) 40) in
+  let vehicle kind id =
+    let* north = degrees and* east = degrees and* speed = oneofl [ ""; "; speed 1"; "; speed 3.5" ] in
+    return
+      (Printf.sprintf "vehicle '%s', { type '%s'; at %.4f, %.4f%s }\n" id kind (41.185 +. north) (-8.706 +. east) speed)
+  in
+  let* a = vehicle "UUV" "a" and* b = vehicle "UAV" "b" and* fails = oneofl [ ""; "plan 'y', { mayFail 0.5 }\n" ] in
+  return (a ^ b ^ fails)
+
+let ways_program =
+  let open QCheck2.Gen in
+  let place = map2 (fun n e -> Printf.sprintf "location(%.4f, %.4f)" (41.185 +. (float_of_int n *. 1e-4))
+                       (-8.706 +. (float_of_int e *. 1e-4))) (int_range (-40) 40) (int_range (-40) 40) in
+  let places = list_size (int_range 1 3) place in
+  let speed = oneofl [ ""; "speed 1.5, Speed.Units.METERS_PS; " ] in
+  let plan name =
+    let* places = places and* speed = speed and* last = oneofl [ ""; "; skeeping duration: 20.seconds"; "; move 50, 0; goTo()" ] in
+    let go p = Printf.sprintf "locate %s; goTo()" p in
+    return (Printf.sprintf "imcPlan { planName '%s'; %s%s%s }" name speed (String.concat "; " (List.map go places)) last)
+  in
+  let mission name =
+    let* places = places and* last = oneofl [ ""; "; returnHome()"; "; returnHomeAndLand()"; "; move north: 80, east: 0" ] in
+    let go p = "goPos " ^ p in
+    return (Printf.sprintf "mission { name '%s'; takeOff 20; %s%s }" name (String.concat "; " (List.map go places)) last)
+  in
+  let* x = plan "x" and* y = plan "y" and* m = mission "m" and* n = mission "n" in
+  let task v plans =
+    let* p = oneofl (plans @ List.map (fun p -> Printf.sprintf "{ %s.rest(%s) }" p v) plans) in
+    let* seconds = int_range 0 300 in
+    let whole = Printf.sprintf "%s[%s]" p v in
+    let handled = Printf.sprintf "watch %s onError { ignore() }" whole in
+    oneofl [ handled; handled; Printf.sprintf "(%s) during %d" handled seconds;
+             Printf.sprintf "(%s) until { consume cut: %d }" handled (seconds mod 3) ]
+  in
+  let sequence v plans =
+    map (fun ts -> String.concat " >> " (List.map (Printf.sprintf "(%s)") ts)) (list_size (int_range 2 5) (task v plans)) in
+  let* a = sequence "va" [ "x"; "y" ] and* b = sequence "vb" [ "m"; "n" ] in
+  let* cuts = flatten_l (List.init 3 (fun i -> map (fun d -> Printf.sprintf "(idle(%d) >> action { post cut: %d })" d i) (int_range 1 400))) in
+  return
+    (Printf.sprintf "va = pick { id 'a' }\nvb = pick { id 'b' }\nx = %s\ny = %s\nm = %s\nn = %s\n\
+                     execute (%s) | (%s) | %s\n" x y m n a b (String.concat " | " cuts))
+
+let test_ways () =
+  let before = !compared in
+  let within (fleet, source) = check "random" ~seeds:3 ~fleet source; true in
+  let print (fleet, source) = fleet ^ source in
+  let programs = programs / 4 in
+  let test = QCheck2.Test.make ~count:programs ~print ~name:"runs lie within" QCheck2.Gen.(pair ways_fleet ways_program) within in
+  Test_support.Property.on_each_seed ~usual:20_261_128 ~programs test;
+  Printf.printf "%d of %d runs compared\n" (!compared - before) (3 * programs);
+  Alcotest.(check bool) "most" true (!compared - before > 2 * programs)
+
 (* A plan that takes longer than in the fleet, or shorter, is found. *)
 let test_findings () =
   let fleet duration =
@@ -199,6 +257,7 @@ let () =
       ("links",
        [ Alcotest.test_case "that come and go" `Quick test_links;
          Alcotest.test_case "that are back after the end" `Quick test_silence ]);
+      ("ways", [ Alcotest.test_case "that are cut" `Quick test_ways ]);
       ("findings", [ Alcotest.test_case "too early and too late" `Quick test_findings;
                      Alcotest.test_case "many were compared" `Quick (fun () ->
                          Alcotest.(check bool) "most" true (!compared > 20 * seeds)) ]) ]

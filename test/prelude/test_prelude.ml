@@ -224,6 +224,11 @@ let told_of_themselves =
     holds "byPriority: a plan whose way is not known is an error before it starts"
       ~ends:[ "failed: the rest of plan 'p' is not known: only its vehicle knows its way" ]
       (goals [ 1 ] ^ "execute byPriority(vs.take(2), 'goal', { it }) { g -> p }");
+    holds "byPriority: what has no urgency is left alone, also if it comes later"
+      "post goal: [at: 3], goal: [at: 1, urgency: 1]\n\
+       def inspect(g) { imcPlan { locate g.at, 2; goTo() } }\n\
+       execute byPriority(vs.take(2), 'goal', { it.urgency }) { g -> inspect(g) } | action { post goal: [at: 2] }\n\
+       assert { count(goal: _) == 2 && poll(goal: { it.at == 2 }) && poll(goal: { it.at == 3 }) }";
     holds "byPriority: no vehicle" ~ends:[ "failed: byPriority needs a vehicle" ]
       ("execute " ^ inspection "(vs - vs)");
     nothing "byPriority: leaves nothing" (goals [ 1; 2; 2 ] ^ "execute " ^ inspection "vs.take(2)");

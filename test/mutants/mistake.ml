@@ -537,4 +537,14 @@ let all =
           ("the last end of the rest may come too late", {|(-i.most) zone|}, {|(-i.most - 1_000) zone|});
           ("of steps that lead to alike states only one is noticed", {|step.urgent, what,|}, {|step.urgent, (),|});
         ];
+      in_file "lib/time/whereabouts.ml" ~noticed_by:"time/test_recorded"
+        [
+          ( "a way that is cut ends in the middle",
+            {|then here else around here places)|},
+            {|then here else { (around here places) with within = 0. })|} );
+          ( "a circle is its centre",
+            {|= Position.equal p' q' then 0. else here.within in|},
+            {|= Position.equal p' q' then 0. else 0. in|} );
+          ("home is one place", {|(Some centre) then here else None|}, {|(Some centre) then Some (at centre) else None|});
+        ];
     ]

@@ -53,23 +53,18 @@ let apply pairs operation =
   in
   made :: pairs
 
-let is_as (xs, list) (ys, list') =
+let is_as (xs, list) =
   let at i = Vector.get xs i = List.nth list i in
-  let other = Vector.of_list list in
   Vector.to_list xs = list
   && Array.to_list (Vector.to_array xs) = list
   && Vector.length xs = List.length list
   && (list = [] || (at 0 && at (List.length list - 1)))
-  && Vector.equal Int.equal xs other
-  && Vector.compare Int.compare xs other = 0
-  && Vector.equal Int.equal xs ys = (list = list')
-  && Vector.compare Int.compare xs ys = Order.array Int.compare (Array.of_list list) (Array.of_list list')
   && Vector.exists (fun x -> x < 0) xs = List.exists (fun x -> x < 0) list
   && Vector.for_all (fun x -> x < 9) xs = List.for_all (fun x -> x < 9) list
 
 let as_lists operations =
   let pairs = List.fold_left apply [ (Vector.empty, []) ] operations in
-  List.for_all2 is_as pairs (List.rev pairs)
+  List.for_all is_as pairs
 
 let beyond () =
   let xs = Vector.append (Vector.of_list [ 1 ]) 2 in

@@ -240,6 +240,9 @@ let rec lists_values e =
 (* Code that is in the union already, or will be: functions, and closures by identity. *)
 type seen = { mutable lambdas : lambda list; mutable closures : closure list }
 
+(* Closures may be nested without end: from here on nothing is known of them. *)
+let most_closures = 1_000
+
 let nothing_seen () = { lambdas = []; closures = [] }
 
 let rec expression code scope seen e =
@@ -262,6 +265,7 @@ and of_value code seen = function
   | Closure { lambda; captured = [||] } -> of_lambda code seen lambda
   | Closure c ->
     if List.memq c seen.closures then breaking
+    else if List.compare_length_with seen.closures most_closures >= 0 then anything
     else begin
       seen.closures <- c :: seen.closures;
       union breaking (body code seen c)

@@ -6,16 +6,21 @@ exception Too_large
 (* Tasks may share parts with themselves, so that they are far larger than their memory. *)
 let most_parts = 100_000
 
-type renaming = { f : vehicle -> vehicle; mutable left : int }
+(* A renaming that raises is over, so its [depth] is not needed any more. *)
+type renaming = { f : vehicle -> vehicle; mutable left : int; mutable depth : int }
 
-let renaming f = { f; left = most_parts }
+let renaming f = { f; left = most_parts; depth = 0 }
 
-let enter r =
+let enter r inside =
   r.left <- r.left - 1;
-  if r.left < 0 then raise Too_large
+  r.depth <- r.depth + 1;
+  if r.left < 0 || r.depth > Value.deepest then raise Too_large;
+  let renamed = inside () in
+  r.depth <- r.depth - 1;
+  renamed
 
 let rec value_by r x =
-  enter r;
+  enter r @@ fun () ->
   match x with
   | Vehicles vs -> Vehicles (List.map r.f vs)
   | List xs -> List (Vector.map (value_by r) xs)
@@ -34,7 +39,7 @@ and setting r s =
 and closure r c = if Array.length c.captured = 0 then c else { c with captured = Array.map (value_by r) c.captured }
 
 and task r t =
-  enter r;
+  enter r @@ fun () ->
   Task.map { part = task r; code = closure r; value = value_by r; vehicle = r.f } t
 
 let residual_by r t =

@@ -129,7 +129,7 @@ let on_area a name arguments =
   | "grid", [ Some metres ] ->
     Some (Result.map positions (Operators.of_geometry (Area.grid a metres)))
   | ("offset" | "grid"), [ None ] -> Some (Operators.expected "a number of metres" (List.hd arguments))
-  | "split", [ _ ] -> Some (split_area a (Value.canonical (List.hd arguments)))
+  | "split", [ _ ] -> Some (split_area a (Value.canonical_number (List.hd arguments)))
   | _, _ -> None
 
 (* Of a list, a range or a vehicle set [x], with this number of elements, by index. *)
@@ -302,13 +302,13 @@ let on_map entries name arguments =
   match name, arguments with
   | ("get" | "getAt"), [ k ] -> Some (Operators.element (Map entries) k)
   | "get", [ k; default ] ->
-    Some (Ok (Option.value (List.assoc_opt (Value.to_string k) entries) ~default))
-  | "containsKey", [ k ] -> Some (Ok (Boolean (List.mem_assoc (Value.to_string k) entries)))
+    Some (Result.map (fun k -> Option.value (List.assoc_opt k entries) ~default) (Operators.key k))
+  | "containsKey", [ k ] -> Some (Operators.member k (Map entries))
   | "containsValue", [ x ] -> Some (Ok (Boolean (List.exists (fun (_, y) -> Value.equals x y) entries)))
   | ("keySet" | "keys"), [] -> Some (Ok (strings (List.map fst entries)))
   | "values", [] -> Some (Ok (List (Vector.of_list (List.map snd entries))))
   | "put", [ k; x ] -> Some (Operators.replace_element (Map entries) k x)
-  | "remove", [ k ] -> Some (Ok (Map (List.remove_assoc (Value.to_string k) entries)))
+  | "remove", [ k ] -> Some (Result.map (fun k -> Map (List.remove_assoc k entries)) (Operators.key k))
   | "clear", [] -> Some (Ok (Map []))
   | _, _ -> None
 

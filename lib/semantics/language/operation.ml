@@ -124,30 +124,27 @@ let apply_settled context at operation arguments =
       | Make_recruit ),
       _ ) -> Wrong "wrong number of operands"
 
+let posts = function Pair_of _ -> true | Variable_of _ | Taken_pairs -> false
+
 (* Operations that go through all parts of their arguments, to write or to keep them. *)
 let takes_all_parts operation arguments =
   match operation, arguments with
   | (Concatenate | Builtin (Message | Halt | Assert | Fail | Ask | Make_confirm | Post _ | Consume _ | Poll _)), _
   | Method (("toString" | "join"), _), _ -> true
+  | Builtin (Make_ensure forms), _ -> List.exists posts forms
   | Binary Add, [ x; y ] -> (match x, y with String _, _ | _, String _ -> true | _, _ -> false)
   | _, _ -> false
-
-let too_large : Value.excess -> string = function
-  | Parts ->
-    Printf.sprintf "a value of more than %d parts, each counted as often as it stands there, is too large for this"
-      Value.most_items
-  | Depth -> Printf.sprintf "a value that is nested more than %d deep is too large for this" Value.deepest
 
 (* The text that they make is that of all strings in their arguments, and more. *)
 let makes_text operation arguments =
   match operation with
-  | Builtin (Post _ | Consume _ | Poll _) -> false
+  | Builtin (Post _ | Consume _ | Poll _ | Make_ensure _) -> false
   | _ -> takes_all_parts operation arguments
 
 let rec apply context at operation arguments =
   let kept = if takes_all_parts operation arguments then arguments else [] in
   match List.find_map (Value.excess ~most:Value.most_items) kept with
-  | Some excess -> Wrong (too_large excess)
+  | Some excess -> Wrong (Operators.too_large excess)
   | None when makes_text operation arguments && not (Value.have_characters_at_most Value.most_items arguments) ->
     of_result (Operators.too_long "a string")
   | None when List.exists Unknown.is arguments -> (

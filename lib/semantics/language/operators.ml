@@ -78,13 +78,24 @@ let put entries k x =
   if List.mem_assoc k entries then List.map (fun (k', y) -> if k' = k then (k, x) else (k', y)) entries
   else entries @ [ (k, x) ]
 
+let too_large : Value.excess -> string = function
+  | Parts ->
+    Printf.sprintf "a value of more than %d parts, each counted as often as it stands there, is too large for this"
+      Value.most_items
+  | Depth -> Printf.sprintf "a value that is nested more than %d deep is too large for this" Value.deepest
+
+let key x =
+  match Value.excess ~most:Value.most_items x with
+  | Some excess -> Error (too_large excess)
+  | None -> Ok (Value.to_string (Value.canonical x))
+
 let member x = function
   | List xs -> Ok (Boolean (Vector.exists (Value.equals x) xs))
   | Range (first, last) -> (
-      match Value.canonical x with
+      match Value.canonical_number x with
       | Integer i -> Ok (Boolean (min first last <= i && i <= max first last))
       | _ -> Ok (Boolean false))
-  | Map entries -> Ok (Boolean (List.mem_assoc (Value.to_string x) entries))
+  | Map entries -> Result.map (fun k -> Boolean (List.mem_assoc k entries)) (key x)
   | Vehicles vs as whole -> (
       match x with
       | Vehicles ws -> Ok (Boolean (List.for_all (fun w -> List.mem w vs) ws))
@@ -214,11 +225,11 @@ let indexed x length get i =
   | None -> Error (Printf.sprintf "index %d is out of range: %s has %d elements" i (Value.kind x) length)
 
 let element x i =
-  match x, Value.canonical i with
+  match x, Value.canonical_number i with
   | Task t, Vehicles vs -> Ok (Task (Allocated (t, vs)))
   | Closure c, Vehicles vs -> Ok (Task (Allocated (Made c, vs)))
   | (Task _ | Closure _), i -> expected "a vehicle set between [ and ] after a task" i
-  | Map entries, k -> Ok (Option.value (List.assoc_opt (Value.to_string k) entries) ~default:Null)
+  | Map entries, k -> Result.map (fun k -> Option.value (List.assoc_opt k entries) ~default:Null) (key k)
   | Range (first, last), Integer i -> (
       let length = Value.range_length first last in
       match index_of length i with
@@ -234,17 +245,17 @@ let element x i =
   | x, _ -> expected "a list, a map or a task before [" x
 
 let replace_element x i y =
-  match x, Value.canonical i with
+  match x, Value.canonical_number i with
   | List xs, Integer i -> (
       match index_of (Vector.length xs) i with
       | Some i -> Ok (List (Vector.set xs i y))
       | None when i = Vector.length xs -> Ok (List (Vector.append xs y))
       | None -> Error (Printf.sprintf "index %d is out of range: the list has %d elements" i (Vector.length xs)))
-  | Map entries, k -> Ok (Map (put entries (Value.to_string k) y))
+  | Map entries, k -> Result.map (fun k -> Map (put entries k y)) (key k)
   | x, _ -> expected "a list or a map to assign an element of" x
 
 let range ~inclusive first last =
-  match Value.canonical first, Value.canonical last with
+  match Value.canonical_number first, Value.canonical_number last with
   | Integer a, Integer b when (not inclusive) && a = b -> Ok (List Vector.empty)
   | Integer a, Integer b -> (
       let b = if inclusive then b else if a < b then b - 1 else b + 1 in

@@ -33,6 +33,15 @@ val unit_hint : string -> string
 val in_unit : value -> string -> (value, string) result
 (** [in_unit n name] is [n.name]. *)
 
+val too_large : Value.excess -> string
+(** Why a value with this excess cannot be written or kept. *)
+
+val member : value -> value -> (value, string) result
+(** [member x y] is [x in y]. *)
+
+val key : value -> (string, string) result
+(** [key x] is the key that [x] is in a map: its text. An error if [x] is {!too_large}. *)
+
 val too_long : string -> ('any, string) result
 (** [too_long what] is the error of a list or string, [what], of more than {!Value.most_items} elements. *)
 

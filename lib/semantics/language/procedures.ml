@@ -8,7 +8,7 @@ let expected what x = of_result (Operators.expected what x)
 let on_cut at : Dolphin_syntax.Ast.on_cut -> on_cut = function Completes -> Completes at | Fails -> Fails at
 
 let rounds x =
-  match Value.canonical x with
+  match Value.canonical_number x with
   | Integer n when n >= 1 -> Ok n
   | x when Value.to_number x = None -> Operators.expected "how many rounds there are, as in repeat 3, T" x
   | x -> Error (Printf.sprintf "repeat takes a whole number of rounds, 1 or more, not %s" (Value.to_string x))
@@ -60,7 +60,7 @@ let rec ensured forms arguments =
   | Pair_of (Some k) :: forms, x :: arguments -> pair k x forms arguments
   | Pair_of None :: forms, String k :: x :: arguments -> pair k x forms arguments
   | Pair_of None :: forms, ((Integer _ | Number _) as k) :: x :: arguments ->
-    pair (Value.to_string (Value.canonical k)) x forms arguments
+    pair (Value.to_string (Value.canonical_number k)) x forms arguments
   | Pair_of None :: _, k :: _ -> Error (Operators.expected "a string as a key" k)
   | Variable_of (i, name) :: forms, x :: arguments ->
     Result.map (fun ds -> Variable (i, name, x) :: ds) (ensured forms arguments)
@@ -142,7 +142,7 @@ let rec pairs keys arguments =
   | None :: keys, k :: x :: arguments -> (
       match k with
       | String k -> pair k x keys arguments
-      | Integer _ | Number _ -> pair (Value.to_string (Value.canonical k)) x keys arguments
+      | Integer _ | Number _ -> pair (Value.to_string (Value.canonical_number k)) x keys arguments
       | k -> Error k)
   | _, _ -> Ok []
 

@@ -71,6 +71,8 @@ let most_claims = 12
 
 let spell x = match x with Reading r -> r.text | x -> Format.asprintf "%a" Value.pp (Value.canonical x)
 
+let can_be_spelt = Value.has_at_most Value.most_items
+
 (* As an operand of another operation. *)
 let enclosed text = if String.contains text ' ' then "(" ^ text ^ ")" else text
 
@@ -129,8 +131,8 @@ let binary world at (op : Ast.binary) x y =
   | Greater_equal when is_amount x && is_amount y -> fails "<"
   | Greater when is_amount x && is_amount y -> holds ">"
   | Less_equal when is_amount x && is_amount y -> fails ">"
-  | Equal -> holds "=="
-  | Not_equal -> fails "=="
+  | Equal when can_be_spelt x && can_be_spelt y -> holds "=="
+  | Not_equal when can_be_spelt x && can_be_spelt y -> fails "=="
   | Member_of when is_place x && is_region y -> holds "in"
   | Add when is_words x || is_words y -> Gives (Ok (reading Words (Value.to_string x ^ Value.to_string y)))
   | Add when is_amount x && is_amount y -> computed Amount "+"
@@ -139,8 +141,8 @@ let binary world at (op : Ast.binary) x y =
   | Divide when is_amount x && Value.to_number y = Some 0. -> Gives (Error "division by zero")
   | Divide when is_amount x && Value.to_number y <> None -> computed Amount "/"
   | Around when is_place x && (match Value.to_number y with Some r -> r >= 0. | None -> false) -> computed Region "^"
-  | Less | Less_equal | Greater | Greater_equal | Member_of | Add | Subtract | Multiply | Divide | Around | Remainder
-  | Power | Sequence | Append | Intersect | Parallel | And | Or -> As_any
+  | Less | Less_equal | Greater | Greater_equal | Equal | Not_equal | Member_of | Add | Subtract | Multiply | Divide
+  | Around | Remainder | Power | Sequence | Append | Intersect | Parallel | And | Or -> As_any
 
 let method_call world at name arguments =
   match arguments with

@@ -90,7 +90,7 @@ let add_to_pick pick s =
   | "region", _ -> wrong s "an area, or a centre and a radius"
   | "count", [ Wildcard ] -> Ok { pick with count = All }
   | "count", [ x ] -> (
-      match Value.canonical x with
+      match Value.canonical_number x with
       | Integer n when n > 0 -> Ok { pick with count = Exactly n }
       | Integer n -> fault s (Printf.sprintf "the number of vehicles must be greater than 0, it is %d" n)
       | _ -> wrong s "a whole number, or _ for all")

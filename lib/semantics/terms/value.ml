@@ -23,22 +23,30 @@ let rank_task = function
 let long = 1_000
 let remembered = 16
 
+(* Two things to compare, as data: what is left to compare is a list of these, so that no depth takes stack. *)
+type pair =
+  | Settled of int
+  | Values of value * value
+  | Items of value Vector.t * value Vector.t * int  (* as long as each other; from this index on *)
+  | Tasks of task * task
+  | Code of closure * closure
+  | Both of pair * pair
+  | Several of pair Seq.t
+  | Equal_since of int * pair                       (* this pair is equal, and its comparison began at this step *)
+
 type memory = { mutable steps : int; mutable values : (value * value) list; mutable tasks : (task * task) list }
 
 let memory () = { steps = 0; values = []; tasks = [] }
 
-let once m known x y remember compared =
-  if List.exists (fun (x', y') -> x == x' && y == y') known then 0
-  else
-    let before = m.steps in
-    let found = compared () in
-    if found = 0 && m.steps - before > long then remember (x, y);
-    found
-
+let is_known known x y = List.exists (fun (x', y') -> x == x' && y == y') known
 let latest pair known = pair :: List.filteri (fun i _ -> i < remembered - 1) known
 
-let keep_value m pair = m.values <- latest pair m.values
-let keep_task m pair = m.tasks <- latest pair m.tasks
+let remember m before pair =
+  if m.steps - before > long then
+    match pair with
+    | Values (x, y) -> m.values <- latest (x, y) m.values
+    | Tasks (t, t') -> m.tasks <- latest (t, t') m.tasks
+    | Settled _ | Items _ | Code _ | Both _ | Several _ | Equal_since _ -> ()
 
 let compare_on_cut e e' =
   match e, e' with
@@ -47,102 +55,174 @@ let compare_on_cut e e' =
   | Completes _, Fails _ -> -1
   | Fails _, Completes _ -> 1
 
-let rec order m x y =
-  m.steps <- m.steps + 1;
-  if x == y then 0
-  else
-    match x, y with
-    | Boolean a, Boolean b -> Bool.compare a b
-    | Integer a, Integer b -> Int.compare a b
-    | Number a, Number b -> Float.compare a b
-    | String a, String b | Symbol a, Symbol b | Host a, Host b -> String.compare a b
-    | List a, List b -> once m m.values x y (keep_value m) (fun () -> Vector.compare (order m) a b)
-    | Map a, Map b ->
-      once m m.values x y (keep_value m) (fun () -> Order.list (order_entry m) a b)
-    | Range (a, b), Range (a', b') -> Order.both (Int.compare a a') (fun () -> Int.compare b b')
-    | Position a, Position b -> Position.compare a b
-    | Area a, Area b -> Area.compare a b
-    | Vehicles a, Vehicles b -> List.compare String.compare a b
-    | Task a, Task b -> order_task m a b
-    | Closure a, Closure b -> order_closure m a b
-    | Settings a, Settings b -> List.compare (order_setting m) a b
-    | Unknown a, Unknown b ->
-      Order.both (String.compare a.sensor b.sensor) (fun () -> String.compare a.of_vehicle b.of_vehicle)
-    | Reading a, Reading b -> Order.both (Stdlib.compare a.quantity b.quantity) (fun () -> String.compare a.text b.text)
-    | ( ( Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | List _ | Map _ | Range _
-        | Position _ | Area _ | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ ),
-        _ ) -> Int.compare (rank x) (rank y)
+let first n pair = if n <> 0 then Settled n else pair
 
-and order_entry m (k, x) (k', x') = Order.both (String.compare k k') (fun () -> order m x x')
+(* As [Order.list]. *)
+let lists pair xs ys =
+  let rec from xs ys () =
+    if xs == ys then Seq.Nil
+    else
+      match xs, ys with
+      | [], [] -> Seq.Nil
+      | [], _ :: _ -> Seq.Cons (Settled (-1), Seq.empty)
+      | _ :: _, [] -> Seq.Cons (Settled 1, Seq.empty)
+      | x :: xs, y :: ys -> Seq.Cons (pair x y, from xs ys)
+  in
+  Several (from xs ys)
 
-and order_setting m s s' =
-  Order.both (Int.compare s.setting_site s'.setting_site) (fun () ->
-      Order.both (List.compare (order m) s.positional s'.positional) (fun () ->
-          List.compare (order_entry m) s.named s'.named))
+let items a b = first (Int.compare (Vector.length a) (Vector.length b)) (Items (a, b, 0))
+let values x y = Values (x, y)
+let entry (k, x) (k', x') = first (String.compare k k') (Values (x, x'))
 
-and order_closure m c c' =
-  Order.both (Int.compare c.lambda.id c'.lambda.id) (fun () -> Order.array (order m) c.captured c'.captured)
+let setting s s' =
+  first
+    (Int.compare s.setting_site s'.setting_site)
+    (Both (lists values s.positional s'.positional, lists entry s.named s'.named))
 
-and order_task m t t' =
-  m.steps <- m.steps + 1;
-  if t == t' then 0
-  else once m m.tasks t t' (keep_task m) (fun () -> order_parts m t t')
+let code c c' =
+  first
+    (Int.compare c.lambda.id c'.lambda.id)
+    (items (Vector.of_array c.captured) (Vector.of_array c'.captured))
 
-and order_parts m t t' =
+let option pair x y =
+  match x, y with
+  | None, None -> Settled 0
+  | None, Some _ -> Settled (-1)
+  | Some _, None -> Settled 1
+  | Some x, Some y -> pair x y
+
+let closures c c' = Code (c, c')
+let branch b b' = Both (Code (b.guard, b'.guard), Tasks (b.body, b'.body))
+
+let duration d d' =
+  match d, d' with
+  | Seconds s, Seconds s' -> Settled (Float.compare s s')
+  | Given_by c, Given_by c' -> Code (c, c')
+  | Seconds _, Given_by _ -> Settled (-1)
+  | Given_by _, Seconds _ -> Settled 1
+
+let ensured d d' =
+  match d, d' with
+  | Pair (k, x), Pair (k', x') -> entry (k, x) (k', x')
+  | Variable (i, _, x), Variable (i', _, x') -> first (Int.compare i i') (Values (x, x'))
+  | Taken, Taken -> Settled 0
+  | Pair _, (Variable _ | Taken) | Variable _, Taken -> Settled (-1)
+  | (Variable _ | Taken), Pair _ | Taken, Variable _ -> Settled 1
+
+let task_parts t t' =
   match t, t' with
   | Platform p, Platform p' ->
-    Order.both (String.compare p.name p'.name) (fun () ->
-        Order.both (Int.compare p.task_site p'.task_site) (fun () ->
-            Option.compare Inline_plan.compare p.plan p'.plan))
-  | Action c, Action c' | Condition c, Condition c' | Made c, Made c' | Fresh c, Fresh c' -> order_closure m c c'
-  | Sequence (a, b), Sequence (a', b') | Parallel (a, b), Parallel (a', b') ->
-    Order.both (order_task m a a') (fun () -> order_task m b b')
-  | Allocated (a, vs), Allocated (a', vs') ->
-    Order.both (List.compare String.compare vs vs') (fun () -> order_task m a a')
-  | All_of bs, All_of bs' | One_of bs, One_of bs' -> Order.list (order_branch m) bs bs'
-  | Until (e, c, a), Until (e', c', a') ->
-    Order.both (compare_on_cut e e') (fun () -> Order.both (order_closure m c c') (fun () -> order_task m a a'))
-  | Watch (a, c), Watch (a', c') -> Order.both (order_closure m c c') (fun () -> order_task m a a')
-  | Idle a, Idle b -> Float.compare a.seconds b.seconds
-  | Confirm a, Confirm b -> Order.both (Int.compare a.site b.site) (fun () -> String.compare a.prompt b.prompt)
-  | During (e, d, a), During (e', d', a') ->
-    Order.both (compare_on_cut e e') (fun () -> Order.both (order_duration m d d') (fun () -> order_task m a a'))
+    Settled
+      (Order.both (String.compare p.name p'.name) (fun () ->
+           Order.both (Int.compare p.task_site p'.task_site) (fun () ->
+               Option.compare Inline_plan.compare p.plan p'.plan)))
+  | Action c, Action c' | Condition c, Condition c' | Made c, Made c' | Fresh c, Fresh c' -> Code (c, c')
+  | Sequence (a, b), Sequence (a', b') | Parallel (a, b), Parallel (a', b') -> Both (Tasks (a, a'), Tasks (b, b'))
+  | Allocated (a, vs), Allocated (a', vs') -> first (List.compare String.compare vs vs') (Tasks (a, a'))
+  | All_of bs, All_of bs' | One_of bs, One_of bs' -> lists branch bs bs'
+  | Until (e, c, a), Until (e', c', a') -> first (compare_on_cut e e') (Both (Code (c, c'), Tasks (a, a')))
+  | Watch (a, c), Watch (a', c') -> Both (Code (c, c'), Tasks (a, a'))
+  | Idle a, Idle b -> Settled (Float.compare a.seconds b.seconds)
+  | Confirm a, Confirm b ->
+    Settled (Order.both (Int.compare a.site b.site) (fun () -> String.compare a.prompt b.prompt))
+  | During (e, d, a), During (e', d', a') -> first (compare_on_cut e e') (Both (duration d d', Tasks (a, a')))
   | Repeat a, Repeat b ->
-    Order.both (Option.compare Int.compare a.rounds b.rounds) (fun () ->
-        Order.both (Option.compare (order_closure m) a.until b.until) (fun () ->
-            Order.both (Int.compare a.site b.site) (fun () -> order_task m a.body b.body)))
+    first
+      (Option.compare Int.compare a.rounds b.rounds)
+      (Both (option closures a.until b.until, first (Int.compare a.site b.site) (Tasks (a.body, b.body))))
   | Recruit a, Recruit b ->
-    Order.both (order_closure m a.code b.code) (fun () ->
-        Order.both (Int.compare a.site b.site) (fun () -> Vehicle_filter.compare a.asked b.asked))
-  | Ensure (ds, a), Ensure (ds', a') ->
-    Order.both (Order.list (order_ensured m) ds ds') (fun () -> order_task m a a')
+    Both
+      ( Code (a.code, b.code),
+        Settled
+          (Order.both (Int.compare a.site b.site) (fun () -> Vehicle_filter.compare a.asked b.asked)) )
+  | Ensure (ds, a), Ensure (ds', a') -> Both (lists ensured ds ds', Tasks (a, a'))
   | ( ( Platform _ | Action _ | Condition _ | Sequence _ | Parallel _ | Allocated _ | All_of _ | One_of _
       | Until _ | Idle _ | Confirm _ | During _ | Watch _ | Repeat _ | Made _ | Recruit _
       | Fresh _ | Ensure _ ),
-      _ ) -> Int.compare (rank_task t) (rank_task t')
+      _ ) -> Settled (Int.compare (rank_task t) (rank_task t'))
 
-and order_ensured m d d' =
-  match d, d' with
-  | Pair (k, x), Pair (k', x') -> order_entry m (k, x) (k', x')
-  | Variable (i, _, x), Variable (i', _, x') -> Order.both (Int.compare i i') (fun () -> order m x x')
-  | Taken, Taken -> 0
-  | Pair _, (Variable _ | Taken) | Variable _, Taken -> -1
-  | (Variable _ | Taken), Pair _ | Taken, Variable _ -> 1
+(* [Settled], or the pairs of parts. *)
+let value_parts x y =
+  match x, y with
+  | Boolean a, Boolean b -> Settled (Bool.compare a b)
+  | Integer a, Integer b -> Settled (Int.compare a b)
+  | Number a, Number b -> Settled (Float.compare a b)
+  | String a, String b | Symbol a, Symbol b | Host a, Host b -> Settled (String.compare a b)
+  | List a, List b -> items a b
+  | Map a, Map b -> lists entry a b
+  | Range (a, b), Range (a', b') -> Settled (Order.both (Int.compare a a') (fun () -> Int.compare b b'))
+  | Position a, Position b -> Settled (Position.compare a b)
+  | Area a, Area b -> Settled (Area.compare a b)
+  | Vehicles a, Vehicles b -> Settled (List.compare String.compare a b)
+  | Task a, Task b -> Tasks (a, b)
+  | Closure a, Closure b -> Code (a, b)
+  | Settings a, Settings b -> lists setting a b
+  | Unknown a, Unknown b ->
+    Settled (Order.both (String.compare a.sensor b.sensor) (fun () -> String.compare a.of_vehicle b.of_vehicle))
+  | Reading a, Reading b ->
+    Settled (Order.both (Stdlib.compare a.quantity b.quantity) (fun () -> String.compare a.text b.text))
+  | ( ( Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | List _ | Map _ | Range _
+      | Position _ | Area _ | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ ),
+      _ ) -> Settled (Int.compare (rank x) (rank y))
 
-and order_branch m b b' =
-  Order.both (order_closure m b.guard b'.guard) (fun () -> order_task m b.body b'.body)
+(* The index of the first elements from [i] on that are not the same at a glance. *)
+let rec past_same m xs ys i =
+  if i = Vector.length xs then i
+  else
+    let same =
+      match Vector.get xs i, Vector.get ys i with
+      | Integer a, Integer b -> a = b
+      | String a, String b -> String.equal a b
+      | x, y -> x == y
+    in
+    if same then begin
+      m.steps <- m.steps + 1;
+      past_same m xs ys (i + 1)
+    end
+    else i
 
-and order_duration m d d' =
-  match d, d' with
-  | Seconds s, Seconds s' -> Float.compare s s'
-  | Given_by c, Given_by c' -> order_closure m c c'
-  | Seconds _, Given_by _ -> -1
-  | Given_by _, Seconds _ -> 1
+(* The first difference. [parts] gives the parts of two values; [rest] is what comes after the pair. *)
+let rec order parts m pair rest =
+  match pair with
+  | Settled 0 -> following parts m rest
+  | Settled n -> n
+  | Values (x, y) ->
+    m.steps <- m.steps + 1;
+    if x == y then following parts m rest
+    else (
+      match parts x y with
+      | Settled 0 -> following parts m rest
+      | Settled n -> n
+      | (Items _ | Several _) as inner ->
+        if is_known m.values x y then following parts m rest
+        else order parts m inner (Equal_since (m.steps, pair) :: rest)
+      | (Values _ | Tasks _ | Code _ | Both _ | Equal_since _) as inner -> order parts m inner rest)
+  | Items (xs, ys, i) ->
+    let i = past_same m xs ys i in
+    if i = Vector.length xs then following parts m rest
+    else order parts m (Values (Vector.get xs i, Vector.get ys i)) (Items (xs, ys, i + 1) :: rest)
+  | Tasks (t, t') ->
+    m.steps <- m.steps + 1;
+    if t == t' || is_known m.tasks t t' then following parts m rest
+    else order parts m (task_parts t t') (Equal_since (m.steps, pair) :: rest)
+  | Code (c, c') -> order parts m (code c c') rest
+  | Both (one, other) -> order parts m one (other :: rest)
+  | Several pairs -> (
+      match pairs () with
+      | Seq.Nil -> following parts m rest
+      | Seq.Cons (pair, pairs) -> order parts m pair (Several pairs :: rest))
+  | Equal_since (before, pair) ->
+    remember m before pair;
+    following parts m rest
 
-let compare x y = if x == y then 0 else order (memory ()) x y
-let compare_task t t' = if t == t' then 0 else order_task (memory ()) t t'
-let compare_ensured d d' = order_ensured (memory ()) d d'
-let compare_closure c c' = if c == c' then 0 else order_closure (memory ()) c c'
+and following parts m = function [] -> 0 | pair :: rest -> order parts m pair rest
+
+let compare_pair pair = order value_parts (memory ()) pair []
+
+let compare x y = if x == y then 0 else compare_pair (Values (x, y))
+let compare_task t t' = if t == t' then 0 else compare_pair (Tasks (t, t'))
+let compare_ensured d d' = compare_pair (ensured d d')
+let compare_closure c c' = if c == c' then 0 else compare_pair (Code (c, c'))
 
 (* The number of parts of a value that are hashed: it may share its parts with itself many times over. *)
 let hashed_parts = 10_000
@@ -249,27 +329,20 @@ let rec is_alone x =
   | Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | Range _ | Position _ | Area _
   | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ -> true
 
+let normal_parts x y =
+  match x, y with
+  | (Integer _ | Number _), (Integer _ | Number _) -> Settled (compare (canonical_number x) (canonical_number y))
+  | List a, List b -> items a b
+  | Map a, Map b ->
+    first (List.compare_lengths a b) (lists entry (List.sort by_key a) (List.sort by_key b))
+  | Vehicles a, Vehicles b ->
+    Settled (List.compare String.compare (List.sort String.compare a) (List.sort String.compare b))
+  | ( ( Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | List _ | Map _ | Range _
+      | Position _ | Area _ | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ ),
+      _ ) -> Settled (compare x y)
+
 (* As [compare (normal x) (normal y) = 0], but what both share is not gone through. *)
-let equals x y =
-  let m = memory () in
-  let once x y compared = once m m.values x y (keep_value m) (fun () -> Bool.to_int (not (compared ()))) = 0 in
-  let rec same x y =
-    m.steps <- m.steps + 1;
-    x == y
-    ||
-    match x, y with
-    | (Integer _ | Number _), (Integer _ | Number _) -> compare (canonical_number x) (canonical_number y) = 0
-    | List xs, List ys -> once x y (fun () -> Vector.equal same xs ys)
-    | Map a, Map b ->
-      let same_entry (k, x) (k', y) = String.equal k k' && same x y in
-      let alike () = List.for_all2 same_entry (List.sort by_key a) (List.sort by_key b) in
-      List.compare_lengths a b = 0 && once x y alike
-    | Vehicles a, Vehicles b -> List.equal String.equal (List.sort String.compare a) (List.sort String.compare b)
-    | ( ( Null | Boolean _ | Integer _ | Number _ | String _ | Wildcard | Symbol _ | List _ | Map _ | Range _
-        | Position _ | Area _ | Vehicles _ | Task _ | Closure _ | Host _ | Settings _ | Reading _ | Unknown _ ),
-        _ ) -> compare x y = 0
-  in
-  same x y
+let equals x y = order normal_parts (memory ()) (Values (x, y)) [] = 0
 
 type excess = Parts | Depth
 

@@ -54,6 +54,9 @@ val equals : t -> t -> bool
     the order of picks, maps to that of keys. Parts that [x] and [y] share take no time, and repeated parts of each
     are compared once. *)
 
+val canonical_number : t -> t
+(** [canonical_number x] is the integer that [x] is, if [x] is a whole number, else [x]. *)
+
 val canonical : t -> t
 (** [canonical x] is [x] with numbers that are whole as integers. Tuples hold such values. *)
 

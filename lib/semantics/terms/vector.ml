@@ -48,13 +48,3 @@ let for_all holds xs = all holds xs 0
 let exists holds xs = not (for_all (fun x -> not (holds x)) xs)
 
 let map f xs = of_array (Array.init xs.length (fun i -> f xs.buffer.(i)))
-
-let equal same xs ys =
-  let rec from i = i = xs.length || (same xs.buffer.(i) ys.buffer.(i) && from (i + 1)) in
-  xs.length = ys.length && from 0
-
-let compare order xs ys =
-  let rec from i =
-    if i = xs.length then 0 else match order xs.buffer.(i) ys.buffer.(i) with 0 -> from (i + 1) | n -> n
-  in
-  match Int.compare xs.length ys.length with 0 -> from 0 | n -> n

@@ -42,9 +42,3 @@ val for_all : ('a -> bool) -> 'a t -> bool
 
 val exists : ('a -> bool) -> 'a t -> bool
 (** [exists p xs] is whether [p] holds of some element. *)
-
-val equal : ('a -> 'a -> bool) -> 'a t -> 'a t -> bool
-(** [equal same xs ys] is whether [xs] and [ys] are as long, and [same] holds of each pair of elements. *)
-
-val compare : ('a -> 'a -> int) -> 'a t -> 'a t -> int
-(** As {!Order.array}. *)

@@ -131,16 +131,86 @@ The prelude comes with the command. A program may have its name; a function that
   <prelude>:19:12: error: a number has no method 'tail'
     19 |     return tasks.tail().inject(tasks[0]) { beside, t -> beside | t }
        |            ^^^^^^^^^^^^
+       hint: this is an error in par of the prelude, called at prelude:2:9 or prelude:4:9
   [1]
-  $ for call in 'race([])' 'seq([])' 'parallel(0, [idle(1)])'; do
-  >   printf "include 'prelude'\nexecute $call\n" > none.dol; dolphin exec none.dol --fleet one.fleet 2> errors; head -1 errors
+
+An error in the prelude is shown at the call of the program that leads there, with the function; also numbers and lists
+that make no sense.
+
+  $ cat > two.fleet <<'END'
+  > vehicle 'a', { type 'UUV' }
+  > vehicle 'b', { type 'UUV' }
+  > END
+  $ for call in 'race([])' 'seq([])' 'par([])' 'patrol([])' 'forall([])_{_v_->_idle(1)_}' "leader('a',[])" \
+  >     "follower('a',[])" 'handOver([],idle(1))_{_v_->_true_}' 'parallel(0,[idle(1)])' 'atLeast(0,[idle(1)])' \
+  >     'atLeast(2,[idle(1)])' 'retrying(0,idle(1))' "barrier('x',0)" "barrier('x',-1)" "barrier('x',1.5)" \
+  >     'idle(near(v[0],v,-1).size())' 'team(0,1,v,[1])_{_g_->_idle(1)_}' 'team(2,1,v,[1])_{_g_->_idle(1)_}' \
+  >     'team(3,3,v,[1])_{_g_->_idle(1)_}'; do
+  >   printf "include 'prelude'\nv = pick { count 2 }\nmessage 1\nexecute $call\n" | tr _ ' ' > none.dol
+  >   dolphin exec none.dol --fleet two.fleet 2>&1 > log | sed -n '1p;$p'
   > done
-     0:00  program     fails: the list of tasks is empty
-  <prelude>:18:22: error: the list of tasks is empty
-     0:00  program     fails: the list of tasks is empty
-  <prelude>:10:22: error: the list of tasks is empty
-     0:00  program     fails: parallel runs at least 1 task at once, not 0
-  <prelude>:52:16: error: parallel runs at least 1 task at once, not 0
+  none.dol:4:9: error: the list of tasks is empty
+      hint: this is an error in atLeast of the prelude
+  none.dol:4:9: error: the list of tasks is empty
+      hint: this is an error in seq of the prelude
+  none.dol:4:9: error: the list of tasks is empty
+      hint: this is an error in par of the prelude
+  none.dol:4:9: error: the list of tasks is empty
+      hint: this is an error in seq of the prelude
+  none.dol:4:9: error: the list of tasks is empty
+      hint: this is an error in par of the prelude
+  none.dol:4:9: error: the list of tasks is empty
+      hint: this is an error in seq of the prelude
+  none.dol:4:9: error: the list of tasks is empty
+      hint: this is an error in seq of the prelude
+  none.dol:4:9: error: the list of tasks is empty
+      hint: this is an error in seq of the prelude
+  none.dol:4:9: error: parallel runs at least 1 task at once, not 0
+      hint: this is an error in parallel of the prelude
+  none.dol:4:9: error: atLeast awaits at least 1 task, not 0
+      hint: this is an error in atLeast of the prelude
+  none.dol:4:9: error: atLeast awaits 2 tasks, and the list has 1
+      hint: this is an error in atLeast of the prelude
+  none.dol:4:9: error: retrying does its task at least 1 time, not 0
+      hint: this is an error in retrying of the prelude
+  none.dol:4:9: error: a barrier is for a whole number of tasks, at least 1, not 0
+      hint: this is an error in barrier of the prelude
+  none.dol:4:9: error: a barrier is for a whole number of tasks, at least 1, not -1
+      hint: this is an error in barrier of the prelude
+  none.dol:4:9: error: a barrier is for a whole number of tasks, at least 1, not 1.5
+      hint: this is an error in barrier of the prelude
+  none.dol:4:14: error: a distance is at least 0, not -1
+      hint: this is an error in near of the prelude
+  none.dol:4:9: error: a team has at least 1 vehicle, not 0
+      hint: this is an error in team of the prelude
+  none.dol:4:9: error: a team of at least 2 vehicles cannot have at most 1
+      hint: this is an error in team of the prelude
+  none.dol:4:9: error: a team of at least 3 vehicles cannot be made of 2
+      hint: this is an error in team of the prelude
+  $ dolphin exec none.dol --fleet two.fleet | tail -1
+  none.dol:4:9: error: a team of at least 3 vehicles cannot be made of 2
+    4 | execute team(3,3,v,[1]) { g -> idle(1) }
+      |         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+      hint: this is an error in team of the prelude
+     0:00  program     fails: a team of at least 3 vehicles cannot be made of 2
+  $ dolphin explore none.dol --fleet two.fleet | tail -2
+  3   message '1'                               none.dol:3  v = [a, b]
+  4   fault(a team of at least 3 vehicles c...  none.dol:4
+
+Of several calls all are named.
+
+  $ cat > several.dol <<'END'
+  > include 'prelude'
+  > n = 0
+  > def gather(k) {
+  >     return barrier('x', k)
+  > }
+  > execute gather(1) >> barrier('y', n)
+  > END
+  $ dolphin exec several.dol --fleet two.fleet 2>&1 | grep prelude | sed 's/<prelude>:[0-9]*:[0-9]*:/<prelude>:/'
+  <prelude>: error: a barrier is for a whole number of tasks, at least 1, not 0
+        hint: this is an error in barrier of the prelude, called at several.dol:4:12 or several.dol:6:22
+
   $ cat > near.dol <<'END'
   > include 'prelude'
   > v = pick { type 'UUV' }

@@ -75,7 +75,7 @@ Without a date there is no time of day.
   dolphin: mission.dol: it reads the time of day: give --begins '2026-06-01 21:00', or write in the fleet: begins '2026-06-01 21:00'
   [2]
   $ dolphin time mission.dol --fleet undated.fleet > result; sed 's/, [0-9.]* s, [0-9]* MiB//' result
-  inconclusive: <prelude>:72:32: now() or timeOfDay() is used other than in comparisons with constants, or the fleet does not have the date at which the run begins: the effect of the date on time is unknown here; times are of the runs until then
+  inconclusive: mission.dol:3:10: now() or timeOfDay() is used other than in comparisons with constants, or the fleet does not have the date at which the run begins: the effect of the date on time is unknown here; times are of the runs until then
   2 states, depth 0
   $ dolphin exec mission.dol --fleet undated.fleet --begins '2026-06-01 21:30' | tail -4
   24:45:00  noptilus-1  ends survey
@@ -169,10 +169,10 @@ Day after day is a finite state space: the time analysis sees that the mission n
   10            starts survey  daily.dol:3
   11   timeout                 daily.dol:3
   12   check                   daily.dol:3
-  it goes round in the repeat at <prelude>:80:12
+  it goes round in the repeat at daily.dol:3:9
   $ dolphin explore daily.dol --fleet mission.fleet > result; sed 's/, [0-9.]* s, [0-9]* MiB//' result
   no deadlock: holds
-  termination: by design not: repeat at <prelude>:80:12; ended by nothing that may happen here
+  termination: by design not: repeat at daily.dol:3:9; ended by nothing that may happen here
   no unhandled error: holds
   assertions: holds
   vehicles for all tasks: holds

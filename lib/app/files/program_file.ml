@@ -78,6 +78,6 @@ let line p site =
 
 let diagnostic p (fault : Dolphin_semantics.Fault.t) =
   let at = Option.value (Dolphin_semantics.Fault.location p.program fault) ~default:Location.none in
-  Diagnostic.error at fault.message
+  Diagnostic.error at fault.message ?hint:(Dolphin_semantics.Fault.hint p.program fault)
 
 let unsettled p fault = Error.Unsettled { source = p.source; fault = diagnostic p fault }

@@ -16,6 +16,17 @@ let unknown site ({ sensor; of_vehicle = v } : Core.unknown) =
 let is_unknown fault = match fault.cause with Unknown -> true | Code | Assertion | Task _ -> false
 
 let location (program : Core.program) fault =
-  if fault.site >= 0 && fault.site < Array.length program.locations then Some program.locations.(fault.site)
-  else None
+  if fault.site < 0 || fault.site >= Array.length program.locations then None
+  else
+    match Prelude_calls.to_site program fault.site with
+    | Some { calls = [ call ]; name = _ } -> Some call
+    | Some { calls = [] | _ :: _ :: _; name = _ } | None -> Some program.locations.(fault.site)
 
+let hint (program : Core.program) fault =
+  match Prelude_calls.to_site program fault.site with
+  | None -> None
+  | Some { name; calls = [] | [ _ ] } -> Some (Printf.sprintf "this is an error in %s of the prelude" name)
+  | Some { name; calls = first :: others } ->
+    let place at = Format.asprintf "%a" Dolphin_syntax.Location.pp at in
+    let places = List.fold_left (fun text at -> Printf.sprintf "%s or %s" text (place at)) (place first) others in
+    Some (Printf.sprintf "this is an error in %s of the prelude, called at %s" name places)

@@ -34,5 +34,10 @@ val is_assertion : t -> bool
 (** Whether it was made by {!assertion}. *)
 
 val location : Core.program -> t -> Dolphin_syntax.Location.t option
-(** [location p f] is the place of [f] in [p]'s text. *)
+(** [location p f] is the place of [f] in [p]'s text. If it is in the prelude, and one call of [p] leads there, the call
+    is the place. *)
+
+val hint : Core.program -> t -> string option
+(** [hint p f] names the function of the prelude that has the place of [f], if one has; and the calls of [p] that lead
+    there, if these are several. *)
 

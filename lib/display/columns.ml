@@ -3,7 +3,7 @@ module Phrase = Dolphin_trace.Phrase
 module Location = Dolphin_syntax.Location
 
 let program_column = "program"
-let widest = 40  (* characters of a cell *)
+let widest = 40  (* characters of a cell, where columns are few *)
 
 (* The vehicle of a transition, its deed, and its place in the program, as far as they are known. *)
 type row = {
@@ -203,26 +203,27 @@ let below ~number ~widest row =
 (* The place of a row's assignments, if any row has assignments. *)
 type beside = In_column | Below | Nowhere
 
-(* As a table whose cells have at most [widest] characters, with a last column of [words] characters, if any; each row
-   has its text of [heads], and its remark. *)
-let table ~heads ~remarks ~widest ~words ~beside rows =
+(* As a table whose columns have at most [widest] characters, with a last one of [words] characters, if any; each row
+   has its text of [heads], and its remark. Unless they are [cut], longer texts move the rest of their row to the
+   right. *)
+let table ?(cut = true) ~heads ~remarks ~widest ~words ~beside rows =
   let shortened_to = shortened in
-  let shortened = shortened widest in
+  let shortened text = if cut then shortened_to widest text else text in
+  let room width text = max width (min widest (Phrase.width text)) in
   let actors =
     List.fold_left (fun actors row -> if List.mem row.actor actors then actors else actors @ [ row.actor ])
       [ program_column ] rows
   in
   let width actor =
-    List.fold_left
-      (fun width row -> if row.actor = actor then max width (Phrase.width (shortened row.text)) else width)
-      (Phrase.width actor) rows
+    let wider width row = if row.actor = actor then room width row.text else width in
+    List.fold_left wider (Phrase.width actor) rows
   in
   let widths = List.map width actors in
   let number = width_of_all heads in
   let wider_place width row = max width (Phrase.width (place row)) in
   let widest_place = List.fold_left wider_place (Phrase.width "where") rows in
   let changes row = shortened (changes row) in
-  let widest_change = width_of_all ("variables" :: List.map changes rows) in
+  let widest_change = List.fold_left (fun width row -> room width (changes row)) (Phrase.width "variables") rows in
   let print head cells where changed said =
     let cells = List.map2 Phrase.pad widths cells in
     let changed = match beside with In_column -> [ Phrase.pad widest_change changed ] | Below | Nowhere -> [] in
@@ -276,7 +277,7 @@ let lines ?(first = 1) ?heads ?columns ?before ?(remarks = []) ~source program r
   let remarks = of_rows (List.mapi (fun i _ -> List.assoc_opt i remarks) run) in
   let beside = if List.exists (fun row -> row.changed <> []) rows then In_column else Nowhere in
   match columns with
-  | None -> table ~heads ~remarks ~widest ~words:None ~beside rows
+  | None -> table ~cut:false ~heads ~remarks ~widest ~words:None ~beside rows
   | Some columns ->
     let plain = List.map (fun row -> { row with assumed = [] }) rows and without = List.map (fun _ -> None) rows in
     let width ~beside widest =

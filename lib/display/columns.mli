@@ -35,8 +35,8 @@ val lines :
   ?first:int -> ?heads:string list -> ?columns:int -> ?before:Configuration.t -> ?remarks:(int * string) list ->
   source:string -> Core.program -> Transition.t list -> string list
 (** [lines ~source program run] is the table of [run]; [source] is the text of [program]. Silent transitions have no
-    row. Rows are numbered from [first], by default 1, or have [heads] instead, a text for each transition; of long
-    texts the beginning is shown. The assumptions of a transition in an open world stand below it, then its remark of
-    [remarks], by its place in [run], from 0. A column has the variables that changed. The table is made
-    to fit into [columns], if it is given: with the log's words for guards and timers in a last column, if there is
-    room for it; if the columns of all do not fit, each row has the name of its vehicle instead. *)
+    row. Rows are numbered from [first], by default 1, or have [heads] instead, a text for each transition. The
+    assumptions of a transition in an open world stand below it, then its remark of [remarks], by its place in [run],
+    from 0. A column has the variables that changed. If [columns] is given, the table is made to fit into it: with the
+    beginning of long texts, and the log's words for guards and timers in a last column, if there is room for it; if the
+    columns of all do not fit, each row has the name of its vehicle instead. *)

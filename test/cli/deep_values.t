@@ -91,10 +91,10 @@ Values that are nested 200,000 deep, in a run, in all runs, and in time.
   
   no unhandled error: a shortest run in which an unhandled error ends the program
       program                                   where      variables
-  1   fault(a value that is nested more tha...  key.dol:8  x = ..., y = ..., m = [a:1]
+  1   fault(a value that is nested more than 10000 deep is too large for this)  key.dol:8  x = ..., y = ..., m = [a:1]
   $ dolphin time key.dol 2>&1 | grep -v states
   failed: 0:00 at the earliest, 0:00 at the latest
   
   a run that ends last:
          program                                   where      variables
-  0:00   fault(a value that is nested more tha...  key.dol:8  x = ..., y = ..., m = [a:1]
+  0:00   fault(a value that is nested more than 10000 deep is too large for this)  key.dol:8  x = ..., y = ..., m = [a:1]

@@ -37,11 +37,11 @@ The same, if a plan may fail once.
        program                                   noptilus-1                 where              variables
    1   ask(Radius of operation area? (km))                                  rendezvous.dol:2
    2   answer(2)                                                            rendezvous.dol:2
-   3   pick(3 vehicles of type 'UUV' with pa...                             rendezvous.dol:5   r = 2, APDL = (41.185000, -8.706200) ...
+   3   pick(3 vehicles of type 'UUV' with payload DVL, Sidescan in region (41.185000, -8.706200) ^ 2000 m)                             rendezvous.dol:5   r = 2, APDL = (41.185000, -8.706200) ^ 2000 m
    4   picks noptilus-1, noptilus-2, noptilus-3                             rendezvous.dol:5
-   5   pick(1 vehicle of type 'UAV' in regio...                             rendezvous.dol:11  UUVs = [noptilus-1, noptilus-2, nopti...
+   5   pick(1 vehicle of type 'UAV' in region (41.185000, -8.706200) ^ 2000 m)                             rendezvous.dol:11  UUVs = [noptilus-1, noptilus-2, noptilus-3]
    6   picks x8-02                                                          rendezvous.dol:11
-   7   setConnectionTimeout noptilus-1, nopt...                             rendezvous.dol:15  UAV = x8-02
+   7   setConnectionTimeout noptilus-1, noptilus-2, noptilus-3, 120                             rendezvous.dol:15  UAV = x8-02
    8   execute                                                              rendezvous.dol:26
    9                                             starts survey1             rendezvous.dol:18
   10                                             fails in survey1: failure  rendezvous.dol:18
@@ -535,7 +535,7 @@ Where states stand for others that are alike, runs have the names that the progr
        program                                   noptilus-1  noptilus-2  noptilus-3  where        variables
    1   pick(3 vehicles of type 'UUV')                                                alike.dol:1
    2   picks noptilus-1, noptilus-2, noptilus-3                                      alike.dol:1
-   3   execute                                                                       alike.dol:3  vs = [noptilus-1, noptilus-2, noptilu...
+   3   execute                                                                       alike.dol:3  vs = [noptilus-1, noptilus-2, noptilus-3]
    4                                             starts a1                           alike.dol:2
    5                                             ends a1                             alike.dol:2
    6   act(post ready:1)                                                             alike.dol:2
@@ -709,7 +709,7 @@ The orders in which vehicles come are counted out one after another, also by a p
   vehicles for all picks: a shortest run with 1 fault in which vehicles are missing
       program                                   where
   1   pick(9 vehicles)                          nine.dol:1
-  2   no-vehicles(could not pick 9 vehicles...  nine.dol:1
+  2   no-vehicles(could not pick 9 vehicles: uuv-2 fits; uuv-3 fits; uuv-4 fits; uuv-5 fits; uuv-6 fits; uuv-7 fits; uuv-8 fits; uuv-9 fits; and 1 more)  nine.dol:1
       if uuv-1 is missing
 
 When the process can have no more memory, it says so. (OCaml 5 reserves at its start what 128 domains take, without d=1.)
@@ -1071,7 +1071,7 @@ invariants, and from the middle of a run:
    6                                             starts q  fewest.dol:3
    7                                             ends q    fewest.dol:3
    8   act                                                 fewest.dol:3  n = 5
-   9   broken(index 5 is out of range: a lis...            fewest.dol:3
+   9   broken(index 5 is out of range: a list has 1 elements)            fewest.dol:3
   $ dolphin explore fewest.dol --faults fail,loss --invariant 'n < 1' | grep '^invariant'
   invariant n < 1: violated after 8 steps, without a fault: it does not hold
   invariant n < 1: a shortest run without a fault in which it does not hold
@@ -1113,6 +1113,6 @@ A step of a task has the place of its own code, and labels are cut only where th
    9   make                                                places.dol:9
   10   allocate()                                          places.dol:4
   11   act(message 'm')                                    places.dol:9
-  12   fault(assertion failed: this text of ...            places.dol:11
+  12   fault(assertion failed: this text of an assertion is long enough to be cut where cells have forty characters)            places.dol:11
   $ COLUMNS=150 dolphin explore places.dol | grep fault
   12   fault(assertion failed: this text of an assertion is long enough to be cut where cells have forty characters)            places.dol:11

@@ -195,7 +195,7 @@ that make no sense.
      0:00  program     fails: a team of at least 3 vehicles cannot be made of 2
   $ dolphin explore none.dol --fleet two.fleet | tail -2
   3   message '1'                               none.dol:3  v = [a, b]
-  4   fault(a team of at least 3 vehicles c...  none.dol:4
+  4   fault(a team of at least 3 vehicles cannot be made of 2)  none.dol:4
 
 Of several calls all are named.
 

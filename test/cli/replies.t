@@ -118,7 +118,7 @@ A call for which the fleet has no reply.
    7   call(supplier.queue)                      mission.dol:4
    8   reply(host object queue)                  mission.dol:4
    9   call(queue.await)                         mission.dol:4
-  10   no-reply(the fleet has no reply 'queu...  mission.dol:4
+  10   no-reply(the fleet has no reply 'queue.await')  mission.dol:4
   the fleet lacks an entry: reply 'queue.await', and the supplier's possible replies
   [1]
   $ dolphin exec mission.dol

@@ -592,7 +592,7 @@ What code does with the date is exact where it compares it with constants. Else 
   8:00                                             ends survey    dusk.dol:3
   8:00   check                                                    dusk.dol:3
   8:00   act(message 'done at now()')                             dusk.dol:3
-  8:00   message 'it took (now() / 60).round(1...                 dusk.dol:4
+  8:00   message 'it took (now() / 60).round(1) min, 300 - now() s less than planned'                 dusk.dol:4
   8:00   end
   its end depends on: now() = 5:00 (5:00), then dusk.dol:3:17: survey on a (3:00)
   $ echo 'if (now() - 10 > limit) { message limit }' >> dusk.dol

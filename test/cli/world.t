@@ -201,7 +201,7 @@ A lost vehicle stays bound. It is not there for a pick until something is heard 
   5                                             fails in survey: connection lost  lost.dol:2
   6   release noptilus-1                                                          lost.dol:3
   7   pick(1 vehicle with id 'noptilus-1')                                        lost.dol:4
-  8   no-vehicles(could not pick 1 vehicle ...                                    lost.dol:4
+  8   no-vehicles(could not pick 1 vehicle with id 'noptilus-1': noptilus-2 has another id; noptilus-3 has another id; x8-02 has another id; noptilus-1 is not connected)                                    lost.dol:4
       if noptilus-1 is missing
   [1]
 

@@ -143,7 +143,7 @@ that make no sense.
   > END
   $ for call in 'race([])' 'seq([])' 'par([])' 'patrol([])' 'forall([])_{_v_->_idle(1)_}' "leader('a',[])" \
   >     "follower('a',[])" 'handOver([],idle(1))_{_v_->_true_}' 'parallel(0,[idle(1)])' 'atLeast(0,[idle(1)])' \
-  >     'atLeast(2,[idle(1)])' 'retrying(0,idle(1))' "barrier('x',0)" "barrier('x',-1)" "barrier('x',1.5)" \
+  >     'atLeast(2,[idle(1)])' "barrier('x',0)" "barrier('x',-1)" "barrier('x',1.5)" \
   >     'idle(near(v[0],v,-1).size())' 'team(0,1,v,[1])_{_g_->_idle(1)_}' 'team(2,1,v,[1])_{_g_->_idle(1)_}' \
   >     'team(3,3,v,[1])_{_g_->_idle(1)_}'; do
   >   printf "include 'prelude'\nv = pick { count 2 }\nmessage 1\nexecute $call\n" | tr _ ' ' > none.dol
@@ -171,8 +171,6 @@ that make no sense.
       hint: this is an error in atLeast of the prelude
   none.dol:4:9: error: atLeast awaits 2 tasks, and the list has 1
       hint: this is an error in atLeast of the prelude
-  none.dol:4:9: error: retrying does its task at least 1 time, not 0
-      hint: this is an error in retrying of the prelude
   none.dol:4:9: error: a barrier is for a whole number of tasks, at least 1, not 0
       hint: this is an error in barrier of the prelude
   none.dol:4:9: error: a barrier is for a whole number of tasks, at least 1, not -1

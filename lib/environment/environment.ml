@@ -336,11 +336,19 @@ let events options program world e (c : Configuration.t) (awaited : Transition.a
 
 type choice = { transition : Transition.t; outside : t; on : Transition.event option }
 
-let internal program world e c : choice Seq.t =
-  let by_itself transition = { transition; outside = e; on = None } in
-  fun () -> Seq.map by_itself (clear (Transition.internal_all program world c)) ()
+(* Why some outcomes cannot be listed, once the others have been. *)
+type unclear = Fault.t option ref
 
-let in_world options program world e c : choice Seq.t =
+let note (unclear : unclear) fault = if !unclear = None then unclear := Some fault
+
+let internal ~unclear program world e c : choice Seq.t =
+  let by_itself transition = { transition; outside = e; on = None } in
+  fun () ->
+    let listed, fault = Transition.internal_listed program world c in
+    Option.iter (note unclear) fault;
+    Seq.map by_itself listed ()
+
+let in_world ~unclear options program world e c : choice Seq.t =
   let rec accept before (event, e) =
     let of_result on : _ -> choice list = function
       | Ok transition -> [ { transition; outside = e; on } ]
@@ -348,11 +356,14 @@ let in_world options program world e c : choice Seq.t =
       | Error (Bad_answer why) -> List.concat_map (accept e) (after_refusal options program ~before e c why)
     in
     match event with
-    | Ok event -> List.concat_map (of_result (Some event)) (clear (Transition.accept_all program world c event))
+    | Ok event -> (
+        match Transition.accept_all program world c event with
+        | Ok accepted -> List.concat_map (of_result (Some event)) accepted
+        | Error fault -> note unclear fault; [])
     | Error refusal -> of_result None (Error refusal)
   in
   let on_event event = List.to_seq (List.concat_map (accept e) (events options program world e c event)) in
-  Seq.append (internal program world e c) (Seq.flat_map on_event (List.to_seq (Transition.awaited c)))
+  Seq.append (internal ~unclear program world e c) (Seq.flat_map on_event (List.to_seq (Transition.awaited c)))
 
 (* {1 Who is there} *)
 
@@ -401,7 +412,7 @@ let assuming assumed choice =
   { choice with transition = { t with assumed = assumed @ t.assumed; otherwise } }
 
 (* With remembered late vehicles, it matters which one of a class was late. *)
-let picking ?alike options program world e (c : Configuration.t) (pick : Settings.pick) =
+let picking ?alike ~unclear options program world e (c : Configuration.t) (pick : Settings.pick) =
   let join = join_limit options e in
   let company_in world =
     let alike = match join with At_most _ -> None | Never | Any_number -> alike in
@@ -430,7 +441,7 @@ let picking ?alike options program world e (c : Configuration.t) (pick : Setting
     let remembered = match join with At_most _ -> pick.otherwise | Never | Any_number -> false in
     if remembered then ways else match ways () with Seq.Nil -> Seq.empty | Seq.Cons (way, _) -> Seq.return way
   in
-  let attended_in world a = given a (in_world options program (World.suppose (assumed a) world) e c) in
+  let attended_in world a = given a (in_world ~unclear options program (World.suppose (assumed a) world) e c) in
   let attended = attended_in world in
   let of_number n =
     let hidden = Option.fold ~none:[] ~some:(fun alike -> hidden alike n world pick c.shared.bound) alike in
@@ -439,7 +450,7 @@ let picking ?alike options program world e (c : Configuration.t) (pick : Setting
     let seen = if hidden = [] then company else company_in shown in
     fun news ->
       let bound (on_time, coming) =
-        given { coming; missing = [] } (internal program (World.only (on_time @ coming) world) e c)
+        given { coming; missing = [] } (internal ~unclear program (World.only (on_time @ coming) world) e c)
       in
       let failed missing =
         if Attendance.number_of_new company missing = news then attended { coming = []; missing } else Seq.empty
@@ -483,15 +494,17 @@ let posts options program world e c : choice Seq.t =
   in
   List.to_seq (List.filter_map post (inputs options program e))
 
-let choices_on ?alike options program world e (c : Configuration.t) =
+let choices_on ?alike options program world e (c : Configuration.t) () =
+  let unclear = ref None in
   let by_itself () =
     match c.control with
-    | Waiting (_, Pick pick) -> picking ?alike options program world e c pick ()
+    | Waiting (_, Pick pick) -> picking ?alike ~unclear options program world e c pick ()
     | Script _ | Waiting (_, (Ask _ | Pause _ | Execute _ | Host_call _)) | Executing _ | Ended _ ->
-      in_world options program world e c ()
+      in_world ~unclear options program world e c ()
   in
   let from_outside () = Seq.append (posts options program world e c) (interruption options program world e c) () in
-  Seq.append by_itself from_outside
+  let others () = match !unclear with Some fault -> raise (Unclear fault) | None -> Seq.Nil in
+  Seq.append by_itself (Seq.append from_outside others) ()
 
 let choices ?alike options program world e c =
   Seq.map (fun { transition; outside; _ } -> (transition, outside)) (choices_on ?alike options program world e c)

@@ -201,7 +201,8 @@ val choices :
     in the order of [Transition.awaited], the inputs, and last the interruption, if there are any. The assumptions of a
     transition, on sensors and on present vehicles, are among its [assumed]. At a pick, of those that differ only by
     exchanging vehicles that are [alike] ({!Attendance.company}) one is given.
-    @raise Unclear (each time it is gone through) if [w] is open and the outcomes of a step cannot be listed. *)
+    @raise Unclear (each time it is gone through, after those of all other steps) if [w] is open and the outcomes of a
+      step cannot be listed. *)
 
 val find : ('choice -> bool) -> 'choice Seq.t -> 'choice option
 (** [find p choices] is the first of [choices] for which [p] holds, if there is one. The others after it are not

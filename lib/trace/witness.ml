@@ -72,7 +72,7 @@ let step program world c (t : Transition.t) =
     match Transition.accept_all program world c e with Ok (Ok t' :: _) -> is_it t' | Ok _ | Error _ -> false
   in
   let cause =
-    match Option.bind (Result.to_option (Transition.internal_all program world c)) (choice 0) with
+    match choice 0 (fst (Transition.internal_listed program world c)) with
     | Some cause -> cause
     | None -> (
         match t.label, List.find_opt event (candidates program c t) with
@@ -109,10 +109,11 @@ let chosen program world c i =
     | Seq.Nil -> None
     | Seq.Cons (t, rest) -> if i = 0 then Some t else nth (i - 1) rest
   in
-  match Result.map (nth i) (Transition.internal_all program world c) with
-  | Ok (Some t) -> Ok t
-  | Error fault -> Error (Unsettled fault.message)
-  | Ok None -> Error (Unfit "the program has no such choice there")
+  let listed, unclear = Transition.internal_listed program world c in
+  match nth i listed, unclear with
+  | Some t, _ -> Ok t
+  | None, Some fault -> Error (Unsettled fault.message)
+  | None, None -> Error (Unfit "the program has no such choice there")
 
 let caused program world c e =
   let refused : Transition.refusal -> _ = function

@@ -202,6 +202,17 @@ let bounds_within =
    The search looks at the clock at each of 70 states, and to show its run does so at each transition. *)
 
 let long_run = "i = 0\nwhile (i < 100000) { i = i + 1 }\nx = [1][2]"
+(* The run goes through states in which a step beside it has outcomes that cannot be listed. *)
+let beside_unclear () =
+  let program =
+    Pure_run.compile_exn
+      (pick ^ "p = imcPlan { locate 41, -8; goTo(); move 0, 100; goTo() }\n\
+               execute (assert({ battery(vb) < 0.3 }, 'a') | condition { p.rest(va) == p } | { task('p') })") in
+  let open Dolphin_semantics in
+  let world = World.open_sensor Progress "a" [] (World.open_battery "b" [] world) in
+  let o = Search.run { options with reduction = All } program world in
+  Alcotest.(check string) "the assertion" "violated in 6" (text (List.assoc Property.Assertions o.verdicts))
+
 let is_unshown why = String.starts_with ~prefix:"a violation was found, but " why
 
 let shows_after_search name limits ~shows () =
@@ -301,6 +312,7 @@ let () =
       ("bounds within an expansion", List.map case bounds_within);
       ("bounds among many parts", List.map case among);
       ("bounds after a search", List.map case (after_search @ [ ("a search that was stopped", follow_up_after_stop) ]));
+      ("beside what is unclear", List.map case [ ("an assertion that fails", beside_unclear) ]);
       ( "shortest runs",
         List.map case [ ("of few parts", shows_shortest 8 true); ("of many parts", shows_shortest 64 false) ] );
       ( "around bounds",

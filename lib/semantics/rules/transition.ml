@@ -1,4 +1,3 @@
-open Dolphin_results
 open Core
 
 type event = Local_step.event =
@@ -135,14 +134,25 @@ let choices d =
 
 let first ts = match ts () with Seq.Nil -> None | Seq.Cons (t, _) -> Some t
 
-let internal_all program world (c : Configuration.t) =
-  if not (World.is_open world) then Ok (internal program world c)
+let internal_listed program world (c : Configuration.t) =
+  if not (World.is_open world) then (internal program world c, None)
   else
     match c.control with
-    | Waiting _ -> Ok (Seq.flat_map choices (steps program world c))
+    | Waiting _ -> (Seq.flat_map choices (steps program world c), None)
     | Script _ | Executing _ | Ended _ ->
-      let of_step d = different (Decision.map first d) in
-      Result.map List.to_seq (Results.concat_map of_step (List.of_seq (steps program world c)))
+      let add (found, unclear) d =
+        match different (Decision.map first d), unclear with
+        | Ok ts, _ -> (List.rev_append ts found, unclear)
+        | Error fault, None -> (found, Some fault)
+        | Error _, Some _ -> (found, unclear)
+      in
+      let found, unclear = Seq.fold_left add ([], None) (steps program world c) in
+      (List.to_seq (List.rev found), unclear)
+
+let internal_all program world c =
+  match internal_listed program world c with
+  | ts, None -> Ok ts
+  | _, Some fault -> Error fault
 
 let accept_all program world c event =
   match on_event program world c event with

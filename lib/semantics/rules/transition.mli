@@ -118,6 +118,10 @@ val unknown : program -> World.t -> Configuration.t -> Fault.t list
     it, it assumes nothing. It is an error if more than a comparison depends on a reading ({!Core.reading}): the
     outcomes cannot be listed. In a closed world these are {!internal} and {!accept}. *)
 
+val internal_listed : program -> World.t -> Configuration.t -> t Seq.t * Fault.t option
+(** [internal_listed p w c] is the transitions that [c] can make by itself, leftmost first, but for those of steps whose
+    outcomes cannot be listed; and the reason for the first of these. *)
+
 val internal_all : program -> World.t -> Configuration.t -> (t Seq.t, Fault.t) result
 (** [internal_all p w c] is the transitions that [c] can make by itself, leftmost first. *)
 

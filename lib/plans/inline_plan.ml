@@ -113,3 +113,7 @@ let from_share x p =
 let some_rest = function
   | Rest r -> Rest { r with share = None }
   | (Maneuvers _ | Mission _) as p -> Rest { whole = digest p; share = None; plan = p }
+
+let any_part p =
+  let nothing : Plan.t = { name = ""; description = ""; vehicles = []; maneuvers = [] } in
+  Rest { whole = fst (begun p); share = None; plan = Maneuvers nothing }

@@ -111,6 +111,9 @@ val from_share : float -> t -> t
 val some_rest : t -> t
 (** [some_rest p] is a rest of [p] that is not known. *)
 
+val any_part : t -> t
+(** [any_part p] is the same for [p] and all of its rests, and for no other plan. *)
+
 val begun : t -> string * float option
 (** [begun p] is the digest of the whole plan that [p] is a rest of, and the share of it that is done before [p] begins:
     of [p] itself and 0, if it is no rest. *)

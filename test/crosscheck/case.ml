@@ -62,8 +62,9 @@ let generated title programs world ~seed n =
   in
   List.init n one
 
-let random = generated "random" Generate.program Generate.world
-let sensing = generated "with sensors" Generate.sensing_program Generate.open_world
+(* TLC computes no rests. *)
+let random = generated "random" (Generate.without_rests Generate.program) Generate.world
+let sensing = generated "with sensors" (Generate.without_rests Generate.sensing_program) Generate.open_world
 
 (* {1 Examples} *)
 

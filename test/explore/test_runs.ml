@@ -59,12 +59,6 @@ let run ?(until = infinity) ~seed scenario (program : Core.program) =
 
 (* {1 The graph} *)
 
-(* A global that holds what a sensor has shown: the explorer knows no more of it. *)
-let same_store (found : Store.t) (store : Store.t) =
-  let same (i, x) (i', x') = i = i' && (Reading.is_reading x || Value.compare x x' = 0) in
-  let found = Store.bindings found and store = Store.bindings store in
-  List.compare_lengths found store = 0 && List.for_all2 same found store
-
 let no_plan : Dolphin_plans.Plan.t = { name = ""; description = ""; vehicles = []; maneuvers = [] }
 
 (* The explorer knows no rest of a plan, only that it is one. *)
@@ -90,6 +84,25 @@ let rec of_residual : Residual.t -> Residual.t = function
         vehicle = Fun.id }
       r
 
+let rec of_value : Core.value -> Core.value = function
+  | Task t -> Task (of_task t)
+  | List xs -> List (Vector.map of_value xs)
+  | Map entries -> Map (List.map (fun (k, x) -> (k, of_value x)) entries)
+  | x -> x
+
+(* A global that holds what a sensor has shown: the explorer knows no more of it. *)
+let same_store (found : Store.t) (store : Store.t) =
+  let same (i, x) (i', x') =
+    i = i' && (Reading.is_reading x || Value.compare x x' = 0 || Value.compare (of_value x) (of_value x') = 0) in
+  let found = Store.bindings found and store = Store.bindings store in
+  List.compare_lengths found store = 0 && List.for_all2 same found store
+
+let same_tuples found tuples =
+  let pairs tuples =
+    List.map (fun (k, xs) -> (k, List.sort Value.compare (List.map of_value xs))) (Tuples.bindings tuples) in
+  let same (k, xs) (k', xs') = String.equal k k' && List.equal (fun x y -> Value.compare x y = 0) xs xs' in
+  Tuples.compare found tuples = 0 || List.equal same (pairs found) (pairs tuples)
+
 (* Messages of the explorer speak of vehicles and sensors as it knows them, and so do machines. *)
 let same_control ~senses (found : Configuration.control) (control : Configuration.control) =
   match found, control with
@@ -110,7 +123,7 @@ let same_configuration ~senses (found : Configuration.t) (c : Configuration.t) =
   && same_store found.shared.store c.shared.store
   && Vehicle_map.equal (fun (p : Core.platform_task) p' -> p.name = p'.name) found.shared.allocation c.shared.allocation
   && found.shared.bound = c.shared.bound
-  && Tuples.compare found.shared.tuples c.shared.tuples = 0
+  && same_tuples found.shared.tuples c.shared.tuples
 
 let same_label ~senses (found : Label.t) (label : Label.t) =
   match found, label with
@@ -118,6 +131,8 @@ let same_label ~senses (found : Label.t) (label : Label.t) =
   | (Did (Said _) | Halt _), (Did (Said _) | Halt _) when senses -> true
   | (Act ds, Act ds' | Check ds, Check ds' | Cut ds, Cut ds') when senses -> List.compare_lengths ds ds' = 0
   | _, _ -> Label.equal found label
+
+let unsettled = ref 0
 
 let follow options program world taken =
   let senses = program.Core.reads_sensors || program.reads_now in
@@ -143,7 +158,15 @@ let follow options program world taken =
     | states -> (number + 1, states)
   in
   let start = (Configuration.initial program, Environment.initial) in
-  fst (List.fold_left step (1, [ start ]) taken) - 1
+  (* Exploring stops where outcomes cannot be listed. *)
+  let rec go (number, states) = function
+    | [] -> number
+    | t :: taken -> (
+        match step (number, states) t with
+        | next -> go next taken
+        | exception Environment.Unclear _ -> incr unsettled; number)
+  in
+  go (1, [ start ]) taken - 1
 
 let is_unsteady (v : Scenario.vehicle) = v.joins > 0. || v.leaves <> None || v.drops <> []
 
@@ -240,14 +263,18 @@ let random_runs (ast, scenario, seed) =
 
 (* {1 Sensors that show anything} *)
 
-(* Sensor values in [Generate.open_world] at one time, by three numbers. *)
-let world_at (x, y, z) =
+(* Sensor values in [Generate.open_world] at one time, by three numbers; some of the plans [begun] are done. *)
+let world_at ~begun (x, y, z) =
+  let progress share = List.map (fun whole -> (whole, share)) begun in
   let place north = (Test_support.Pure_run.vehicle ~north "a").position in
   let show (s : World.vehicle_state) =
     match s.id with
-    | "a" -> { s with battery = Some x; position = place (1_000. *. y) }
-    | "b" -> { s with battery = Some (if z < 0.5 then 1. else 0.2); position = place (1_000. *. x) }
-    | _ -> { s with battery = Some y; position = place (if x < 0.5 then 200. else 5_000.) }
+    | "a" -> { s with battery = Some x; position = place (1_000. *. y); progress = progress z }
+    | "b" ->
+      { s with battery = Some (if z < 0.5 then 1. else 0.2); position = place (1_000. *. x); progress = progress y }
+    | _ ->
+      { s with battery = Some y; position = place (if x < 0.5 then 200. else 5_000.);
+               progress = progress (if y < 0.5 then 0. else 0.5) }
   in
   List.fold_left (fun world s -> World.add (show s) world) World.empty (World.vehicles Generate.world)
 
@@ -256,17 +283,29 @@ let options =
     answers = (fun _ -> [ [ "1"; "2" ] ]);
     faults = { Faults.none with fail = Any_number; loss = Any_number } }
 
+(* The whole of each plan that runs. *)
+let begins begun (c : Configuration.t) =
+  let add begun (_, (p : Core.platform_task)) =
+    match p.plan with
+    | Some plan ->
+      let whole = fst (Dolphin_plans.Inline_plan.begun plan) in
+      if List.mem whole begun then begun else whole :: begun
+    | None -> begun
+  in
+  List.fold_left add begun (Vehicle_map.bindings c.shared.allocation)
+
 (* At each step sensors have new values, and one of the possible transitions is taken. *)
 let walk program choices =
-  let step ((c, e), taken) (shown, choice) =
-    match List.of_seq (Environment.choices options program (world_at shown) e c) with
-    | [] -> ((c, e), taken)
+  let step (begun, (c, e), taken) (shown, choice) =
+    match List.of_seq (Environment.choices options program (world_at ~begun shown) e c) with
+    | [] -> (begun, (c, e), taken)
     | all ->
       let (t : Transition.t), e = List.nth all (choice mod List.length all) in
-      ((t.next, e), t :: taken)
+      (begins begun t.next, (t.next, e), t :: taken)
   in
   let start = (Configuration.initial program, Environment.initial) in
-  List.rev (snd (List.fold_left step (start, []) choices))
+  let _, _, taken = List.fold_left step ([], start, []) choices in
+  List.rev taken
 
 let walks =
   let open QCheck2.Gen in
@@ -283,7 +322,7 @@ let number name default = match Sys.getenv_opt name with Some n -> int_of_string
 let count = number "PROGRAMS" 300
 
 let enough () =
-  Printf.printf "%d steps\n" !steps;
+  Printf.printf "%d steps; %d unsettled\n" !steps !unsettled;
   if !steps < 5 * count then Alcotest.failf "%d steps are few" !steps
 
 let () =

@@ -92,10 +92,26 @@ let unsettled ?world name source =
 (* The outcomes of these cannot be listed. *)
 let beyond =
   let rest = pick ^ "p = imcPlan { locate 41, -8; goTo() }\n" in
-  let unsettled_rest = unsettled ~world:(World.open_sensor Progress "a" [] Generate.open_world) in
+  let world = World.open_sensor Progress "a" [] Generate.open_world in
+  let unsettled_rest = unsettled ~world in
+  let decided_rest name result source =
+    happens name source ~world ~some:[ Printf.sprintf "message '%b'" result ]
+      ~none:[ Printf.sprintf "message '%b'" (not result) ]
+  in
   [ unsettled_rest "the length of a rest" (rest ^ "if (p.rest(v).length < 100) { halt 'h' }");
     unsettled_rest "a rest is the plan" (rest ^ "if (p.rest(v) == p) { halt 'h' }");
     unsettled_rest "a rest among plans" (rest ^ "message p in [p.rest(v)]");
+    unsettled_rest "a list in a list" (rest ^ "message ([[p.rest(v)]] == [[p]])");
+    unsettled_rest "a part of a task" (rest ^ "message ((p.rest(v) >> p) == (p >> p))");
+    unsettled_rest "captured by code" (rest ^ "def code(q) { return { q } }\nmessage (code(p.rest(v)) == code(p))");
+    unsettled_rest "one that is posted" (rest ^ "post x: p.rest(v)\nmessage consume(x: p)");
+    unsettled_rest "one that is polled" (rest ^ "post x: p\nmessage poll(x: p.rest(v))");
+    unsettled_rest "lists without it" (rest ^ "message ([p.rest(v)] - [p])");
+    unsettled_rest "the order of rests" (rest ^ "message ([p.rest(v), p].sort())");
+    unsettled_rest "the greatest rest" (rest ^ "message ([1, 2].max { it == 1 ? p.rest(v) : p })");
+    decided_rest "another plan" false (rest ^ "q = imcPlan { locate 41, -8; goTo() }\nmessage p.rest(v) == q");
+    decided_rest "no plan" false (rest ^ "post x: 1\nmessage poll(x: p.rest(v))");
+    decided_rest "plans beside it" true (rest ^ "post x: p.rest(v)\npost y: p\nmessage poll(y: p)");
     unsettled "as a truth value" (pick ^ "if (battery(v)) { halt 'h' }");
     unsettled "posted" (pick ^ "post level: battery(v)");
     unsettled "polled" (pick ^ "if (poll(level: battery(v))) { halt 'h' }");

@@ -195,8 +195,22 @@ let explored ?limit environment program world =
   | graph -> graph
   | exception Environment.Unclear _ -> None
 
+(* Where the search of all states meets outcomes that cannot be listed, so does each reduced one. *)
+let unsettled ~limit reductions environment program world =
+  let limits = { Limits.none with max_states = limit } in
+  let is_unsettled reduction =
+    let options = { Search.default with environment; reduction; limits; search_again = 0 } in
+    match (Search.run options program world).stopped with
+    | Some (Unsettled _ | States) -> true
+    | Some _ | None -> false
+  in
+  match List.find_opt (fun reduction -> not (is_unsettled reduction)) reductions with
+  | None -> Ok None
+  | Some reduction -> Error (String.concat ", " (Reduction.names reduction) ^ ": what is unclear is not met")
+
 let check ?limit ?(reductions = [ Reduction.Partial_order; Symmetry; All ]) environment program world =
-  match explored ?limit environment program world with
+  match Reference.explore ?limit environment program world with
+  | exception Environment.Unclear _ -> unsettled ~limit reductions environment program world
   | None -> Ok None
   | Some graph ->
     let* found = check_graph ~reductions environment program world graph in

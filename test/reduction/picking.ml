@@ -29,6 +29,7 @@ let worlds =
      let far = (uuv "a" ~north:5_000.).position in
      let opened w v = World.open_battery v [ 1.; 0.2 ] (World.open_position v [ places v; far ] w) in
      List.fold_left opened alike [ "a"; "b"; "c"; "d" ]);
+    ("open progress", List.fold_left (fun w v -> World.open_sensor Progress v [] w) alike [ "a"; "b"; "c"; "d"; "e" ]);
     ("open places", alike |> World.open_position "a" [ places "a"; places "d" ] |> World.open_position "b" []) ]
 
 (* {1 Programs} *)
@@ -53,7 +54,8 @@ let condition =
       (1, oneofl [ f "%s[0].getId() == 'b'" v; f "\"${%s[0]}\" == 'b'" v; f "%s[0].id < %s[0].id" v w;
                    f "%s.toString() == 'b'" v; f "('' + %s) == 'b'" v; f "%s.ids.contains('c')" v;
                    f "[%s[0], %s[0]].sort()[0] == %s[0]" v w v; f "battery(%s[0]) < 0.5" v;
-                   f "%s[0].getBattery() < battery(%s[0])" v w;
+                   f "%s[0].getBattery() < battery(%s[0])" v w; f "progress(%s[0]) < 0.5" v;
+                   f "progress(%s[0]) < progress(%s[0])" v w;
                    f "position(%s[0]) in area(location(41.18521, -8.7048), 1.km)" v;
                    f "[(%s): 1].containsKey('b')" v ]) ]
 
@@ -64,12 +66,16 @@ let action =
       (2, f "message \"at ${%s}\"" v); (1, f "p = %s" w); (1, f "if (%s) { post %s: 2 }" c k);
       (1, f "if (%s) { halt \"here ${%s}\" }" c v) ]
 
+(* A plan with a way, of which there are rests. *)
+let inline = "imcPlan { planName 's'; locate 41.1852, -8.7048; goTo(); locate 41.1862, -8.7048; goTo() }"
+
 (* Tasks that are made at their turn: for vehicles that are given, were taken from N, are idle, or may be any. *)
 let made =
-  let* p = plan and* v = vehicles and* k = oneofl [ "x"; "y" ] and* a = action and* c = condition in
+  let* p = plan and* v = vehicles and* w = vehicles and* k = oneofl [ "x"; "y" ] and* a = action and* c = condition in
   frequencyl
     [ (4, f "({ task('%s') })[%s]" p v); (1, f "({ task('%s') })" p);
       (1, f "({ imcPlan { planName 'i'; locate 41.1852, -8.7048; goTo speed:1.0 } })[%s]" v);
+      (1, f "({ %s.rest(%s[0]) })[%s]" inline w v); (1, f "%s.rest(%s[0])[%s[0]]" inline w v);
       (2, f "({ %s ? task('%s') : idle(1.seconds) })[%s]" c p v);
       (2, f "(waitFor { consume %s: _ } then { u -> task('%s')[u] })" k p);
       (1, f "(waitFor { consume %s: _ } then { u -> task(\"%s${u}\") })" k p);

@@ -15,9 +15,12 @@ let open_world =
   let link = Dolphin_semantics.Core.[ Boolean true; Boolean false ] in
   let place north = (Pure_run.vehicle ~north "c").position in
   World.at Any world |> World.open_battery "a" [] |> World.open_position "a" [] |> World.open_battery "b" [ 1.; 0.2 ]
-  |> World.open_sensor Connected "a" link |> World.open_sensor Speed "b" [] |> World.open_sensor (Measurement "T") "a" []
+  |> World.open_sensor Connected "a" link |> World.open_sensor Speed "b" []
+  |> World.open_sensor (Measurement "T") "a" []
   |> World.open_sensor (Measurement "T") "c" [ Number 12.; Number 18. ]
   |> World.open_position "b" [] |> World.open_battery "c" [] |> World.open_position "c" [ place 200.; place 5_000. ]
+  |> World.open_sensor Progress "a" [] |> World.open_sensor Progress "b" []
+  |> World.open_sensor Progress "c" [ Number 0.; Number 0.5 ]
 
 let answer = "1"
 
@@ -38,6 +41,60 @@ let code body = { parameters = None; body }
 let statement e : statement = located (Ast.Expression e)
 let assign x value : statement = located (Assign { target = variable x; operator = None; value })
 let post k x = call "post" [ named k (integer x) ]
+
+let parse source =
+  match Parse.program ~file:"generated.dol" source with
+  | Ok program -> program
+  | Error _ -> invalid_arg ("Generate.parse: " ^ source)
+
+(* {1 Rests of plans} *)
+
+(* A plan with a way. *)
+let inline plan =
+  let text =
+    Printf.sprintf "imcPlan { planName '%s'; locate 41.1852, -8.7048; goTo(); locate 41.1862, -8.7048; goTo() }" plan in
+  match parse (Printf.sprintf "t = %s\n" text) with
+  | [ { it = Assign { value; _ }; _ } ] -> value
+  | _ -> invalid_arg ("Generate.inline: " ^ text)
+
+let progress v = call "progress" [ Positional (variable v) ]
+
+let rest_of plan argument =
+  let callee = expression (Member { subject = plan; name = located "rest"; safe = false }) in
+  expression (Call { callee; arguments = [ Positional argument ] })
+
+(* Of what one of [vehicles] has done, of a share, of a rest again. *)
+let rest vehicles =
+  let* plan = map inline (oneofl [ "p"; "q" ]) and* v = oneofl vehicles and* w = oneofl vehicles in
+  let of_vehicle = rest_of plan (variable v) in
+  frequencyl
+    [ (5, of_vehicle); (1, rest_of plan (expression (Number 0.5))); (1, rest_of of_vehicle (variable w));
+      (1, rest_of plan (progress v)) ]
+
+(* Values that a rest may be equal to; it may not be equal to [q]. *)
+let r = variable "r"
+let known_plan = assign "r" (inline "p")
+
+let rest_compared =
+  let* v = map variable (oneofl [ "va"; "vb" ]) in
+  let rest = rest_of r v and list x = expression (List [ x ]) in
+  let asks name x = call name [ named "z" x ] in
+  frequencyl
+    [ (1, binary Equal rest r); (1, binary Member_of r (list rest));
+      (1, binary Equal (list (list rest)) (list (list r)));
+      (1, binary Equal (binary Sequence rest r) (binary Sequence r r)); (2, asks "poll" r); (2, asks "consume" r);
+      (2, asks "poll" rest); (1, asks "consume" rest); (2, binary Equal rest (inline "q")) ]
+
+let posting_rest =
+  let* v = map variable (oneofl [ "va"; "vb" ]) and* whole = frequencyl [ (3, false); (1, true) ] in
+  return (call "post" [ named "z" (if whole then r else rest_of r v) ])
+
+let progress_compared =
+  let* v = map progress (oneofl [ "va"; "vb"; "vc" ])
+  and* share = map (fun x -> expression (Number x)) (oneofl [ 0.; 0.5 ]) in
+  oneofl
+    [ binary Less v share; binary Greater v share; binary Greater_equal v (integer 1);
+      binary Less (progress "va") (progress "vb") ]
 
 (* {1 Code} *)
 
@@ -115,8 +172,12 @@ let dated =
 
 (* A comparison with a sensor's present or earlier value. *)
 let comparison =
-  let* is_dated = frequencyl [ (4, false); (1, true) ] in
-  if is_dated then dated else
+  let* kind = frequencyl [ (24, `Sensor); (6, `Dated); (3, `Progress); (1, `Rest) ] in
+  match kind with
+  | `Rest -> rest_compared
+  | `Dated -> dated
+  | `Progress -> progress_compared
+  | `Sensor ->
     let* v = map variable (oneofl [ "va"; "vb"; "vc" ]) in
     let battery = call "battery" [ Positional v ] and position = call "position" [ Positional v ] in
     let west = expression (Unary (Negate, share 8.7048)) in
@@ -152,7 +213,8 @@ let division_by_zero = binary Divide (integer 1) (integer 0)
 let action_code ~sensing =
   let sensed =
     if sensing then
-      [ (3, map (fun s -> code [ s ]) (deciding (post "x" 1))); (2, return (code [ kept ]));
+      [ (3, map (fun s -> code [ s ]) (deciding (post "x" 1))); (1, this (map (fun e -> [ e ]) posting_rest));
+        (2, return (code [ kept ]));
         (1, return (code [ statement (call "message" [ Positional now ]) ]));
         (1, map (fun s -> code [ s ]) (deciding (call "halt" [ Positional (string "h") ]))) ]
     else []
@@ -224,7 +286,10 @@ let code_task ~sensing =
 let platform_task vehicles =
   let* plan = oneofl [ "p"; "q" ] in
   let* v = oneofl vehicles in
-  return (expression (Index (call "task" [ Positional (string plan) ], variable v)))
+  let* t =
+    frequency
+      [ (12, return (call "task" [ Positional (string plan) ])); (1, return (inline plan)); (1, rest vehicles) ] in
+  return (expression (Index (t, variable v)))
 
 let leaf ~sensing = function
   | [] -> code_task ~sensing
@@ -237,7 +302,13 @@ let maker t = expression (Closure { parameters = None; body = [ statement t ] })
 let some_made ~sensing vehicles =
   let* plan = oneofl [ "p"; "q" ] in
   let any = call "task" [ Positional (string plan) ] in
-  let* inside = frequency [ (2, return any); (1, leaf ~sensing vehicles) ] in
+  (* Its vehicle is asked at its turn. Without one it would be the nearest, wherever vehicles have gone. *)
+  let left =
+    match vehicles with
+    | [] -> return any
+    | vehicles -> map2 (fun t v -> expression (Index (t, variable v))) (rest vehicles) (oneofl vehicles)
+  in
+  let* inside = frequency [ (8, return any); (1, left); (4, leaf ~sensing vehicles) ] in
   let* then_ = frequency [ (3, return inside); (1, map (binary Sequence inside) (code_task ~sensing)) ] in
   let* t = frequency [ (4, return (maker then_)); (1, return (maker (maker then_))) ] in
   frequency [ (2, return t); (1, return (expression (Index (t, variable "va")))) ]
@@ -378,6 +449,26 @@ let some_keys ~sensing t =
   let rec wrap n t = if n = 0 then return t else Gen.bind (with_key ~sensing t) (wrap (n - 1)) in
   wrap n t
 
+(* [withBreaks(v, p, t) { g }], [onlyWhile(v, p) { g }] of the prelude. They have fresh keys, as [with_key]. *)
+let with_breaks ~sensing vehicles =
+  let* plan = map inline (oneofl [ "p"; "q" ]) and* v = map variable (oneofl vehicles) in
+  (* As an argument, [confirm] alone is one of the script. *)
+  let as_task (t : expression) =
+    match t.it with
+    | Call { callee = { it = Variable "confirm"; _ }; _ } -> binary Sequence t (call "idle" [ Positional (integer 0) ])
+    | _ -> t
+  in
+  let* other = map as_task (leaf ~sensing vehicles) and* only_while = frequencyl [ (2, false); (1, true) ] in
+  let+ is_broken = map (fun c -> Positional (expression (Closure c))) (guard_of ~sensing) in
+  if only_while then call "onlyWhile" [ Positional v; Positional plan; is_broken ]
+  else call "withBreaks" [ Positional v; Positional plan; Positional other; is_broken ]
+
+(* [t], perhaps after a plan with breaks, or before one. *)
+let some_breaks ~sensing vehicles t =
+  let beside order = map (order t) (with_breaks ~sensing vehicles) in
+  if vehicles = [] then return t
+  else frequency [ (10, return t); (1, beside (binary Sequence)); (1, beside (fun t b -> binary Sequence b t)) ]
+
 let in_context ~sensing vehicles t =
   let leaf = leaf ~sensing and guard = guard_of ~sensing in
   let* shape =
@@ -408,7 +499,10 @@ let rec nested_of ~sensing ~vehicles ~depth =
     let* is_nest = if depth <= 0 then return false else map (fun i -> i < 2) (int_bound 4) in
     let* is_made = map (( = ) 0) (int_bound 7) in
     if is_nest then nested_of ~sensing ~vehicles ~depth:(depth - 1)
-    else if is_made then frequency [ (3, some_made ~sensing vehicles); (1, recruiting ~sensing) ]
+    else if is_made then
+      frequency
+        ([ (6, some_made ~sensing vehicles); (2, recruiting ~sensing) ]
+         @ if vehicles = [] then [] else [ (1, with_breaks ~sensing vehicles) ])
     else
       let* task = leaf vehicles and* next = leaf vehicles and* short = bool in
       return (if short then task else binary Sequence task next)
@@ -431,6 +525,27 @@ let sensing_task = task_of ~sensing:true
 
 (* {1 Scripts} *)
 
+let replace ~by pattern text =
+  let n = String.length pattern in
+  let b = Buffer.create (String.length text) in
+  let rec from i =
+    if i + n > String.length text then Buffer.add_substring b text i (String.length text - i)
+    else if String.sub text i n = pattern then begin
+      Buffer.add_string b by;
+      from (i + n)
+    end
+    else begin
+      Buffer.add_char b text.[i];
+      from (i + 1)
+    end
+  in
+  from 0;
+  Buffer.contents b
+
+let printed p = Format.asprintf "%a" Print.program p
+let has part text = replace ~by:"" part text <> text
+
+
 let pick_by_id (v, id) =
   assign v (expression (Builder (Pick, [ statement (call "id" [ Positional (string id) ]) ])))
 
@@ -439,7 +554,9 @@ let vehicles = List.map fst all
 let start = assign "g" (integer 0)
 
 let executing ?(before = []) t =
-  (start :: List.map pick_by_id all)
+  let executed = Format.asprintf "%a" Print.expression t in
+  let plans = if has "r.rest(" executed || has ": r" executed then [ known_plan ] else [] in
+  (start :: plans @ List.map pick_by_id all)
   @ before
   @ [ statement (call "execute" [ Positional t ]); statement (call "message" [ Positional (string "after") ]) ]
 
@@ -474,7 +591,8 @@ and some_statements ~sensing vehicles level =
   match shape with
   | `Execute ->
     let* depth = int_bound (3 - level) in
-    let* t = Gen.bind (task_of ~sensing ~vehicles ~depth) (some_keys ~sensing) in
+    let* t = Gen.bind (task_of ~sensing ~vehicles ~depth) (some_breaks ~sensing vehicles) in
+    let* t = some_keys ~sensing t in
     return [ statement (call "execute" [ Positional t ]) ]
   | `Post -> map (fun e -> [ statement e ]) posting
   | `Consume -> map (fun e -> [ statement e ]) (taking "consume")
@@ -518,11 +636,12 @@ let programs ~sensing =
   let* depth = frequencyl [ (1, 0); (1, 1); (2, 2); (5, 3); (4, 4) ] in
   let* posts = oneofl [ []; [ ("x", 1) ]; [ ("x", 1); ("y", 2); ("z", 1) ] ] in
   let posts = List.map (fun (k, x) -> statement (post k x)) posts in
-  let* t = Gen.bind (task_of ~sensing ~vehicles ~depth) (some_keys ~sensing) in
+  let* t = Gen.bind (task_of ~sensing ~vehicles ~depth) (some_breaks ~sensing vehicles) in
+  let* t = some_keys ~sensing t in
   let* after = body ~sensing vehicles 0 in
   let* first = bool in
   let executed = [ statement (call "execute" [ Positional t ]) ] in
-  let start = if sensing then [ start; assign "h" (integer 1) ] else [ start ] in
+  let start = if sensing then [ start; assign "h" (integer 1); known_plan ] else [ start ] in
   let* declared = on_interrupt ~sensing vehicles in
   return (declared @ start @ picked @ posts @ if first then executed @ after else before @ executed @ after)
 
@@ -536,30 +655,19 @@ let for_ever program =
   let first, rest = List.partition stands_first program in
   first @ [ located (While (expression (Boolean true), rest)) ]
 
-let program = programs ~sensing:false
-let sensing_program = programs ~sensing:true
+(* Of several vehicles a plan with a place takes the nearest, wherever they have gone. *)
+let rec program_gen ~sensing =
+  let* p = programs ~sensing in
+  let text = printed p in
+  if has "count _" text && has "imcPlan" text then program_gen ~sensing else return p
+
+let program = program_gen ~sensing:false
+let sensing_program = program_gen ~sensing:true
 
 (* {1 Copies}
 
    A piece of program is copied as text: pairs with 1 become the copy's own, those with 2 stay; its plans and its
    vehicle are treated like those with 1. *)
-
-let replace ~by pattern text =
-  let n = String.length pattern in
-  let b = Buffer.create (String.length text) in
-  let rec from i =
-    if i + n > String.length text then Buffer.add_substring b text i (String.length text - i)
-    else if String.sub text i n = pattern then begin
-      Buffer.add_string b by;
-      from (i + n)
-    end
-    else begin
-      Buffer.add_char b text.[i];
-      from (i + 1)
-    end
-  in
-  from 0;
-  Buffer.contents b
 
 let text e = Format.asprintf "%a" Print.expression e
 
@@ -575,11 +683,6 @@ let copies k text =
   let* slip = frequencyl [ (9, None); (1, Some 0) ] in
   let copy i = if slip = Some i then replace ~by:": 2" ": 1" (copy i text) else copy i text in
   return (List.init k copy)
-
-let parse source =
-  match Parse.program ~file:"generated.dol" source with
-  | Ok program -> program
-  | Error _ -> invalid_arg ("Generate.parse: " ^ source)
 
 let branch_text = map2 (fun g t -> text (expression (When (g, t)))) (guard_of ~sensing:false)
 
@@ -630,21 +733,29 @@ let replicated_any =
   let picks = "va = pick { id 'a' }\nvb = pick { id 'b' }\nvc = pick { id 'c' }" in
   return (parse (String.concat "\n" [ "g = 0"; picks; body; "" ]))
 
-let printed p = Format.asprintf "%a" Print.program p
-
 (* Few of them make tasks, ensure something, ask for idle or running vehicles, or dismiss: symmetry of tasks is off
    then. *)
 let rec replicated_gen () =
   let* p = replicated_any in
   let words = List.filter (( <> ) "") (String.split_on_char ' ' (String.map (function '\n' -> ' ' | c -> c) (printed p))) in
   let text = String.concat " " words in
-  let has part = replace ~by:"" part text <> text in
   let* keep = map (( = ) 0) (int_bound 8) in
   let without = [ "idle(va)"; "running(va)"; "dismiss"; "{ task"; "w ->"; "{ {"; "ensure {"; "using " ] in
-  if keep || not (List.exists has without) then return p else replicated_gen ()
+  if keep || not (List.exists (fun part -> has part text) without) then return p else replicated_gen ()
 
 let replicated = replicated_gen ()
 
-let print p = Format.asprintf "%a" Print.program p
+let print p =
+  let text = printed p in
+  if has "withBreaks" text || has "onlyWhile" text then "include 'prelude'\n" ^ text else text
+
+let has_rests p =
+  let text = print p in
+  has ".rest(" text || has "include 'prelude'" text
+
+let rec without_rests programs =
+  let* p = programs in
+  if has_rests p then without_rests programs else return p
+
 let source = map print program
 let compile p = Pure_run.compile_exn (print p)

@@ -35,8 +35,14 @@ val sensing_program : Ast.program QCheck2.Gen.t
 val source : string QCheck2.Gen.t
 (** {!program} as text. *)
 
+val has_rests : Ast.program -> bool
+(** Whether it asks for the rest of a plan, or has the prelude's [withBreaks] or [onlyWhile]. *)
+
+val without_rests : Ast.program QCheck2.Gen.t -> Ast.program QCheck2.Gen.t
+(** Those programs of a generator that do not. *)
+
 val print : Ast.program -> string
-(** [print p] is the text of [p]. *)
+(** [print p] is the text of [p], which includes the prelude if [p] needs it. *)
 
 val compile : Ast.program -> Dolphin_semantics.Core.program
 (** [compile p] is the core program of [print p]. *)

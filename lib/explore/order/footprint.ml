@@ -105,8 +105,10 @@ let union f f' =
 let most_parts = 10_000
 let is_small = Value.has_at_most most_parts
 
-(* The value of a pair that matters: none of a queue, where the order of all matters, nor of a value that is large. *)
-let told_apart ~ordered x = if ordered || not (is_small x) then None else Some (Value.normal x)
+(* The value of a pair that matters: none of a queue, where the order of all matters, nor of a value that is large, or
+   has a plan in it, which may equal the rest of another value. *)
+let told_apart ~ordered x =
+  if ordered || (not (is_small x)) || Rest.has_plan x then None else Some (Value.normal x)
 
 let is_ordered (program : Core.program) = Tuple_space.keeps_order program.ordered_keys
 

@@ -249,7 +249,13 @@ and proceed context fuel x locals stack calls at : (stop * t * context) Decision
       | Leave callers -> proceed context fuel x callers stack (calls - 1) at
       | Iterate i -> (
           let item = i.items.(i.index) in
-          let settled = match i.iteration with Each -> Ok x | _ -> Reading.settled i.at x in
+          let settled =
+            match i.iteration with
+            | Each -> Ok x
+            | (Sort | Greatest | Least) when World.is_open context.world && Rest.has_some_rest x ->
+              Error (Rest.in_doubt i.at)
+            | _ -> Reading.settled i.at x
+          in
           match Result.map (fun x -> (x, Iteration.early i.iteration item x)) settled with
           | Error fault -> Unclear fault
           | Ok (_, Some result) -> proceed context fuel result locals stack calls i.at

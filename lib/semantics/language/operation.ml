@@ -141,6 +141,14 @@ let makes_text operation arguments =
   | Builtin (Post _ | Consume _ | Poll _ | Make_ensure _) -> false
   | _ -> takes_all_parts operation arguments
 
+(* Whether a pair is there may depend on which part of a plan is left. *)
+let is_in_doubt context operation arguments =
+  match operation with
+  | Builtin (Consume (_ :: _ as keys) | Poll (_ :: _ as keys)) ->
+    let is_pair (k, x) = x <> Wildcard && List.exists (Rest.may_equal x) (Tuples.values k context.tuples) in
+    Result.fold (Procedures.pairs keys arguments) ~ok:(List.exists is_pair) ~error:(fun _ -> false)
+  | operation -> Rest.is_in_doubt operation arguments
+
 let rec apply context at operation arguments =
   let kept = if takes_all_parts operation arguments then arguments else [] in
   match List.find_map (Value.excess ~most:Value.most_items) kept with
@@ -156,8 +164,8 @@ let rec apply context at operation arguments =
 
 and apply_known context at operation arguments =
   if not (World.is_open context.world) then apply_settled context at operation arguments
-  else if Rest.is_in_doubt operation arguments then
-    Unclear (Fault.make at "this depends on which part of a plan is left, and that is open")
+  else if context.program.reads_sensors && is_in_doubt context operation arguments then
+    Unclear (Rest.in_doubt at)
   else if List.exists Reading.is_reading arguments then
     match Reading.apply ~begins:context.program.begins context.world at operation arguments with
     | Gives result -> of_result result

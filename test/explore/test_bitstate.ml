@@ -55,7 +55,7 @@ let fail format = Printf.ksprintf QCheck2.Test.fail_report format
 let may_go_round ast =
   let text = Generate.print ast in
   let has word = Str.string_match (Str.regexp (".*" ^ word)) (String.map (function '\n' -> ' ' | c -> c) text) 0 in
-  has "repeat" || has "retry"
+  has "repeat" || has "retry" || has "withBreaks" || has "onlyWhile"
 
 let compare_verdicts program environment ast exact found =
   let compare_one (property, (verdict : Search.verdict)) =

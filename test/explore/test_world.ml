@@ -109,6 +109,11 @@ let beyond =
     unsettled_rest "lists without it" (rest ^ "message ([p.rest(v)] - [p])");
     unsettled_rest "the order of rests" (rest ^ "message ([p.rest(v), p].sort())");
     unsettled_rest "the greatest rest" (rest ^ "message ([1, 2].max { it == 1 ? p.rest(v) : p })");
+    unsettled_rest "one of two that may be equal"
+      (rest ^ "post x: [1, p.rest(v)], x: [1, p]\nmessage consume(x: { it[1] != 2 })");
+    decided_rest "one that a pattern has chosen" true
+      (rest ^ "post x: [1, p.rest(v)], x: [2, p]\nmessage consume(x: { it[0] == 1 })");
+    decided_rest "one that no pattern chooses" false (rest ^ "post x: [1, p.rest(v)]\nmessage consume(x: { it[0] == 2 })");
     decided_rest "another plan" false (rest ^ "q = imcPlan { locate 41, -8; goTo() }\nmessage p.rest(v) == q");
     decided_rest "no plan" false (rest ^ "post x: 1\nmessage poll(x: p.rest(v))");
     decided_rest "plans beside it" true (rest ^ "post x: p.rest(v)\npost y: p\nmessage poll(y: p)");

@@ -141,12 +141,20 @@ let makes_text operation arguments =
   | Builtin (Post _ | Consume _ | Poll _ | Make_ensure _) -> false
   | _ -> takes_all_parts operation arguments
 
-(* Whether a pair is there may depend on which part of a plan is left. *)
+(* Whether a pair is there may depend on which part of a plan is left. The value of a pair that a pattern has chosen is
+   in N: it equals itself, whatever is left, and only another pair may be the one that is taken. *)
 let is_in_doubt context operation arguments =
   match operation with
   | Builtin (Consume (_ :: _ as keys) | Poll (_ :: _ as keys)) ->
-    let is_pair (k, x) = x <> Wildcard && List.exists (Rest.may_equal x) (Tuples.values k context.tuples) in
-    Result.fold (Procedures.pairs keys arguments) ~ok:(List.exists is_pair) ~error:(fun _ -> false)
+    let in_doubt pairs =
+      let is_chosen k x y = x == y && List.length (List.filter (fun (k', _) -> String.equal k' k) pairs) = 1 in
+      let is_pair (k, x) =
+        let may_be y = (not (is_chosen k x y)) && Rest.may_equal (Value.canonical x) y in
+        x <> Wildcard && List.exists may_be (Tuples.values k context.tuples)
+      in
+      List.exists is_pair pairs
+    in
+    Result.fold (Procedures.given_pairs keys arguments) ~ok:in_doubt ~error:(fun _ -> false)
   | operation -> Rest.is_in_doubt operation arguments
 
 let rec apply context at operation arguments =

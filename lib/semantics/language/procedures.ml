@@ -135,8 +135,8 @@ let blocking context name request =
     Wrong (Printf.sprintf "%s belongs to the script: code inside of a task cannot wait" name)
 
 (* The pairs of an operation, or the argument that is not a key. *)
-let rec pairs keys arguments =
-  let pair k x keys arguments = Result.map (fun rest -> (k, Value.canonical x) :: rest) (pairs keys arguments) in
+let rec given_pairs keys arguments =
+  let pair k x keys arguments = Result.map (fun rest -> (k, x) :: rest) (given_pairs keys arguments) in
   match keys, arguments with
   | Some k :: keys, x :: arguments -> pair k x keys arguments
   | None :: keys, k :: x :: arguments -> (
@@ -147,7 +147,9 @@ let rec pairs keys arguments =
   | _, _ -> Ok []
 
 let with_pairs keys arguments f =
-  match pairs keys arguments with Ok pairs -> f pairs | Error k -> expected "a string as a key" k
+  match given_pairs keys arguments with
+  | Ok pairs -> f (List.map (fun (k, x) -> (k, Value.canonical x)) pairs)
+  | Error k -> expected "a string as a key" k
 
 (* Code as a value of [consume] and [poll]: elaboration has seen to that which is written there. *)
 let with_wanted keys arguments f =

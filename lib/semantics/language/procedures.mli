@@ -6,9 +6,9 @@ val apply : Code.context -> site -> builtin -> value list -> Code.outcome
 (** [apply context site procedure arguments] is the result of [procedure]. It is called at [site], which platform
     tasks made there remember. *)
 
-val pairs : string option list -> value list -> ((string * value) list, value) result
-(** [pairs keys xs] is the pairs of [post], [consume] or [poll], with canonical values, or the argument that is not a
-    key. *)
+val given_pairs : string option list -> value list -> ((string * value) list, value) result
+(** [given_pairs keys xs] is the pairs of [post], [consume] or [poll], with their values as they are given, or the
+    argument that is not a key. *)
 
 val blocking : Code.context -> string -> Code.request -> Code.outcome
 (** [blocking context name request] waits for [request] in the script, and is a fault elsewhere, where [name] cannot

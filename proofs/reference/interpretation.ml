@@ -104,12 +104,14 @@ let no_task (code : Core.closure) given depth before x after deeds =
   else if deeds <> [] || Store.compare before after <> 0 then only_computes code
   else fault "{ %s }: %s" label (Operators.instead_of "a task" x)
 
+exception Undecided
+
 (* Of the code of a fresh: also where it does not end with a value. *)
 let no_opened_task (code : Core.closure) given depth before : I.result -> Fault.t = function
   | Gives (x, after, _, deeds) -> no_task code given depth before x after deeds
   | Faulty (fault, _) | Asserts (fault, _) -> Fault.make fault.site fault.message
   | Halts _ -> only_computes code
-  | Unclear -> invalid_arg "the code of a fresh is unclear in a closed world"
+  | Unclear -> raise Undecided
 
 let assign_to (i, _, x) store = Store.set i x store
 let forget keys n = List.fold_left (fun n i -> Tuples.without (Residual.key i) n) n keys
@@ -128,12 +130,12 @@ let rec assigned (r : Residual.t) : Core.vehicle list =
 
 let rec from n () = Seq.Cons (n, from (n + 1))
 
-let assign world bound allowed t : (int -> Core.vehicle, Fault.t) Either.t =
+let assign ~undecided world bound allowed t : (int -> Core.vehicle, Fault.t) Either.t =
   let opened = { Allocation.tasks = Terms.opened t; numbers = from 1 } in
   match Allocation.allocate_made world bound opened { allowed; place = 0; depth = 0 } (Terms.to_task t) with
   | Ok (Ok (_, r)) -> Left (Array.get (Array.of_list (assigned r)))
   | Ok (Error fault) -> Right fault
-  | Error _ -> invalid_arg "a place is open in a closed world"
+  | Error question -> undecided question; raise Undecided
 
 (* {1 Messages} *)
 
@@ -176,8 +178,6 @@ let stop : Machine.stop -> I.stop = function
   | Waits q -> Asks (asks q)
   | Halted why -> Halts_script (Fault.make Fault.unknown_site why)
   | Faulted fault -> Faults fault
-
-exception Undecided
 
 let run_script ~undecided program m world (s : I.shared) =
   let nobody = lazy [] in
@@ -225,7 +225,7 @@ let code ?(undecided = ignore) (program : Core.program) ~vehicles ~machine ~answ
     run_handler = run_handler ~undecided program ~vehicles; truth; is_unknown = Fault.is_unknown; time_of; task_of;
     takes; parameters = (fun c -> c.lambda.parameters); may_recover = (fun c -> Recovery.possible c.lambda);
     vehicle_value = (fun v -> Vehicles [ v ]); key_value = (fun i -> String (Residual.key i)); forget; forget_all;
-    assign_to; fit = fit program; assign; not_assured; not_in_time; answered_no; not_answered; plan_failed; no_task;
+    assign_to; fit = fit program; assign = assign ~undecided; not_assured; not_in_time; answered_no; not_answered; plan_failed; no_task;
     no_opened_task; too_deep; foreign_retry; run_script = run_script ~undecided program; give = Machine.give;
     null = Null; vehicles_value = (fun vs -> Vehicles vs); post; take;
     answer_of = answer_of ~undecided program answer; no_pick = no_pick program machine; no_text; no_reply;

@@ -30,7 +30,7 @@ let certifiable : Property.t list =
 (* Values that are equal may be printed in several ways. *)
 let digest program ((c : Configuration.t), e) =
   let control = Format.asprintf "%a" (Configuration.pp program) { c with shared = Shared.initial program } in
-  Hashtbl.hash (control, Shared.hash c.shared, Environment.hash e)
+  Hashtbl.hash (control, Configuration.hash c, Environment.hash e)
 
 (* {1 Making} *)
 

@@ -26,7 +26,7 @@ val certifiable : Dolphin_explore.Property.t list
 
 val digest :
   Dolphin_semantics.Core.program -> Dolphin_semantics.Configuration.t * Dolphin_environment.Environment.t -> int
-(** [digest p (c, e)] is a number for the control of [c], as it is printed, its shared part and [e]. *)
+(** [digest p (c, e)] is a number for [c], its control as it is printed, and [e]. *)
 
 val edges :
   ?workers:int -> Dolphin_checker.Limits.t -> Dolphin_environment.Environment.options ->

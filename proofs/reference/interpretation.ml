@@ -225,8 +225,9 @@ let code ?(undecided = ignore) (program : Core.program) ~vehicles ~machine ~answ
     run_handler = run_handler ~undecided program ~vehicles; truth; is_unknown = Fault.is_unknown; time_of; task_of;
     takes; parameters = (fun c -> c.lambda.parameters); may_recover = (fun c -> Recovery.possible c.lambda);
     vehicle_value = (fun v -> Vehicles [ v ]); key_value = (fun i -> String (Residual.key i)); forget; forget_all;
-    assign_to; fit = fit program; assign = assign ~undecided; not_assured; not_in_time; answered_no; not_answered; plan_failed; no_task;
-    no_opened_task; too_deep; foreign_retry; run_script = run_script ~undecided program; give = Machine.give;
+    assign_to; fit = fit program; assign = assign ~undecided; not_assured; not_in_time; answered_no; not_answered;
+    plan_failed; no_task; no_opened_task; too_deep; foreign_retry; run_script = run_script ~undecided program;
+    give = Machine.give;
     null = Null; vehicles_value = (fun vs -> Vehicles vs); post; take;
     answer_of = answer_of ~undecided program answer; no_pick = no_pick program machine; no_text; no_reply;
     declares = (fun k -> List.mem k program.inputs); on_interrupt = Option.map interrupted program.on_interrupt;

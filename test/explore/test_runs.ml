@@ -73,22 +73,25 @@ let whole (p : Core.platform_task) =
 
 let rec of_task : Core.task -> Core.task = function
   | Platform p -> Platform (whole p)
-  | t -> Task.map { part = of_task; code = Fun.id; value = Fun.id; vehicle = Fun.id } t
+  | t -> Task.map { part = of_task; code = of_code; value = of_value; vehicle = Fun.id } t
+
+and of_code (c : Core.closure) = { c with captured = Array.map of_value c.captured }
+
+and of_value : Core.value -> Core.value = function
+  | Task t -> Task (of_task t)
+  | Closure c -> Closure (of_code c)
+  | List xs -> List (Vector.map of_value xs)
+  | Map entries -> Map (List.map (fun (k, x) -> (k, of_value x)) entries)
+  | x -> x
 
 let rec of_residual : Residual.t -> Residual.t = function
   | Ready (p, v) -> Ready (whole p, v)
   | Running (p, v) -> Running (whole p, v)
   | r ->
     Residual.map
-      { part = of_residual; code = Fun.id; handler = Fun.id; maker = Fun.id; value = Fun.id; term = of_task;
+      { part = of_residual; code = of_code; handler = of_code; maker = of_code; value = of_value; term = of_task;
         vehicle = Fun.id }
       r
-
-let rec of_value : Core.value -> Core.value = function
-  | Task t -> Task (of_task t)
-  | List xs -> List (Vector.map of_value xs)
-  | Map entries -> Map (List.map (fun (k, x) -> (k, of_value x)) entries)
-  | x -> x
 
 (* A global that holds what a sensor has shown: the explorer knows no more of it. *)
 let same_store (found : Store.t) (store : Store.t) =

@@ -408,4 +408,4 @@ let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _
     let sorted table = List.sort compare (List.of_seq (Hashtbl.to_seq table)) in
     let works (v, _) = Hashtbl.mem worked v in
     Some { dates = sorted dates; never_over; most = List.filter works (sorted most) }
-  | exception Too_much -> None
+  | exception (Too_much | Environment.Unclear _) -> None

@@ -26,5 +26,5 @@ val all :
   ?states:int -> ?seconds:int -> ?batteries:(Core.vehicle * battery) list ->
   ?seen:(Core.vehicle -> int -> World.t -> World.t) -> ?look:(Configuration.t -> unit) -> Clocked.options -> t option
 (** [look] is called with each configuration that a run comes to. [None] if there are more states, or longer runs,
-    than that. [most] is of [batteries]: states differ in the missing charge, and the program looks at the world that
-    [seen] makes of this, by default the same always. *)
+    than that, or if the outcomes of a step cannot be listed. [most] is of [batteries]: states differ in the missing
+    charge, and the program looks at the world that [seen] makes of this, by default the same always. *)

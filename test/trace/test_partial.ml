@@ -26,7 +26,10 @@ let partial ~observed journal =
   Runs.text (List.map (fun entry -> Entry.to_string entry) (List.concat_map line (Runs.lines journal)))
 
 let ends = [ "start"; "done"; "fail" ]
-let runs = lazy (List.map (fun name -> Runs.run ~period:1e9 name) Runs.examples)
+
+(* Where vehicles take goals from each other, runs with these labels are too many to be followed here. *)
+let examples = List.filter (fun name -> name <> "priorities") Runs.examples
+let runs = lazy (List.map (fun name -> Runs.run ~period:1e9 name) examples)
 
 let all_possible observed () =
   let check (r : Runs.t) =

@@ -1,7 +1,7 @@
 (* Journals and displays never change a run: random programs on random fleets, with and without a journal, a picture,
    a follower, telemetry for displays, debug messages. Transitions, their times and causes, the outcome and the time
    of the end are compared. Nor does a replacement of the program by itself, or by one that differs later, when it is
-   made: the run is that of the new program. PROGRAMS in the environment is the number of programs, 50 by default. *)
+   made: the run is that of the new program. PROGRAMS in the environment is the number of programs, 20 by default. *)
 
 open Dolphin_semantics
 open Dolphin_runtime
@@ -264,7 +264,7 @@ let allocation_after_a_stop =
   in
   Alcotest.test_case "where a vehicle was stopped" `Quick check
 
-let count = match Sys.getenv_opt "PROGRAMS" with Some n -> int_of_string n | None -> 50
+let count = match Sys.getenv_opt "PROGRAMS" with Some n -> int_of_string n | None -> 20
 
 let replacement_case = QCheck2.Gen.(pair random_case (int_range 1 12))
 

@@ -43,13 +43,16 @@ let included (s : statement) =
       | _ -> Some (Error (Diagnostic.error at "include takes the name of a file" ~hint:"write include 'lib.dol'")))
   | _ -> None
 
+(* Once for all programs of a process: parsing it takes longer than most programs do. *)
+let prelude = lazy (Parse.program ~file:Prelude.file Prelude.text)
+
 (* [chain] is the files that are being included, innermost first. *)
 let rec statements state chain file source =
   let base = Buffer.length state.text in
   Buffer.add_string state.text source;
   Buffer.add_char state.text '\n';
   state.files <- file :: state.files;
-  match Parse.program ~file source with
+  match if source == Prelude.text then Lazy.force prelude else Parse.program ~file source with
   | Error found -> Error (List.map (fun (d : Diagnostic.t) -> { d with at = shifted base d.at }) found)
   | Ok ast ->
     let ast = if base = 0 then ast else Relocate.program (shifted base) ast in

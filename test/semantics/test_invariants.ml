@@ -22,7 +22,7 @@ let print (program, choices) =
   Printf.sprintf "%s\n%s" (Generate.print program) (String.concat "\n" (List.map shown walk))
 
 (* [along name property] is the case that [property] holds of each step of walks. *)
-let along ?(count = 1_000) name property =
+let along ?(count = 3_000) name property =
   Property.case ~count name ~print walks (fun (program, choices) ->
       let program = Generate.compile program in
       List.for_all (property program) (Walk.run ~choices program Generate.world))

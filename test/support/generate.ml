@@ -49,13 +49,17 @@ let parse source =
 
 (* {1 Rests of plans} *)
 
-(* A plan with a way. *)
-let inline plan =
+(* Plans with a way. *)
+let parsed plan =
   let text =
     Printf.sprintf "imcPlan { planName '%s'; locate 41.1852, -8.7048; goTo(); locate 41.1862, -8.7048; goTo() }" plan in
   match parse (Printf.sprintf "t = %s\n" text) with
   | [ { it = Assign { value; _ }; _ } ] -> value
-  | _ -> invalid_arg ("Generate.inline: " ^ text)
+  | _ -> invalid_arg ("Generate.parsed: " ^ text)
+
+let inline_p = parsed "p"
+let inline_q = parsed "q"
+let inline plan = if plan = "p" then inline_p else inline_q
 
 let progress v = call "progress" [ Positional (variable v) ]
 

@@ -148,9 +148,11 @@ let is_in_doubt context operation arguments =
   | Builtin (Consume (_ :: _ as keys) | Poll (_ :: _ as keys)) ->
     let in_doubt pairs =
       let is_chosen k x y = x == y && List.length (List.filter (fun (k', _) -> String.equal k' k) pairs) = 1 in
-      let is_pair (k, x) =
-        let may_be y = (not (is_chosen k x y)) && Rest.may_equal (Value.canonical x) y in
-        x <> Wildcard && List.exists may_be (Tuples.values k context.tuples)
+      let is_pair = function
+        | _, Wildcard -> false
+        | k, x ->
+          let may_be y = (not (is_chosen k x y)) && Rest.may_equal (Value.canonical x) y in
+          List.exists may_be (Tuples.values k context.tuples)
       in
       List.exists is_pair pairs
     in

@@ -19,6 +19,14 @@ let rec batches size = function
     let first, rest = split size [] all in
     first :: batches size rest
 
+let sum f = List.fold_left (fun total x -> total + f x) 0
+
+let in_halves f all =
+  let half = List.length all / 2 in
+  let part keep = f (List.filteri (fun i _ -> keep i) all) in
+  let first = part (fun i -> i < half) in
+  first + part (fun i -> i >= half)
+
 let timed f =
   let start = Unix.gettimeofday () in
   let result = f () in
@@ -34,7 +42,6 @@ let prepared_or_not ~limit cases =
   List.partition_map one cases
 
 let prepare ~limit cases = fst (prepared_or_not ~limit cases)
-let sum f = List.fold_left (fun total x -> total + f x) 0
 
 (* Whether the two agree; a difference is printed. *)
 let agrees (r : Batch.result) =
@@ -46,7 +53,7 @@ let agrees (r : Batch.result) =
       (Format.asprintf "left is the explorer, right TLC@.%a" Dolphin_lts.Isomorphism.pp_difference difference);
     false
 
-(* How many programs do not agree, or have a warning. If TLC fails, it gets each program by itself. *)
+(* How many programs do not agree, or have a warning. If TLC fails, it gets each half of the programs by itself. *)
 let rec failures_of installation prepared =
   match Batch.run installation ~specification:Translated.specification prepared, prepared with
   | Ok { results; warnings; _ }, _ ->
@@ -56,7 +63,7 @@ let rec failures_of installation prepared =
     let case = Batch.case one in
     tell_failure case.name case.source why;
     1
-  | Error _, _ -> sum (fun one -> failures_of installation [ one ]) prepared
+  | Error _, _ -> in_halves (failures_of installation) prepared
 
 let verdict_of failures = if failures = 0 then "all agree" else Printf.sprintf "%d do not agree" failures
 

@@ -13,6 +13,10 @@ val thousands : int -> string
 val batches : int -> 'a list -> 'a list list
 (** [batches n xs] is [xs] by [n]s, in their order; the last batch may be smaller. *)
 
+val in_halves : ('a list -> int) -> 'a list -> int
+(** [in_halves f xs] is [f] of the first half of [xs] plus [f] of the rest, in this order: to find the few programs of
+    many at which TLC fails. *)
+
 val prepare : limit:int -> Case.t list -> Batch.prepared list
 (** Those of the programs that can be given to TLC, and have at most [limit] states. *)
 

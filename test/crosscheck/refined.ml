@@ -9,7 +9,7 @@ let programs installation specification prepared =
   Result.bind (Family.files ~specification (List.map Batch.constants prepared)) (fun files ->
       Tlc_run.judge (Tlc_run.outcome installation ~main:Family.refined ~configuration:Family.refinement files))
 
-(* How many programs fail. Of several, each is looked at by itself then. *)
+(* How many programs fail. Of several, each half is looked at by itself then. *)
 let rec failures_of installation prepared =
   match programs installation Translated.specification prepared, prepared with
   | Ok (), _ -> 0
@@ -17,7 +17,7 @@ let rec failures_of installation prepared =
     let case = Batch.case one in
     Printf.printf "%s: %s\n%s\n%!" case.name why case.source;
     1
-  | Error _, _ -> List.fold_left (fun n one -> n + failures_of installation [ one ]) 0 prepared
+  | Error _, _ -> Comparison.in_halves (failures_of installation) prepared
 
 let report installation ~limit ~batch cases =
   let start = Unix.gettimeofday () in

@@ -137,7 +137,7 @@ let item json : Mission_plan.item =
 let rec of_inline : Inline_plan.t -> json = function
   | Rest { whole; share; plan } ->
     let share = of_option of_float share in
-    `Assoc [ ("rest", `List [ `String whole; share; of_inline plan ]) ]
+    `Assoc [ ("rest", `List [ of_inline whole; share; of_inline plan ]) ]
   | Maneuvers p -> to_json p
   | Mission m ->
     let vehicles = of_list (fun v -> `String v) m.vehicles in
@@ -145,7 +145,7 @@ let rec of_inline : Inline_plan.t -> json = function
 
 let rec inline : json -> Inline_plan.t = function
   | `Assoc [ ("rest", `List [ whole; share; plan ]) ] ->
-    Rest { whole = text whole; share = option float share; plan = inline plan }
+    Rest { whole = inline whole; share = option float share; plan = inline plan }
   | `Assoc [ ("mission", `List [ name; vehicles; items ]) ] ->
     Mission { name = text name; vehicles = list text vehicles; items = list item items }
   | json -> Maneuvers (of_json json)

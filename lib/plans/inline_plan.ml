@@ -1,6 +1,6 @@
 module Position = Dolphin_geo.Position
 
-type t = Maneuvers of Plan.t | Mission of Mission_plan.t | Rest of { whole : string; share : float option; plan : t }
+type t = Maneuvers of Plan.t | Mission of Mission_plan.t | Rest of { whole : t; share : float option; plan : t }
 
 let rec name = function Maneuvers p -> p.name | Mission m -> m.name | Rest r -> name r.plan
 let rec vehicles = function Maneuvers p -> p.vehicles | Mission m -> m.vehicles | Rest r -> vehicles r.plan
@@ -8,12 +8,12 @@ let rec vehicles = function Maneuvers p -> p.vehicles | Mission m -> m.vehicles 
 let rec required_payload = function
   | Maneuvers p -> Plan.required_payload p
   | Mission m -> Mission_plan.required_payload m
-  | Rest r -> required_payload r.plan
+  | Rest r -> required_payload r.whole
 
 let rec reference = function
   | Maneuvers p -> Plan.reference p
   | Mission m -> Mission_plan.reference m
-  | Rest r -> reference r.plan
+  | Rest r -> reference r.whole
 
 type leg = {
   named : string;
@@ -78,7 +78,7 @@ let rec compare a b =
   | Maneuvers p, Maneuvers q -> Plan.compare p q
   | Mission m, Mission n -> Mission_plan.compare m n
   | Rest r, Rest r' ->
-    let c = String.compare r.whole r'.whole in
+    let c = compare r.whole r'.whole in
     let c = if c <> 0 then c else Option.compare Float.compare r.share r'.share in
     if c <> 0 then c else compare r.plan r'.plan
   | (Maneuvers _ | Mission _ | Rest _), _ -> Int.compare (rank a) (rank b)
@@ -88,9 +88,8 @@ let rec pp ppf = function
   | Mission m -> Mission_plan.pp ppf m
   | Rest r -> pp ppf r.plan
 
-let begun = function
-  | Rest { whole; share; plan = _ } -> (whole, share)
-  | (Maneuvers _ | Mission _) as p -> (digest p, Some 0.)
+let whole = function Rest r -> r.whole | (Maneuvers _ | Mission _) as p -> p
+let begun p = (digest (whole p), match p with Rest r -> r.share | Maneuvers _ | Mission _ -> Some 0.)
 
 let rec without x ~from = function
   | Maneuvers p -> Maneuvers (Plan_rest.from_share x p)
@@ -108,12 +107,12 @@ let from_share x p =
   | Rest { share = None; _ }, _ | _, None -> p
   | _, Some _ when not (x > 0.) -> p
   | Rest { whole; share = Some begun; plan }, Some from -> rest whole ~begun plan from
-  | (Maneuvers _ | Mission _), Some from -> rest (digest p) ~begun:0. p from
+  | (Maneuvers _ | Mission _), Some from -> rest p ~begun:0. p from
 
 let some_rest = function
   | Rest r -> Rest { r with share = None }
-  | (Maneuvers _ | Mission _) as p -> Rest { whole = digest p; share = None; plan = p }
+  | (Maneuvers _ | Mission _) as p -> Rest { whole = p; share = None; plan = p }
 
 let any_part p =
   let nothing : Plan.t = { name = ""; description = ""; vehicles = []; maneuvers = [] } in
-  Rest { whole = fst (begun p); share = None; plan = Maneuvers nothing }
+  Rest { whole = whole p; share = None; plan = Maneuvers nothing }

@@ -25,10 +25,10 @@ module Position = Dolphin_geo.Position
 type t =
   | Maneuvers of Plan.t  (** [imcPlan { ... }] *)
   | Mission of Mission_plan.t  (** [mission { ... }] *)
-  | Rest of { whole : string; share : float option; plan : t }
-  (** [plan] is the part that remains of the plan with the {!digest} [whole], once this share of its way is done, from 0
-      to 1. For analyses of open worlds, the share is [None]: any part up to its end, perhaps all of it, remains, and
-      [plan] is the whole. *)
+  | Rest of { whole : t; share : float option; plan : t }
+  (** [plan] is the part that remains of [whole], which is not a rest, once this share of its way is done, from 0 to 1.
+      For analyses of open worlds, the share is [None]: any part up to its end, perhaps all of it, remains, and [plan]
+      is the whole, or a rest of it with a known share. *)
 
 val name : t -> string
 (** The name in the program, by which journals and vehicles know the plan. *)
@@ -37,10 +37,11 @@ val vehicles : t -> string list
 (** The only ones that may run it; [[]]: any. *)
 
 val required_payload : t -> string list
-(** The devices that it needs, each once. *)
+(** The devices that it needs, each once. All rests of a plan need those of the whole, so that [explore], which does not
+    know which part is left, finds the same vehicles as [exec]. *)
 
 val reference : t -> Position.t option
-(** Its beginning: allocation prefers vehicles near it. [None]: wherever the vehicle is. *)
+(** Its beginning, of a rest that of the whole: allocation prefers vehicles near it. [None]: wherever the vehicle is. *)
 
 (** A part of the way, the maneuver or item [named]: straight to each of [waypoints], then [dwell] seconds at the last,
     perhaps [infinity], or at most [radius] metres from it. *)

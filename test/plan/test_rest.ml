@@ -385,7 +385,16 @@ let laws name p =
         && List.for_all is_valid [ p; from_share x p; from_share 1. p; from_share y (from_share x p) ]);
     law "its name and vehicles" (fun (p, x, _) ->
         let rest = from_share x p in
-        Inline_plan.name rest = Inline_plan.name p && vehicles rest = vehicles p) ]
+        Inline_plan.name rest = Inline_plan.name p && vehicles rest = vehicles p);
+    law "asks for the vehicles that the whole asks for, known or not" (fun (p, x, y) ->
+        let asks rest = required_payload rest = required_payload p && reference rest = reference p in
+        let rest = from_share x p in
+        List.for_all asks [ rest; some_rest p; some_rest rest; from_share y rest ]);
+    law "a rest of the plan, and of no other" (fun (p, x, y) ->
+        let rest = from_share x p in
+        let is_part q = Inline_plan.compare (any_part p) (any_part q) = 0 in
+        List.for_all is_part [ p; rest; some_rest p; some_rest rest; from_share y rest ]
+        && fst (begun rest) = fst (begun p)) ]
 
 let () =
   Alcotest.run "rest of a plan"

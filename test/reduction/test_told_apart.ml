@@ -63,6 +63,12 @@ let by_name =
       (one ^ {|if (ask("who is ${v}") == 1) { halt 'h' }|});
     tells "an answer" [ No_halt ] ~environment:(answering (fun _ -> [ [ "v.id == 'c'" ] ]))
       (one ^ "if (ask('h')) { halt 'h' }");
+    keeps "a text of a number, in a function that is only called by its name" []
+      ("def each(vs, make) { return vs.collect { u -> make(u) } }\ndef count(n) { return \"${n}\" }\n" ^ one
+       ^ "each(v) { u -> 1 }\nif (count(3) == 'C'.toLowerCase()) { halt 'h' }");
+    tells "a text in a function that is called as a value" [ No_halt ]
+      ("def each(vs, make) { return vs.collect { u -> make(u) } }\ndef name(x) { return \"${x}\" }\n" ^ one
+       ^ "if (each(v, name)[0] == 'C'.toLowerCase()) { halt 'h' }");
     tells "an error's text" [ No_error; No_halt ]
       ~environment:(Environment.failing plain)
       (one

@@ -49,6 +49,7 @@ type place = Variable of int | Slot of int * int  (** of a lambda *) | Result of
 type knowledge = {
   contents : (place, int) Hashtbl.t;
   lambdas : (int, lambda) Hashtbl.t;
+  values : (int, lambda) Hashtbl.t;  (** those that may be called as the value of some expression *)
   handlers : (int, unit) Hashtbl.t;
   mutable grown : bool;
   mutable found : t;
@@ -67,6 +68,13 @@ let note w (lambda : lambda) =
   if not (Hashtbl.mem w.lambdas lambda.id) then begin
     w.grown <- true;
     Hashtbl.add w.lambdas lambda.id lambda
+  end
+
+let note_value w (lambda : lambda) =
+  note w lambda;
+  if not (Hashtbl.mem w.values lambda.id) then begin
+    w.grown <- true;
+    Hashtbl.add w.values lambda.id lambda
   end
 
 let uses_name w at = if w.found.names = None then w.found <- { w.found with names = Some at }
@@ -88,7 +96,8 @@ let call w (lambda : lambda) given =
   for slot = 0 to lambda.parameters - 1 do add w (Slot (lambda.id, slot)) (given slot) done;
   content w (Result lambda.id)
 
-let call_any w given = Hashtbl.fold (fun _ lambda results -> results lor call w lambda given) w.lambdas nothing
+(* Functions that are only called by their names are not among the code that a value may be. *)
+let call_any w given = Hashtbl.fold (fun _ lambda results -> results lor call w lambda given) w.values nothing
 
 (* The same for a call of the value of [e], with content [k], if it may be code. *)
 let call_value w e k given =
@@ -154,7 +163,7 @@ let rec value w (lambda : lambda) e =
   let values es = all (List.map value_of es) in
   match e.node with
   | Constant x ->
-    (match x with String s -> note_text w s | Closure c -> note w c.lambda | _ -> ());
+    (match x with String s -> note_text w s | Closure c -> note_value w c.lambda | _ -> ());
     of_value x
   | Local 0 when Hashtbl.mem w.handlers lambda.id && lambda.parameters > 0 -> uses_name w e.site; text
   | Local slot -> content w (Slot (lambda.id, slot))
@@ -168,7 +177,7 @@ let rec value w (lambda : lambda) e =
     add w (Variable i) k;
     k
   | Make_closure (inner, slots) ->
-    note w inner;
+    note_value w inner;
     let capture slot outer =
       if outer = 0 && Hashtbl.mem w.handlers lambda.id && lambda.parameters > 0 then uses_name w e.site;
       add w (Slot (inner.id, slot)) (content w (Slot (lambda.id, outer)))
@@ -249,7 +258,11 @@ and applied w lambda at operation arguments =
     let result = called_method w at name (all ks lor named_arguments names) calls in
     if asks_how_far then result lor reading else result
   | Call names, callee :: es ->
-    let k = value_of callee in
+    let k =
+      match callee.node with
+      | Constant (Closure { lambda; _ }) -> note w lambda; code
+      | _ -> value_of callee
+    in
     let ks = List.map value_of es in
     let given =
       if List.for_all Option.is_none names then fun slot -> Option.value (List.nth_opt ks slot) ~default:nothing
@@ -380,7 +393,8 @@ let of_program (program : program) ~asked =
       texts = [] }
   in
   let w =
-    { contents = Hashtbl.create 64; lambdas = Hashtbl.create 16; handlers = Hashtbl.create 8; grown = true; found }
+    { contents = Hashtbl.create 64; lambdas = Hashtbl.create 16; values = Hashtbl.create 16;
+      handlers = Hashtbl.create 8; grown = true; found }
   in
   List.iter (note w) (program.main :: List.map snd program.functions);
   (* Conditions have no closures; they get numbers that no code of the program has. *)

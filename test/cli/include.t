@@ -142,10 +142,13 @@ that make no sense.
   > vehicle 'b', { type 'UUV' }
   > END
   $ for call in 'race([])' 'seq([])' 'par([])' 'patrol([])' 'forall([])_{_v_->_idle(1)_}' "leader('a',[])" \
-  >     "follower('a',[])" 'handOver([],idle(1))_{_v_->_true_}' 'parallel(0,[idle(1)])' 'atLeast(0,[idle(1)])' \
-  >     'atLeast(2,[idle(1)])' "barrier('x',0)" "barrier('x',-1)" "barrier('x',1.5)" \
+  >     "follower('a',[])" 'handOver([],idle(1))_{_v_->_true_}' 'parallel(0,[idle(1)])' 'parallel(1.5,[idle(1)])' \
+  >     'atLeast(0,[idle(1)])' 'atLeast(0.5,[idle(1)])' 'atLeast(1.5,[idle(1),idle(1)])' 'atLeast(2,[idle(1)])' \
+  >     'retrying(0,idle(1))' 'retrying(-1,idle(1))' 'retrying(2.5,idle(1))' 'every(-1,idle(1))' \
+  >     "barrier('x',0)" "barrier('x',-1)" "barrier('x',1.5)" \
   >     'idle(near(v[0],v,-1).size())' 'team(0,1,v,[1])_{_g_->_idle(1)_}' 'team(2,1,v,[1])_{_g_->_idle(1)_}' \
-  >     'team(3,3,v,[1])_{_g_->_idle(1)_}'; do
+  >     'team(3,3,v,[1])_{_g_->_idle(1)_}' 'team(1.5,2,v,[1])_{_g_->_idle(1)_}' \
+  >     'team(1,1.5,v,[1])_{_g_->_idle(1)_}'; do
   >   printf "include 'prelude'\nv = pick { count 2 }\nmessage 1\nexecute $call\n" | tr _ ' ' > none.dol
   >   dolphin exec none.dol --fleet two.fleet 2>&1 > log | sed -n '1p;$p'
   > done
@@ -165,12 +168,26 @@ that make no sense.
       hint: this is an error in seq of the prelude
   none.dol:4:9: error: the list of tasks is empty
       hint: this is an error in seq of the prelude
-  none.dol:4:9: error: parallel runs at least 1 task at once, not 0
+  none.dol:4:9: error: parallel runs a whole number of tasks at once, at least 1, not 0
       hint: this is an error in parallel of the prelude
-  none.dol:4:9: error: atLeast awaits at least 1 task, not 0
+  none.dol:4:9: error: parallel runs a whole number of tasks at once, at least 1, not 1.5
+      hint: this is an error in parallel of the prelude
+  none.dol:4:9: error: atLeast awaits a whole number of tasks, at least 1, not 0
+      hint: this is an error in atLeast of the prelude
+  none.dol:4:9: error: atLeast awaits a whole number of tasks, at least 1, not 0.5
+      hint: this is an error in atLeast of the prelude
+  none.dol:4:9: error: atLeast awaits a whole number of tasks, at least 1, not 1.5
       hint: this is an error in atLeast of the prelude
   none.dol:4:9: error: atLeast awaits 2 tasks, and the list has 1
       hint: this is an error in atLeast of the prelude
+  none.dol:4:9: error: retrying does its task a whole number of times, at least 1, not 0
+      hint: this is an error in retrying of the prelude
+  none.dol:4:9: error: retrying does its task a whole number of times, at least 1, not -1
+      hint: this is an error in retrying of the prelude
+  none.dol:4:9: error: retrying does its task a whole number of times, at least 1, not 2.5
+      hint: this is an error in retrying of the prelude
+  none.dol:4:9: error: idle takes a time of 0 seconds or more, not -1
+      hint: this is an error in every of the prelude
   none.dol:4:9: error: a barrier is for a whole number of tasks, at least 1, not 0
       hint: this is an error in barrier of the prelude
   none.dol:4:9: error: a barrier is for a whole number of tasks, at least 1, not -1
@@ -179,21 +196,25 @@ that make no sense.
       hint: this is an error in barrier of the prelude
   none.dol:4:14: error: a distance is at least 0, not -1
       hint: this is an error in near of the prelude
-  none.dol:4:9: error: a team has at least 1 vehicle, not 0
+  none.dol:4:9: error: a team has a whole number of vehicles, at least 1, not 0
       hint: this is an error in team of the prelude
   none.dol:4:9: error: a team of at least 2 vehicles cannot have at most 1
       hint: this is an error in team of the prelude
   none.dol:4:9: error: a team of at least 3 vehicles cannot be made of 2
       hint: this is an error in team of the prelude
-  $ dolphin exec none.dol --fleet two.fleet | tail -1
-  none.dol:4:9: error: a team of at least 3 vehicles cannot be made of 2
-    4 | execute team(3,3,v,[1]) { g -> idle(1) }
-      |         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+  none.dol:4:9: error: a team has a whole number of vehicles, at least 1, not 1.5
       hint: this is an error in team of the prelude
-     0:00  program     fails: a team of at least 3 vehicles cannot be made of 2
+  none.dol:4:9: error: a team has a whole number of vehicles at most, not 1.5
+      hint: this is an error in team of the prelude
+  $ dolphin exec none.dol --fleet two.fleet | tail -1
+  none.dol:4:9: error: a team has a whole number of vehicles at most, not 1.5
+    4 | execute team(1,1.5,v,[1]) { g -> idle(1) }
+      |         ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+      hint: this is an error in team of the prelude
+     0:00  program     fails: a team has a whole number of vehicles at most, not 1.5
   $ dolphin explore none.dol --fleet two.fleet | tail -2
   3   message '1'                               none.dol:3  v = [a, b]
-  4   fault(a team of at least 3 vehicles cannot be made of 2)  none.dol:4
+  4   fault(a team has a whole number of vehicles at most, not 1.5)  none.dol:4
 
 Of several calls all are named.
 

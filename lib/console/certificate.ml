@@ -60,11 +60,13 @@ let make ~name path =
     let* certificate = Text_file.read (fresh ^ ".crt") in
     match
       let channel = open_out_gen [ Open_append; Open_binary ] 0o600 fresh in
-      Fun.protect ~finally:(fun () -> close_out channel) (fun () -> output_string channel certificate);
+      Fun.protect ~finally:(fun () -> close_out_noerr channel) (fun () ->
+          output_string channel certificate;
+          close_out channel);
       Unix.rename fresh path
     with
     | () -> Ok ()
-    | exception Sys_error why -> Error (Error.Unavailable why)
+    | exception Sys_error why -> Error (Error.Unavailable (Text_file.named path why))
     | exception Unix.Unix_error (error, _, _) ->
       Error (Error.Unavailable (Printf.sprintf "%s: %s" path (Unix.error_message error)))
   in

@@ -5,6 +5,7 @@ import glob
 import os
 import random
 import resource
+import shutil
 import subprocess
 import sys
 
@@ -75,6 +76,62 @@ def too_long(arguments):
             print(f"dolphin {' '.join(arguments)}: the file has {found!r}")
 
 
+def tree(folder):
+    """Its files with their texts, and its folders."""
+    found = {}
+    for path, folders, names in os.walk(folder):
+        found.update({os.path.join(path, name): None for name in folders})
+        for name in names:
+            with open(os.path.join(path, name)) as file:
+                found[os.path.join(path, name)] = file.read()
+    return found
+
+
+def folders(program):
+    """A folder that cannot be written whole is as it was before, or is not there, whichever of its files is too long."""
+    fleet = ["--fleet", f"{EXAMPLES}/abort.fleet"]
+    for arguments in (["new", "OUT/deep"], ["tla", program, *fleet, "-o", "OUT/deep"]):
+        dolphin(arguments, "/dev/null")
+        whole = tree("OUT")
+        sizes = sorted(len(text) for text in whole.values() if text)
+        for old in (None, "as it was"):
+            for size in sizes:
+                shutil.rmtree("OUT", ignore_errors=True)
+                if old and arguments[0] == "tla":
+                    for path, text in whole.items():
+                        os.makedirs(os.path.dirname(path), exist_ok=True)
+                        if text:
+                            with open(path, "w") as file:
+                                file.write(old)
+                before = tree("OUT")
+                run = subprocess.run(
+                    ["dolphin", *arguments], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                    text=True, timeout=60,
+                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size - 1, size - 1))
+                )
+                complain(arguments, run, ": File too large")
+                if "OUT/deep/" not in run.stderr:
+                    print(f"dolphin {' '.join(arguments)}: no file is named: {run.stderr}")
+                if tree("OUT") != before or os.path.exists("OUT") != bool(before):
+                    print(f"dolphin {' '.join(arguments)}, at most {size - 1} bytes: the folder has {sorted(tree('OUT'))}")
+        shutil.rmtree("OUT", ignore_errors=True)
+
+
+def cache(program):
+    """Verdicts that cannot be kept are printed, and leave no file."""
+    run = subprocess.run(
+        ["dolphin", "explore", program, "--cache"], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE, text=True, timeout=60, env={**os.environ, "XDG_CACHE_HOME": os.path.abspath("OUT")},
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100))
+    )
+    if run.returncode != 0 or "OUT/dolphin/explore/" not in run.stderr or ": File too large" not in run.stderr:
+        print(f"dolphin explore {program} --cache: status {run.returncode}: {run.stderr[:200]}")
+    left = [text for text in tree("OUT").values() if text is not None]
+    if left:
+        print(f"dolphin explore {program} --cache: {len(left)} files")
+    shutil.rmtree("OUT", ignore_errors=True)
+
+
 def complain(arguments, run, wanted):
     errors = run.stderr.strip()
     if run.returncode != 3 or wanted not in errors or "full.run:" in errors:
@@ -97,6 +154,8 @@ def check(program):
         complain(arguments, dolphin(arguments, "/dev/null"), "/dev/full")
     for arguments in limited(program):
         too_long(arguments)
+    folders(f"{EXAMPLES}/abort.dol")
+    cache(f"{EXAMPLES}/abort.dol")
     left = set(os.listdir(".")) - before
     if left:
         print(f"{program}: left behind: {sorted(left)}")

@@ -69,16 +69,12 @@ let is_conclusive (o : Search.outcome) =
   in
   o.stopped = None && not (List.exists is_open o.verdicts)
 
-(* Renamed when it is whole: another process never sees a part of it. *)
+(* Another process never sees a part of it. *)
 let keep t o =
   if not (is_conclusive o) then Ok ()
   else
-    let write () =
-      make_directory t.directory;
+    match make_directory t.directory with
+    | () ->
       let contents = Marshal.to_string (t.inputs, o) [] in
-      let part, channel = Filename.open_temp_file ~mode:[ Open_binary ] ~temp_dir:t.directory "part" "" in
-      output_string channel (Digest.string contents ^ contents);
-      close_out channel;
-      Sys.rename part (path t)
-    in
-    try Ok (write ()) with Sys_error why -> Error (Error.Unavailable why)
+      Text_file.write (path t) (fun channel -> output_string channel (Digest.string contents ^ contents))
+    | exception Sys_error why -> Error (Error.Unavailable why)

@@ -62,28 +62,67 @@ let usual_permissions () =
   ignore (Unix.umask mask);
   0o666 land lnot mask
 
-(* A link stays a link, to a file with the permissions that it had. *)
-let replace path ~permissions f =
+(* A file that is written under another name, or not yet at all. *)
+type prepared = { commit : unit -> unit; abandon : unit -> unit }
+
+let replacement path ~permissions f =
   (* An error that follows would name the temporary file. *)
   Unix.access (Filename.dirname path) [ W_OK; X_OK ];
   let temporary, channel =
     Filename.open_temp_file ~mode:[ Open_binary ] ~temp_dir:(Filename.dirname path) ".dolphin" "" in
-  match
-    filled channel f;
-    Unix.chmod temporary permissions;
-    Sys.rename temporary path
-  with
-  | () -> ()
-  | exception error -> (try Sys.remove temporary with Sys_error _ -> ()); raise error
+  let abandon () = try Sys.remove temporary with Sys_error _ -> () in
+  match filled channel f; Unix.chmod temporary permissions with
+  | () -> { commit = (fun () -> Sys.rename temporary path); abandon }
+  | exception error -> abandon (); raise error
 
-let write path f =
-  let save () =
-    match Unix.stat path with
-    | { st_kind = S_REG; st_perm; _ } -> replace (Unix.realpath path) ~permissions:st_perm f
-    | { st_kind = S_DIR | S_CHR | S_BLK | S_LNK | S_FIFO | S_SOCK; _ } -> filled (open_out_bin path) f
-    | exception Unix.Unix_error (ENOENT, _, _) -> replace path ~permissions:(usual_permissions ()) f
-  in
-  match save () with
+(* Who may read a command may run it. *)
+let rights ~is_command permissions =
+  if is_command then permissions lor ((permissions land 0o444) lsr 2) else permissions
+
+(* A link stays a link, to a file with the permissions that it had. *)
+let prepare ?(is_command = false) path f =
+  match Unix.stat path with
+  | { st_kind = S_REG; st_perm; _ } -> replacement (Unix.realpath path) ~permissions:(rights ~is_command st_perm) f
+  | { st_kind = S_DIR; _ } -> raise (Unix.Unix_error (EISDIR, "open", path))
+  | { st_kind = S_CHR | S_BLK | S_LNK | S_FIFO | S_SOCK; _ } ->
+    { commit = (fun () -> filled (open_out_bin path) f); abandon = ignore }
+  | exception Unix.Unix_error (ENOENT, _, _) ->
+    replacement path ~permissions:(rights ~is_command (usual_permissions ())) f
+
+let saved path f =
+  match f () with
   | () -> Ok ()
   | exception Sys_error why -> Error (Error.Unavailable (named path why))
   | exception Unix.Unix_error (error, _, _) -> Error (Error.Unavailable (path ^ ": " ^ Unix.error_message error))
+
+let commit prepared = try prepared.commit () with error -> prepared.abandon (); raise error
+let write path f = saved path (fun () -> commit (prepare path f))
+
+(* {1 Several files} *)
+
+type file = { name : string; text : string; is_command : bool }
+
+let rec make_folder ~made path =
+  if Sys.file_exists path then Ok ()
+  else
+    Result.bind (make_folder ~made (Filename.dirname path)) (fun () ->
+        saved path (fun () ->
+            Unix.mkdir path 0o777;
+            made := path :: !made))
+
+let write_all folder files =
+  let made = ref [] and prepared = ref [] in
+  let prepare_one { name; text; is_command } =
+    let path = Filename.concat folder name in
+    Result.bind (make_folder ~made (Filename.dirname path)) (fun () ->
+        saved path (fun () ->
+            prepared := (path, prepare ~is_command path (fun channel -> output_string channel text)) :: !prepared))
+  in
+  let commit_one (path, file) = saved path (fun () -> commit file) in
+  let each f xs = List.fold_left (fun result x -> Result.bind result (fun () -> f x)) (Ok ()) xs in
+  let written = Result.bind (each prepare_one files) (fun () -> each commit_one (List.rev !prepared)) in
+  if Result.is_error written then begin
+    List.iter (fun (_, file) -> file.abandon ()) !prepared;
+    List.iter (fun path -> try Unix.rmdir path with Unix.Unix_error _ -> ()) !made
+  end;
+  written

@@ -27,3 +27,15 @@ val check : string -> (unit, Error.t) result
 val write : string -> (out_channel -> unit) -> (unit, Error.t) result
 (** [write path f] replaces the file [path], if it exists, by the output of [f], and only when all is written: a
     failure leaves it as it was. Devices and pipes are written to directly. The error is {!Error.Unavailable}. *)
+
+type file = {
+  name : string;  (** below the folder; it may begin with the names of folders in it *)
+  text : string;
+  is_command : bool;  (** users who may read it may run it *)
+}
+(** One of several files that are written together. *)
+
+val write_all : string -> file list -> (unit, Error.t) result
+(** [write_all folder files] writes the files into [folder], and makes the folders that are missing, but only when the
+    text of all is written: a failure before leaves neither files nor folders, and the files that were there as they
+    were. The error, {!Error.Unavailable}, names a file or folder. *)

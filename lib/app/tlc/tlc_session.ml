@@ -11,27 +11,11 @@ let installation jar =
 
 (* {1 Directories} *)
 
-let rec make_directory path =
-  if not (Sys.file_exists path) then begin
-    make_directory (Filename.dirname path);
-    Unix.mkdir path 0o777
-  end
-
-let not_written why = unavailable ("the model cannot be written: " ^ why)
-
 let write ~directory model =
-  let write_file (name, text) =
-    match Text_file.write (Filename.concat directory name) (fun channel -> output_string channel text) with
-    | Ok () -> Ok ()
-    | Error error -> not_written (String.concat "; " (Error.sentences error))
-  in
-  match
-    make_directory directory;
-    List.fold_left (fun result file -> Result.bind result (fun () -> write_file file)) (Ok ()) model
-  with
-  | result -> result
-  | exception Sys_error why -> not_written why
-  | exception Unix.Unix_error (error, _, path) -> not_written (path ^ ": " ^ Unix.error_message error)
+  let file (name, text) : Text_file.file = { name; text; is_command = false } in
+  match Text_file.write_all directory (List.map file model) with
+  | Ok () -> Ok ()
+  | Error error -> unavailable ("the model cannot be written: " ^ String.concat "; " (Error.sentences error))
 
 let rec remove path =
   match Unix.lstat path with

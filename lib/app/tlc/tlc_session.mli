@@ -9,7 +9,7 @@ val installation : string option -> (Installation.t, Error.t) result
 (** [installation jar] is the places of Java and TLC; the error, {!Error.Unavailable}, names the missing one. *)
 
 val write : directory:string -> model -> (unit, Error.t) result
-(** [write ~directory m] writes the files of [m], and makes the directory if necessary. *)
+(** [write ~directory m] writes the files of [m], all or none, and makes the directory if necessary. *)
 
 val in_directory : string option -> model -> (string -> ('a, Error.t) result) -> ('a, Error.t) result
 (** [in_directory directory m f] is [f d] where [d] is a directory with the files of [m]: the one that is given, or a

@@ -26,18 +26,6 @@ let archived suffix text =
 let nmisz text =
   List.concat_map (fun (name, text) -> in_file name Neptus_file.read text) (archived ".nmap" text)
 
-(* ["a/../b.kml"] beside ["maps/doc.kml"] is ["maps/b.kml"]. *)
-let beside file href =
-  let step parts part =
-    match part, parts with
-    | ("" | "."), _ -> parts
-    | "..", _ :: parts -> parts
-    | "..", [] -> []
-    | part, _ -> part :: parts
-  in
-  let folder = List.tl (List.rev (String.split_on_char '/' file)) in
-  String.concat "/" (List.rev (List.fold_left step folder (String.split_on_char '/' href)))
-
 (* One file is the map: doc.kml, or else the first. It may link to others in the archive. *)
 let kmz text =
   let files = archived ".kml" text in
@@ -46,11 +34,10 @@ let kmz text =
     Hashtbl.replace read name ();
     let linked = ref [] and found = Hashtbl.create 4 in
     let follow href =
-      let target = beside name href in
-      match Hashtbl.find_opt contents target with
-      | Some text when not (Hashtbl.mem read target || Hashtbl.mem found target) ->
+      match List.find_opt (Hashtbl.mem contents) (Archive_link.targets ~from:name href) with
+      | Some target when not (Hashtbl.mem read target || Hashtbl.mem found target) ->
         Hashtbl.replace found target ();
-        linked := (target, text) :: !linked;
+        linked := (target, Hashtbl.find contents target) :: !linked;
         true
       | Some _ | None -> false
     in

@@ -72,6 +72,33 @@ let archives () =
     ("a" ^ at ^ "; b" ^ at ^ "; note: files/b.kml, line 1: the link to '../doc.kml' is not followed, and left out")
     (read
        [ ("doc.kml", kml (place "a" ^ link "files/b.kml")); ("files/b.kml", kml (place "b" ^ link "../doc.kml")) ]);
+  let links ?(from = "doc.kml") href target =
+    let note = Printf.sprintf "; note: %s, line 1: the link to '%s' is not followed, and left out" from href in
+    let left = Printf.sprintf "; note: %s: %s does not link to this file, and left out" target from in
+    match read [ (from, kml (place "a" ^ link href)); (target, kml (place "b")) ] with
+    | text when text = "a" ^ at ^ "; b" ^ at -> true
+    | text -> check href ("a" ^ at ^ note ^ left) text; false
+  in
+  let follows ?from href target = Alcotest.(check bool) href true (links ?from href target) in
+  let refuses ?from href target = Alcotest.(check bool) href false (links ?from href target) in
+  follows "maps/no%20fly.kml" "maps/no fly.kml";
+  follows "n%C3%A3o%2e%6bml" "n\xc3\xa3o.kml";
+  follows "maps/no fly.kml" "maps/no fly.kml";
+  follows "b%2520c.kml" "b%20c.kml";
+  follows "b%20c.kml" "b%20c.kml";
+  follows "100%.kml" "100%.kml";
+  follows "b.kml#region" "b.kml";
+  follows "b%23c.kml" "b#c.kml";
+  follows "b#c.kml" "b#c.kml";
+  follows "./x/../b.kml" "b.kml";
+  follows "x%2F..%2fb.kml" "x%2F..%2fb.kml";
+  follows ~from:"maps/doc.kml" "%2e%2E/b.kml" "b.kml";
+  List.iter
+    (fun href -> refuses href "b.kml")
+    [ "../b.kml"; "%2e%2e/b.kml"; "x/../../b.kml"; "/b.kml"; "//b.kml"; "//host/b.kml"; "file:b.kml"; "x%2F..%2Fb.kml";
+      "b.kml%00"; "b.kml?x"; "b%2"; "http://example.org/b.kml" ];
+  refuses "http://example.org/b.kml" "http:/example.org/b.kml";
+  refuses "c%2Fb.kml" "c/b.kml";
   let two = [ ("doc.kml", kml (place "a" ^ link "b.kml")); ("b.kml", kml (place "b")) ] in
   check "ZIP64" ("a" ^ at ^ "; b" ^ at) (shown "m.kmz" (archive ~is_zip64:true two));
   List.iter

@@ -171,6 +171,8 @@ let assignment place =
         Some ("'=' cannot stand within an expression", Printf.sprintf "a pair is written %s %s: %s" f x value)
       | ASSIGN, NAME x, _ ->
         Some ("an assignment has no value", Printf.sprintf "write %s = ... in a statement of its own" x)
+      | COMMAND _, NAME x, _ when statement place < place.index - 2 && kind place (opener place) <> LPAREN ->
+        Some ("unexpected '='", Printf.sprintf "a ';' or a new line is missing before '%s ='" x)
       | COMMAND _, NAME x, _ ->
         Some ("a variable has no type before its name", Printf.sprintf "write def %s = ..." x)
       | _, NAME x, LPAREN ->
@@ -327,9 +329,37 @@ let misspelt_units = [
   "nmi", "nauticalMiles";
 ]
 
+let is_unit x = List.mem_assoc x misspelt_units || Units.factor x <> None
+
+let follows_number place = match before place 1 with INTEGER _ | NUMBER _ -> true | _ -> false
+
+(* Whether the place is directly in the braces of a builder, [imcPlan { ... }], but not within an argument there. *)
+let is_setting place =
+  let opener = opener place in
+  kind place opener = BLOCK && (match kind place (opener - 1) with BUILDER _ | RECRUIT -> true | _ -> false)
+
+(* [x = 1 y = 2]. *)
+let two_statements place =
+  let begins =
+    match this place, kind place (place.index + 1) with
+    | NAME _, (ASSIGN | ASSIGN_OPERATOR _ | STEP _) -> true
+    | NAME _, LPAREN -> is_setting place
+    | COMMAND x, _ -> not (follows_number place && is_unit x)
+    | (IF | WHILE | FOR | RETURN | BREAK | CONTINUE | DEF), _ -> true
+    | _, _ -> false
+  in
+  if begins && place.acceptable SEPARATOR && not (place.acceptable (INTEGER 0)) then
+    Some (Printf.sprintf "unexpected %s" (spelt place place.index), "a ';' or a new line is missing before it")
+  else None
+
+(* What follows the name makes it another thing than a unit. *)
+let is_more_than_unit place =
+  match kind place (place.index + 1) with LPAREN | LBRACKET | DOT | SHIFT_LEFT | COLON -> true | _ -> false
+
 let unit_without_point place =
-  match before place 1, this place with
-  | (INTEGER _ | NUMBER _), (NAME x | COMMAND x) when place.acceptable PLUS ->
+  match this place with
+  | (NAME x | COMMAND x)
+    when follows_number place && place.acceptable PLUS && (is_unit x || not (is_more_than_unit place)) ->
     let unit = Option.value (List.assoc_opt x misspelt_units) ~default:x in
     Some (Printf.sprintf "unexpected %s" (spelt place place.index),
           Printf.sprintf "a unit stands behind a point: %s.%s" (text_of place (place.index - 1)) unit)
@@ -399,7 +429,7 @@ let task_in_braces place =
 let rules = [
   after_rounds; task_in_braces; missing_parenthesis; missing_block; assigned_word; missing_brace;
   missing_parameters; negative_argument; greedy_bracket; assignment; missing_word; misplaced_word; command;
-  unit_without_point; percent_sign; described_parameter; stray;
+  two_statements; unit_without_point; percent_sign; described_parameter; stray;
 ]
 
 let fault ~source ~tokens ~index ~acceptable =

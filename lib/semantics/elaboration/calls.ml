@@ -342,7 +342,7 @@ let by_name env at name (callee : Ast.expression) arguments =
     error env Unknown_name callee.at "unknown name '%s'" name ?hint:(did_you_mean name Builtins.builder_names);
     null env at
   | None, None, None ->
-    if Scope.settings env.code = None then Member_check.callee env callee;
+    if Scope.settings env.code = None then Member_check.callee env callee arguments;
     (match Scope.settings env.code with
      | Some (((Pick | Recruit | Imc_plan | Mission | Pos) as builder), _) ->
        error env Unknown_setting callee.at "%s has no setting '%s'" (builder_name builder) name
@@ -407,6 +407,6 @@ let call env at (callee : Ast.expression) arguments =
     apply env at (Builtin (Math name.it)) (values env arguments)
   | Member { subject; name; safe } -> to_method env at subject name safe arguments
   | _ ->
-    Member_check.callee env callee;
+    Member_check.callee env callee arguments;
     let callee = elaborate env callee in
     apply env at (Call (keys_of arguments)) (callee :: values env arguments)

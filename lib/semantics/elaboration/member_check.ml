@@ -27,12 +27,23 @@ let member env ~called ?(arguments = []) (subject : Ast.expression) (name : stri
       (if called then "method" else "property") name.it ?hint:(hint_for_member subject name x)
   | Some _ | None -> ()
 
+(* A call without parentheses, [f a]: it ends with its last argument. *)
+let is_bare (call : Ast.expression) =
+  match call.it with
+  | Call { arguments; _ } -> (
+      match List.rev arguments with
+      | (Positional last | Named (_, last) | Keyed (_, last)) :: _ -> last.at.stop.pos_cnum = call.at.stop.pos_cnum
+      | [] -> false)
+  | _ -> false
+
 (* Calls of values that surely are not functions. *)
-let callee env (callee : Ast.expression) =
+let callee env (callee : Ast.expression) arguments =
   match operand_kind env callee, callee.it with
   | ((Number | String | Vehicles | Position | Task | Truth) as kind), _ ->
     let hint =
       match callee.it with
+      | Variable x when (match arguments with [ Ast.Positional e ] -> is_bare e | _ -> false) ->
+        Some (Printf.sprintf "a ';' or a new line is missing behind '%s'" x)
       | Integer n -> Some (Printf.sprintf "for rounds of a task, write repeat %d, T" n)
       | _ when kind = Vehicles -> Some "one of them is vs[0]; a task on them is T[vs]"
       | _ -> None

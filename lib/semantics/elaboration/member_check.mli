@@ -8,8 +8,8 @@ val member :
 (** [member env ~called ~arguments e x] reports [e.x], and if it is [called], [e.x(arguments)], when no value of [e]'s
     kind has such a member. *)
 
-val callee : Checks.env -> Ast.expression -> unit
-(** [callee env e] reports a call of [e] when [e] surely is not a function. *)
+val callee : Checks.env -> Ast.expression -> Ast.argument list -> unit
+(** [callee env e arguments] reports a call of [e] with [arguments] when [e] surely is not a function. *)
 
 val prelude_call : Checks.env -> Dolphin_syntax.Prelude.entry -> Ast.argument list -> unit
 (** [prelude_call env entry arguments] reports arguments of this function of the prelude that are of a wrong kind. *)

@@ -264,22 +264,8 @@ let range ~inclusive first last =
       | _ -> Error (Printf.sprintf "a range has at most %d elements" max_int))
   | Integer _, x | x, _ -> expected "a whole number as end of a range" x
 
-let knot = 1852. /. 3600.
-
-let units =
-  [ ("m", 1.); ("meter", 1.); ("meters", 1.); ("metre", 1.); ("metres", 1.);
-    ("km", 1000.); ("kilometer", 1000.); ("kilometers", 1000.); ("kilometre", 1000.); ("kilometres", 1000.);
-    ("second", 1.); ("seconds", 1.); ("sec", 1.); ("ms", 0.001); ("milliseconds", 0.001);
-    ("min", 60.); ("minute", 60.); ("minutes", 60.); ("hour", 3600.); ("hours", 3600.);
-    ("day", 86400.); ("days", 86400.);
-    ("nauticalMile", 1852.); ("nauticalMiles", 1852.); ("foot", 0.3048); ("feet", 0.3048); ("fathom", 1.8288);
-    ("fathoms", 1.8288); ("knot", knot); ("knots", knot);
-    ("degree", 1.); ("degrees", 1.); ("radian", 180. /. Float.pi); ("radians", 180. /. Float.pi);
-    ("north", 1.); ("east", 1.); ("south", -1.); ("west", -1.);
-    ("percent", 0.01) ]
-
-let unit_factor name = List.assoc_opt name units
-let unit_names = List.map fst units
+let unit_factor = Dolphin_syntax.Units.factor
+let unit_names = Dolphin_syntax.Units.names
 
 (* A name of few letters is near to the wrong unit: kn to km, nm to m. *)
 let abbreviations =

@@ -986,6 +986,7 @@ Procedure(m, op, xs) ==
        [] name = "area" -> Settle(m, Around(x, xs[2]))
        [] name = "math" -> Settle(m, Mathematics(op.name, xs))
        [] name = "isThere" -> Result(m, Boolean(IsNumber(x) \/ Truth(x)))
+       [] name = "isA" -> Result(m, Boolean(IsA(op.form, x)))
        [] name = "isHost" -> Result(m, Boolean(Is(x, "host")))
        [] name = "getSupplier" -> RequestCall(m, "getSupplier", << << >> >>)
 
@@ -1009,7 +1010,7 @@ ArePositional(names) == \A i \in DOMAIN names : names[i] = ""
 (* These hand readings on, or print them, as they do with any values. *)
 TakesReadings(op, xs) ==
   \/ op.op = "call" /\ Is(xs[1], "closure") /\ ArePositional(op.names)
-  \/ op.op \in { "message", "halt", "assert", "fail", "isHost", "isThere" }
+  \/ op.op \in { "message", "halt", "assert", "fail", "isA", "isHost", "isThere" }
 
 IsAboutReadings(op, xs) == (\E i \in DOMAIN xs : IsReading(xs[i])) /\ ~TakesReadings(op, xs)
 

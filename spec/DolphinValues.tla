@@ -606,6 +606,12 @@ IsPlace(x) == Is(x, "position") \/ IsReadingOf(x, "place")
 IsRegion(x) == Is(x, "area") \/ IsReadingOf(x, "region")
 IsWords(x) == Is(x, "string") \/ IsReadingOf(x, "words")
 
+IsA(form, x) ==
+  CASE form = "number" -> IsAmount(x)
+    [] form = "string" -> IsWords(x)
+    [] form = "list" -> Is(x, "list") \/ Is(x, "range")
+    [] OTHER -> Is(x, "map")
+
 (* In the text of a comparison; as an operand of an operator in it. *)
 Spelled(x) == IF IsReading(x) THEN x[3] ELSE Literal(Canonical(x))
 Enclosed(text) == IF Contains(text, " ") THEN "(" \o text \o ")" ELSE text

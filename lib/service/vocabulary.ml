@@ -31,6 +31,10 @@ let procedures =
       "now", "now()", "The whole seconds since the run started.";
       "timeOfDay", "timeOfDay()", "The seconds since midnight; `timeOfDay '21:30'` is those from midnight until then.";
       "eta", "eta(v, p)", "The seconds that the vehicle takes to a position, in a straight line.";
+      "isNumber", "isNumber(x)", "Whether a value is a number.";
+      "isString", "isString(x)", "Whether a value is a string.";
+      "isList", "isList(x)", "Whether a value is a list or a range.";
+      "isMap", "isMap(x)", "Whether a value is a map.";
       "location", "location(latitude, longitude)", "A position, in degrees; a third number is its height in metres. \
                                                     Also `location \"41\xc2\xb011.1'N 8\xc2\xb042.4'W\"`.";
       "polygon", "polygon([p1, p2, ...])",

@@ -265,6 +265,10 @@ and procedure t site builtin : Tla.t =
   | Retry -> plain "retry"
   | Dismiss -> plain "dismiss"
   | Is_there -> plain "isThere"
+  | Is_a form ->
+    let form =
+      match form with A_number -> "number" | A_string -> "string" | A_list -> "list" | A_map -> "map" in
+    record "isA" [ ("form", String form) ]
   | Is_host -> plain "isHost"
   | Math name ->
     if not (Supported.is_mathematics name) then

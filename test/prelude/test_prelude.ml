@@ -229,6 +229,16 @@ let told_of_themselves =
        def inspect(g) { imcPlan { locate g.at, 2; goTo() } }\n\
        execute byPriority(vs.take(2), 'goal', { it.urgency }) { g -> inspect(g) } | action { post goal: [at: 2] }\n\
        assert { count(goal: _) == 2 && poll(goal: { it.at == 2 }) && poll(goal: { it.at == 3 }) }";
+    holds "byPriority: goals that are not maps, or without a number, are left alone"
+      "post goal: 'quay', goal: 3, goal: [at: 3, urgency: 'high'], goal: [at: 1, urgency: 1]\n\
+       def inspect(g) { imcPlan { locate g.at, 2; goTo() } }\n\
+       def urgency(g) { isMap(g) ? g.urgency : null }\n\
+       execute byPriority(vs.take(2), 'goal', { urgency(it) }) { g -> inspect(g) } | action { post goal: [1, 2] }\n\
+       assert { count(goal: _) == 4 && !poll(goal: { isMap(it) && it.at == 1 }) }";
+    holds "isBest: values that are not numbers do not count"
+      "post goal: 'a', goal: 2, goal: [7], goal: 1\n\
+       execute waitFor { consume goal: { isBest('goal', it) { g -> g } } } then action { post best: 1 }\n\
+       assert { count(goal: _) == 3 && !poll(goal: 2) }";
     holds "byPriority: no vehicle" ~ends:[ "failed: byPriority needs a vehicle" ]
       ("execute " ^ inspection "(vs - vs)");
     nothing "byPriority: leaves nothing" (goals [ 1; 2; 2 ] ^ "execute " ^ inspection "vs.take(2)");

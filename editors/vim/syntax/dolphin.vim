@@ -13,7 +13,7 @@ syntax keyword dolphinConstant null _
 syntax keyword dolphinTask task imcPlan action condition assert idle confirm fresh mission pick pos
 syntax keyword dolphinProcedure ignore propagate retry dismiss fail post consume poll message println release
 syntax keyword dolphinProcedure setConnectionTimeout ask pause getSupplier execute input halt onInterrupt position
-syntax keyword dolphinProcedure battery progress speed connected reading running now timeOfDay eta location polygon
+syntax keyword dolphinProcedure battery progress speed connected reading running now timeOfDay eta location polygon isNumber isString isList isMap
 syntax keyword dolphinProcedure map fence corridor along coverage expandingSquare sector spiral footprint area
 syntax keyword dolphinFleet vehicle plan answer reply field
 

@@ -196,7 +196,7 @@ let rec is_inert (scope : scope) e =
   | Apply
       ( Builtin
           ( Post _ | Consume _ | Poll _ | Message | Math _ | Position_of | Sensor_of _ | Is_running | Reading_of | Now
-          | Time_of_day | Eta | Location_of | Area_of | Geometry _ ),
+          | Time_of_day | Eta | Is_a _ | Location_of | Area_of | Geometry _ ),
         _ )
   | Apply ((Unary _ | Make_range _ | Concatenate), _) -> true
   | Apply ((Binary _ | Make_list | Make_map _ | Element | Property _ | Method _), arguments) ->

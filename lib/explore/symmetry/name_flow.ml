@@ -317,7 +317,7 @@ and applied w lambda at operation arguments =
   | Builtin Position_of, es -> ignore (values es); reads_places w; reading
   | Builtin (Sensor_of _ | Reading_of), es -> ignore (values es); reads_sensors w; reading
   | Builtin (Now | Time_of_day), _ -> reading
-  | Builtin Is_running, es -> ignore (values es); nothing
+  | Builtin (Is_running | Is_a _), es -> ignore (values es); nothing
   | Builtin Eta, es -> ignore (values es); travels w; reading
   | Add_setting (name, _), so_far :: es ->
     let k = value_of so_far in

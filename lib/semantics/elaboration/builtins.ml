@@ -72,6 +72,10 @@ let table : (string * t) list =
     ("now", these Now [] ~result:Number);
     ("timeOfDay", these Time_of_day [] ~optional:[ String ] ~result:Number);
     ("eta", these Eta [ Vehicles; Position ] ~result:Number ~reads_sensors:true);
+    ("isNumber", these (Is_a A_number) [ Any ] ~result:Truth);
+    ("isString", these (Is_a A_string) [ Any ] ~result:Truth);
+    ("isList", these (Is_a A_list) [ Any ] ~result:Truth);
+    ("isMap", these (Is_a A_map) [ Any ] ~result:Truth);
     ("location", location);
     ("area", these Area_of [ Position; Number ]);
     ("polygon", geometry [ Any ] ~named:[ ("holes", Any) ] ~result:Any);

@@ -12,7 +12,8 @@ let computing =
 
 let procedures =
   [ "task"; "imcPlan"; "action"; "condition"; "fresh"; "idle"; "location"; "area"; "position"; "battery"; "speed";
-    "connected"; "reading"; "running"; "now"; "timeOfDay"; "eta"; "poll"; "progress" ]
+    "connected"; "reading"; "running"; "now"; "timeOfDay"; "eta"; "poll"; "progress"; "isNumber";
+    "isString"; "isList"; "isMap" ]
 
 (* Expressions that surely only compute. [is_own x] is whether the program itself defines [x]; [has_host], whether
    there may be objects of the supplier, whose members may do anything. *)

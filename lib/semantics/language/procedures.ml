@@ -225,6 +225,14 @@ let numbers arguments =
   let numbers = List.filter_map Value.to_number arguments in
   if List.compare_lengths numbers arguments = 0 then Some numbers else None
 
+let is_a form x =
+  match form, x with
+  | A_number, (Integer _ | Number _ | Reading { quantity = Amount; _ })
+  | A_string, (String _ | Reading { quantity = Words; _ })
+  | A_list, (List _ | Range _)
+  | A_map, Map _ -> true
+  | (A_number | A_string | A_list | A_map), _ -> false
+
 let mathematics name arguments =
   let whole f = if Float.abs f < 0x1p62 then Value (Integer (int_of_float f)) else Value (Number f) in
   let result f =
@@ -369,10 +377,11 @@ let apply context at operation arguments =
   | Is_there, [ x ] ->
     let is_number = match x with Integer _ | Number _ -> true | _ -> false in
     Value (Boolean (is_number || Value.truth x))
+  | Is_a form, [ x ] -> Value (Boolean (is_a form x))
   | Is_host, [ x ] -> Value (Boolean (match x with Host _ -> true | _ -> false))
   | Math name, arguments -> mathematics name arguments
   | Geometry (name, keys), arguments -> of_result (Geometry.apply name keys arguments)
   | ( ( Execute | Release | Set_connection_timeout | Ask | Message | Pause | Halt | Position_of | Sensor_of _
       | Is_running | Reading_of | Now | Time_of_day | Eta | Location_of | Area_of | Assert | Fail | Ignore | Propagate
-      | Retry | Dismiss | Get_supplier | Interrupted | Is_host | Is_there | Values_of ),
+      | Retry | Dismiss | Get_supplier | Interrupted | Is_a _ | Is_host | Is_there | Values_of ),
       _ ) -> Wrong (Printf.sprintf "wrong number of arguments, %d" (List.length arguments))

@@ -179,7 +179,7 @@ let apply ~begins world at operation arguments =
   match result, operation with
   | (Gives _ | Asks _ | Unclear _), _ -> result
   | As_any, Call names when List.for_all Option.is_none names && calls_code arguments -> As_any
-  | As_any, Builtin (Message | Halt | Assert | Fail | Is_host | Is_there) -> As_any
+  | As_any, Builtin (Message | Halt | Assert | Fail | Is_a _ | Is_host | Is_there) -> As_any
   | As_any, _ ->
     let texts = List.filter_map (function Reading r -> Some r.text | _ -> None) arguments in
     Unclear (unclear at (String.concat ", " texts))

@@ -32,7 +32,7 @@ let apply operation arguments =
       | Method (("add" | "push" | "leftShift" | "put" | "contains" | "indexOf" | "equals"), _), _ -> As_any
       | (Call _ | Method ("call", _)), (Closure _ :: _) -> As_any
       | (Make_list | Make_map _ | Replace_element | Replace_member _ | Concatenate), _ -> As_any
-      | Builtin (Message | Halt | Assert | Fail | Is_host | Is_there), _ -> As_any
+      | Builtin (Message | Halt | Assert | Fail | Is_a _ | Is_host | Is_there), _ -> As_any
       | ( ( Binary _ | Make_range _ | Element | Property _ | Call _ | Method _ | Builtin _ | Add_setting _ | Build _
           | Pick_if_any | Make_branch | Make_recruit ),
           _ ) -> Needs u)

@@ -12,7 +12,7 @@ let gives_tasks = function
   | Execute | Execute_for _ | Release | Set_connection_timeout | Ask | Message | Pause | Halt | Post _ | Consume _
   | Poll _ | Values_of | Position_of | Sensor_of _ | Is_running | Reading_of | Now | Time_of_day | Eta
   | Location_of | Area_of | Assert | Fail | Ignore | Propagate | Retry | Dismiss | Get_supplier | Interrupted | Is_there
-  | Is_host | Math _ | Geometry _ -> false
+  | Is_a _ | Is_host | Math _ | Geometry _ -> false
 
 (* Code that calls itself gives what its other ends do. *)
 let may_give lambda =

@@ -186,10 +186,14 @@ and builtin =
   | Get_supplier
   | Interrupted                                 (* made by elaboration: the end of the task of [onInterrupt] *)
   | Is_there                                    (* made by elaboration: whether [a ?: b] is [a] *)
+  | Is_a of form                                (* [isNumber x], and so on *)
   | Is_host                                     (* made by elaboration, for updates of values that may be host
                                                    objects *)
   | Math of string
   | Geometry of string * string option list     (* [along] and the like; names of named arguments *)
+
+(** What a value may be. *)
+and form = A_number | A_string | A_list | A_map
 
 (** [None]: the key is an argument before the value. *)
 and ensured_form = Pair_of of string option | Variable_of of int * string | Taken_pairs

@@ -36,7 +36,9 @@ let of_start ~now ~former_ended ~late (a : Attempt.t) (r : Plan_report.t) =
     (* Another's plan of that name, which ours has replaced. *)
     | Executing when own && a.accepted <> None && not accepted -> Nothing_new
     | Executing when own ->
-      if Attempt.was_busy_with a.order.plan a && not (accepted || a.initialised) then No_sign else Runs
+      (* If no report came before the request, the plan may be another's as well. *)
+      let may_be_another's = Attempt.was_busy_with a.order.plan a || (a.before = None && not a.adopted) in
+      if may_be_another's && not (accepted || a.initialised) then No_sign else Runs
     | Executing ->
       let other = r.state.plan_id in
       if (not accepted) && (a.before = None || Attempt.was_busy_with other a) then No_sign

@@ -307,9 +307,29 @@ let each_copy_is_told =
       in
       List.iter take [ 0; 1; 2 ])
 
+(* The vehicle runs another's plan of that name, which no report told before the request, and the request is lost. *)
+let another's_plan_is_not_ours =
+  Alcotest.test_case "another's plan of the same name, a lost request" `Quick (fun () ->
+      let perfect = { Network.loss = 0.; duplication = 0.; delay = 0. } in
+      let before =
+        { Message.Plan_control_state.default with state = Executing; plan_id = "a"; plan_progress = -1. } in
+      let s =
+        { seed = 1; outward = perfect; inward = perfect; before; fates = [ ("a", Succeeds 0.1) ]; orders = [];
+          clock = (0., 1.) }
+      in
+      let w = world s in
+      input w (Start { plan = "a"; specification = None });
+      w.now <- w.now +. instant;
+      Alcotest.(check int) "lost" 1 (List.length (Network.arrived ~now:w.now w.out));
+      pass s w 5.;
+      Alcotest.(check bool) "done" true (w.verdicts = [ Done ]);
+      let is_ours (e : Vehicle_model.execution) = e.request = 65530 in
+      Alcotest.(check int) "of our request" 1
+        (List.length (List.filter is_ours (Vehicle_model.executions w.vehicle))))
+
 let tests =
   ( "execution",
-    [ each_copy_is_told;
+    [ each_copy_is_told; another's_plan_is_not_ours;
       lost_plan "a plan engine loses its plan: the vehicle is not idle while it maneuvers" (fun _ _ w ->
           w.aborts = 0 || complain "it was aborted");
       lost_plan "a plan engine loses its plan: the vehicle is aborted if that is wanted" ~abort_after:3. (fun _ _ w ->

@@ -78,7 +78,10 @@ let check_search (s : Exploration.settings) =
   let not_both what = Error (Error.Bad_input (what ^ ", not both")) in
   let* () = Option.fold ~none:(Ok ()) ~some:(check_spill s) s.spill in
   match s.walks, s.bitstate, s.formulas with
-  | _, _, [] when s.fairness <> Weak -> Error (Error.Bad_input "--fairness is about formulas: give --ltl too")
+  | _, _, [] when s.fairness = No_fairness ->
+    Error (Error.Bad_input "--fairness none is about formulas: give --ltl too")
+  | Some _, _, _ when s.fairness = Strong -> not_both "strong fairness needs all states: give --fairness or --sample"
+  | _, Some _, _ when s.fairness = Strong -> not_both "strong fairness needs all states: give --fairness or --bitstate"
   | Some _, Some _, _ -> not_both "random walks keep their states: give --sample or --bitstate"
   | Some _, None, _ :: _ -> not_both "random walks cannot check a formula: give --sample or --ltl"
   | None, Some _, _ :: _ -> not_both "bitstate hashing cannot check a formula: give --bitstate or --ltl"
@@ -257,11 +260,12 @@ let formulas =
   Arg.(value & opt_all string [] & info [ "ltl" ] ~docv:"FORMULA" ~doc)
 
 let fairness =
-  let kinds = [ ("weak", Dolphin_explore.Search.Weak); ("none", No_fairness) ] in
+  let kinds = [ ("weak", Dolphin_explore.Search.Weak); ("strong", Strong); ("none", No_fairness) ] in
   let doc =
-    "The runs that $(b,--ltl) is about: with $(b,weak), runs that are fair, as for termination (running tasks end \
-     some time, timers expire, no step that stays possible is put off without end), and endless runs without any \
-     event; with $(b,none), all runs."
+    "The runs that termination and $(b,--ltl) are about: with $(b,weak), runs that are fair (running tasks end some \
+     time, timers expire, no step that stays possible is put off without end), and endless runs without any event; \
+     with $(b,strong), a plan that is begun and cut off again and again is done at some time, too; with $(b,none), \
+     $(b,--ltl) is about all runs."
   in
   Arg.(value & opt (enum kinds) Weak & info [ "fairness" ] ~docv:"KIND" ~doc)
 

@@ -354,7 +354,7 @@ Formulas of temporal logic.
   > END
   $ explore again.dol --faults fail --ltl 'G (start(a) -> F (done(a) | fail(a, noptilus-1)))' --ltl 'G F {n == 1}' --ltl 'message("done") R !end' --ltl 'G (fail -> X consume(failed: 1))'
   no deadlock: holds
-  termination: violated, with 1 fault: after 3 steps, 4 steps that can repeat without end
+  termination: violated, with 1 fault: after 3 steps, 4 steps that can repeat without end; holds with --fairness strong
   no unhandled error: holds
   assertions: holds
   vehicles for all tasks: holds

@@ -82,3 +82,41 @@ An assumption does not matter to a program that reads no sensor.
   $ echo "message 'hello'" > hello.dol
   $ dolphin explore hello.dol --fleet assuming.fleet 2>&1 | grep sensor
   dolphin: assuming.fleet:5:1: the program reads no sensor, so assume(eventually { battery('a') > 0.8 }) does not matter
+
+Between two events a sensor keeps its value: a battery that was just charged is not low. What is begun and cut off again
+and again need not be done under weak fairness. Strong fairness, and the reading that has to recur, are named.
+
+  $ cat > breaks.dol <<'EOF'
+  > include 'prelude'
+  > v = pick { id 'a' }
+  > survey = imcPlan { planName 'survey'; locate 41.1850, -8.7060; goTo(); move 100, 0; goTo() }
+  > execute withBreaks(v, survey, repeat task('charge')[v] until { battery(v) > 0.8 }) { battery(v) < 0.3 }
+  > EOF
+  $ explore breaks.dol --fleet world.fleet | head -1
+  termination: violated: after 3 steps, 9 steps that can repeat without end; holds with --fairness strong, if battery(a) > 0.8 recurs
+  $ explore breaks.dol --fleet assuming.fleet | head -1
+  termination: violated: after 3 steps, 18 steps that can repeat without end; holds with --fairness strong
+  $ explore breaks.dol --fleet assuming.fleet --fairness strong --ltl 'F ended'
+  termination: holds if battery(a) > 0.8 recurs
+  formula F ended: holds if battery(a) > 0.8 recurs
+  $ dolphin explore breaks.dol --fleet world.fleet --json | jq -c '.verdicts[] | select(.property == "termination") | del(.run, .cycle, .assumptions)'
+  {"property":"termination","verdict":"violated","shortest":false,"holds if these recur":["battery(a) > 0.8"],"holds with strong fairness":true}
+
+The same for a plan that a time cuts off, without readings.
+
+  $ cat > cut.dol <<'EOF'
+  > v = pick { id 'a' }
+  > while (!poll(x: 1)) { execute (task('survey')[v] >> action { post x: 1 }) during 60 }
+  > EOF
+  $ explore cut.dol --fleet world.fleet --ltl 'F ended' | grep -v run
+  termination: violated: after 3 steps, 2 steps that can repeat without end; holds with --fairness strong
+  formula F ended: violated: after 3 steps, 2 steps that can repeat without end
+  $ explore cut.dol --fleet world.fleet --fairness strong --ltl 'F ended'
+  termination: holds
+  formula F ended: holds
+  $ dolphin explore cut.dol --fleet world.fleet --fairness strong --sample 10
+  dolphin: strong fairness needs all states: give --fairness or --sample, not both
+  [2]
+  $ dolphin explore cut.dol --fleet world.fleet --fairness none
+  dolphin: --fairness none is about formulas: give --ltl too
+  [2]

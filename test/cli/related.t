@@ -16,7 +16,7 @@ README. Their logs are in examples/related/golden. Those that take longer are ex
   csl_river: 7,467 | holds
   dronekit_guided: 19 | holds
   flexbe_autonomy: 26 | holds
-  meld_walk: 190 | no unhandled error violated
+  meld_walk: 35 | no unhandled error violated
   moos_alpha: 63 | holds
   moos_berta: 236 | holds
   nav2_docking: 171 | holds

@@ -248,7 +248,7 @@ without any event is what the runtime would do.
   termination: holds
   formula F ended: violated: after 8 steps, 2 steps that can repeat without end
   $ dolphin explore fair.dol --fairness none
-  dolphin: --fairness is about formulas: give --ltl too
+  dolphin: --fairness none is about formulas: give --ltl too
   [2]
   $ dolphin explore spin.dol --ltl 'F ended' | grep -e termination -e '^formula.*: [hv]'
   termination: violated: after 2 steps, 2 steps that can repeat without end

@@ -53,6 +53,7 @@ type edge = {
   part : int;
   is_event : bool;
   looks : World.assumption list list;
+  owed_strongly : string option;  (* its name, if a strongly fair run has to take it *)
 }
 
 let edge world (g : Reference.t) i ((t : Transition.t), into) =
@@ -74,8 +75,15 @@ let edge world (g : Reference.t) i ((t : Transition.t), into) =
     | label, rule :: _ -> Format.asprintf "%a by %s in %d, %B" Label.pp label (Rule.name rule) part inside
     | _, [] -> Alcotest.fail "a transition without a rule"
   in
+  let owed_strongly =
+    match t.label, t.rules with
+    | Done (v, name), _ -> Some (Printf.sprintf "%s is done on %s" name v)
+    | (Start _ | Act _ | Set_time _ | Make), _ | _, (Repeat_until | Repeat_again) :: _ -> Some step
+    | _, _ -> None
+  in
   let is_event = match t.label with Done _ | Fail _ | Time_out -> true | _ -> false in
-  { into; step; inside; closes; endless; part; is_event; looks = t.assumed :: t.otherwise }
+  { into; step; inside; closes; endless; part; is_event; looks = t.assumed :: t.otherwise;
+    owed_strongly }
 
 (* {1 Fairness} *)
 
@@ -124,6 +132,20 @@ let is_settled all edges members i (owed : edge) =
 
 let is_fair all edges members =
   List.for_all (fun i -> List.for_all (is_settled all edges members i) all.(i)) members
+
+(* The parts of the graph within which strongly fair runs may stay: of a component, a part without the states in which a
+   step is possible that is owed, and that the component does not take. *)
+let rec strongly_fair all edges =
+  let names es = List.filter_map (fun e -> e.owed_strongly) es in
+  let of_component members =
+    let is_in e = List.mem e.into members in
+    let inside = Array.mapi (fun i es -> if List.mem i members then List.filter is_in es else []) edges in
+    let taken = names (List.concat (Array.to_list inside)) in
+    let misses i = List.exists (fun name -> not (List.mem name taken)) (names all.(i)) in
+    let without i es = if misses i then [] else List.filter (fun e -> not (misses e.into)) es in
+    if List.exists misses members then strongly_fair all (Array.mapi without inside) else [ (inside, fun _ -> true) ]
+  in
+  List.concat_map of_component (components edges)
 
 let all_edges world (g : Reference.t) =
   Array.mapi (fun i edges -> if executes g i then List.map (edge world g i) edges else []) g.edges

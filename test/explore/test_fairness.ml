@@ -101,7 +101,7 @@ let formula =
 
 (* Of the script, which has no cycle here, and of a run that stays where nothing need happen. *)
 let other into = { into; step = ""; inside = false; closes = false; endless = false; part = -1; is_event = true;
-                   looks = [ [] ] }
+                   looks = [ [] ]; owed_strongly = None }
 
 let holds_of_fair_runs program (g : Reference.t) all f =
   let a = Automaton.of_formula (Formula.Not f) in
@@ -179,18 +179,20 @@ let compare source environment program formulas =
   | None -> true
   | Some g ->
     let all = try Some (all_edges world g) with Ambiguous -> None in
-    match Option.map (fun all -> (all, judged g all)) all with
+    match all with
     | None -> true
-    | Some (all, judged) ->
-      let expected = text judged in
-      note expected;
-      let agrees reduction =
-        let o = Search.run { Search.default with environment; reduction; search_again = 0 } program world in
+    | Some all ->
+      let agrees fairness expected reduction =
+        let o = Search.run { Search.default with environment; reduction; fairness; search_again = 0 } program world in
         let verdict = said (List.assoc Property.Termination o.verdicts) in
         let reductions = String.concat ", " (Reduction.names reduction) in
         verdict = expected || QCheck2.Test.fail_reportf "%s, %s expected (%s) of %s" verdict expected reductions source
       in
-      List.for_all agrees [ Reduction.Whole; Partial_order; All ]
+      let weakly = text (judged g all) and strongly = text (judged ~divided:(strongly_fair all) g all) in
+      note weakly;
+      if strongly <> weakly then note "only strongly";
+      List.for_all (agrees Search.Weak weakly) [ Reduction.Whole; Partial_order; All ]
+      && List.for_all (agrees Search.Strong strongly) [ Reduction.Whole; All ]
       && formulas_agree source environment program g all formulas
 
 (* A repetition without any wait is refused if its text shows that. *)
@@ -260,7 +262,8 @@ let test_variety () =
     if Option.value ~default:0 (Hashtbl.find_opt found verdict) * 20 < programs then
       Alcotest.failf "too few programs for: %s" verdict
   in
-  List.iter enough [ "holds"; "violated"; "by design"; "formula holds"; "formula violated" ]
+  List.iter enough [ "holds"; "violated"; "by design"; "formula holds"; "formula violated" ];
+  if not (Hashtbl.mem found "only strongly") then Alcotest.fail "no program terminates by strong fairness only"
 
 let () =
   Alcotest.run "fairness"

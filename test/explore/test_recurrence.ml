@@ -163,7 +163,7 @@ let divided assumed possible edges =
 let scripted (g : Reference.t) =
   let edge ((t : Transition.t), into) =
     { into; step = ""; inside = false; closes = false; endless = false; part = 0; is_event = true;
-      looks = t.assumed :: t.otherwise } in
+      looks = t.assumed :: t.otherwise; owed_strongly = None } in
   Array.map (List.map edge) g.edges
 
 let is_scripted (g : Reference.t) = not (Reference.goes_round g)
@@ -211,7 +211,7 @@ let are_right g all assumed (verdict : Search.verdict) =
   in
   match verdict with
   | Holds_if needs | By_design { needs = _ :: _ as needs; _ } -> needed needs
-  | Violated { helpful = _ :: _ as helpful; _ } ->
+  | Violated { helpful = Some { recurring = _ :: _ as helpful; strong = false }; _ } ->
     note "helpful";
     (try outcome (assumed @ helpful) = Ends with Too_many -> true)
   | Holds | By_design _ | Violated _ | Unreached _ | Inconclusive _ -> true

@@ -195,6 +195,28 @@ let all =
           ( "the first vehicle alone decides whether a recruit is owed",
             {|may_all_stay_away system key vs|},
             {|may_all_stay_away system key [ List.hd vs ]|} );
+          ( "strong fairness owes failures",
+            {|| Some (Vehicle_done _) -> true | Some _ -> false
+
+|},
+            {|| Some _ -> true
+
+|} );
+          ( "strong fairness ignores that steps were left out",
+            {|if steps <> [] && not t.whole|},
+            {|if steps <> [] && t.whole|} );
+        ];
+      in_file "lib/explore/verdict/fair_cycles.ml" ~noticed_by:"explore/test_looks"
+        [
+          ( "readings change without time",
+            {|~time:(may_pass found e) moment|},
+            {|~time:(may_pass found e || i >= 0) moment|} );
+        ];
+      in_file "lib/explore/verdict/looks.ml" ~noticed_by:"explore/test_looks"
+        [
+          ( "of two moments the one that knows more is kept",
+            {|List.exists (fun other -> knows_less other way) ways|},
+            {|List.exists (fun other -> knows_less way other) ways|} );
         ];
       in_file "lib/explore/verdict/search.ml" ~noticed_by:"explore/test_agreement"
         [

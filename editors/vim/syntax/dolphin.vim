@@ -13,8 +13,9 @@ syntax keyword dolphinConstant null _
 syntax keyword dolphinTask task imcPlan action condition assert idle confirm fresh mission pick pos
 syntax keyword dolphinProcedure ignore propagate retry dismiss fail post consume poll message println release
 syntax keyword dolphinProcedure setConnectionTimeout ask pause getSupplier execute input halt onInterrupt position
-syntax keyword dolphinProcedure battery progress speed connected reading running now timeOfDay eta location polygon isNumber isString isList isMap
-syntax keyword dolphinProcedure map fence corridor along coverage expandingSquare sector spiral footprint area
+syntax keyword dolphinProcedure battery progress speed connected reading running now timeOfDay eta isNumber isString
+syntax keyword dolphinProcedure isList isMap location polygon map fence corridor along coverage expandingSquare
+syntax keyword dolphinProcedure sector spiral footprint area
 syntax keyword dolphinFleet vehicle plan answer reply field
 
 syntax match dolphinNumber '\v<\d[0-9_]*(\.\d[0-9_]*)?([eE][-+]?\d+)?>'

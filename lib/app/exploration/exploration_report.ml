@@ -142,7 +142,13 @@ let json_of_run (run : Search.run) =
     if t.assumed = [] then None
     else Some (`Assoc [ ("step", `Int (i + 1)); ("assumed", `List (List.map what t.assumed)) ])
   in
-  let helpful = if run.helpful = [] then [] else [ recurring "holds if these recur" run.helpful ] in
+  let helpful =
+    match run.helpful with
+    | None -> []
+    | Some { recurring = readings; strong } ->
+      (if readings = [] then [] else [ recurring "holds if these recur" readings ])
+      @ if strong then [ ("holds with strong fairness", `Bool true) ] else []
+  in
   let faults { Search.number; fewest } = [ ("faults", `Int number); ("fewest_faults", `Bool fewest) ] in
   let assumptions = List.filter_map Fun.id (List.mapi assumed (run.steps @ run.cycle)) in
   [ ("shortest", `Bool run.shortest); ("run", labels run.steps); ("cycle", labels run.cycle) ]

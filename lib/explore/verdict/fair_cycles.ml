@@ -17,13 +17,15 @@ type verdict =
    script, by this comparison or sensor. *)
 type choice = Code_at of Core.site | Guards_of of int list | Looking_at of string
 
-(* Of a step, by its number: see {!Space.possible}. [renews] is the places of the repeats that begin a round,
-   [valuation] that of a formula's propositions, [looks] its assumptions. A step that [chooses] is possible
-   with any readings; others wait. [choices] is the choices that it makes. Of the assumptions, by number: it [meets]
-   those whose readings its looks allow; others are [against] it, if another step of the choice meets them. *)
+(* Of a step, by its number: see {!Space.possible}. It [is_owed] by strong fairness. [renews] is the places of the
+   repeats that begin a round, [valuation] that of a formula's propositions, [looks] its assumptions. A step that
+   [chooses] is possible with any readings; others wait. [choices] is the choices that it makes. Of the assumptions, by
+   number: it [meets] those whose readings its looks allow; others are [against] it, if another step of the choice meets
+   them. *)
 type edge = {
   into : int;
   by : int;
+  is_owed : bool;
   is_event : bool;
   rounds : Task_rules.round list;
   renews : int list list;
@@ -35,9 +37,10 @@ type edge = {
   against : (int * choice) list;
 }
 
-(* The steps that are possible and that no vehicle or person may prevent by staying away, and the successors of the
-   followed ones. At a node that [waits] time may pass: each step that needs no event may be impossible there. *)
-type node = { possible : int list; waits : bool; edges : edge list }
+(* The steps that are possible and that no vehicle or person may prevent by staying away, those that strong fairness
+   owes, and the successors of the followed ones. At a node that [waits] time may pass: each step that needs no event
+   may be impossible there. *)
+type node = { possible : int list; owed : int list; waits : bool; edges : edge list }
 
 type t = {
   program : Core.program;
@@ -46,20 +49,22 @@ type t = {
   steps : (int, Space.possible) Hashtbl.t;  (* by number *)
   nodes : (int, node) Hashtbl.t;  (* by state *)
   automaton : Monitor.t option;  (* then what is searched is pairs: see {!Formulas} below *)
+  moments : Moments.t;  (* nodes with moments, which have numbers below 0 *)
   is_open : bool;  (* whether sensors, or the date, may show several things *)
   whole : bool;  (* whether no steps are left out *)
   assumed : World.assumption list array;
+  strong : bool;  (* whether fairness is strong *)
   mutable active : int list;  (* the assumptions that count, by number *)
   mutable unsure : bool;  (* whether omitted steps may matter to the property *)
 }
 
-let create ?automaton ?(whole = true) ?(assumed = []) program graph =
+let create ?automaton ?(whole = true) ?(assumed = []) ?(strong = false) program graph =
   let reads = program.Core.reads_sensors || program.reads_now in
   let is_open = reads && World.is_open (Space.world (State_graph.system graph)) in
   let assumed = Array.of_list (if is_open then assumed else []) in
   let active = List.init (Array.length assumed) Fun.id in
-  { program; graph; is_open; whole; assumed; active; unsure = false; numbers = Hashtbl.create 100;
-    steps = Hashtbl.create 100; nodes = Hashtbl.create 1_000; automaton }
+  { program; graph; is_open; whole; assumed; strong; active; unsure = false; numbers = Hashtbl.create 100;
+    steps = Hashtbl.create 100; nodes = Hashtbl.create 1_000; automaton; moments = Moments.create () }
 
 let number t (p : Space.possible) =
   let id = p.at @ (-2 :: p.name) in
@@ -103,6 +108,11 @@ let chooses (Task_rules.Step { offer; _ }) =
   match offer with
   | Start _ | Perform _ | Guard_either _ | Measure _ | Make _ | End_of _ | Expiry_of _ | Answer_to _ -> true
   | Check _ | Guard_values _ | Guard_false _ | Allocate _ | Recruit_for _ -> false
+
+(* Strong fairness owes ends of plans, and steps that only an event can prevent: a guard may be prevented by another one
+   that is chosen. *)
+let is_owed_strongly (p : Space.possible) =
+  match p.step.event with None -> chooses p.step.source | Some (Vehicle_done _) -> true | Some _ -> false
 
 (* {1 Choices} *)
 
@@ -151,9 +161,10 @@ let with_assumptions t ways edges =
 
 let examined t i =
   State_graph.visiting t.graph i (fun key arrived visitor ->
-      let found = ref [] and edges = ref [] and waits = ref true and ways = ref [] in
+      let found = ref [] and owed = ref [] and edges = ref [] and waits = ref true and ways = ref [] in
       let possible (p : Space.possible) =
         if p.step.event = None && (chooses p.step.source || not p.depends) then waits := false;
+        if is_owed_strongly p then owed := number t p :: !owed;
         found := (number t p, p) :: !found
       in
       let taken (p : Space.possible) rounds layers looks =
@@ -163,13 +174,15 @@ let examined t i =
         ways := (choices, looks) :: !ways;
         let arrive into valuation =
           let e =
-            { into; by; is_event; rounds; renews; valuation; looks; chooses; choices; meets = []; against = [] } in
+            { into; by; is_owed = is_owed_strongly p; is_event; rounds; renews; valuation; looks; chooses; choices;
+              meets = []; against = [] } in
           edges := e :: !edges
         in
         arrived := arrive
       in
       Space.examine (State_graph.system t.graph) key ~possible ~taken visitor;
-      { possible = certain t key !found; waits = !waits; edges = with_assumptions t !ways (List.rev !edges) })
+      let edges = with_assumptions t !ways (List.rev !edges) in
+      { possible = certain t key !found; owed = List.sort_uniq Int.compare !owed; waits = !waits; edges })
 
 (* The number of no step of a task. *)
 let of_script = -1
@@ -183,8 +196,8 @@ let scripted t i =
         ways := (choices, looks) :: !ways;
         let arrive into valuation =
           let e =
-            { into; by = of_script; is_event; rounds = []; renews = []; valuation; looks; chooses = true; choices;
-              meets = []; against = [] } in
+            { into; by = of_script; is_owed = false; is_event; rounds = []; renews = []; valuation; looks;
+              chooses = true; choices; meets = []; against = [] } in
           edges := e :: !edges
         in
         arrived := arrive
@@ -195,7 +208,7 @@ let scripted t i =
         | Waiting _ -> true
         | Script _ | Executing _ | Ended _ -> false
       in
-      { possible = []; waits; edges = with_assumptions t !ways (List.rev !edges) })
+      { possible = []; owed = []; waits; edges = with_assumptions t !ways (List.rev !edges) })
 
 let state_executes t i = Space.executes (State_graph.system t.graph) (State_graph.load t.graph i).(0)
 
@@ -225,14 +238,19 @@ let pairs_of t automaton states =
   in
   List.concat_map of_state states
 
+let without_moment t i = if i >= 0 then i else (Moments.find t.moments i).i
+
 let split t i =
+  let i = without_moment t i in
   match t.automaton with
   | None -> (i, 0)
   | Some automaton ->
     let n = Monitor.automaton_states automaton in
     (i / n, i mod n)
 
-let node t i =
+let state_of t i = fst (split t i)
+
+let node_of_pair t i =
   match t.automaton with
   | None -> node_of_state t i
   | Some automaton ->
@@ -241,7 +259,22 @@ let node t i =
     let paired e = List.map (fun into -> { e with into }) (pairs_after automaton q e.into e.valuation) in
     { found with edges = List.concat_map paired found.edges }
 
-let executes t i = state_executes t (fst (split t i))
+(* Before an event, and where all waits for readings, time may pass. *)
+let may_pass node e = e.is_event || node.waits
+
+let node t i =
+  if i >= 0 then node_of_pair t i
+  else
+    let { Moments.component; i; moment } = Moments.find t.moments i in
+    let found = node_of_pair t i in
+    let at e =
+      let into = Moments.number t.moments component e.into in
+      List.map (fun moment -> { e with into = into moment })
+        (Moments.after component ~time:(may_pass found e) moment e.looks)
+    in
+    { found with edges = List.concat_map at found.edges }
+
+let executes t i = state_executes t (state_of t i)
 
 (* The requirements on a cycle. *)
 let acceptance t =
@@ -382,17 +415,62 @@ let unmet t edges =
   let is_unmet ((i, _) as pair) = List.mem i t.active && not (List.mem pair met) in
   List.filter is_unmet (pairs (fun e -> e.against))
 
+(* The steps that strong fairness owes at some of these nodes, and that are taken at none. *)
+let missed t edges members =
+  let is_taken k = List.exists (fun e -> e.is_owed && e.by = k) edges in
+  let owed = List.sort_uniq Int.compare (List.concat_map (fun i -> (node t i).owed) members) in
+  if t.strong then List.filter (fun k -> not (is_taken k)) owed else []
+
+(* More nodes with moments are not searched. *)
+let most_moments = 100_000
+
 (* Those that a run may repeat without end so that it meets the assumptions: without the steps against those that the
-   whole does not meet, for no part of it does. *)
-let rec recurring t ~tick part states =
+   whole does not meet, for no part of it does; and so without the nodes at which a step is owed by strong fairness that
+   is not taken; it may be taken there, if steps were left out. *)
+let rec recurring_at_any_moment t ~tick part states =
   let divided (part, members) =
-    match unmet t (edges_inside t part members) with
-    | [] -> [ (part, members) ]
-    | pairs ->
+    let edges = edges_inside t part members in
+    match unmet t edges, missed t edges members with
+    | [], [] -> [ (part, members) ]
+    | pairs, steps ->
+      if steps <> [] && not t.whole then t.unsure <- true;
       let keeps e = part.keeps e && not (List.exists (fun pair -> List.mem pair pairs) e.against) in
-      recurring t ~tick { part with keeps } members
+      let within i = part.within i && not (List.exists (fun k -> List.mem k (node t i).owed) steps) in
+      recurring_at_any_moment t ~tick { within; keeps } (List.filter within members)
   in
   List.concat_map divided (lasting t ~tick part states)
+
+(* Symmetry may exchange the vehicles of readings. *)
+let is_symmetric t = Space.exchanges (State_graph.system t.graph)
+
+(* The same without the runs on which a look contradicts another one though no time has passed. Steps that were left
+   out may let time pass in between. *)
+let recurring t ~tick part states =
+  let concerns = Looks.at_one_moment t.program in
+  let refined (part, members) =
+    let looks = List.map (fun e -> e.looks) (edges_inside t part members) in
+    if (not t.is_open) || Looks.agree concerns looks then [ (part, members) ]
+    else begin
+      let component = Moments.component (Looks.contested concerns looks) in
+      let is_in = inside members in
+      let within i =
+        let i = without_moment t i in
+        is_in i && part.within i
+      in
+      let tick () =
+        tick ();
+        if Moments.count component > most_moments then raise_notrace Exit
+      in
+      let states = List.map (fun i -> Moments.number t.moments component i Looks.beginning) members in
+      match recurring_at_any_moment t ~tick { part with within } states with
+      | [] ->
+        if (not t.whole) || is_symmetric t then t.unsure <- true;
+        []
+      | found -> found
+      | exception Exit -> [ (part, members) ]
+    end
+  in
+  List.concat_map refined (recurring_at_any_moment t ~tick part states)
 
 (* Those that a run may repeat in no time. *)
 let spinning t ~tick part states =
@@ -443,7 +521,8 @@ let rec last = function [ x ] -> x | _ :: rest -> last rest | [] -> invalid_arg 
    looks do not agree, time passes on it. *)
 let around ?start t part members =
   let edges = kept_inside t part members in
-  let start = match start with Some start -> start | None -> List.fold_left min max_int members in
+  let earlier i j = if without_moment t i <= without_moment t j then i else j in
+  let start = match start with Some start -> start | None -> List.fold_left earlier (List.hd members) members in
   let graph = cycle_graph edges in
   let to_goal from goal =
     if goal from then []
@@ -496,9 +575,23 @@ let around ?start t part members =
 
 let lasso ?start t part members =
   let start, cycle = around ?start t part members in
-  { stem = State_graph.path t.graph start; around = start :: List.map (fun e -> e.into) cycle }
+  let states = List.map (without_moment t) (start :: List.map (fun e -> e.into) cycle) in
+  { stem = State_graph.path t.graph (without_moment t start); around = states }
 
 (* {1 Cycles of the script} *)
+
+(* Whether no look contradicts another one around these [hops] without any time in between: with the looks of each
+   round before, which two rounds show. *)
+let is_of_moments t states hops =
+  let concerns = Looks.at_one_moment t.program in
+  let contested = Looks.contested concerns (List.concat_map (List.map (fun e -> e.looks)) hops) in
+  let component = Moments.component contested in
+  let hop moments (i, edges) =
+    let after moment e = Moments.after component ~time:(may_pass (node_of_state t i) e) moment e.looks in
+    List.concat_map (fun moment -> List.concat_map (after moment) edges) moments |> List.sort_uniq Looks.compare_moments
+  in
+  let round moments = List.fold_left hop moments (List.combine states hops) in
+  round (round [ Looks.beginning ]) <> []
 
 (* Whether some run repeats these states without end, and meets the assumptions. *)
 let may_last t states =
@@ -509,7 +602,11 @@ let may_last t states =
   let passes_time =
     List.exists (List.exists (fun e -> e.is_event)) hops || List.exists (fun i -> (node_of_state t i).waits) states in
   (* One of several steps between two states may be taken now, and another the next time. *)
-  if passes_time then unmet t (List.concat hops) = [] && agree (Looks.of_date t.program) choice
+  if passes_time then
+    unmet t (List.concat hops) = []
+    && missed t (List.concat hops) states = []
+    && agree (Looks.of_date t.program) choice
+    && is_of_moments t (List.filteri (fun k _ -> k < List.length hops) states) hops
   else agree (Looks.at_one_moment t.program) (fun e -> e.looks)
 
 let whole = { within = (fun _ -> true); keeps = (fun _ -> true) }
@@ -544,7 +641,7 @@ let first_script_cycle t ~tick =
 (* With symmetry of vehicles a name need not be the same vehicle's in all states of the script. *)
 let script_cycle t ~tick =
   match first_script_cycle t ~tick with
-  | Some { around; _ } when t.is_open && not (may_last t around) ->
+  | Some { around; _ } when (t.is_open || t.strong) && not (may_last t around) ->
     if Space.has_vehicle_symmetry (State_graph.system t.graph) then begin
       t.unsure <- true;
       None
@@ -579,12 +676,13 @@ let left_by t members ~done_too =
   let inputs =
     match members with
     | [] -> []
-    | i :: _ -> Space.inputs_at (State_graph.system t.graph) (snd (State_graph.state t.graph i))
+    | i :: _ -> Space.inputs_at (State_graph.system t.graph) (snd (State_graph.state t.graph (state_of t i)))
   in
   let inputs = List.map (Printf.sprintf "the input '%s'") inputs in
   List.sort_uniq String.compare (inputs @ List.filter_map told (List.concat_map leaving members))
 
 let by_design t members =
+  let members = List.sort_uniq Int.compare (List.map (without_moment t) members) in
   let edges = kept_inside t (of_tasks t (fun _ -> true)) members in
   let endless = function Task_rules.Endless again -> Some again.site | Asked _ | Retried _ -> None in
   let retried = function Task_rules.Retried site -> Some site | Endless _ | Asked _ -> None in
@@ -645,15 +743,13 @@ let needed t active found =
   in
   List.fold_left drop active active
 
-(* Symmetry may exchange the vehicles of readings. *)
-let is_symmetric t = Space.exchanges (State_graph.system t.graph)
-
 type judgement = { verdict : verdict; needs : World.assumption list list }
 
-let judge program graph ~all:whole ~assumed =
-  let t = create ~whole ~assumed program graph in
+let judge ?(strong = false) program graph ~all:whole ~assumed =
+  let t = create ~whole ~assumed ~strong program graph in
   let all = t.active in
   match under t [] with
+  | (Ends | Goes_on _ | By_design _) when strong && is_symmetric t -> { verdict = Unsure; needs = [] }
   | (Ends | Spins _ | Unsure) as verdict -> { verdict; needs = [] }
   | (Goes_on _ | By_design _) as verdict when all = [] -> { verdict; needs = [] }
   | Goes_on _ when is_symmetric t -> { verdict = Unsure; needs = [] }
@@ -674,7 +770,7 @@ let most_candidates = 8
 let candidates t ~tick =
   let other_ways i e =
     let shares e' = List.exists (fun c -> List.mem c e'.choices) e.choices in
-    let ways = List.filter shares (node_of_state t i).edges in
+    let ways = List.filter shares (node_of_state t (state_of t i)).edges in
     let readings = List.concat_map (fun e' -> Looks.readings (concerns t) e'.looks) ways in
     List.filter (fun a -> not (Looks.may_show (concerns t) [ a ] e.looks)) readings
   in
@@ -685,30 +781,56 @@ let candidates t ~tick =
   let found = List.concat_map of_part (recurring t ~tick whole (State_graph.all t.graph)) in
   List.sort_uniq World.compare_assumption found
 
-let helpful program graph ~all:whole ~assumed =
-  let t = create ~whole ~assumed program graph in
-  let tick = State_graph.ticker graph "looking for assumptions" in
-  if (not t.is_open) || is_symmetric t then []
-  else
-    let found = List.map (fun a -> [ a ]) (candidates t ~tick) in
-    if found = [] || List.length found > most_candidates then []
-    else
-      let given = List.length assumed in
-      let t = create ~whole ~assumed:(assumed @ found) program graph in
-      let always = List.init given Fun.id and further = List.mapi (fun i _ -> given + i) found in
-      let ends active = under t active = Ends in
-      let chosen =
-        match List.find_opt (fun i -> ends (always @ [ i ])) further with
-        | Some i -> [ i ]
-        | None when ends (always @ further) ->
-          let drop kept i =
-            let rest = List.filter (fun j -> j <> i) kept in
-            if ends (always @ rest) then rest else kept
-          in
-          List.fold_left drop further further
-        | None -> []
+type help = { recurring : World.assumption list list; strong : bool }
+type advice = Help of help | No_help | In_more_states
+
+(* As few of the readings [found] as are known to do. *)
+let helpful_readings program graph ~whole ~assumed ~strong found =
+  let given = List.length assumed in
+  let t = create ~whole ~strong ~assumed:(assumed @ found) program graph in
+  let always = List.init given Fun.id and further = List.mapi (fun i _ -> given + i) found in
+  let ends active = under t active = Ends in
+  let chosen =
+    match List.find_opt (fun i -> ends (always @ [ i ])) further with
+    | Some i -> Some [ i ]
+    | None when ends (always @ further) ->
+      let drop kept i =
+        let rest = List.filter (fun j -> j <> i) kept in
+        if ends (always @ rest) then rest else kept
       in
-      List.map (Array.get t.assumed) chosen
+      Some (List.fold_left drop further further)
+    | None -> None
+  in
+  Option.map (fun chosen -> { recurring = List.map (Array.get t.assumed) chosen; strong }) chosen
+
+let helpful ?(strong = false) program graph ~all:whole ~assumed =
+  let t = create ~whole ~assumed ~strong program graph in
+  let tick = State_graph.ticker graph "looking for assumptions" in
+  let found = if t.is_open then List.map (fun a -> [ a ]) (candidates t ~tick) else [] in
+  let readings ~strong =
+    if found = [] || List.length found > most_candidates then None
+    else helpful_readings program graph ~whole ~assumed ~strong found
+  in
+  let strongly () =
+    let t = create ~whole ~assumed ~strong:true program graph in
+    under t t.active
+  in
+  let or_in_more_states = function
+    | Some help -> Help help
+    | None when whole -> No_help
+    | None -> In_more_states
+  in
+  if is_symmetric t then In_more_states
+  else if strong then or_in_more_states (readings ~strong)
+  else
+    match readings ~strong:false with
+    | Some help -> Help help
+    | None -> (
+        match strongly () with
+        | Ends -> Help { recurring = []; strong = true }
+        | Spins _ -> No_help
+        | (Goes_on _ | By_design _) when not t.is_open -> No_help
+        | Goes_on _ | By_design _ | Unsure -> or_in_more_states (readings ~strong:true))
 
 (* {1 Formulas} *)
 
@@ -719,7 +841,7 @@ let shown ?start t part members =
 (* An accepting cycle through the script, in which no step stays possible all around. *)
 let accepting_through_script t automaton ~parts ~tick =
   if not (Space.may_cycle_in_script (State_graph.system t.graph)) then None
-  else if t.is_open then
+  else if t.is_open || t.strong then
     let found (part, members) =
       if is_accepting t members then
         Option.map (fun start -> shown ~start t part members) (script_node t members)
@@ -769,8 +891,8 @@ let violation_under t automaton ~fair active : Breadth_first.violation option =
   let of_found (start, cycle) = Breadth_first.Around { stem = State_graph.path graph start; cycle } in
   Option.map of_found (first ways)
 
-let violation program graph automaton ~fair ~assumed =
-  let t = create ~automaton ~assumed:(if fair then assumed else []) program graph in
+let violation ?(strong = false) program graph automaton ~fair ~assumed =
+  let t = create ~automaton ~assumed:(if fair then assumed else []) ~strong program graph in
   let all = t.active in
   let holds active = violation_under t automaton ~fair active = None in
   let drop kept i =

@@ -22,18 +22,29 @@ type verdict =
 type judgement = { verdict : verdict; needs : Dolphin_semantics.World.assumption list list }
 
 val judge :
+  ?strong:bool ->
   Dolphin_semantics.Core.program -> State_graph.t -> all:bool ->
   assumed:Dolphin_semantics.World.assumption list list -> judgement
 (** [judge p g ~all ~assumed] is about all runs of [p] that meet [assumed], as of
     {!Dolphin_environment.Environment.options}, [g] being searched; [all] is whether no steps were left out in it. Then
-    it is [Unsure] only where symmetry was used.
+    it is [Unsure] only where symmetry was used. With [strong], [false] by default, runs are left out on which the
+    end of a plan, or a step that only an event can prevent, is possible infinitely often and taken finitely often.
     @raise Dolphin_checker.Limits.Stop *)
 
+(** Assumptions on readings, and whether strong fairness is needed besides. *)
+type help = { recurring : Dolphin_semantics.World.assumption list list; strong : bool }
+
+type advice =
+  | Help of help
+  | No_help  (** none is known *)
+  | In_more_states  (** none is found in this graph, but in one of all states there may be some *)
+
 val helpful :
+  ?strong:bool ->
   Dolphin_semantics.Core.program -> State_graph.t -> all:bool ->
-  assumed:Dolphin_semantics.World.assumption list list -> Dolphin_semantics.World.assumption list list
-(** [helpful p g ~all ~assumed] is assumptions with which every fair run would end, where {!judge} finds one that
-    does not; as few as were found, none if symmetry was used or no such assumption is known.
+  assumed:Dolphin_semantics.World.assumption list list -> advice
+(** [helpful p g ~all ~assumed] is assumptions with which every fair run would end, where {!judge} with [strong] finds
+    one that does not; as few as were found.
     @raise Dolphin_checker.Limits.Stop *)
 
 val may_go_round : Dolphin_semantics.Core.program -> State_graph.t -> lasso -> bool
@@ -41,6 +52,7 @@ val may_go_round : Dolphin_semantics.Core.program -> State_graph.t -> lasso -> b
     without any time in between ({!Looks}). *)
 
 val violation :
+  ?strong:bool ->
   Dolphin_semantics.Core.program ->
   State_graph.t ->
   Dolphin_ltl.Monitor.t ->

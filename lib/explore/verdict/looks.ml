@@ -85,6 +85,33 @@ let kept (concerns : concerns) known (looks : t) =
 
 let admits concerns known looks = kept concerns known looks <> []
 
+(* {2 Moments} *)
+
+module Assumptions = Set.Make (struct
+    type t = World.assumption
+
+    let compare = World.compare_assumption
+  end)
+
+type moment = World.assumption list
+
+let compare_moments = List.compare World.compare_assumption
+let beginning : moment = []
+
+(* What is known by some of the ways, but by no other that knows less. *)
+let after concerns (moment : moment) looks : moment list =
+  let lists = kept concerns { nothing with holds = moment } looks in
+  let ways = List.map (fun assumed -> Assumptions.of_list (assumed @ moment)) lists in
+  let knows_less a b = Assumptions.subset a b && not (Assumptions.equal a b) in
+  let least = List.filter (fun way -> not (List.exists (fun other -> knows_less other way) ways)) ways in
+  List.map Assumptions.elements (List.sort_uniq Assumptions.compare least)
+
+let contested concerns all : concerns =
+  let found = Assumptions.of_list (List.concat_map (fun looks -> List.filter concerns (List.concat looks)) all) in
+  let is_contested a = Assumptions.exists (World.contradict a) found in
+  let contested = Assumptions.filter is_contested found in
+  fun a -> Assumptions.mem a contested
+
 type outcome = Agree | Ask of known * known
 
 (* Each look takes the first of its lists that agrees with those before. If none does, its first assumption that is

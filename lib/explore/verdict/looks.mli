@@ -60,6 +60,26 @@ val nothing : known
 val admits : concerns -> known -> t -> bool
 (** [admits c k looks] is whether some list of [looks] agrees with [k], as far as [c] concerns it. *)
 
+(** {2:moments Moments} *)
+
+type moment = World.assumption list
+(** The assumptions that were looked at since time has passed, in order and each once. *)
+
+val compare_moments : moment -> moment -> int
+(** A total order. *)
+
+val beginning : moment
+(** None: time has just passed. *)
+
+val after : concerns -> moment -> t -> moment list
+(** [after c m looks] is the moments that begin with [m] and have [looks], as far as [c] concerns them: [[]] if these
+    contradict [m]. One that knows more than another is left out, as all that is possible at it is so at the other. *)
+
+val contested : concerns -> t list -> concerns
+(** [contested c all] is those assumptions of [all] that [c] concerns and that contradict another of these. *)
+
+(** {2:many Many looks} *)
+
 (** Whether many looks agree. *)
 type outcome =
   | Agree  (** all can be of one moment *)

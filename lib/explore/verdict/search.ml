@@ -4,7 +4,7 @@ open Dolphin_environment
 open Dolphin_checker
 
 type walks = { number : int; seed : int }
-type fairness = Weak | No_fairness
+type fairness = Weak | Strong | No_fairness
 
 type options = {
   environment : Environment.options;
@@ -49,7 +49,7 @@ type run = {
   shortest : bool;
   decided : int option;
   faults : faults option;
-  helpful : World.assumption list list;
+  helpful : Fair_cycles.help option;
 }
 
 type verdict =
@@ -134,7 +134,7 @@ let told verdict = bounded ~stopped:(fun bound -> Inconclusive bound) verdict
 (* {1 Verdicts} *)
 
 let run_of ?decided ?(shortest = false) ~steps ~cycle () =
-  { steps; cycle; shortest; decided; faults = None; helpful = [] }
+  { steps; cycle; shortest; decided; faults = None; helpful = None }
 
 let termination_of_script ~tick graph ~shortest =
   let run ({ stem; around } : Breadth_first.lasso) =
@@ -146,28 +146,38 @@ let termination_of_script ~tick graph ~shortest =
 
 let is_symmetric graph = Space.exchanges (State_graph.system graph)
 
-(* Assumptions with which it would hold; they are looked for as long as shortest runs are. *)
+(* Assumptions with which it would hold; they are looked for as long as shortest runs are. If steps or vehicles were
+   left out, all states may show more. *)
 let helpful x (options : options) graph =
   let by_order = Reduction.by_order options.reduction in
-  let all = not by_order in
   let assumed = options.environment.recurring in
-  let search graph =
-    if State_graph.stopped graph <> None then [] else Fair_cycles.helpful x.program graph ~all ~assumed in
-  let reads = x.program.reads_sensors || x.program.reads_now in
+  let search ~all graph =
+    if State_graph.stopped graph <> None then Fair_cycles.No_help
+    else Fair_cycles.helpful x.program graph ~all ~assumed ~strong:(options.fairness = Strong)
+  in
   let most = Option.fold ~none:options.search_again ~some:(min options.search_again) options.limits.max_states in
+  let again reduction =
+    let limits = { options.limits with max_states = Some most } in
+    let options = { options with reduction; invariants = []; limits } in
+    with_graph ~phase:"looking for assumptions" { x with symmetry = Symmetry.none } options (fun graph ->
+        State_graph.run graph;
+        search ~all:(not (Reduction.by_order reduction)) graph)
+  in
+  let rec first : (unit -> Fair_cycles.advice) list -> _ = function
+    | [] -> None
+    | search :: others -> (
+        match search () with Help help -> Some help | No_help -> None | In_more_states -> first others)
+  in
   match
-    if (not reads) || State_graph.count graph > most then []
-    else if is_symmetric graph then
-      let reduction = if by_order then Reduction.Partial_order else Whole in
-      let limits = { options.limits with max_states = Some most } in
-      let options = { options with reduction; invariants = []; limits } in
-      with_graph ~phase:"looking for assumptions" { x with symmetry = Symmetry.none } options (fun graph ->
-          State_graph.run graph;
-          search graph)
-    else search graph
+    if State_graph.count graph > most then None
+    else
+      first
+        ([ (fun () -> search ~all:(not by_order) graph) ]
+         @ (if by_order && is_symmetric graph then [ (fun () -> again Partial_order) ] else [])
+         @ [ (fun () -> again Whole) ])
   with
   | found -> found
-  | exception (Limits.Stop _ | Environment.Unclear _ | Out_of_memory) -> []
+  | exception (Limits.Stop _ | Environment.Unclear _ | Out_of_memory) -> None
 
 (* The places where a task may run without end. *)
 let rec termination_of_rounds x (options : options) graph =
@@ -182,12 +192,14 @@ let rec termination_of_rounds x (options : options) graph =
   | Some bound -> Inconclusive bound
   | None -> (
       let { Fair_cycles.verdict; needs } =
-        Fair_cycles.judge x.program graph ~all ~assumed:options.environment.recurring in
+        Fair_cycles.judge x.program graph ~all ~assumed:options.environment.recurring
+          ~strong:(options.fairness = Strong)
+      in
       match verdict with
       | Ends when needs <> [] -> Holds_if needs
       | Ends -> Holds
       | Goes_on lasso -> violated lasso ~helpful:(helpful x options graph)
-      | Spins lasso -> violated lasso ~helpful:[]
+      | Spins lasso -> violated lasso ~helpful:None
       | By_design { repeats; retries; left_by } -> By_design { repeats; retries; left_by; needs }
       | Unsure -> in_more_states x options graph)
 
@@ -221,7 +233,8 @@ let termination ~tick x (options : options) graph ~shortest =
     match State_graph.termination graph ~exact:(State_graph.is_exact graph) with
     | Holds | Inconclusive _ -> by_script ()
     | Violated { stem; around } ->
-      if not (Fair_cycles.may_go_round x.program graph { stem; around }) || options.environment.recurring <> [] then
+      let has_assumptions = options.environment.recurring <> [] || options.fairness = Strong in
+      if has_assumptions || not (Fair_cycles.may_go_round x.program graph { stem; around }) then
         termination_of_rounds x options graph
       else
         match by_script () with
@@ -344,15 +357,16 @@ let of_product x (options : options) graph labelling (found : _ Breadth_first.ve
     let found = Counterexample.of_violation ~tick options.environment x.program x.world graph labelling violation in
     run_of ?decided:found.decided ~shortest:(found.decided <> None) ~steps:found.steps ~cycle:found.cycle ()
   in
-  let fair = options.fairness = Weak and assumed = options.environment.recurring in
+  let fair = options.fairness <> No_fairness and strong = options.fairness = Strong in
+  let assumed = options.environment.recurring in
   let is_kept stem cycle =
     let around = List.nth stem (List.length stem - 1) :: List.map fst cycle in
-    not (fair && (assumed <> [] || Space.goes_round (State_graph.system graph)))
+    not (fair && (strong || assumed <> [] || Space.goes_round (State_graph.system graph)))
     && Fair_cycles.may_go_round x.program graph { stem; around }
   in
   match found with
   | Violated (Breadth_first.Around { stem; cycle }) when not (is_kept stem cycle) -> (
-      match Fair_cycles.violation x.program graph (Labelling.monitor labelling) ~fair ~assumed with
+      match Fair_cycles.violation x.program graph (Labelling.monitor labelling) ~strong ~fair ~assumed with
       | Some violation, _ -> showing (fun () -> run violation)
       | None, [] -> Holds
       | None, needs -> Holds_if needs)
@@ -657,7 +671,14 @@ let faults_text { number; _ } =
 
 let pp_verdict (program : Core.program) ppf (property, verdict) =
   let print format = Format.fprintf ppf format in
-  let with_help found = if found.helpful <> [] then print "; holds %a" pp_needs found.helpful in
+  let with_help found =
+    let help { Fair_cycles.recurring; strong } =
+      print "; holds %s" (if strong then "with --fairness strong" else "");
+      if strong && recurring <> [] then print ", ";
+      if recurring <> [] then pp_needs ppf recurring
+    in
+    Option.iter help found.helpful
+  in
   let steps n = if n = 1 then "1 step" else Printf.sprintf "%d steps" n in
   let with_faults { faults; _ } = Option.fold faults ~none:"" ~some:(fun faults -> ", " ^ faults_text faults) in
   print "%a: " Property.pp property;

@@ -32,6 +32,8 @@ type walks = { number : int; seed : int }
 (** Of which runs formulas are asked. *)
 type fairness =
   | Weak  (** runs that are fair as for {!Property.Termination}, and endless runs without any event *)
+  | Strong  (** those of them that take infinitely often each end of a plan, and each step that only an event can
+                prevent, if it is possible infinitely often *)
   | No_fairness  (** all *)
 
 (** The questions of an exploration, the way of its search, and its limits. *)
@@ -58,7 +60,7 @@ type options = {
   limits : Limits.t;
   invariants : Condition.t list;
   formulas : Temporal.t list;  (** for each, states are explored again, after all others are forgotten *)
-  fairness : fairness;  (** [Weak] by default *)
+  fairness : fairness;  (** [Weak] by default; [Strong] is for termination, too, and needs all states *)
 }
 
 val default : options
@@ -87,8 +89,9 @@ type run = {
   (** after how many steps a formula is known not to hold, whatever follows, or if the run rests there; then
       [shortest] speaks of these steps. [None]: the cycle violates it, or no formula is asked *)
   faults : faults option;  (** by {!Fewest_faults}; [None] from {!run} *)
-  helpful : World.assumption list list;
-  (** of termination: assumptions on readings ({!Environment.options}) with which it would hold, if some are known *)
+  helpful : Fair_cycles.help option;
+  (** of termination: assumptions on readings ({!Environment.options}), and perhaps strong fairness, with which it
+      would hold, if some are known *)
 }
 
 (** The verdict on one property. [Unreached] is of {!Property.All_reached}: the pieces that no run reaches. *)

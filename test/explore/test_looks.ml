@@ -294,11 +294,25 @@ let test_formulas () =
   Alcotest.(check string) "date" "holds" (formula (kept "now()") stays ~fairness:No_fairness);
   Alcotest.(check string) "battery" "violated" (formula (kept "battery(v)") stays ~fairness:Weak)
 
+let test_moments () =
+  let low = World.Claim ("battery(a) < 0.3", true) and not_low = World.Claim ("battery(a) < 0.3", false) in
+  let other = World.Claim ("battery(b) < 0.3", true) in
+  let check what moment looks expected =
+    let found = Looks.after (fun _ -> true) moment looks in
+    Alcotest.(check bool) what true (List.equal (fun a b -> Looks.compare_moments a b = 0) found expected)
+  in
+  check "a look is kept" Looks.beginning [ [ low ] ] [ [ low ] ];
+  check "a contradiction" [ not_low ] [ [ low ] ] [];
+  check "one of two lists" [ not_low ] [ [ low ]; [ other ] ] (Looks.after (fun _ -> true) [ not_low ] [ [ other ] ]);
+  check "the moment that knows less" [ low ] [ [ other; low ]; [ low ] ] [ [ low ] ];
+  check "neither knows less" Looks.beginning [ [ low ]; [ other ] ] [ [ low ]; [ other ] ]
+
 let () =
   let case name f = Alcotest.test_case name `Quick f in
   Alcotest.run "looks"
     [ ("tasks", List.map (fun (text, expected) -> case text (test_example ("execute " ^ text, expected))) examples);
       ("scripts", List.map (fun (text, expected) -> case text (test_example (text, expected))) scripts);
+      ("moments", [ case "after a step" test_moments ]);
       ("formulas", [ case "cycles that no world has" test_formulas ]);
       ("random programs",
        [ case "a spin is one of some world" test_random; case "scripts go round as worlds do" test_scripts; case "there are programs of both kinds" test_variety ]) ]

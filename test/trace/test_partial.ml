@@ -31,13 +31,13 @@ let ends = [ "start"; "done"; "fail" ]
 let examples = List.filter (fun name -> name <> "priorities") Runs.examples
 let runs = lazy (List.map (fun name -> Runs.run ~period:1e9 name) examples)
 
-let all_possible observed () =
+let all_possible ?(without = []) observed () =
   let check (r : Runs.t) =
     match Runs.check_text r (partial ~observed r.journal) with
     | Possible { over = true; _ } -> ()
     | verdict -> Alcotest.failf "%s: %s" r.name (show verdict)
   in
-  List.iter check (Lazy.force runs)
+  List.iter check (List.filter (fun (r : Runs.t) -> not (List.mem r.name without)) (Lazy.force runs))
 
 (* Traces that no run of the program can have. *)
 let impossible name r text lines =
@@ -107,7 +107,8 @@ let () =
     [ ( "partial",
         [ case "labels of all examples" (all_possible []);
           case "starts and ends of all examples" (all_possible ends);
-          case "only starts" (all_possible [ "start" ]);
+          (* In each of these so many steps are hidden that it takes longer than all others. *)
+          case "only starts" (all_possible [ "start" ] ~without:[ "rotation"; "recruit" ]);
           case "what is no trace of a run" wrong;
           case "beginnings" beginnings;
           case "failures" failures;

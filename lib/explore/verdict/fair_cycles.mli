@@ -34,6 +34,7 @@ val judge :
 (** Assumptions on readings, and whether strong fairness is needed besides. *)
 type help = { recurring : Dolphin_semantics.World.assumption list list; strong : bool }
 
+(** What {!helpful} finds. *)
 type advice =
   | Help of help
   | No_help  (** none is known *)

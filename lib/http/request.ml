@@ -17,30 +17,11 @@ let parameter r name = List.assoc_opt name r.query
 
 (* {1 Targets} *)
 
-let digit c =
-  match c with
-  | '0' .. '9' -> Some (Char.code c - 48)
-  | 'a' .. 'f' -> Some (Char.code c - 87)
-  | 'A' .. 'F' -> Some (Char.code c - 55)
-  | _ -> None
-
 let decoded ~plus text =
-  let buffer = Buffer.create (String.length text) in
-  let rec from i =
-    if i = String.length text then Ok (Buffer.contents buffer)
-    else
-      match text.[i] with
-      | '%' when i + 2 < String.length text -> (
-          match digit text.[i + 1], digit text.[i + 2] with
-          | Some a, Some b ->
-            Buffer.add_char buffer (Char.chr ((16 * a) + b));
-            from (i + 3)
-          | _, _ -> Error (Malformed "a percent sign without two digits"))
-      | '%' -> Error (Malformed "a percent sign without two digits")
-      | '+' when plus -> Buffer.add_char buffer ' '; from (i + 1)
-      | c -> Buffer.add_char buffer c; from (i + 1)
-  in
-  from 0
+  let text = if plus then String.map (function '+' -> ' ' | c -> c) text else text in
+  match Dolphin_numerals.Percent_encoding.decoded text with
+  | Some text -> Ok text
+  | None -> Error (Malformed "a percent sign without two digits")
 
 let rec each f = function
   | [] -> Ok []

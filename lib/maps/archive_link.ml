@@ -1,26 +1,9 @@
 let ( let* ) = Option.bind
 
-let digit c =
-  match c with
-  | '0' .. '9' -> Some (Char.code c - Char.code '0')
-  | 'a' .. 'f' -> Some (Char.code c - Char.code 'a' + 10)
-  | 'A' .. 'F' -> Some (Char.code c - Char.code 'A' + 10)
-  | _ -> None
-
 (* A slash that is escaped is a part of a name, which no file of an archive has. *)
 let decoded segment =
-  let b = Buffer.create (String.length segment) and n = String.length segment in
-  let rec from i =
-    if i = n then Some (Buffer.contents b)
-    else if segment.[i] <> '%' then (Buffer.add_char b segment.[i]; from (i + 1))
-    else if i + 2 >= n then None
-    else
-      let* high = digit segment.[i + 1] in
-      let* low = digit segment.[i + 2] in
-      let c = Char.chr ((16 * high) + low) in
-      if c = '/' || c = '\000' then None else (Buffer.add_char b c; from (i + 3))
-  in
-  from 0
+  let* name = Dolphin_numerals.Percent_encoding.decoded segment in
+  if String.exists (fun c -> c = '/' || c = '\000') name then None else Some name
 
 let is_letter c = match c with 'a' .. 'z' | 'A' .. 'Z' -> true | _ -> false
 let is_of_scheme c = is_letter c || (match c with '0' .. '9' | '+' | '-' | '.' -> true | _ -> false)

@@ -1,4 +1,5 @@
 module Numeral = Dolphin_numerals.Numeral
+module Percent_encoding = Dolphin_numerals.Percent_encoding
 module Property = Test_support.Property
 module Gen = QCheck2.Gen
 
@@ -61,7 +62,23 @@ let only_numbers_are_read =
       | Some x -> by_cutting text && float_of_string text = x
       | None -> (not (by_cutting text)) || not (Float.is_finite (float_of_string text)))
 
+let percent () =
+  let check text expected = Alcotest.(check (option string)) text expected (Percent_encoding.decoded text) in
+  check "no%20fly%2Bzone.kml" (Some "no fly+zone.kml");
+  check "%c3%A9" (Some "\xc3\xa9");
+  check "%2520" (Some "%20");
+  List.iter (fun text -> check text None) [ "%"; "a%2"; "%2g"; "%-1"; "%0x"; "100% sure" ]
+
+let encoded_is_decoded =
+  let encoded text =
+    let byte c = Printf.sprintf "%%%02x" (Char.code c) in
+    String.concat "" (List.map byte (List.of_seq (String.to_seq text)))
+  in
+  Property.case ~count:2000 "what is encoded is decoded" ~print:String.escaped Gen.string (fun text ->
+      Percent_encoding.decoded (encoded text) = Some text)
+
 let () =
   Alcotest.run "numerals"
     [ ("numerals",
-       [ Alcotest.test_case "known" `Quick known; printed_is_read; whole_is_read; only_numbers_are_read ]) ]
+       [ Alcotest.test_case "known" `Quick known; printed_is_read; whole_is_read; only_numbers_are_read ]);
+      ("percent-encoding", [ Alcotest.test_case "known" `Quick percent; encoded_is_decoded ]) ]

@@ -120,3 +120,25 @@ The same for a plan that a time cuts off, without readings.
   $ dolphin explore cut.dol --fleet world.fleet --fairness none
   dolphin: --fairness none is about formulas: give --ltl too
   [2]
+
+A run in no time is reported with strong fairness, too. A cycle that is shown takes what strong fairness owes.
+
+  $ cat > spins.dol <<'EOF'
+  > v = pick { id 'a' }
+  > post x: 1
+  > while (poll(x: _)) { execute until { poll x: 1 } run (task('survey')[v] >> action { consume x: 1 }) }
+  > EOF
+  $ explore spins.dol --fleet world.fleet --fairness strong --ltl 'F ended' | grep -v run
+  termination: violated: after 5 steps, 2 steps that can repeat without end
+  formula F ended: violated: after 5 steps, 3 steps that can repeat without end
+  $ cat > again.dol <<'EOF'
+  > v = pick { id 'a' }
+  > while (true) { execute (task('survey')[v] >> idle(5)) during 60 }
+  > EOF
+  $ dolphin explore again.dol --fleet world.fleet --fairness strong | sed -n '/^and from there/,$p'
+  and from there, again and again:
+      program  a              where
+  5   execute                 again.dol:2
+  6            starts survey  again.dol:2
+  7            ends survey    again.dol:2
+  8   timeout                 again.dol:2

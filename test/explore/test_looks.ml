@@ -288,6 +288,10 @@ let test_formulas () =
     Pure_run.compile_exn
       (head ^ "execute (repeat (condition { battery(v) < 0.3 } >> condition { battery(v) < 0.5 })) during 9") in
   Alcotest.(check string) "F ended" "violated" (formula spinning "F ended" ~fairness:Weak);
+  let in_script =
+    Pure_run.compile_exn
+      (head ^ "while (poll(k: _)) { execute until { poll k: 1 } run (task('p')[v] >> action { consume k: 1 }) }") in
+  Alcotest.(check string) "F ended" "violated" (formula in_script "F ended" ~fairness:Strong);
   let kept sensor = Pure_run.compile_exn (head ^ "execute repeat (action { h = " ^ sensor ^ " > 60 } >> idle(1))") in
   let stays = "F G { h == true } | F G { h == false } | G F !timeout & !G F timeout" in
   Alcotest.(check string) "date" "holds" (formula (kept "now()") stays ~fairness:Weak);

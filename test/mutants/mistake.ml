@@ -208,6 +208,9 @@ let all =
         ];
       in_file "lib/explore/verdict/fair_cycles.ml" ~noticed_by:"explore/test_looks"
         [
+          ( "strong fairness leaves out runs in no time",
+            {|if active = [] && not t.strong then None|},
+            {|if active = [] then None|} );
           ( "readings change without time",
             {|~time:(may_pass found e) moment|},
             {|~time:(may_pass found e || i >= 0) moment|} );

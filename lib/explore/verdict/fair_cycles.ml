@@ -17,7 +17,8 @@ type verdict =
    script, by this comparison or sensor. *)
 type choice = Code_at of Core.site | Guards_of of int list | Looking_at of string
 
-(* Of a step, by its number: see {!Space.possible}. It [is_owed] by strong fairness. [renews] is the places of the
+(* Of a step, by its number: see {!Space.possible}. It [is_strongly_owed] if strong
+   fairness owes it. [renews] is the places of the
    repeats that begin a round, [valuation] that of a formula's propositions, [looks] its assumptions. A step that
    [chooses] is possible with any readings; others wait. [choices] is the choices that it makes. Of the assumptions, by
    number: it [meets] those whose readings its looks allow; others are [against] it, if another step of the choice meets
@@ -25,7 +26,7 @@ type choice = Code_at of Core.site | Guards_of of int list | Looking_at of strin
 type edge = {
   into : int;
   by : int;
-  is_owed : bool;
+  is_strongly_owed : bool;
   is_event : bool;
   rounds : Task_rules.round list;
   renews : int list list;
@@ -40,7 +41,7 @@ type edge = {
 (* The steps that are possible and that no vehicle or person may prevent by staying away, those that strong fairness
    owes, and the successors of the followed ones. At a node that [waits] time may pass: each step that needs no event
    may be impossible there. *)
-type node = { possible : int list; owed : int list; waits : bool; edges : edge list }
+type node = { possible : int list; strongly_owed : int list; waits : bool; edges : edge list }
 
 type t = {
   program : Core.program;
@@ -111,7 +112,7 @@ let chooses (Task_rules.Step { offer; _ }) =
 
 (* Strong fairness owes ends of plans, and steps that only an event can prevent: a guard may be prevented by another one
    that is chosen. *)
-let is_owed_strongly (p : Space.possible) =
+let is_strongly_owed (p : Space.possible) =
   match p.step.event with None -> chooses p.step.source | Some (Vehicle_done _) -> true | Some _ -> false
 
 (* {1 Choices} *)
@@ -164,7 +165,7 @@ let examined t i =
       let found = ref [] and owed = ref [] and edges = ref [] and waits = ref true and ways = ref [] in
       let possible (p : Space.possible) =
         if p.step.event = None && (chooses p.step.source || not p.depends) then waits := false;
-        if is_owed_strongly p then owed := number t p :: !owed;
+        if is_strongly_owed p then owed := number t p :: !owed;
         found := (number t p, p) :: !found
       in
       let taken (p : Space.possible) rounds layers looks =
@@ -174,15 +175,15 @@ let examined t i =
         ways := (choices, looks) :: !ways;
         let arrive into valuation =
           let e =
-            { into; by; is_owed = is_owed_strongly p; is_event; rounds; renews; valuation; looks; chooses; choices;
-              meets = []; against = [] } in
+            { into; by; is_strongly_owed = is_strongly_owed p; is_event; rounds; renews; valuation; looks; chooses;
+              choices; meets = []; against = [] } in
           edges := e :: !edges
         in
         arrived := arrive
       in
       Space.examine (State_graph.system t.graph) key ~possible ~taken visitor;
       let edges = with_assumptions t !ways (List.rev !edges) in
-      { possible = certain t key !found; owed = List.sort_uniq Int.compare !owed; waits = !waits; edges })
+      { possible = certain t key !found; strongly_owed = List.sort_uniq Int.compare !owed; waits = !waits; edges })
 
 (* The number of no step of a task. *)
 let of_script = -1
@@ -196,7 +197,7 @@ let scripted t i =
         ways := (choices, looks) :: !ways;
         let arrive into valuation =
           let e =
-            { into; by = of_script; is_owed = false; is_event; rounds = []; renews = []; valuation; looks;
+            { into; by = of_script; is_strongly_owed = false; is_event; rounds = []; renews = []; valuation; looks;
               chooses = true; choices; meets = []; against = [] } in
           edges := e :: !edges
         in
@@ -208,7 +209,7 @@ let scripted t i =
         | Waiting _ -> true
         | Script _ | Executing _ | Ended _ -> false
       in
-      { possible = []; owed = []; waits; edges = with_assumptions t !ways (List.rev !edges) })
+      { possible = []; strongly_owed = []; waits; edges = with_assumptions t !ways (List.rev !edges) })
 
 let state_executes t i = Space.executes (State_graph.system t.graph) (State_graph.load t.graph i).(0)
 
@@ -415,11 +416,14 @@ let unmet t edges =
   let is_unmet ((i, _) as pair) = List.mem i t.active && not (List.mem pair met) in
   List.filter is_unmet (pairs (fun e -> e.against))
 
-(* The steps that strong fairness owes at some of these nodes, and that are taken at none. *)
-let missed t edges members =
-  let is_taken k = List.exists (fun e -> e.is_owed && e.by = k) edges in
-  let owed = List.sort_uniq Int.compare (List.concat_map (fun i -> (node t i).owed) members) in
-  if t.strong then List.filter (fun k -> not (is_taken k)) owed else []
+(* With strong fairness, the steps that are owed at some of these nodes. *)
+let strongly_owed t members =
+  if t.strong then List.sort_uniq Int.compare (List.concat_map (fun i -> (node t i).strongly_owed) members) else []
+
+let takes k e = e.is_strongly_owed && e.by = k
+
+(* Those of them that are taken at none. *)
+let missed t edges members = List.filter (fun k -> not (List.exists (takes k) edges)) (strongly_owed t members)
 
 (* More nodes with moments are not searched. *)
 let most_moments = 100_000
@@ -435,7 +439,7 @@ let rec recurring_at_any_moment t ~tick part states =
     | pairs, steps ->
       if steps <> [] && not t.whole then t.unsure <- true;
       let keeps e = part.keeps e && not (List.exists (fun pair -> List.mem pair pairs) e.against) in
-      let within i = part.within i && not (List.exists (fun k -> List.mem k (node t i).owed) steps) in
+      let within i = part.within i && not (List.exists (fun k -> List.mem k (node t i).strongly_owed) steps) in
       recurring_at_any_moment t ~tick { within; keeps } (List.filter within members)
   in
   List.concat_map divided (lasting t ~tick part states)
@@ -562,7 +566,8 @@ let around ?start t part members =
   let against = List.sort_uniq Stdlib.compare (List.concat_map (fun e -> e.against) all) in
   let to_meet = List.map meets (List.filter is_met against) in
   let goals = List.map elsewhere sometimes @ acceptance t @ to_wait in
-  let wanted = List.map (fun k e -> e.by = k) owed @ to_take @ to_meet in
+  let to_take_strongly = List.filter (fun takes -> List.exists takes all) (List.map takes (strongly_owed t members)) in
+  let wanted = List.map (fun k e -> e.by = k) owed @ to_take @ to_take_strongly @ to_meet in
   let from, cycle = List.fold_left meet (List.fold_left go_on (start, []) wanted) goals in
   let back =
     if from = start && cycle <> [] then []
@@ -618,7 +623,7 @@ let script_cycle_that_lasts t ~tick =
   let shown (part, members) = Option.map (fun start -> lasso ~start t part members) (script_node t members) in
   let all = State_graph.all t.graph in
   match List.find_map shown (recurring t ~tick whole all) with
-  | None when t.active <> [] -> List.find_map shown (spinning t ~tick whole all)
+  | None when t.active <> [] || t.strong -> List.find_map shown (spinning t ~tick whole all)
   | found -> found
 
 let first_script_cycle t ~tick =
@@ -806,7 +811,8 @@ let helpful_readings program graph ~whole ~assumed ~strong found =
 let helpful ?(strong = false) program graph ~all:whole ~assumed =
   let t = create ~whole ~assumed ~strong program graph in
   let tick = State_graph.ticker graph "looking for assumptions" in
-  let found = if t.is_open then List.map (fun a -> [ a ]) (candidates t ~tick) else [] in
+  let found =
+    if t.is_open && not (is_symmetric t) then List.map (fun a -> [ a ]) (candidates t ~tick) else [] in
   let readings ~strong =
     if found = [] || List.length found > most_candidates then None
     else helpful_readings program graph ~whole ~assumed ~strong found
@@ -880,7 +886,9 @@ let violation_under t automaton ~fair active : Breadth_first.violation option =
   let parts part states = if fair then recurring t ~tick part states else lasting t ~tick part states in
   let ways =
     [ (fun () -> accepting_through_script t automaton ~parts ~tick);
-      (fun () -> if active = [] then None else accepting_through_script t automaton ~parts:(spinning t ~tick) ~tick);
+      (fun () ->
+         if active = [] && not t.strong then None
+         else accepting_through_script t automaton ~parts:(spinning t ~tick) ~tick);
       (fun () -> accepting (spinning t ~tick tasks pairs) (fun _ _ -> true));
       (fun () -> accepting (parts tasks pairs) is_fair) ]
   in

@@ -16,6 +16,7 @@ from typing import Any, Awaitable, Callable, Dict, Iterable, List, Mapping, Opti
 from .channel import Channel, StandardStreams
 from .requests import COMMANDED, Request, plan_of, was_commanded
 from .vehicle import Absent, Done, Failed, Plan, Stopped, Unknown, Vehicle, finite
+from .waiting import within
 
 PROTOCOL = 1
 TELEMETRY_ON, TELEMETRY_OFF = 1.0, 10.0
@@ -473,10 +474,7 @@ class Adapter:
         assert changed is not None
         while True:
             changed.clear()
-            try:
-                await asyncio.wait_for(changed.wait(), self._telemetry)
-            except asyncio.TimeoutError:
-                pass
+            await within(changed.wait(), self._telemetry)
             for vehicle in list(self.vehicles.values()):
                 self.flush(vehicle)
 

@@ -26,6 +26,7 @@ from .journal import End, Journal, Record, read, record
 from .run_socket import RunSocket
 from .supplier import Supplier
 from .values import to_json
+from .waiting import within
 
 POLL = 0.02
 """Seconds between two looks at a journal, or for a socket, of a process."""
@@ -216,10 +217,7 @@ class StartedRun(Run):
         self._is_stopped = True
         while self._process is not None and self._process.returncode is None:
             self._signal()
-            try:
-                await asyncio.wait_for(self._process.wait(), PATIENCE)
-            except asyncio.TimeoutError:
-                pass
+            await within(self._process.wait(), PATIENCE)
 
     async def _wait(self) -> None:
         if self._process is not None:
@@ -271,10 +269,7 @@ class StartedRun(Run):
     async def _settle(self) -> None:
         """After the last line the process is about to end: so that an error finds its text."""
         if self._process is not None:
-            try:
-                await asyncio.wait_for(self._process.wait(), 2.0)
-            except asyncio.TimeoutError:
-                pass
+            await within(self._process.wait(), 2.0)
         await asyncio.sleep(0)
 
     async def _tail(self) -> AsyncIterator[Mapping[str, Any]]:

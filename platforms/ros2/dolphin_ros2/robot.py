@@ -9,11 +9,12 @@ import sys
 import time
 import uuid
 from typing import (
-    AbstractSet, Any, Awaitable, Callable, Dict, FrozenSet, Iterator, List, Mapping, Optional, Protocol, Sequence, Set,
+    AbstractSet, Any, Callable, Dict, FrozenSet, Iterator, List, Mapping, Optional, Protocol, Sequence, Set,
     Tuple,
 )
 
 import dolphin
+from dolphin.waiting import within
 
 from . import goals, interfaces, maneuvers, messages
 from .configuration import Configuration, Lifecycle, PlanRule, Ready, RobotEntry, Topic
@@ -228,7 +229,7 @@ class Robot(dolphin.Vehicle):
         node = self.entry.resolve(self.kind.ready.node)
         request = interfaces.of(self.kind.ready.type, self._load).Request
         while True:
-            answer = await _within(service.call(request()), STATE[1]) if service.is_there() else None
+            answer = await within(service.call(request()), STATE[1]) if service.is_there() else None
             label = None if answer is None else str(answer.current_state.label)
             self._not_ready = {None: f"its node {node} does not answer", "active": None}.get(
                 label, f"its node {node} is {label}")
@@ -483,7 +484,7 @@ class Robot(dolphin.Vehicle):
         unknown, again = 0, -math.inf
         while True:
             if goal.action.is_there() and time.monotonic() >= again:
-                code = await _within(goal.action.cancel(goal.id), CANCEL_WAIT)
+                code = await within(goal.action.cancel(goal.id), CANCEL_WAIT)
                 again = time.monotonic() + CANCEL_WAIT
                 if code == goals.ERROR_REJECTED:
                     raise dolphin.Unknown(f"its action {goal.rule.interface} rejects the cancellation")
@@ -537,11 +538,3 @@ class Robot(dolphin.Vehicle):
 def _noted(plan: dolphin.Plan) -> int:
     """The number of the goal that was sent last, by the notes on the plan."""
     return next((int(note["goal"]) for note in plan.notes if "goal" in note), 0)
-
-
-async def _within(work: Awaitable[Any], seconds: float) -> Any:
-    """The result of the work, or `None` after these seconds."""
-    try:
-        return await asyncio.wait_for(work, seconds)
-    except asyncio.TimeoutError:
-        return None

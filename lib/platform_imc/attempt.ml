@@ -10,6 +10,7 @@ type t = {
   copies : int;
   last_sent : float;
   asked : float;
+  awake : float option;
   before : Plan_report.t option;
   after : float;
   accepted : float option;
@@ -19,10 +20,12 @@ type t = {
 }
 
 let patience = 1.
+let reading = 0.25
 
 let make ~now ~clock ~request ~before order =
   { order; request; copies = 1; last_sent = now;
     asked = Vehicle_clock.estimate ~now clock;
+    awake = None;
     before;
     after = Vehicle_clock.latest clock;
     accepted = None; answered = false; adopted = false; initialised = false }
@@ -35,6 +38,7 @@ let remembered (plan_id, busy) =
 let adopted ~now ~clock order (k : Durable_note.knowledge) =
   { order; request = k.request; copies = 1; last_sent = now;
     asked = Vehicle_clock.estimate ~now clock;
+    awake = None;
     before = Option.map remembered k.before;
     after = neg_infinity;
     accepted = (if k.taken || k.runs then Some neg_infinity else None);
@@ -42,10 +46,15 @@ let adopted ~now ~clock order (k : Durable_note.knowledge) =
     adopted = true; initialised = false }
 
 let send_again ~now ~clock a =
-  { a with copies = a.copies + 1; last_sent = now; asked = Vehicle_clock.estimate ~now clock }
+  { a with copies = a.copies + 1; last_sent = now; asked = Vehicle_clock.estimate ~now clock; awake = None }
 
 let leaves ~at ~clock a =
-  { a with last_sent = at; asked = (if at = infinity then infinity else Vehicle_clock.estimate ~now:at clock) }
+  let asked = if at = infinity then infinity else Vehicle_clock.estimate ~now:at clock in
+  { a with last_sent = at; asked; awake = None }
+
+let hears ~clock a =
+  let latest = Vehicle_clock.latest clock in
+  if a.awake = None && latest >= a.asked +. reading then { a with awake = Some latest } else a
 
 (* {1 Messages} *)
 
@@ -72,6 +81,7 @@ let accepted_before (r : Plan_report.t) a =
 let effect_time a = Option.value a.accepted ~default:a.after
 let may_arrive ~now a = now < a.last_sent +. patience
 let is_open a = a.copies > 1 || not a.answered
+let was_read (r : Plan_report.t) a = match a.awake with Some at -> r.sent >= at +. reading | None -> false
 let is_past ~now (r : Plan_report.t) a = (not (may_arrive ~now a)) && r.sent >= a.asked +. patience
 
 (* {1 What is to be kept} *)

@@ -15,6 +15,7 @@ type t = {
   copies : int;  (** the number of copies sent *)
   last_sent : float;  (** when the last copy was, by our clock (s); [infinity]: it still waits to leave *)
   asked : float;  (** the vehicle's clock then, at most (s) *)
+  awake : float option;  (** when, by its clock, the vehicle first sent anything {!reading} or more after [asked] *)
   before : Plan_report.t option;  (** the vehicle's last report when the request was first sent *)
   after : float;  (** the time of its last report before, by its clock *)
   accepted : float option;  (** when, by its clock, it first answered that it takes the plan *)
@@ -25,6 +26,10 @@ type t = {
 
 val patience : float
 (** 1 s: longer than a reply takes, and than a datagram stays on its way. *)
+
+val reading : float
+(** 0.25 s: longer than a vehicle that sends datagrams leaves one unread. One that was stopped, or had no processor, for
+    a while may send its reports first, and then read the request that waits at its socket. *)
 
 val make : now:float -> clock:Vehicle_clock.t -> request:int -> before:Plan_report.t option -> order -> t
 (** The first copy, sent at [now]. *)
@@ -38,6 +43,9 @@ val send_again : now:float -> clock:Vehicle_clock.t -> t -> t
 
 val leaves : at:float -> clock:Vehicle_clock.t -> t -> t
 (** The last copy leaves at [at] (s) and not when it was made; [infinity]: not known yet. *)
+
+val hears : clock:Vehicle_clock.t -> t -> t
+(** Anything came of the vehicle, which [clock] has observed. *)
 
 val start : t -> Message.t
 (** The request to start. *)
@@ -63,6 +71,10 @@ val is_open : t -> bool
 val is_past : now:float -> Plan_report.t -> t -> bool
 (** [is_past ~now r a]: no copy is on its way any more, and the vehicle sent [r] after the last one had arrived, if
     it ever did: [r] shows the final effect of the request. *)
+
+val was_read : Plan_report.t -> t -> bool
+(** [was_read r a]: the vehicle sent [r] after it had been awake for {!reading} since the last copy came, if it did: it
+    has read that copy. *)
 
 (** {1:notes What is to be kept} *)
 

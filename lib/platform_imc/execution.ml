@@ -72,6 +72,8 @@ let look ~now ~clock (a : Attempt.t) (r : Plan_report.t) x =
       in
       fail ~now ~ended:r.sent a why x
     else if a.adopted && doubtful then fail ~now ~ended:r.sent a (unknown a.order.plan) x
+    (* A vehicle that wakes up may send its reports before it reads the request. *)
+    else if not (Attempt.was_read r a) then (x, [])
     else
       let x, outputs = send_again ~now ~clock a x in
       let remark = Printf.sprintf "plan %s is requested again; it cannot be excluded that it has run" a.order.plan in
@@ -442,7 +444,14 @@ let detect_duplicates input x =
     let why = "the request for it came twice, or another console made one" in
     ({ x with duplicates }, [ Remark (Printf.sprintf "plan %s starts again: %s" plan why) ])
 
+let hear ~clock input x =
+  match input, x.phase with
+  | (State _ | Vehicle _ | Log _ | Reply _), Starting a -> { x with phase = Starting (Attempt.hears ~clock a) }
+  | (State _ | Vehicle _ | Log _ | Reply _), (Idle | Running _ | Ending _ | Stopping _) -> x
+  | (Start _ | Stop | Abort _ | Stopped_by _ | Lost _ | Adopt _ | Leaves _ | Tick), _ -> x
+
 let handle ~now ~clock input x =
+  let x = hear ~clock input x in
   match input with
   | Start order -> start ~now ~clock order x
   | Stop -> stop ~now ~clock x

@@ -37,6 +37,8 @@ type world = {
   mutable escaped : float;  (* how long the vehicle moved while nothing was ordered, at most, in a row *)
   mutable at_large : float;  (* how long it has, now *)
   mutable copies : (int * int) list;  (* of each request for this order, how many were sent *)
+  sleeps : float -> bool;  (* whether the vehicle has no processor then: it reads and sends nothing *)
+  mutable slept : bool;  (* whether it has just had none *)
   vehicle : Vehicle_model.t;
   out : (int * Message.t Message.Plan_control.t) Network.t;
   back : (float * Message.t) Network.t;
@@ -84,11 +86,13 @@ let say (s : script) w messages =
 
 let advance (s : script) w =
   w.now <- w.now +. instant;
+  let sleeps = w.sleeps w.now in
+  (* Once it has its processor again, it sends its reports before it reads what came. *)
+  let requests = if sleeps || w.slept then [] else Network.arrived ~now:w.now w.out in
   let answered =
-    List.concat_map (fun (copy, c) -> Vehicle_model.request ~now:w.now ~copy c w.vehicle)
-      (Network.arrived ~now:w.now w.out)
-  in
-  say s w (answered @ Vehicle_model.tick ~now:w.now w.vehicle);
+    List.concat_map (fun (copy, c) -> Vehicle_model.request ~now:w.now ~copy c w.vehicle) requests in
+  w.slept <- sleeps;
+  say s w (answered @ if sleeps then [] else Vehicle_model.tick ~now:w.now w.vehicle);
   List.iter (hear w) (Network.arrived ~now:w.now w.back);
   if Execution.due w.execution <= w.now then input w Tick;
   let is_at_large = Vehicle_model.maneuvers w.vehicle && Execution.idle w.execution in
@@ -120,13 +124,14 @@ let run_order (s : script) w (o : order) =
     meanwhile = List.filteri (fun i _ -> i < List.length all - ended_before) all;
     notes = w.notes }
 
-let world ?abort_after (s : script) =
+let world ?abort_after ?(sleeps = fun _ -> false) (s : script) =
   let random = Random.State.make [| s.seed |] in
   let fate plan = List.assoc plan s.fates in
   { now = 0.; execution = Execution.create ?abort_after ~request:65530 ();
     clock = Vehicle_clock.unknown; verdicts = []; notes = []; told = [];
     aborts = 0; escaped = 0.; at_large = 0.;
-    copies = []; vehicle = Vehicle_model.create ~fate ~before:s.before; out = Network.create random s.outward;
+    copies = []; sleeps; slept = false;
+    vehicle = Vehicle_model.create ~fate ~before:s.before; out = Network.create random s.outward;
     back = Network.create random s.inward }
 
 let pass (s : script) w seconds =
@@ -134,8 +139,8 @@ let pass (s : script) w seconds =
   while w.now < until do advance s w done
 
 (* The orders one after another, and then some quiet time. *)
-let play ?abort_after (s : script) =
-  let w = world ?abort_after s in
+let play ?abort_after ?sleeps (s : script) =
+  let w = world ?abort_after ?sleeps s in
   pass s w 2.;
   let logs = List.map (run_order s w) s.orders in
   pass s w 15.;
@@ -286,6 +291,28 @@ let lost_plan name ?abort_after check =
       let logs, w = play ?abort_after s in
       is_never_at_large w && check s logs w)
 
+(* {1 Vehicles without a processor for a while} *)
+
+let naps =
+  let open QCheck2.Gen in
+  let nap at =
+    let+ start = float_range at (at +. 4.) and+ lasts = float_range 0.5 4. in
+    (start, start +. lasts)
+  in
+  flatten_l (List.init 20 (fun i -> nap (2. +. (8. *. float_of_int i))))
+
+let napping check =
+  let prompt = quality ~loss:0. ~duplication:0. ~delay:0.05 in
+  let print (s, naps) =
+    print s ^ String.concat "" (List.map (fun (a, b) -> Printf.sprintf "\nsleeps from %.2f to %.2f" a b) naps) in
+  Test_support.Property.case ~count:(1000 * longer) ~print "a vehicle that wakes up reads a request late: each plan once"
+    (QCheck2.Gen.pair (generate ~outward:prompt ~inward:prompt ~fates:true) naps)
+    (fun (s, naps) ->
+       let sleeps now = List.exists (fun (a, b) -> a <= now && now < b) naps in
+       let s = { s with clock = (fst s.clock, 1.) } in
+       let logs, w = play ~sleeps s in
+       check s logs w)
+
 let each_copy_is_told =
   Alcotest.test_case "three copies of a request" `Quick (fun () ->
       let perfect = { Network.loss = 0.; duplication = 0.; delay = 0. } in
@@ -342,6 +369,9 @@ let tests =
           List.for_all (fun l -> verdict_is_fate s l && is_sound_meanwhile l && never_resent_in_vain l) logs
           && List.for_all ran_once_or_says_so logs && is_over w);
       property "requests get lost: each plan once" ~outward:losing ~inward:reordering (fun s logs w ->
+          List.for_all (fun l -> verdict_is_fate s l && is_sound_meanwhile l && never_resent_in_vain l) logs
+          && List.for_all ran_once_or_says_so logs && is_over w);
+      napping (fun s logs w ->
           List.for_all (fun l -> verdict_is_fate s l && is_sound_meanwhile l && never_resent_in_vain l) logs
           && List.for_all ran_once_or_says_so logs && is_over w);
       property "requests are doubled: no plan begins anew without a word" ~count:10_000 ~outward:doubling ~inward:perfect

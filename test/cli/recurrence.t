@@ -97,8 +97,8 @@ and again need not be done under weak fairness. Strong fairness, and the reading
   $ explore breaks.dol --fleet assuming.fleet | head -1
   termination: violated: after 3 steps, 18 steps that can repeat without end; holds with --fairness strong
   $ explore breaks.dol --fleet assuming.fleet --fairness strong --ltl 'F ended'
-  termination: holds if battery(a) > 0.8 recurs
-  formula F ended: holds if battery(a) > 0.8 recurs
+  termination: holds with --fairness strong, if battery(a) > 0.8 recurs
+  formula F ended: holds with --fairness strong, if battery(a) > 0.8 recurs
   $ dolphin explore breaks.dol --fleet world.fleet --json | jq -c '.verdicts[] | select(.property == "termination") | del(.run, .cycle, .assumptions)'
   {"property":"termination","verdict":"violated","shortest":false,"holds if these recur":["battery(a) > 0.8"],"holds with strong fairness":true}
 
@@ -112,8 +112,8 @@ The same for a plan that a time cuts off, without readings.
   termination: violated: after 3 steps, 2 steps that can repeat without end; holds with --fairness strong
   formula F ended: violated: after 3 steps, 2 steps that can repeat without end
   $ explore cut.dol --fleet world.fleet --fairness strong --ltl 'F ended'
-  termination: holds
-  formula F ended: holds
+  termination: holds with --fairness strong
+  formula F ended: holds with --fairness strong
   $ dolphin explore cut.dol --fleet world.fleet --fairness strong --sample 10
   dolphin: strong fairness needs all states: give --fairness or --sample, not both
   [2]
@@ -142,3 +142,27 @@ A run in no time is reported with strong fairness, too. A cycle that is shown ta
   6            starts survey  again.dol:2
   7            ends survey    again.dol:2
   8   timeout                 again.dol:2
+
+Without an event or a wait between them, two looks at a sensor agree; a date that has passed stays passed. A run that
+halts only against that is not reported.
+
+  $ cat > low.dol <<'EOF'
+  > v = pick { id 'a' }
+  > if (battery(v) < 0.3) {
+  >   message 'low'
+  >   if (battery(v) >= 0.3) halt 'low, and not low'
+  > }
+  > if (now() > 60) {
+  >   execute task('survey')[v]
+  >   if (now() < 60) halt 'earlier'
+  > }
+  > EOF
+  $ dolphin explore low.dol --fleet world.fleet --strict | grep halt
+  no halt: holds
+  $ sed "s/message 'low'/execute task('charge')[v]/" low.dol > charged.dol
+  $ dolphin explore charged.dol --fleet world.fleet --strict | grep halt:
+  no halt: violated after 6 steps: the program halts
+  no halt: a shortest run in which the program halts
+  $ dolphin explore low.dol --fleet world.fleet --strict --certify low.json > /dev/null
+  $ head -1 low.json | jq -c '.holds'
+  ["no deadlock","no unhandled error","assertions","vehicles for all picks","vehicles for all tasks","no leftover tuples"]

@@ -108,7 +108,7 @@ let rec task depth part =
       [ (2, leaf part);
         (4, map2 (Printf.sprintf "(%s >> %s)") inside inside);
         (3, map2 (Printf.sprintf "(until { %s } run %s)") guard inside);
-        (3, map2 (fun (g, g') (t, t') -> Printf.sprintf "oneOf { when { %s } then %s when { %s } then %s }" g t g' t')
+        (3, map2 (fun (g, g') (t, t') -> Printf.sprintf "oneOf { when { %s } then %s\nwhen { %s } then %s }" g t g' t')
            (pair guard guard) (pair inside inside));
         (1, map (Printf.sprintf "(watch %s onError { retry() })") inside);
         (1, map2 (Printf.sprintf "(repeat %s until { %s })") inside guard) ]
@@ -212,13 +212,112 @@ let test_scripts () =
   Test_support.Property.on_each_seed ~usual:20_261_129 ~programs:count test;
   Hashtbl.iter (Printf.printf "%s: %d\n") found
 
+(* {1 Halts} *)
+
+let dated_worlds =
+  let world a b date = World.at (Exactly date) (with_battery "b" b (with_battery "a" a Generate.world)) in
+  let dates = [ 0; 60; 100 ] in
+  List.concat_map
+    (fun a -> List.concat_map (fun b -> List.map (fun date -> (date, world a b date)) dates) [ 0.1; 0.9 ])
+    [ 0.1; 0.35; 0.5; 0.9 ]
+
+(* Whether some run halts if sensors keep their values until the next event, or while a task has a step of its own, and
+   the date does not go back. *)
+let halts (g : Reference.t) =
+  let seen = Hashtbl.create 100 in
+  let same (w, c, e) (w', c', e') = Int.equal w w' && Configuration.equal c c' && Environment.compare e e' = 0 in
+  let worlds = Array.of_list dated_worlds in
+  let later w = List.filter (fun w' -> fst worlds.(w') >= fst worlds.(w)) (List.init (Array.length worlds) Fun.id) in
+  let choices w c e = List.of_seq (Environment.choices g.options g.program (snd worlds.(w)) e c) in
+  let steps ~event w c e = List.filter (fun ((t : Transition.t), _) -> is_event t = event) (choices w c e) in
+  let rec visit (w, c, e) =
+    let key = Configuration.hash c in
+    (not (List.exists (same (w, c, e)) (Hashtbl.find_all seen key)))
+    && begin
+      Hashtbl.add seen key (w, c, e);
+      let take w ((t : Transition.t), e) =
+        match t.next.control with
+        | Ended (Halted _) -> true
+        | Script _ | Waiting _ | Executing _ | Ended _ -> visit (w, t.next, e)
+      in
+      let own = steps ~event:false w c e in
+      let waits =
+        match c.Configuration.control with
+        | Waiting _ -> true
+        | Executing _ -> own = []
+        | Script _ | Ended _ -> false
+      in
+      List.exists (take w) own
+      || (waits && List.exists (fun w' -> visit (w', c, e)) (later w))
+      || List.exists (fun w' -> List.exists (take w') (steps ~event:true w' c e)) (later w)
+    end
+  in
+  let start = g.states.(0) in
+  List.exists (fun w -> visit (w, start.configuration, start.outside)) (List.init (Array.length worlds) Fun.id)
+
+let dated = QCheck2.Gen.(oneof [ reading; oneofl [ "now() > 60"; "now() < 60"; "now() >= 60"; "now() <= 60" ] ])
+
+let halting_task =
+  let open QCheck2.Gen in
+  let halt =
+    map2 (Printf.sprintf "(condition { %s } >> action { if (%s) halt 'reading' })") dated dated in
+  let leaf v =
+    oneof
+      [ halt; map (Printf.sprintf "condition { %s }") dated; return (Printf.sprintf "task('p')[v%d]" v);
+        return "idle(1)";
+        map (Printf.sprintf "action { h = %s }") dated ]
+  in
+  let either (g, g') (t, t') = Printf.sprintf "oneOf { when { %s } then %s\nwhen { %s } then %s }" g t g' t' in
+  let small =
+    frequency
+      [ (2, leaf 1); (2, map2 (Printf.sprintf "(until { %s } run %s)") dated (leaf 1));
+        (2, map2 either (pair dated dated) (pair (leaf 1) (leaf 2)));
+        (2, map2 (Printf.sprintf "(%s | %s)") (leaf 1) (leaf 2)) ]
+  in
+  map2 (Printf.sprintf "%s >> %s") small small
+
+let halting =
+  let open QCheck2.Gen in
+  let statement =
+    frequency
+      [ (2, map (Printf.sprintf "execute %s") halting_task); (4, map2 (Printf.sprintf "if (%s) { message 'm'\nif (%s) halt 'both' }") dated dated);
+        (1, map (Printf.sprintf "h = %s") dated); (1, map (Printf.sprintf "if (h == (%s)) halt 'the same'") dated);
+        (1, return "pause 1") ]
+  in
+  let+ body = list_size (int_range 1 3) statement in
+  "v1 = pick { id 'a' }\nv2 = pick { id 'b' }\nh = true\n" ^ String.concat "\n" body
+
+let halts_agree source =
+  let program = Pure_run.compile_exn source in
+  match Reference.explore ~limit:300 Environment.default program open_world with
+  | None | (exception Environment.Unclear _) -> note "skipped"; true
+  | Some g ->
+    let expected = if halts g then "violated" else "holds" in
+    note ("halt " ^ expected);
+    if expected = "holds" && List.mem_assoc Property.No_halt (Reference.broken g) then note "halt in no world";
+    let agrees reduction =
+      let o = Search.run { Search.default with reduction } program open_world in
+      let run = List.assoc Property.No_halt o.verdicts in
+      said run = expected
+      || QCheck2.Test.fail_reportf "%s, %s expected (%s)" (said run) expected
+        (String.concat ", " (Reduction.names reduction))
+    in
+    List.for_all agrees reductions
+
+let test_halts () =
+  let count = programs / 5 in
+  let test = QCheck2.Test.make ~count ~print:Fun.id ~name:"programs halt as some world has it" halting halts_agree in
+  Test_support.Property.on_each_seed ~usual:20_261_130 ~programs:count test;
+  Hashtbl.iter (Printf.printf "%s: %d\n") found
+
 let test_variety () =
   let enough share what =
     if Option.value ~default:0 (Hashtbl.find_opt found what) * share < programs then
       Alcotest.failf "too few programs for: %s" what
   in
   List.iter (enough 40) [ "holds"; "violated" ];
-  List.iter (enough 750) [ "script holds"; "script violated" ]
+  List.iter (enough 750) [ "script holds"; "script violated" ];
+  List.iter (enough 100) [ "halt holds"; "halt violated"; "halt in no world" ]
 
 (* {1 Examples} *)
 
@@ -319,4 +418,5 @@ let () =
       ("moments", [ case "after a step" test_moments ]);
       ("formulas", [ case "cycles that no world has" test_formulas ]);
       ("random programs",
-       [ case "a spin is one of some world" test_random; case "scripts go round as worlds do" test_scripts; case "there are programs of both kinds" test_variety ]) ]
+       [ case "a spin is one of some world" test_random; case "scripts go round as worlds do" test_scripts;
+         case "halts are those of some world" test_halts; case "there are programs of both kinds" test_variety ]) ]

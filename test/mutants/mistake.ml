@@ -221,6 +221,22 @@ let all =
             {|List.exists (fun other -> knows_less other way) ways|},
             {|List.exists (fun other -> knows_less way other) ways|} );
         ];
+      in_file "lib/explore/verdict/moment_search.ml" ~noticed_by:"explore/test_looks"
+        [
+          ("dates go back", {|Claim (text, holds) -> Sensor|}, {|Claim (text, holds) -> text = "" && Sensor|});
+          ( "waiting shows nothing of the date",
+            {|(List.map once_time_has_passed (idle program world c moment))|},
+            {|(List.map (fun _ -> once_time_has_passed moment) (idle program world c moment))|} );
+          ( "no time passes before an event",
+            {|(each (once_time_has_passed pair.moment :: later))|},
+            {|(each (pair.moment :: later))|} );
+        ];
+      in_file "lib/explore/verdict/search.ml" ~noticed_by:"explore/test_looks"
+        [
+          ( "runs whose looks contradict each other are shown",
+            {|not (Moment_search.agrees program world (fst start) steps)|},
+            {|steps = [] && not (Moment_search.agrees program world (fst start) steps)|} );
+        ];
       in_file "lib/explore/verdict/search.ml" ~noticed_by:"explore/test_agreement"
         [
           ("files of states stay open", {|State_graph.close graph) (fun|}, {|ignore graph) (fun|});

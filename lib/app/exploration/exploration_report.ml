@@ -33,13 +33,14 @@ let print_others program o (property, (verdict : Search.verdict), remark) =
     if more > 0 then Safe_print.printf "  and at %d more places\n" more
   | Violated _ | Holds | Holds_if _ | By_design _ | Unreached _ | Inconclusive _ -> ()
 
-let print_verdict program (property, (verdict : Search.verdict), remark) =
+let print_verdict program (o : Search.outcome) (property, (verdict : Search.verdict), remark) =
   match verdict with
   | (Holds | Holds_if _ | Inconclusive _) when remark -> ()
   (* The verdict on tasks stands for both, unless vehicles are missing. *)
   | (Holds | Holds_if _ | Inconclusive _) when property = Property.Vehicles -> ()
   | Holds | Holds_if _ | Violated _ | By_design _ | Unreached _ | Inconclusive _ ->
-    Safe_print.format "%s%a@." (if remark then "note: " else "") (Search.pp_verdict program) (property, verdict)
+    let pp = Search.pp_verdict ~fairness:o.fairness program in
+    Safe_print.format "%s%a@." (if remark then "note: " else "") pp (property, verdict)
 
 let print_counts (o : Search.outcome) =
   let reduced =
@@ -113,7 +114,7 @@ let print ?from ~strict (program : Program_file.t) (o : Search.outcome) =
   let verdicts = with_remarks ~strict o in
   Option.iter (Safe_print.format "%a@." Present.pp) from;
   let print_one verdict =
-    print_verdict program.program verdict;
+    print_verdict program.program o verdict;
     print_others program.program o verdict
   in
   List.iter print_one verdicts;
@@ -157,6 +158,11 @@ let json_of_run (run : Search.run) =
   @ helpful
   @ if assumptions = [] then [] else [ ("assumptions", `List assumptions) ]
 
+let fairness (o : Search.outcome) (property : Property.t) =
+  match o.fairness, property with
+  | Strong, (Termination | Formula _) -> [ ("fairness", `String "strong") ]
+  | (Weak | Strong | No_fairness), _ -> []
+
 let to_json ?from (p : Program_file.t) (o : Search.outcome) : Yojson.Safe.t =
   let program = p.program in
   let also property run =
@@ -194,7 +200,7 @@ let to_json ?from (p : Program_file.t) (o : Search.outcome) : Yojson.Safe.t =
       | No_deadlock | Termination | No_error | Assertions | Vehicles | Allocation | No_halt | No_leftover | All_reached
       | Invariant _ | Formula _ -> []
     in
-    `Assoc ([ ("property", name); ("verdict", `String result) ] @ more @ pairs)
+    `Assoc ([ ("property", name); ("verdict", `String result) ] @ fairness o property @ more @ pairs)
   in
   let sample (s : Dolphin_checker.Sample.summary) =
     `Assoc

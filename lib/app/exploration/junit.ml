@@ -12,8 +12,8 @@ let rec output out = function
     List.iter (output out) inside;
     Xmlm.output out `El_end
 
-let findings ~strict (p : Program_file.t) (property, (verdict : Search.verdict)) =
-  let message = Format.asprintf "%a" (Search.pp_verdict p.program) (property, verdict) in
+let findings ~strict ~fairness (p : Program_file.t) (property, (verdict : Search.verdict)) =
+  let message = Format.asprintf "%a" (Search.pp_verdict ~fairness p.program) (property, verdict) in
   let violated details =
     if strict || not (Exploration.is_remark property) then
       [ Element ("failure", [ ("message", message); ("type", Property.name property) ], [ Text details ]) ]
@@ -28,7 +28,7 @@ let findings ~strict (p : Program_file.t) (property, (verdict : Search.verdict))
 
 let suite ~strict (p : Program_file.t) (o : Search.outcome) =
   let case ((property, _) as verdict) =
-    let found = findings ~strict p verdict in
+    let found = findings ~strict ~fairness:o.fairness p verdict in
     (Element ("testcase", [ ("classname", p.path); ("name", Property.name property) ], found), found)
   in
   let cases = List.map case o.verdicts in

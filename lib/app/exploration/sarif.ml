@@ -60,8 +60,8 @@ let rule : Property.t -> string = function
     | All_reached ) as property ->
     String.map (function ' ' -> '-' | c -> c) (Property.name property)
 
-let results ~strict (p : Program_file.t) (property, (verdict : Search.verdict)) : json list =
-  let text = Format.asprintf "%a" (Search.pp_verdict p.program) (property, verdict) in
+let results ~strict ~fairness (p : Program_file.t) (property, (verdict : Search.verdict)) : json list =
+  let text = Format.asprintf "%a" (Search.pp_verdict ~fairness p.program) (property, verdict) in
   let result kind level at more : json =
     `Assoc
       ([ ("ruleId", `String (rule property)); ("kind", `String kind); ("level", `String level); message text;
@@ -95,7 +95,7 @@ let json ~strict ~version p (o : Search.outcome) : json =
   let run : json =
     `Assoc
       [ ("tool", `Assoc [ ("driver", driver) ]); ("columnKind", `String "unicodeCodePoints");
-        ("results", `List (List.concat_map (results ~strict p) o.verdicts)) ]
+        ("results", `List (List.concat_map (results ~strict ~fairness:o.fairness p) o.verdicts)) ]
   in
   `Assoc
     [ ("$schema", `String "https://json.schemastore.org/sarif-2.1.0.json"); ("version", `String "2.1.0");

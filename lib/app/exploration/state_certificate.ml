@@ -39,10 +39,11 @@ let with_digests program system edges =
   let digested e = { e with digest = Some (digest program (Transition_system.state system e.target)) } in
   List.map (fun e -> if is_ambiguous e then digested e else e) edges
 
+(* A certificate has all states, also those that no world reaches. *)
 let holding (o : Dolphin_explore.Search.outcome) =
   let holds property =
     match List.assoc_opt property o.verdicts with
-    | Some Holds -> true
+    | Some Holds -> not (List.mem property o.only_in_worlds)
     | Some (Holds_if _ | Violated _ | By_design _ | Unreached _ | Inconclusive _) | None -> false
   in
   List.filter holds certifiable

@@ -66,7 +66,11 @@ let with_at_most ?start ~started (options : Search.options) program world ~count
     let properties = List.map (fun s -> s.property) sought in
     let limited, start' = limited ?start (asking properties options) n in
     let found = Search.run ?start:start' ~phase:"looking for fewer faults" ~started limited program world in
-    let whole = p.whole && found.stopped = None in
+    let is_open = function
+      | property, Search.Inconclusive _ -> List.mem property properties
+      | _, (Holds | Holds_if _ | Violated _ | By_design _ | Unreached _) -> false
+    in
+    let whole = p.whole && found.stopped = None && not (List.exists is_open found.verdicts) in
     let by_then = violated found in
     let counted ~fewest number = { Search.number; fewest } in
     let better s =

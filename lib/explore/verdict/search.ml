@@ -82,6 +82,8 @@ type outcome = {
   bitstate : Bitstate.summary option;
   beside : Side_by_side.pair list;
   ending_faults : (Property.t * Fault.t list) list;
+  only_in_worlds : Property.t list;
+  fairness : fairness;
   verdicts : (Property.t * verdict) list;
 }
 
@@ -338,6 +340,43 @@ let with_shortest_runs x (options : options) verdicts =
         in
         List.map shorter verdicts)
 
+(* {1 Runs that no world has} *)
+
+let contradictory = "the readings on the runs that were found contradict each other"
+
+(* Runs whose looks agree, in place of those that violate a property and whose looks do not; they are looked for as
+   long as shortest runs are. Also the properties that hold as there are none. *)
+let with_runs_of_worlds x (options : options) verdicts =
+  let { program; world; start; started; _ } = x in
+  let start = Option.value start ~default:(Configuration.initial program, Environment.initial) in
+  let is_sought : Property.t -> bool = function
+    | No_deadlock | No_error | Assertions | Vehicles | Allocation | No_halt | No_leftover | Invariant _ -> true
+    | Termination | All_reached | Formula _ | Apart _ -> false
+  in
+  let is_of_no_world = function
+    | property, Violated { steps; cycle = []; _ } ->
+      is_sought property && not (Moment_search.agrees program world (fst start) steps)
+    | _, (Violated _ | Holds | Holds_if _ | By_design _ | Unreached _ | Inconclusive _) -> false
+  in
+  let reads = program.reads_sensors || program.reads_now in
+  match if reads then List.map fst (List.filter is_of_no_world verdicts) else [] with
+  | [] -> (verdicts, [])
+  | sought ->
+    let tick = Limits.follow_up ~started options.limits in
+    let limit = Option.fold ~none:options.search_again ~some:(min options.search_again) options.limits.max_states in
+    let search () =
+      Moment_search.search ~tick ~limit ~conditions:options.invariants options.environment program world start sought in
+    let found = bounded ~stopped:(fun _ -> { Moment_search.runs = []; whole = false }) search in
+    let of_world (property, verdict) =
+      match List.assoc_opt property found.runs with
+      | Some steps -> (property, Violated (run_of ~shortest:true ~steps ~cycle:[] ()))
+      | None when not (List.mem property sought) -> (property, verdict)
+      | None -> (property, if found.whole then Holds else Inconclusive (Unsettled contradictory))
+    in
+    let verdicts = List.map of_world verdicts in
+    let has_none property = not (List.mem_assoc property found.runs) in
+    (verdicts, if found.whole then List.filter has_none sought else [])
+
 (* {1 Formulas} *)
 
 (* The states once more in the product with the formula: the answer, the number of states, and their memory. *)
@@ -529,6 +568,7 @@ let without_formulas x (options : options) =
    | None, Some bytes -> State_graph.run_bitstate ?look graph ~bytes
    | None, None -> State_graph.run ?watcher graph);
   let verdicts = with_shortest_runs x options (verdicts x options graph invariants) in
+  let verdicts, only_in_worlds = with_runs_of_worlds x options verdicts in
   let space = State_graph.system graph and bitstate = State_graph.bitstate graph in
   let states =
     match bitstate with Some (s : Bitstate.summary) -> s.states | None -> State_graph.count graph in
@@ -552,6 +592,8 @@ let without_formulas x (options : options) =
     bitstate;
     beside = [];
     ending_faults = faults_of_runs options graph verdicts;
+    only_in_worlds;
+    fairness = options.fairness;
     verdicts;
   }
 
@@ -669,22 +711,26 @@ let needs o =
 let faults_text { number; _ } =
   match number with 0 -> "without a fault" | 1 -> "with 1 fault" | n -> Printf.sprintf "with %d faults" n
 
-let pp_verdict (program : Core.program) ppf (property, verdict) =
+let strongly = "with --fairness strong"
+
+let pp_verdict ?(fairness = Weak) (program : Core.program) ppf (property, verdict) =
   let print format = Format.fprintf ppf format in
   let with_help found =
     let help { Fair_cycles.recurring; strong } =
-      print "; holds %s" (if strong then "with --fairness strong" else "");
+      print "; holds %s" (if strong then strongly else "");
       if strong && recurring <> [] then print ", ";
       if recurring <> [] then pp_needs ppf recurring
     in
     Option.iter help found.helpful
   in
+  let is_strong =
+    fairness = Strong && match property with Property.Termination | Formula _ -> true | _ -> false in
   let steps n = if n = 1 then "1 step" else Printf.sprintf "%d steps" n in
   let with_faults { faults; _ } = Option.fold faults ~none:"" ~some:(fun faults -> ", " ^ faults_text faults) in
   print "%a: " Property.pp property;
   match verdict with
-  | Holds -> print "holds"
-  | Holds_if needs -> print "holds %a" pp_needs needs
+  | Holds -> print "holds%s" (if is_strong then " " ^ strongly else "")
+  | Holds_if needs -> print "holds%s %a" (if is_strong then " " ^ strongly ^ "," else "") pp_needs needs
   | By_design { repeats; retries; left_by; needs } ->
     let at ppf (word, site) =
       match Fault.location program (Fault.make site "") with

@@ -134,6 +134,10 @@ type outcome = {
   (** the faults that end runs and violate {!Property.No_error}, [Assertions], [Vehicles] or [Allocation]: for each
       place in the text one, if no more than 100,000 states were kept; [[]] otherwise. With symmetry of tasks, not of
       all places *)
+  only_in_worlds : Property.t list;
+  (** the properties that hold although some states that were found violate them: readings on each run there contradict
+      each other ({!Moment_search}) *)
+  fairness : fairness;  (** that of the options *)
   verdicts : (Property.t * verdict) list;
   (** for each of {!Property.all}, but for [All_reached] if there is a [start], then for each invariant and formula, and
       for the least distance between vehicles if the program has one *)
@@ -163,6 +167,6 @@ val pp_needs : Format.formatter -> World.assumption list list -> unit
 val faults_text : faults -> string
 (** ["without a fault"], ["with 2 faults"] *)
 
-val pp_verdict : Core.program -> Format.formatter -> Property.t * verdict -> unit
+val pp_verdict : ?fairness:fairness -> Core.program -> Format.formatter -> Property.t * verdict -> unit
 (** One line, without the runs: ["no deadlock: violated after 12 steps"], with the number of faults if it
-    is known. *)
+    is known, and with the [fairness] (by default [Weak]) if that is strong and the property holds by it. *)

@@ -62,6 +62,11 @@ let contradict (text, holds) (text', holds') =
     | Some (x, r), Some (y, r') -> String.equal x y && is_empty (common r r')
     | _, _ -> false
 
+let is_kept_by_growth ~of_operand (text, holds) =
+  match ranged text holds with
+  | Some (operand, r) -> String.equal operand of_operand && r.most.value = infinity
+  | None -> false
+
 let negated text =
   let other (symbol, negation) =
     Option.map (fun (left, right) -> Printf.sprintf "%s %s %s" left negation right) (split_at symbol text) in

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from typing import Any, Dict, Mapping, Optional, Tuple, Union
 
 import dolphin
+from dolphin.document import Place, Value
 
 from . import messages
-from .document import Place, Value
 from .geo import Origin
 from .messages import Path
 

@@ -7,25 +7,19 @@ import re
 from typing import Collection, Dict, Mapping, Optional, Sequence, Tuple, Union
 
 import dolphin
+from dolphin.document import Fault, Faulty, Place, Reader, Value, near, parse, text_of
 
 from . import maneuvers, messages
 from .configuration import (
     ANSWER, SILENCE, Configuration, Kind, Lifecycle, PlanRule, Progress, Ready, RobotEntry, Rule, Topic, Type,
 )
-from .document import Fault, Faulty, Place, Reader, Value, near, parse
 from .geo import Origin
 from .messages import Path, Unfit
 
 
 def read(path: str) -> Configuration:
     """The configuration of a file. Raises `Faulty`, with all faults."""
-    try:
-        with open(path, encoding="utf-8") as file:
-            text = file.read()
-    except (OSError, UnicodeDecodeError) as error:
-        why = error.strerror if isinstance(error, OSError) else "is not a text in UTF-8"
-        raise Faulty(path, [Fault(Place(1, 1), f"cannot be read: {why}")]) from None
-    return of_text(text, path)
+    return of_text(text_of(path), path)
 
 
 def of_text(text: str, path: str) -> Configuration:

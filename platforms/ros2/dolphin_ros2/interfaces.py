@@ -7,10 +7,10 @@ import importlib
 from typing import Any, Callable
 
 import dolphin
+from dolphin.document import Reader, near
 
 from . import maneuvers, messages
 from .configuration import Configuration, Kind, Lifecycle, PlanRule, Topic, Type
-from .document import Reader, near
 from .messages import Path, Unfit
 
 Load = Callable[[str], Any]

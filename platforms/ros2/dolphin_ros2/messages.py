@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import math
 import re
-from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Tuple, Union
+from typing import Any, Callable, Dict, Mapping, NamedTuple, Optional, Tuple, Union
 
-from .document import Reader, Value, kind_of, near
+from dolphin.document import Reader, Value, kind_of, near, steps_of
 
 PARAMETER = re.compile(r"\$\{([A-Za-z_]\w*)\}")
 
@@ -38,14 +38,10 @@ class Path(NamedTuple):
         >>> Path.parse("cells[2].voltage").steps
         ('cells', 2, 'voltage')
         """
-        steps: List[Union[str, int]] = []
-        for part in text.split("."):
-            match = re.fullmatch(r"([A-Za-z_]\w*)((?:\[\d+\])*)", part)
-            if match is None:
-                raise Unfit(f"'{text}' is not a field, such as pose.position.x or cells[2]")
-            steps.append(match.group(1))
-            steps.extend(int(number) for number in re.findall(r"\d+", match.group(2)))
-        return Path(text, tuple(steps))
+        steps = steps_of(text, r"[A-Za-z_]\w*")
+        if steps is None:
+            raise Unfit(f"'{text}' is not a field, such as pose.position.x or cells[2]")
+        return Path(text, steps)
 
     def read(self, message: Any) -> Any:
         """The field of a message, as a value of Python; `None` if a list is too short for it. Durations and times are

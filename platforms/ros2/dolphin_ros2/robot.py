@@ -14,11 +14,11 @@ from typing import (
 )
 
 import dolphin
+from dolphin.document import near
 from dolphin.waiting import within
 
 from . import goals, interfaces, maneuvers, messages
 from .configuration import Configuration, Lifecycle, PlanRule, Ready, RobotEntry, Topic
-from .document import near
 from .maneuvers import Step
 from .messages import Unfit
 

@@ -9,10 +9,10 @@ import sys
 from typing import Awaitable, List, Optional, Sequence
 
 import dolphin
+from dolphin.document import Faulty
 
 from . import configuration_file, interfaces, version
 from .configuration import Configuration
-from .document import Faulty
 from .inputs import Inputs
 from .outputs import Outputs
 from .robot import Robot

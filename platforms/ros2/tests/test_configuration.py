@@ -4,8 +4,8 @@ import os
 import random
 import unittest
 
+from dolphin.document import Faulty
 from dolphin_ros2 import configuration_file, interfaces
-from dolphin_ros2.document import Faulty
 
 from seeds import seeds
 from tests.support import TEXT, load

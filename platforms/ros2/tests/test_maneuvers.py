@@ -7,8 +7,8 @@ import unittest
 from types import SimpleNamespace
 
 import dolphin
+from dolphin.document import Faulty
 from dolphin_ros2 import configuration_file, goals, interfaces, maneuvers, outputs
-from dolphin_ros2.document import Faulty
 from dolphin_ros2.geo import Origin
 
 from tests.support import TEXT, converse, load, until

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import dolphin
 import dolphin_ros2.robot as module
+from dolphin import posting
 from dolphin_ros2 import configuration_file, goals, inputs
 
 from tests.support import TEXT, Drive, FakeLinks, converse, load, odometry, until
@@ -312,8 +313,8 @@ class FromTopics(unittest.TestCase):
         hears, run = {}, FakeRun()
         links = SimpleNamespace(every=lambda name, class_, hear: hears.update({name: hear}))
         text = TEXT.replace("inputs:", "inputs:\n  stranger: {topic: /other, type: fake_msgs/msg/Text, field: data}")
-        before, inputs.AGAIN = inputs.AGAIN, 0.01
-        self.addCleanup(setattr, inputs, "AGAIN", before)
+        before, posting.AGAIN = posting.AGAIN, 0.01
+        self.addCleanup(setattr, posting, "AGAIN", before)
 
         async def go():
             bridge = inputs.Inputs(configuration_file.of_text(text, "r.yaml").inputs, run, links, load)

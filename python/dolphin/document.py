@@ -1,11 +1,13 @@
-"""YAML whose every value knows its line and column, and readers that report all that is wrong with it."""
+"""YAML whose every value knows its line and column, and readers that report all that is wrong with it: for the
+configurations of adapters. It needs PyYAML, so `import dolphin` does not load it."""
 
 from __future__ import annotations
 
 import difflib
 import math
+import re
 from dataclasses import dataclass, field
-from typing import Any, Callable, Dict, Iterable, List, NamedTuple, Optional, Tuple
+from typing import Any, Callable, Dict, Iterable, List, NamedTuple, Optional, Tuple, Union
 
 import yaml
 
@@ -134,6 +136,32 @@ class _Conversion:
         return Value(place, data, keys)
 
 
+def text_of(path: str) -> str:
+    """The text of a file. Raises `Faulty`."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            return file.read()
+    except (OSError, UnicodeDecodeError) as error:
+        why = error.strerror if isinstance(error, OSError) else "is not a text in UTF-8"
+        raise Faulty(path, [Fault(Place(1, 1), f"cannot be read: {why}")]) from None
+
+
+def steps_of(path: str, key: str) -> Optional[Tuple[Union[str, int], ...]]:
+    """The steps of the path to a field, whose keys match the regular expression `key`; `None` if it is not a path.
+
+    >>> steps_of("cells[2].voltage", r"\w+")
+    ('cells', 2, 'voltage')
+    """
+    steps: List[Union[str, int]] = []
+    for part in path.split("."):
+        match = re.fullmatch(rf"({key})((?:\[\d+\])*)", part)
+        if match is None:
+            return None
+        steps.append(match.group(1))
+        steps.extend(int(number) for number in re.findall(r"\[(\d+)\]", match.group(2)))
+    return tuple(steps)
+
+
 def near(name: str, names: Iterable[str]) -> str:
     """A hint: the name that was probably meant, or all of them."""
     known = sorted(names)
@@ -204,6 +232,14 @@ class Reader:
             self.fault(value.place, f"{what} is a number {limits}; this is {data}")
             return default
         return float(data)
+
+    def truth(self, value: Optional[Value], what: str, default: bool = False) -> bool:
+        if value is None:
+            return default
+        if not isinstance(value.data, bool):
+            self.fault(value.place, f"{what} is true or false; this is {kind_of(value)}")
+            return default
+        return value.data
 
     def listed(self, value: Optional[Value], what: str, read: Callable[[Value], Any]) -> Tuple[Any, ...]:
         if value is None:

@@ -66,7 +66,7 @@ class Poster:
                 except RunEnded:
                     return
                 except RequestRefused as refused:
-                    self._remarks.once(f"input '{key}' is refused: {refused}")
+                    self._remarks.once(f"input '{key}' is refused: {refused}", (key, refused.code))
                 except RunGone as gone:
                     self._remarks.once(f"input '{key}' may be lost: {gone}")
             self._there.clear()

@@ -365,6 +365,28 @@ let scripts =
     ("late = false\nwhile (!late || now() <= 60) { pause 10; late = now() > 60 }", "violated");
     ("while (true) { pause 10; if (now() <= 60) halt 'early'; pause 10; if (now() > 60) halt 'late' }", "holds") ]
 
+let finite =
+  [ ("if (battery(v) < 0.3) { message 'a'\nassert { battery(v) < 0.5 } }", "holds");
+    ("if (battery(v) < 0.3) { pause 1\nassert { battery(v) < 0.5 } }", "violated");
+    ("if (now() > 60) { pause 1\nassert { now() > 60 } }", "holds");
+    ("if (now() < 60) { pause 1\nassert { now() < 60 } }", "violated");
+    (* A guard that was waited for was not met before: then 1:00 had passed. *)
+    ("execute condition { battery(v) < 0.3 }\nexecute condition { now() < 60 } >> action { assert { battery(v) < 0.5 } }",
+     "holds");
+    ("execute condition { battery(v) < 0.3 }\nexecute condition { now() > 60 } >> action { assert { battery(v) < 0.5 } }",
+     "violated");
+    (* An event may come before the run halts. *)
+    ("if (battery(v) < 0.3) {\nmessage 'a'\nassert { battery(v) < 0.5 }\n\
+      execute (task('p')[v] >> action { assert { battery(v) < 0.5 } }) | action { halt 'stop' }\n}", "violated") ]
+
+let test_finite (text, expected) () =
+  let program = Pure_run.compile_exn (head ^ text) in
+  let check reduction =
+    let o = Search.run { Search.default with reduction } program open_world in
+    Alcotest.(check string) text expected (said (List.assoc Property.Assertions o.verdicts))
+  in
+  List.iter check reductions
+
 let test_example (text, expected) () =
   let program = Pure_run.compile_exn (head ^ text) in
   let check reduction =
@@ -415,6 +437,7 @@ let () =
   Alcotest.run "looks"
     [ ("tasks", List.map (fun (text, expected) -> case text (test_example ("execute " ^ text, expected))) examples);
       ("scripts", List.map (fun (text, expected) -> case text (test_example (text, expected))) scripts);
+      ("runs with an end", List.map (fun (text, expected) -> case text (test_finite (text, expected))) finite);
       ("moments", [ case "after a step" test_moments ]);
       ("formulas", [ case "cycles that no world has" test_formulas ]);
       ("random programs",

@@ -345,7 +345,7 @@ let two_statements place =
     | NAME _, (ASSIGN | ASSIGN_OPERATOR _ | STEP _) -> true
     | NAME _, LPAREN -> is_setting place
     | COMMAND x, _ -> not (follows_number place && is_unit x)
-    | (IF | WHILE | FOR | RETURN | BREAK | CONTINUE | DEF), _ -> true
+    | (IF | WHILE | FOR | RETURN | BREAK | CONTINUE | DEF | WHEN), _ -> true
     | _, _ -> false
   in
   if begins && place.acceptable SEPARATOR && not (place.acceptable (INTEGER 0)) then

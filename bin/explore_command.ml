@@ -436,10 +436,10 @@ let man =
     `P "With a $(b,fence distance), it also reports plans that may run side by side and whose ways come nearer to \
         each other.";
     `P "Noted are also runs that call $(b,halt), tuples left over at the end, and code that no run reaches.";
-    `P "Sensor readings are open: both outcomes of a condition such as $(b,battery\\(v\\) < 0.3) are possible at each \
-        look, or the outcomes for the values given in the fleet; a run lists its assumptions. All vehicles of the \
-        fleet are in reach, unless $(b,--faults) is given. Calls of a supplier get each of the replies that the fleet \
-        gives for them; a call without a reply fails.";
+    `P "Sensor readings are open: both outcomes of a condition such as $(b,battery\\(v\\) < 0.3) are possible, or the \
+        outcomes for the values given in the fleet. Between two events a sensor keeps its value. A run lists its \
+        assumptions. All vehicles of the fleet are in reach, unless $(b,--faults) is given. Calls of a supplier get \
+        each of the replies that the fleet gives for them; a call without a reply fails.";
     `P "Progress goes to standard error: on a terminal all the time, in a log as a line every ten seconds.";
     `P "A bound that is met, or Ctrl-C, makes the verdict inconclusive where no violation was found: a property never \
         counts as holding when it was not completely explored.";

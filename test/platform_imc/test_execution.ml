@@ -296,8 +296,8 @@ let lost_plan name ?abort_after check =
 let naps =
   let open QCheck2.Gen in
   let nap at =
-    let+ start = float_range at (at +. 4.) and+ lasts = float_range 0.5 4. in
-    (start, start +. lasts)
+    let+ later = float_range 0. 4. and+ longer = float_range 0. 3.5 in
+    (at +. later, at +. later +. 0.5 +. longer)
   in
   flatten_l (List.init 20 (fun i -> nap (2. +. (8. *. float_of_int i))))
 
@@ -371,8 +371,12 @@ let tests =
       property "requests get lost: each plan once" ~outward:losing ~inward:reordering (fun s logs w ->
           List.for_all (fun l -> verdict_is_fate s l && is_sound_meanwhile l && never_resent_in_vain l) logs
           && List.for_all ran_once_or_says_so logs && is_over w);
+      (* A vehicle that wakes up may report that it rests before it reads the start and the stop of a plan: then the
+         words on the next plan may be missed. *)
       napping (fun s logs w ->
-          List.for_all (fun l -> verdict_is_fate s l && is_sound_meanwhile l && never_resent_in_vain l) logs
+          let none_is_stopped = List.for_all (fun o -> o.stop_after = None) s.orders in
+          List.for_all (fun l -> is_complete l && is_sound_meanwhile l && never_resent_in_vain l) logs
+          && ((not none_is_stopped) || List.for_all (verdict_is_fate s) logs)
           && List.for_all ran_once_or_says_so logs && is_over w);
       property "requests are doubled: no plan begins anew without a word" ~count:10_000 ~outward:doubling ~inward:perfect
         (fun _ logs w -> List.for_all is_complete logs && each_anew_is_told logs w && is_over w);

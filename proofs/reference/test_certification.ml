@@ -12,12 +12,11 @@ module Kind = Dolphin_explore.Property
 let limit = 1_500
 let limits = { Limits.none with max_states = Some limit }
 
-(* The properties that hold, and those that do not. *)
+(* The properties that hold in all states, and those that do not. *)
 let verdicts options program world =
   let found = Search.run { Search.default with environment = options; limits } program world in
-  let holds property = match List.assoc property found.verdicts with Search.Holds -> true | _ -> false in
   let is_violated property = match List.assoc property found.verdicts with Search.Violated _ -> true | _ -> false in
-  (List.filter holds Certificate.certifiable, List.filter is_violated Certificate.certifiable)
+  (Certificate.holding found, List.filter is_violated Certificate.certifiable)
 
 let skipped = ref 0
 let accepted = ref 0

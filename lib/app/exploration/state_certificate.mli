@@ -21,6 +21,9 @@ type t = {
   edges : edge list array;  (** by state, the initial one first *)
 }
 
+val holding : Dolphin_explore.Search.outcome -> Dolphin_explore.Property.t list
+(** [holding o] is those of {!certifiable} that hold in all states, also in those that no world reaches. *)
+
 val certifiable : Dolphin_explore.Property.t list
 (** The properties that a checker sees in a state and its transitions. *)
 

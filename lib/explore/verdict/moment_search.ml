@@ -127,7 +127,9 @@ let steps_of t pair =
   let is_own step = not (Looks.is_event step) in
   let later = after_wait t.program t.world pair.c pair.moment in
   (* If nothing need be known, all else is possible, too. *)
-  let each moments = if List.mem [] moments then [ [] ] else List.sort_uniq Looks.compare_moments moments in
+  let knows_nothing = function [] -> true | _ :: _ -> false in
+  let each moments =
+    if List.exists knows_nothing moments then [ Looks.beginning ] else List.sort_uniq Looks.compare_moments moments in
   List.concat_map (at is_own) (each (pair.moment :: later))
   @ List.concat_map (at Looks.is_event) (each (once_time_has_passed pair.moment :: later))
 

@@ -28,6 +28,10 @@ const sides = [["", 14, -9], ["left", 14, -9], ["up", 0, -28], ["down", 0, 11]] 
 
 const steps = [0.0001, 0.0002, 0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 45];
 
+// A circle's own bounds need the map that it is on, and its group may be hidden.
+const boundsOf = (shape: L.Polyline | L.Circle) =>
+  shape instanceof L.Circle ? shape.getLatLng().toBounds(2 * shape.getRadius()) : shape.getBounds();
+
 export class ChartMap {
   readonly map: L.Map;
   private net = L.layerGroup();
@@ -126,7 +130,7 @@ export class ChartMap {
     const ofShapes = this.shapes.getLayers().flatMap((l) => (l as L.LayerGroup).getLayers());
     const ofGroups = [...(this.map.hasLayer(this.program) ? [this.program] : []), this.ways, this.sketched].flatMap((group) => group.getLayers());
     for (const l of [...ofShapes, ...ofGroups])
-      bounds.extend(l instanceof L.Marker ? l.getLatLng() : (l as L.Polyline | L.Circle).getBounds());
+      bounds.extend(l instanceof L.Marker ? l.getLatLng() : boundsOf(l as L.Polyline | L.Circle));
     if (bounds.isValid()) this.map.fitBounds(bounds.pad(0.25), { animate: false, maxZoom: 18 });
   }
 
@@ -273,7 +277,7 @@ export class ChartMap {
       if (p.position) name(p.position);
       else if (p.centre) {
         const circle = L.circle(p.centre, { ...look, radius: p.radius! }).addTo(this.program);
-        name([circle.getBounds().getNorth(), p.centre[1]]);
+        name([boundsOf(circle).getNorth(), p.centre[1]]);
       }
       else if (p.rings) { const shape = L.polygon(p.rings, look).addTo(this.program); name(shape.getBounds().getCenter()); }
     }

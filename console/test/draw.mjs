@@ -109,6 +109,16 @@ zone = quay ^ 100.m
 
   await test("a phone draws by touch, and nothing is moved by who watches", async () => {
     const phone = await open({ viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true });
+    // The program's places come when its shapes are shown instead, and its circle is on no map.
+    await phone.addInitScript(() => {
+      const Source = window.EventSource;
+      window.EventSource = class extends Source {
+        addEventListener(name, f) {
+          const later = (e) => document.querySelector("#map .handle") ? f(e) : setTimeout(() => later(e), 20);
+          super.addEventListener(name, name === "places" ? later : f);
+        }
+      };
+    });
     await phone.goto(phone.url().replace(/#.*/, "") + "#drawn.dol");
     await phone.reload();
     await phone.tap("#draw-open");

@@ -318,9 +318,9 @@ let files =
   let certificate =
     file "certify"
       "Write all states of $(i,PROG) with their transitions into $(docv), without any reduction, and the properties \
-       that hold. The checker in $(i,proofs/reference), which is proved, compares it with the rules: see \
-       $(i,docs/proofs.md). Invariants, formulas and distances are not in it. Not with $(b,--from), $(b,--sample) and \
-       $(b,--bitstate)."
+       that hold in all of them. The checker in $(i,proofs/reference), which is proved, compares it with the rules: \
+       see $(i,docs/proofs.md). Invariants, formulas and distances are not in it. Not with $(b,--from), \
+       $(b,--sample) and $(b,--bitstate)."
   in
   let open Options.Syntax in
   let+ trace = trace

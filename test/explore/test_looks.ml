@@ -165,9 +165,20 @@ let said (verdict : Search.verdict) =
 
 let reductions = [ Reduction.Whole; Partial_order; All ]
 
-let verdict program world reduction =
-  let o = Search.run { Search.default with reduction; search_again = 0 } program world in
-  said (List.assoc Property.Termination o.verdicts)
+let verdict ?(property = Property.Termination) ?(search_again = 0) program world reduction =
+  let o = Search.run { Search.default with reduction; search_again } program world in
+  said (List.assoc property o.verdicts)
+
+(* Runs of worlds are searched again. *)
+let of_worlds property = verdict ~property ~search_again:Search.default.search_again
+
+let each_is expected verdict =
+  let is_expected reduction =
+    let found = verdict reduction in
+    found = expected
+    || QCheck2.Test.fail_reportf "%s, %s expected (%s)" found expected (String.concat ", " (Reduction.names reduction))
+  in
+  List.for_all is_expected reductions
 
 let agrees source =
   match Pure_run.compile source with
@@ -178,13 +189,7 @@ let agrees source =
       | Some g ->
         let expected = if List.exists (spins_in g) closed_worlds then "violated" else "holds" in
         note expected;
-        let agrees reduction =
-          let verdict = verdict program open_world reduction in
-          verdict = expected
-          || QCheck2.Test.fail_reportf "%s, %s expected (%s)" verdict expected
-            (String.concat ", " (Reduction.names reduction))
-        in
-        List.for_all agrees reductions)
+        each_is expected (verdict program open_world))
 
 let test_random () =
   let test = QCheck2.Test.make ~count:programs ~print:Fun.id ~name:"spins are those of some world" source agrees in
@@ -198,13 +203,7 @@ let script_agrees source =
   | Some g ->
     let expected = if goes_round g then "violated" else "holds" in
     note ("script " ^ expected);
-    let agrees reduction =
-      let verdict = verdict program open_world reduction in
-      verdict = expected
-      || QCheck2.Test.fail_reportf "%s, %s expected (%s)" verdict expected
-        (String.concat ", " (Reduction.names reduction))
-    in
-    List.for_all agrees reductions
+    each_is expected (verdict program open_world)
 
 let test_scripts () =
   let count = programs / 30 in
@@ -280,7 +279,8 @@ let halting =
   let open QCheck2.Gen in
   let statement =
     frequency
-      [ (2, map (Printf.sprintf "execute %s") halting_task); (4, map2 (Printf.sprintf "if (%s) { message 'm'\nif (%s) halt 'both' }") dated dated);
+      [ (2, map (Printf.sprintf "execute %s") halting_task);
+        (4, map2 (Printf.sprintf "if (%s) { message 'm'\nif (%s) halt 'both' }") dated dated);
         (1, map (Printf.sprintf "h = %s") dated); (1, map (Printf.sprintf "if (h == (%s)) halt 'the same'") dated);
         (1, return "pause 1") ]
   in
@@ -295,14 +295,7 @@ let halts_agree source =
     let expected = if halts g then "violated" else "holds" in
     note ("halt " ^ expected);
     if expected = "holds" && List.mem_assoc Property.No_halt (Reference.broken g) then note "halt in no world";
-    let agrees reduction =
-      let o = Search.run { Search.default with reduction } program open_world in
-      let run = List.assoc Property.No_halt o.verdicts in
-      said run = expected
-      || QCheck2.Test.fail_reportf "%s, %s expected (%s)" (said run) expected
-        (String.concat ", " (Reduction.names reduction))
-    in
-    List.for_all agrees reductions
+    each_is expected (of_worlds No_halt program open_world)
 
 let test_halts () =
   let count = programs / 5 in
@@ -382,9 +375,7 @@ let finite =
 let test_finite (text, expected) () =
   let program = Pure_run.compile_exn (head ^ text) in
   let check reduction =
-    let o = Search.run { Search.default with reduction } program open_world in
-    Alcotest.(check string) text expected (said (List.assoc Property.Assertions o.verdicts))
-  in
+    Alcotest.(check string) text expected (of_worlds Assertions program open_world reduction) in
   List.iter check reductions
 
 let test_example (text, expected) () =

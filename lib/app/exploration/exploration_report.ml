@@ -158,10 +158,10 @@ let json_of_run (run : Search.run) =
   @ helpful
   @ if assumptions = [] then [] else [ ("assumptions", `List assumptions) ]
 
-let fairness (o : Search.outcome) (property : Property.t) =
-  match o.fairness, property with
-  | Strong, (Termination | Formula _) -> [ ("fairness", `String "strong") ]
-  | (Weak | Strong | No_fairness), _ -> []
+let fairness (o : Search.outcome) property =
+  match o.fairness with
+  | Strong when Property.is_of_fair_runs property -> [ ("fairness", `String "strong") ]
+  | Weak | Strong | No_fairness -> []
 
 let to_json ?from (p : Program_file.t) (o : Search.outcome) : Yojson.Safe.t =
   let program = p.program in

@@ -45,8 +45,7 @@ let limited ?start (options : Search.options) = function
     let faults = { environment.faults with interrupt = options.environment.faults.interrupt } in
     ({ options with environment = { environment with faults } }, Option.map (fun (c, _) -> (c, outside)) start)
   | n ->
-    let most = Option.fold options.limits.max_states ~none:options.search_again ~some:(min options.search_again) in
-    let limits = { options.limits with max_states = Some most } in
+    let limits = { options.limits with max_states = Some (Search.most_again options) } in
     ({ options with environment = { options.environment with most_faults = Some n }; reduction = Whole; limits }, start)
 
 (* A violation, and the run that shows it with its faults. *)

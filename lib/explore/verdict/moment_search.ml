@@ -32,8 +32,9 @@ let others world (a : World.assumption) : World.assumption list =
       | Some (Shows _ | Anything) | None -> [])
   | Late _ | Missing _ -> []
 
-(* The moments that begin with [moment] and at which [c] makes no step by itself: it is supposed, one by one, that a
-   look which some step needs has another outcome. A step that may not be taken needs none. *)
+(* The moments that begin with [moment] and exclude each step that [c] can make by itself: looks that a step needs get
+   another outcome, one by one. A step whose outcomes cannot be listed counts as excluded: more moments are tried then
+   than there are. *)
 let rec idle program world (c : Configuration.t) moment =
   let supposed = World.suppose moment world in
   let listed, _ = Transition.internal_listed program supposed c in
@@ -50,8 +51,8 @@ let rec idle program world (c : Configuration.t) moment =
   | `Step -> []
   | `Look a -> List.concat_map (fun a -> idle program world c (a :: moment)) (others supposed a)
 
-(* What is still known once time has passed without an event in [c], after each moment at which it may; dates only grow,
-   so that it matters which were looked at in vain. *)
+(* The moments of [c] once time has passed without an event, which takes a moment that excludes all steps: of each, the
+   comparisons of the date that stay true. *)
 let after_wait program world (c : Configuration.t) moment =
   match c.control with
   | Waiting _ -> [ once_time_has_passed moment ]
@@ -99,7 +100,7 @@ type t = {
   world : World.t;
   concerns : Looks.concerns;
   conditions : Condition.t list;
-  came_by : (pair * Transition.t) option Table.t;  (* from where each pair was first met *)
+  came_by : (pair * Transition.t) option Table.t;  (* the pair before, with the step, at the first arrival *)
   queue : pair Queue.t;
   mutable sought : Property.t list;
   mutable runs : (Property.t * Transition.t list) list;

@@ -39,6 +39,11 @@ let question = function
   | Formula _ -> "it does not hold"
   | Apart _ -> "plans run side by side whose ways come nearer to each other"
 
+let is_of_fair_runs = function
+  | Termination | Formula _ -> true
+  | No_deadlock | No_error | Assertions | Vehicles | Allocation | No_halt | No_leftover | All_reached | Invariant _
+  | Apart _ -> false
+
 let pp ppf p = Format.pp_print_string ppf (name p)
 
 (* A program cannot know which inputs come, or take them all. *)

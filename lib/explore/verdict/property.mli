@@ -28,6 +28,9 @@ val name : t -> string
 val question : t -> string
 (** The meaning of a violation, in a sentence without a full stop. *)
 
+val is_of_fair_runs : t -> bool
+(** Whether it is about fair runs, so that the kind of fairness counts. *)
+
 val pp : Format.formatter -> t -> unit
 (** {!name}. *)
 

@@ -23,6 +23,9 @@ type options = {
   fairness : fairness;
 }
 
+let most_again options =
+  Option.fold ~none:options.search_again ~some:(min options.search_again) options.limits.max_states
+
 let default =
   {
     environment = Environment.default;
@@ -157,7 +160,7 @@ let helpful x (options : options) graph =
     if State_graph.stopped graph <> None then Fair_cycles.No_help
     else Fair_cycles.helpful x.program graph ~all ~assumed ~strong:(options.fairness = Strong)
   in
-  let most = Option.fold ~none:options.search_again ~some:(min options.search_again) options.limits.max_states in
+  let most = most_again options in
   let again reduction =
     let limits = { options.limits with max_states = Some most } in
     let options = { options with reduction; invariants = []; limits } in
@@ -321,8 +324,7 @@ let with_shortest_runs x (options : options) verdicts =
   match List.map fst (List.filter is_sought verdicts) with
   | [] -> verdicts
   | sought ->
-    let max_states = options.limits.max_states in
-    let most = Option.fold ~none:options.search_again ~some:(min options.search_again) max_states in
+    let most = most_again options in
     let limits = { options.limits with max_states = Some most } in
     let x = { x with symmetry = Symmetry.without_tasks x.symmetry } in
     with_graph x { options with reduction = Whole; invariants = []; limits } (fun graph ->
@@ -363,7 +365,7 @@ let with_runs_of_worlds x (options : options) verdicts =
   | [] -> (verdicts, [])
   | sought ->
     let tick = Limits.follow_up ~started options.limits in
-    let limit = Option.fold ~none:options.search_again ~some:(min options.search_again) options.limits.max_states in
+    let limit = most_again options in
     let search () =
       Moment_search.search ~tick ~limit ~conditions:options.invariants options.environment program world start sought in
     let found = bounded ~stopped:(fun _ -> { Moment_search.runs = []; whole = false }) search in
@@ -723,14 +725,13 @@ let pp_verdict ?(fairness = Weak) (program : Core.program) ppf (property, verdic
     in
     Option.iter help found.helpful
   in
-  let is_strong =
-    fairness = Strong && match property with Property.Termination | Formula _ -> true | _ -> false in
+  let by_fairness = if fairness = Strong && Property.is_of_fair_runs property then " " ^ strongly else "" in
   let steps n = if n = 1 then "1 step" else Printf.sprintf "%d steps" n in
   let with_faults { faults; _ } = Option.fold faults ~none:"" ~some:(fun faults -> ", " ^ faults_text faults) in
   print "%a: " Property.pp property;
   match verdict with
-  | Holds -> print "holds%s" (if is_strong then " " ^ strongly else "")
-  | Holds_if needs -> print "holds%s %a" (if is_strong then " " ^ strongly ^ "," else "") pp_needs needs
+  | Holds -> print "holds%s" by_fairness
+  | Holds_if needs -> print "holds%s%s %a" by_fairness (if by_fairness = "" then "" else ",") pp_needs needs
   | By_design { repeats; retries; left_by; needs } ->
     let at ppf (word, site) =
       match Fault.location program (Fault.make site "") with

@@ -66,6 +66,10 @@ type options = {
 val default : options
 (** No limits, no reduction, the default environment. *)
 
+val most_again : options -> int
+(** [most_again o] is how many states are searched again at most, for a shorter run or one of a world: [o.search_again],
+    unless [o.limits] allow fewer. *)
+
 val without_symmetry : options -> Core.program -> options
 (** [without_symmetry o p] is [o] as {!run} searches [p] by it, but with nothing reduced by symmetry. *)
 

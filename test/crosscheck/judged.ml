@@ -23,7 +23,8 @@ let is_asked_of_tlc property (run : Search.run) =
   && not (property = Property.Termination && run.cycle <> [] && List.for_all executes run.cycle)
 
 let violated_here (c : Case.t) =
-  let o = Search.run { Search.default with environment = c.environment } c.program c.world in
+  (* The runs that are found in the states, as TLC finds them, also those of no world. *)
+  let o = Search.run { Search.default with environment = c.environment; search_again = 0 } c.program c.world in
   let violated (property, (verdict : Search.verdict)) =
     match verdict with
     | Violated run when is_asked_of_tlc property run -> Some (Property.name property)

@@ -360,8 +360,8 @@ let with_runs_of_worlds x (options : options) verdicts =
       is_sought property && not (Moment_search.agrees program world (fst start) steps)
     | _, (Violated _ | Holds | Holds_if _ | By_design _ | Unreached _ | Inconclusive _) -> false
   in
-  let reads = program.reads_sensors || program.reads_now in
-  match if reads then List.map fst (List.filter is_of_no_world verdicts) else [] with
+  let searches = (program.reads_sensors || program.reads_now) && most_again options > 0 in
+  match if searches then List.map fst (List.filter is_of_no_world verdicts) else [] with
   | [] -> (verdicts, [])
   | sought ->
     let tick = Limits.follow_up ~started options.limits in

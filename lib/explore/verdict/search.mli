@@ -51,7 +51,9 @@ type options = {
   (** bytes of an array of bits that represents states in place of a set, without [walks]: states are explored depth
       first, and some may be missed; formulas are judged as always *)
   search_again : int;
-  (** number of states visited without reduction for a shortest run, if a reduced search found a violation *)
+  (** number of states visited without reduction for a shortest run, if a reduced search found a violation, and for a
+      run of a world, if the readings on the run that was found contradict each other ({!Moment_search}). With 0 the
+      runs that were found are reported, also those of no world *)
   workers : int;
   (** processes, 1 by default, that search from [fork_from] states on, 100,000 by default, as for
       {!Breadth_first.Make.create} *)

@@ -41,6 +41,8 @@ class Adapter:
         self.vehicles: Dict[str, Vehicle] = {}
         self.purpose = "run"
         """`run`, `look` or `check`: why Dolphin has started the adapter."""
+        self.program: Optional[str] = None
+        """The name of the program's file, if it has one."""
         self.resumes = False
         self._plans = plans
         self._requests: Dict[str, Request] = {}
@@ -157,6 +159,7 @@ class Adapter:
         if hello.get("kind") != "hello" or hello.get("protocol") != PROTOCOL:
             return f"speaks version {PROTOCOL} of the platform protocol only"
         self.purpose, self.resumes = hello.get("purpose") or "run", bool(hello.get("resumes"))
+        self.program = hello.get("program")
         try:
             await self.open()
         except Exception as error:

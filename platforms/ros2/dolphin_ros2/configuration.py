@@ -4,14 +4,13 @@ reads it from robots.yaml."""
 from __future__ import annotations
 
 import dataclasses
-import re
 from dataclasses import dataclass
 from typing import Any, Dict, Mapping, Optional, Tuple, Union
 
 import dolphin
+from dolphin import templates
 from dolphin.document import Place, Value
 
-from . import messages
 from .geo import Origin
 from .messages import Path
 
@@ -105,12 +104,11 @@ class PlanRule:
 
     def match(self, name: str) -> Optional[Dict[str, str]]:
         """The parameters of a plan's name; `None` if it is another plan."""
-        match = _pattern(self.name).fullmatch(name)
-        return None if match is None else match.groupdict()
+        return templates.match(self.name, name)
 
     def values(self, parameters: Mapping[str, Any]) -> Dict[str, Any]:
         """The fields of the goal or the request."""
-        found: Dict[str, Any] = messages.substitute(self.template.plain(), parameters)
+        found: Dict[str, Any] = templates.substitute(self.template.plain(), parameters)
         return found
 
 
@@ -132,12 +130,7 @@ class Kind:
 
     def plan(self, name: str) -> Optional[Tuple[PlanRule, Dict[str, str]]]:
         """The plan of this name with its parameters: names without parameters go before those with them."""
-        ordered = sorted(self.plans, key=lambda plan: bool(messages.PARAMETER.search(plan.name)))
-        for plan in ordered:
-            parameters = plan.match(name)
-            if parameters is not None:
-                return plan, parameters
-        return None
+        return templates.choose(((plan.name, plan) for plan in self.plans), name)
 
 
 @dataclass(frozen=True)
@@ -165,11 +158,3 @@ class Configuration:
     domain: Optional[int]
     origin: Optional[Origin]
     answer: float
-
-
-def _pattern(name: str) -> "re.Pattern[str]":
-    parts, end = [], 0
-    for match in messages.PARAMETER.finditer(name):
-        parts.append(re.escape(name[end:match.start()]) + f"(?P<{match.group(1)}>.+?)")
-        end = match.end()
-    return re.compile("".join(parts) + re.escape(name[end:]), re.DOTALL)

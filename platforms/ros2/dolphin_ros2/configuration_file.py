@@ -7,9 +7,10 @@ import re
 from typing import Collection, Dict, Mapping, Optional, Sequence, Tuple, Union
 
 import dolphin
+from dolphin import templates
 from dolphin.document import Fault, Faulty, Place, Reader, Value, near, parse, text_of
 
-from . import maneuvers, messages
+from . import maneuvers
 from .configuration import (
     ANSWER, SILENCE, Configuration, Kind, Lifecycle, PlanRule, Progress, Ready, RobotEntry, Rule, Topic, Type,
 )
@@ -262,7 +263,7 @@ class _Reading:
 
     def plan(self, name: str, value: Value, place: Place) -> Optional[PlanRule]:
         what = f"the plan '{name}'"
-        self.parameters(name, place)
+        templates.check_name(self.reader, name, place)
         is_service = isinstance(value.data, dict) and "service" in value.data
         if isinstance(value.data, dict) and is_service == ("action" in value.data):
             both = "cannot have both" if is_service else "needs one of"
@@ -275,7 +276,7 @@ class _Reading:
         trigger = Value(value.place, "std_srvs/srv/Trigger") if is_service else None
         type_ = self.type(members.get("type") or trigger, "srv" if is_service else "action")
         template = members.get("request" if is_service else "goal") or Value(value.place, {})
-        self.template(name, template)
+        templates.check_template(self.reader, name, template)
         progress = self.progress(members.get("progress"), name)
         result = self.rule(members.get("result"))
         if not interface or type_ is None:
@@ -300,13 +301,13 @@ class _Reading:
         interface = self.name(members.get("action"), "an action", "navigate_to_pose")
         type_ = self.type(members.get("type"), "action")
         template, has = members.get("goal") or Value(value.place, {}), maneuvers.PARAMETERS[name]
-        own = messages.parameters_of(template.plain())
+        own = templates.parameters_of(template.plain())
         self.known_parameters(template, has, what)
         if name == "path" and "goal" in members and "points" not in own:
             self.reader.fault(template.place, "the goal of 'path' has a field with the value ${points}")
         if "point" in members:
             self.known_parameters(members["point"], maneuvers.POINT, "a point")
-            own |= messages.parameters_of(members["point"].plain())
+            own |= templates.parameters_of(members["point"].plain())
         if own & maneuvers.OF_MAP and origin is None:
             self.reader.fault(value.place, f"{what} is in metres of a map: the configuration needs 'origin'")
         progress, result = self.progress(members.get("progress"), name), self.rule(members.get("result"))
@@ -321,33 +322,8 @@ class _Reading:
             template.data if isinstance(template.data, tuple) else ())
         for item in inside:
             self.known_parameters(item, known, what)
-        for parameter in sorted(messages.parameters_of(template.data) - set(known)) if not inside else ():
+        for parameter in sorted(templates.parameters_of(template.data) - set(known)) if not inside else ():
             self.reader.fault(template.place, f"{what} has no parameter '{parameter}'{near(parameter, known)}")
-
-    def parameters(self, name: str, place: Place) -> None:
-        found = messages.PARAMETER.findall(name)
-        if len(set(found)) < len(found):
-            self.reader.fault(place, f"the name '{name}' has a parameter twice")
-        elif re.search(r"\}\$\{", name):
-            self.reader.fault(place, f"two parameters of '{name}' have nothing between them: separate them, as by '_'")
-        elif "${" in messages.PARAMETER.sub("", name):
-            self.reader.fault(place, f"a parameter of '{name}' is not written as ${{bay}}")
-
-    def template(self, name: str, template: Value) -> None:
-        """Reports parameters that the plan's name does not have."""
-        if isinstance(template.data, dict):
-            for item in template.data.values():
-                self.template(name, item)
-        elif isinstance(template.data, tuple):
-            for item in template.data:
-                self.template(name, item)
-        else:
-            known = set(messages.PARAMETER.findall(name))
-            for parameter in sorted(messages.parameters_of(template.data) - known):
-                self.reader.fault(
-                    template.place,
-                    f"the plan's name '{name}' has no parameter '{parameter}': call it '{name}_${{{parameter}}}'",
-                )
 
     def progress(self, value: Optional[Value], name: str) -> Optional[Progress]:
         if value is None:
@@ -355,7 +331,7 @@ class _Reading:
         members = self.reader.members(value, "'progress'", ("field", "of", "remaining"))
         of = members.get("of")
         if of is not None and isinstance(of.data, str):
-            self.template(name, of)
+            templates.check_template(self.reader, name, of)
         else:
             self.reader.number(of, "'of'", 1, 0.001)
         if not {"field", "remaining"} & set(members) and isinstance(value.data, dict):

@@ -6,8 +6,8 @@ import uuid
 from typing import Any, Mapping, Optional
 
 import dolphin
+from dolphin import templates
 
-from . import messages
 from .configuration import PlanRule
 
 UNKNOWN, ACCEPTED, EXECUTING, CANCELING, SUCCEEDED, CANCELED, ABORTED = range(7)
@@ -96,7 +96,7 @@ def share(rule: PlanRule, parameters: Mapping[str, Any], feedback: Any) -> Optio
     value = rule.progress.field.read(feedback)
     amount = len(value) if isinstance(value, (list, tuple)) else value
     try:
-        return float(amount) / float(messages.substitute(rule.progress.of, parameters))
+        return float(amount) / float(templates.substitute(rule.progress.of, parameters))
     except (TypeError, ValueError, ZeroDivisionError):
         return None
 

@@ -6,7 +6,8 @@ from __future__ import annotations
 import math
 from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple
 
-from . import messages
+from dolphin import templates
+
 from .configuration import PlanRule
 from .geo import Origin
 
@@ -57,7 +58,7 @@ def compile_plan(
 def sample(rule: PlanRule) -> Dict[str, Any]:
     """Parameters of the types that those of a maneuver have."""
     numbers: Dict[str, Any] = {**dict.fromkeys(POINT, 0.5), "seconds": 30}
-    point = None if rule.point is None else messages.substitute(rule.point.plain(), numbers)
+    point = None if rule.point is None else templates.substitute(rule.point.plain(), numbers)
     return {**numbers, "points": [point]}
 
 
@@ -108,9 +109,9 @@ class _Compiler:
 
     def _used(self) -> "set[str]":
         """The parameters that some template uses."""
-        templates = [rule.template for rule in self.rules.values()]
-        templates += [rule.point for rule in self.rules.values() if rule.point is not None]
-        return {name for template in templates for name in messages.parameters_of(template.plain())}
+        used = [rule.template for rule in self.rules.values()]
+        used += [rule.point for rule in self.rules.values() if rule.point is not None]
+        return {name for template in used for name in templates.parameters_of(template.plain())}
 
     def _move(self, places: Sequence[Place]) -> None:
         """Adds goals of `path` for several places, of `goTo` for one; or of the one that there is."""
@@ -118,7 +119,7 @@ class _Compiler:
         if "path" in self.rules and (len(places) > 1 or "goTo" not in self.rules):
             rule = self.rules["path"]
             assert rule.point is not None
-            points = [messages.substitute(rule.point.plain(), point) for point in parameters]
+            points = [templates.substitute(rule.point.plain(), point) for point in parameters]
             self.steps.append(Step(rule, {"points": points, "speed": places[0].speed}))
         else:
             self.steps += [Step(self.rules["goTo"], point) for point in parameters]

@@ -8,8 +8,7 @@ import re
 from typing import Any, Callable, Dict, Mapping, NamedTuple, Optional, Tuple, Union
 
 from dolphin.document import Reader, Value, kind_of, near, steps_of
-
-PARAMETER = re.compile(r"\$\{([A-Za-z_]\w*)\}")
+from dolphin.templates import parameters_of
 
 _BITS = {f"{sign}int{bits}": (sign, bits) for sign in ("", "u") for bits in (8, 16, 32, 64)}
 _TEXTS = ("string", "wstring")
@@ -98,36 +97,6 @@ def item_of(field: str) -> Optional[str]:
     """The type of the items of a list; `None` if the type is not a list."""
     match = _LIST.match(field)
     return None if match is None else match.group("of") or match.group("array")
-
-
-# Templates.
-
-def parameters_of(template: Any) -> "set[str]":
-    """The parameters of a template of plain values."""
-    if isinstance(template, str):
-        return set(PARAMETER.findall(template))
-    inside = template.values() if isinstance(template, Mapping) else template if isinstance(template, list) else ()
-    return {name for item in inside for name in parameters_of(item)}
-
-
-def substitute(template: Any, parameters: Mapping[str, Any]) -> Any:
-    """A template with its parameters' values. A text that is just a parameter becomes its value.
-
-    >>> substitute({"bay": "${bay}", "label": "bay ${bay}"}, {"bay": "3"})
-    {'bay': '3', 'label': 'bay 3'}
-    >>> substitute({"x": "${x}"}, {"x": 0.5})
-    {'x': 0.5}
-    """
-    if isinstance(template, str):
-        whole = PARAMETER.fullmatch(template)
-        if whole is not None:
-            return parameters[whole.group(1)]
-        return PARAMETER.sub(lambda match: str(parameters[match.group(1)]), template)
-    if isinstance(template, Mapping):
-        return {key: substitute(item, parameters) for key, item in template.items()}
-    if isinstance(template, list):
-        return [substitute(item, parameters) for item in template]
-    return template
 
 
 def build(kind: Any, values: Mapping[str, Any], find: Find) -> Any:

@@ -4,7 +4,7 @@ import { createRequire } from "node:module";
 
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
-async function serious(page) {
+export async function serious(page) {
   // The page's policy forbids scripts of others; what the browser is told to evaluate it does not ask for.
   await page.evaluate(axe);
   const found = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));

@@ -15,6 +15,7 @@ import listen from "./listen.mjs";
 import maps from "./maps.mjs";
 import places from "./places.mjs";
 import people from "./people.mjs";
+import phonePage from "./phone.mjs";
 import plans from "./plans.mjs";
 import review from "./review.mjs";
 import stop from "./stop.mjs";
@@ -303,8 +304,8 @@ async function phone(name) {
 }
 
 const all = { folder, page, test, same, text, choose, over, picture, phone };
-const more = { ...all, home, dolphin, openapi: join(examples, "..", "docs", "openapi.json"), environment, browser, open, pictures, server: () => server };
-for (const f of [helm, truth, outlook, replace, people, analyses, maps, plans, draw, workplace, review, places, accessibility, stop, listen, imc]) {
+const more = { ...all, home, dolphin, examples, openapi: join(examples, "..", "docs", "openapi.json"), environment, browser, open, pictures, server: () => server };
+for (const f of [helm, truth, outlook, replace, people, analyses, maps, plans, draw, workplace, review, places, accessibility, stop, listen, imc, phonePage]) {
   part = f.name;
   if (wanted(part)) await f(more);
 }

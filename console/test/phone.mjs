@@ -6,28 +6,38 @@ import { createServer } from "node:net";
 import { join } from "node:path";
 import { serious } from "./accessibility.mjs";
 
-const program = `input 'salinity', 'remark', 'enough'
+const program = `input 'salinity', 'remark', 'colour', 'place', 'photo', 'enough'
 ana = pick { id 'ana'; timeout 5.min }
 execute ana: task('salinity')
 execute waitFor { consume salinity: _ } then { s -> action { message "the salinity is $s" } }
 execute watch task('carry')[ana] onError { e -> message "declined: $e"; ignore() }
 execute ana: task('look')
 execute waitFor { consume remark: _ } then { r -> action { message "ana remarks: $r" } }
+execute ana: task('colour') >> task('place') >> task('photo')
+execute waitFor { consume colour: _; consume place: _; consume photo: _ } then {
+  c, p, f -> action { message "$c, $p, $f" } }
 execute until { poll enough: true } run task('guard')[ana]
-message 'the guard rests'
+execute watch task('rest')[ana] onError { e -> message "failed: $e"; ignore() }
 `;
 const people = (port) => `listen: {port: ${port}}
 people:
-  ana: {skills: [crane], position: {latitude: 41.185, longitude: -8.706}}
+  ana: {skills: [crane], position: {latitude: 41.185, longitude: -8.706}, locate: true}
 instructions:
-  salinity: {text: Measure the salinity at the quay, within: 600, answer: number, input: salinity, unit: g/kg, from: 0, to: 50}
+  salinity:
+    {text: Measure the salinity at the quay, within: 600, answer: number, input: salinity, unit: g/kg, from: 0, to: 50}
   carry: {text: Carry the buoy to the boat}
   look: {text: '<img src=x onerror="window.hacked = true">', answer: text, input: remark}
+  colour: {text: Report the colour of the flag, answer: choice, choices: [red, green], input: colour}
+  place: {text: Report your position, answer: position, input: place}
+  photo: {text: Take a photo of the buoy, answer: photo, input: photo}
   guard: {text: Keep all boats away}
+  rest: {text: Put the crane to rest}
 accept: 600
 declined: 0
 `;
 const hostile = '<img src=x onerror="window.hacked = true">';
+// A phone at another place than the configuration has; the second page, without the permission, is at no place.
+const place = { permissions: ["geolocation"], geolocation: { latitude: 41.25, longitude: -8.75 } };
 const small = { viewport: { width: 360, height: 740 }, isMobile: true, hasTouch: true };
 
 // Counts vibrations and tones.
@@ -35,11 +45,16 @@ const counts = () => {
   window.buzzed = window.rung = 0;
   navigator.vibrate = () => { window.buzzed++; return true; };
   const Context = window.AudioContext;
-  window.AudioContext = class extends Context { createOscillator() { window.rung++; return super.createOscillator(); } };
+  window.AudioContext = class extends Context {
+    createOscillator() { window.rung++; return super.createOscillator(); }
+  };
 };
 
 const freePort = () => new Promise((done) => {
-  const server = createServer().listen(0, "127.0.0.1", () => { const { port } = server.address(); server.close(() => done(port)); });
+  const server = createServer().listen(0, "127.0.0.1", () => {
+    const { port } = server.address();
+    server.close(() => done(port));
+  });
 });
 
 export default async function phone({ home, dolphin, examples, environment, browser, test, same, text, picture }) {
@@ -50,7 +65,8 @@ export default async function phone({ home, dolphin, examples, environment, brow
   const installed = join(examples, "..", "platforms", "people"), adapter = join(installed, "dolphin-people");
   const python = process.env.DOLPHIN_PEOPLE ?? execFileSync(join(installed, "install"), { encoding: "utf8" }).trim();
   const surroundings = { cwd: folder, env: { ...environment, DOLPHIN_PEOPLE: python } };
-  const link = /^ana: (.*)$/m.exec(execFileSync(adapter, ["--config", "people.yaml", "--links"], { ...surroundings, encoding: "utf8" }))[1];
+  const links = execFileSync(adapter, ["--config", "people.yaml", "--links"], { ...surroundings, encoding: "utf8" });
+  const [, link] = /^ana: (.*)$/m.exec(links), bare = link.replace(/#.*/, "");
   // An adapter that is killed is started again once `hold` is gone.
   const command = "while [ -e hold ]; do sleep 0.05; done; echo $$ > pid; "
     + `exec '${adapter}' --config people.yaml --run phone.run`;
@@ -60,7 +76,8 @@ export default async function phone({ home, dolphin, examples, environment, brow
   process.on("exit", () => run.kill("SIGKILL"));
   let log = "";
   const readers = new Set();
-  for (const stream of [run.stdout, run.stderr]) stream.on("data", (bytes) => { log += bytes; for (const f of readers) f(); });
+  const hear = (bytes) => { log += bytes; for (const f of readers) f(); };
+  for (const stream of [run.stdout, run.stderr]) stream.on("data", hear);
   const logged = (wanted) => new Promise((done, fail) => {
     const timer = setTimeout(() => fail(new Error(`no ${wanted} in the log: ${log}`)), 60000);
     const look = () => { if (wanted.test(log)) { clearTimeout(timer); readers.delete(look); done(wanted.exec(log)); } };
@@ -68,8 +85,8 @@ export default async function phone({ home, dolphin, examples, environment, brow
     look();
   });
   // The last line may be written just now.
-  const posts = (key) => readFileSync(file("phone.run"), "utf8").split("\n").slice(0, -1).map((line) => JSON.parse(line))
-    .filter((line) => line.event === "input" && line.key === key).length;
+  const posts = (key) => readFileSync(file("phone.run"), "utf8").split("\n").slice(0, -1)
+    .map((line) => JSON.parse(line)).filter((line) => line.event === "input" && line.key === key).length;
   while (!await fetch(link).catch(() => null)) await new Promise((done) => setTimeout(done, 50));
   const open = async (options = {}, at = link) => {
     const context = await browser.newContext({ ...small, ...options });
@@ -79,7 +96,7 @@ export default async function phone({ home, dolphin, examples, environment, brow
     await page.goto(at);
     return page;
   };
-  const page = await open(), dark = await open({ colorScheme: "dark" });
+  const page = await open(place), dark = await open({ colorScheme: "dark" });
   const shows = (p, state) => p.waitForSelector(`#state >> text=${state}`);
   const confirm = async () => { await page.tap("#send"); await page.waitForSelector("#check", { state: "hidden" }); };
   const pictures = async (name) => { await picture(page, name + "-light"); await picture(dark, name + "-dark"); };
@@ -92,6 +109,8 @@ export default async function phone({ home, dolphin, examples, environment, brow
     same(await page.evaluate(() => window.buzzed), 1, "vibrations");
     same(await page.evaluate(() => document.activeElement.id), "state", "the focus");
     await page.waitForSelector("#link >> text=connected");
+    await page.waitForSelector("#shared >> text=Your position is shared with the mission.");
+    await dark.waitForSelector("#shared >> text=Your position is not shared.");
     for (const p of [page, dark]) same(await serious(p), "", "found by axe");
     await pictures("phone-new");
     await page.tap("#acts >> text=Accept");
@@ -100,7 +119,7 @@ export default async function phone({ home, dolphin, examples, environment, brow
   });
 
   await test("a link with a wrong token is refused, one without a token is not complete", async () => {
-    for (const [at, words] of [[link.replace(/#.*/, "#wrong"), "The link is refused"], [link.replace(/#.*/, ""), "not complete"]]) {
+    for (const [at, words] of [[bare + "#wrong", "The link is refused"], [bare, "not complete"]]) {
       const other = await open({}, at);
       await other.waitForSelector(`#denied >> text=${words}`);
       await picture(other, "phone-denied");
@@ -118,11 +137,12 @@ export default async function phone({ home, dolphin, examples, environment, brow
     await pictures("phone-refused");
   });
 
-  await test("a double click on Done sends nothing; a number is sent with two presses, at different places", async () => {
+  await test("a double click on Done sends nothing; a number takes two presses, at different places", async () => {
     await page.fill("#answer-number", "35,1");
     await page.locator("#acts >> text=Done").dblclick();
     await page.waitForSelector("#check-what >> text=Done: 35.1 g/kg");
-    const [button, dialog] = [await page.locator("#acts >> text=Done").boundingBox(), await page.locator("#check").boundingBox()];
+    const button = await page.locator("#acts >> text=Done").boundingBox();
+    const dialog = await page.locator("#check").boundingBox();
     same(dialog.y + dialog.height <= button.y || dialog.y >= button.y + button.height, true, "another place");
     await page.waitForSelector("#send:not([disabled])");
     same(await serious(page), "", "found by axe");
@@ -150,12 +170,12 @@ export default async function phone({ home, dolphin, examples, environment, brow
     await page.fill("#why", "the buoy is too heavy");
     await picture(page, "phone-decline");
     await confirm();
-    await page.waitForSelector("#link >> text=/no connection since \\d\\d:\\d\\d:\\d\\d; answers are kept and sent later/");
+    await page.waitForSelector("#link >> text=/no connection since \\d+:\\d+:\\d+; answers are kept and sent later/");
     await page.waitForSelector("#outbox >> text=Not sent yet: Decline: the buoy is too heavy");
     same(await page.locator("#acts").isVisible(), false, "buttons meanwhile");
     await picture(page, "phone-offline");
     // Without the fragment.
-    await page.goto(link.replace(/#.*/, ""));
+    await page.goto(bare);
     await page.waitForSelector("#outbox >> text=Not sent yet: Decline: the buoy is too heavy");
     await page.unroute("**/act");
     await logged(/declined: .*the buoy is too heavy/);
@@ -193,7 +213,41 @@ export default async function phone({ home, dolphin, examples, environment, brow
     same(posts("remark"), 1, "posts");
   });
 
-  await test("Cannot needs a reason; an instruction that is no longer wanted is stopped, and the person confirms it", async () => {
+  await test("a choice, a position and a photo are answers, too", async () => {
+    const accept = async (words) => {
+      await page.waitForSelector(`#text >> text=${words}`);
+      await page.tap("#acts >> text=Accept");
+    };
+    const send = async (words) => {
+      await page.tap("#acts >> text=Done");
+      await page.waitForSelector(`#check-what >> text=${words}`);
+      await confirm();
+    };
+    await accept("the colour");
+    await page.tap("#acts >> text=Done");
+    await page.waitForSelector("#trouble >> text=Choose one of them.");
+    await page.check("text=green");
+    await picture(page, "phone-choice");
+    await send("Done: green");
+    await accept("your position");
+    await page.tap("text=Use my position");
+    await page.waitForSelector("#answer >> text=Your position, within");
+    await picture(page, "phone-position");
+    await send("Done: 41.25°, -8.75°");
+    await accept("a photo");
+    const take = (name, mimeType, buffer) => page.setInputFiles("#answer-file", { name, mimeType, buffer });
+    await take("buoy.txt", "text/plain", Buffer.from("a buoy"));
+    await page.waitForSelector("#answer >> text=The photo is refused");
+    await take("buoy.png", "image/png", await page.screenshot());
+    await page.waitForSelector("#answer >> text=The photo is sent: ana-");
+    same(await page.evaluate(() => document.querySelector("#answer img").naturalWidth > 0), true, "the photo is shown");
+    same(await serious(page), "", "found by axe");
+    await picture(page, "phone-photo");
+    await send("Done: ana-");
+    await logged(/green, .*41\.25.*, ana-.*\.png/);
+  });
+
+  await test("Cannot needs a reason; a stop takes the buttons away, and the person confirms it", async () => {
     await page.tap("#acts >> text=Accept");
     await page.tap("#acts >> text=Cannot");
     await page.tap("#send");
@@ -209,9 +263,17 @@ export default async function phone({ home, dolphin, examples, environment, brow
     await page.tap("#acts >> text=I have stopped");
     await page.waitForSelector("#check-what >> text=I have stopped");
     await confirm();
-    await logged(/the guard rests/);
+    await page.waitForSelector("#text >> text=Put the crane to rest");
+    await page.tap("#acts >> text=Accept");
+    await page.tap("#acts >> text=Cannot");
+    await page.fill("#why", "it is stuck");
+    await confirm();
+    await logged(/failed: .*cannot: it is stuck/);
   });
 
-  await test("the mission ends", async () => same(await end, 0, log));
+  await test("the mission ends, and its pages report that there is no connection", async () => {
+    same(await end, 0, log);
+    for (const p of [page, dark]) await p.waitForSelector("#link >> text=no connection since");
+  });
   for (const p of [page, dark]) await p.context().close();
 }

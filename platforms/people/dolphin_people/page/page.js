@@ -94,6 +94,7 @@ async function follow() {
 }
 
 function receive(next) {
+  if (since && here) void share(here);  // an adapter that was started again does not know it
   linked(true);
   warn($("denied"), "");
   now = next;
@@ -177,8 +178,7 @@ function drawCard(instruction) {
   put($("text"), text);
   tick();
   const waits = delivered === request || outbox.some((e) => e.body.request === request);
-  put($("sending"), delivered === request ? "Sent." : "Sending…");
-  show($("sending"), waits);
+  warn($("sending"), !waits || outbox.some((e) => e.tries > 0) ? "" : delivered === request ? "Sent." : "Sending…");
   show($("acts"), !waits);
   const fields = state === "accepted" && answer ? JSON.stringify([request, answer]) : "";
   if (fields !== asked) {
@@ -265,15 +265,16 @@ const kinds = {
     $("answer").append(find, hint);
     const north = field("Latitude in degrees", "latitude", "input");
     const east = field("Longitude in degrees", "longitude", "input");
+    const fill = ({ latitude, longitude, accuracy }) => {
+      [north.value, east.value] = [latitude.toFixed(7), longitude.toFixed(7)];
+      for (const el of [north, east]) el.dispatchEvent(new Event("input"));
+      put(hint, `Your position, within ${Math.ceil(accuracy)} m.`);
+    };
     find.addEventListener("click", () => {
       put(hint, unlocated() || "Waiting for a position…");
-      if (!unlocated()) navigator.geolocation.getCurrentPosition(({ coords }) => {
-        for (const [el, found] of [[north, coords.latitude], [east, coords.longitude]]) {
-          el.value = found.toFixed(7);
-          el.dispatchEvent(new Event("input"));
-        }
-        put(hint, `Your position, within ${Math.ceil(coords.accuracy)} m.`);
-      }, (e) => put(hint, troubles[e.code] ?? e.message), { enableHighAccuracy: true, timeout: 30_000 });
+      if (here) fill(here);
+      else if (!unlocated()) navigator.geolocation.getCurrentPosition(({ coords }) => fill(coords),
+        (e) => put(hint, troubles[e.code] ?? e.message), { enableHighAccuracy: true, timeout: 30_000 });
     });
     const coordinate = (el, most) => number(el, -most, most, `from ${-most} to ${most}`);
     return () => ({ latitude: coordinate(north, 90), longitude: coordinate(east, 180) });
@@ -397,8 +398,7 @@ function ring() {
   void audio.resume();
   for (const [start, pitch] of [[0, 880], [0.25, 1320]]) {
     const tone = audio.createOscillator(), gain = audio.createGain(), from = audio.currentTime + start;
-    tone.frequency.value = pitch;
-    gain.gain.value = 0.15;
+    [tone.frequency.value, gain.gain.value] = [pitch, 0.15];
     tone.connect(gain).connect(audio.destination);
     tone.start(from);
     tone.stop(from + 0.2);
@@ -436,25 +436,26 @@ async function stayAwake() {
 const troubles = ["", "The browser does not allow the position.", "No position here.", "No position yet."];
 const unlocated = () => !isSecureContext ? "The position cannot be had: it needs HTTPS, or this machine's own address."
   : navigator.geolocation ? "" : "This browser has no position.";
-
-let watch = null, spot = null, posting = false;
+let watch = null, here = null, spot = null, posting = false;
 function locate() {
   const { geolocation } = navigator, shared = (text) => put($("shared"), text);
   show($("shared"), now.locate);
   if (now.locate && unlocated()) return shared(`${unlocated()} Your position is not shared.`);
   if (now.locate && watch === null) {
     shared("Waiting for your position, to share it with the mission…");
-    watch = geolocation.watchPosition(({ coords: { latitude, longitude, altitude } }) => {
-      spot = { latitude, longitude, ...altitude === null ? {} : { height: altitude } };
-      void share();
-    }, (e) => shared(`${troubles[e.code] ?? e.message} Your position is not shared.`), { enableHighAccuracy: true });
+    watch = geolocation.watchPosition(({ coords }) => share(coords), (e) => {
+      here = null;
+      shared(`${troubles[e.code] ?? e.message} Your position is not shared.`);
+    }, { enableHighAccuracy: true });
   } else if (!now.locate && watch !== null) {
     geolocation.clearWatch(watch);
-    watch = spot = null;
+    watch = here = spot = null;
   }
 }
 
-async function share() {
+async function share(coords) {
+  const { latitude, longitude, altitude } = here = coords;
+  spot = { latitude, longitude, ...altitude === null ? {} : { height: altitude } };
   if (posting) return;
   posting = true;
   while (spot) {

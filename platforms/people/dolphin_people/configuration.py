@@ -111,7 +111,10 @@ def of_text(text: str, path: str) -> Configuration:
 
 
 MEMBERS = ("listen", "people", "instructions", "others", "accept", "seen", "declined", "photos")
+LISTEN = ("address", "port", "name", "certificate", "key")
+PERSON = ("skills", "position", "locate")
 OF_NUMBERS = ("unit", "from", "to")
+RULE = ("text", "within", "acknowledge", "answer", "input", "choices", *OF_NUMBERS)
 
 
 class _Reading:
@@ -141,8 +144,7 @@ class _Reading:
     # The server.
 
     def listen(self, value: Optional[Value]) -> Listen:
-        known = ("address", "port", "name", "certificate", "key")
-        members = {} if value is None else self.reader.members(value, "'listen'", known)
+        members = {} if value is None else self.reader.members(value, "'listen'", LISTEN)
         port = self.reader.number(members.get("port"), "'port'", PORT, 1, 65535)
         if "port" in members and port != int(port):
             self.reader.fault(members["port"].place, f"'port' is a whole number; this is {port}")
@@ -185,7 +187,7 @@ class _Reading:
     def person(self, name: str, value: Value, place: Place) -> Entry:
         if not is_plain(name, 64):
             self.reader.fault(place, "a name has 1 to 64 characters, and no control characters")
-        members = self.reader.members(value, f"the person '{name}'", ("skills", "position", "locate"))
+        members = self.reader.members(value, f"the person '{name}'", PERSON)
         locate = self.reader.truth(members.get("locate"), "'locate'")
         if "position" not in members and not locate:
             self.reader.fault(value.place, f"the person '{name}' needs the member 'position', or 'locate: true'")
@@ -206,8 +208,7 @@ class _Reading:
 
     def rule(self, name: str, value: Value, place: Place) -> Rule:
         templates.check_name(self.reader, name, place)
-        known = ("text", "within", "acknowledge", "answer", "input", "choices", *OF_NUMBERS)
-        members = self.reader.members(value, f"the instruction '{name}'", known, needed=("text",))
+        members = self.reader.members(value, f"the instruction '{name}'", RULE, needed=("text",))
         text = self.reader.text(members.get("text"), "'text'")
         if "text" in members:
             templates.check_template(self.reader, name, members["text"], "instruction")

@@ -54,7 +54,8 @@ class People(dolphin.Adapter):
             try:
                 await self._server.open(listen.address, listen.port, context)
             except OSError as error:
-                raise dolphin.Failed(f"cannot listen at {listen.address}:{listen.port}: {error.strerror}") from error
+                why = os.strerror(error.errno) if error.errno and error.errno > 0 else str(error)
+                raise dolphin.Failed(f"cannot listen at {listen.address}:{listen.port}: {why}") from error
 
     async def run(self) -> None:
         try:

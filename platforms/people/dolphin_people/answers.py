@@ -55,7 +55,7 @@ class Answers:
 
 
 def has_answer(journal: str, request: str, key: str, value: Any) -> bool:
-    """Whether the journal has the input `key: value` after the note that the answer to a request is about to be posted."""
+    """Whether the journal has the input `key: value` after the note that the answer to a request is to be posted."""
     is_after = False
     for line in _lines(journal):
         if line.get("kind") == "platform":

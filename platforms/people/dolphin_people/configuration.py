@@ -6,7 +6,7 @@ import os
 import ssl
 import unicodedata
 from dataclasses import dataclass
-from typing import Any, Dict, Mapping, Optional, Sequence, Tuple
+from typing import Any, Mapping, Optional, Sequence, Tuple
 
 import dolphin
 from dolphin import templates
@@ -230,7 +230,8 @@ class _Reading:
         if not kind:
             return None
         if kind not in KINDS:
-            self.reader.fault(members["answer"].place, f"an answer of the kind '{kind}' does not exist{near(kind, KINDS)}")
+            what = f"an answer of the kind '{kind}' does not exist{near(kind, KINDS)}"
+            self.reader.fault(members["answer"].place, what)
         if "input" not in members:
             self.reader.fault(place, "'answer' needs the member 'input', under which the program gets it")
         choices = self.reader.listed(
@@ -307,7 +308,8 @@ _PROBLEMS = {"number": _of_number, "text": _of_text, "choice": _of_choice, "posi
 
 def position_of(value: Any) -> Optional[dolphin.Position]:
     """The position of an object of JSON with `latitude`, `longitude`, and perhaps `height`; `None` if it is not one."""
-    if not isinstance(value, Dict) or not {"latitude", "longitude"} <= set(value) <= {"latitude", "longitude", "height"}:
+    needed = {"latitude", "longitude"}
+    if not isinstance(value, dict) or not needed <= set(value) <= {*needed, "height"}:
         return None
     numbers = [value["latitude"], value["longitude"], 0.0 if value.get("height") is None else value["height"]]
     limits = ((-90, 90), (-180, 180), (-20_000, 1_000_000))

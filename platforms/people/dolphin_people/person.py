@@ -97,7 +97,8 @@ class Person(dolphin.Vehicle):
     async def problems(self, plan: dolphin.Plan) -> Sequence[str]:
         found = self._configured.rule(plan.name)
         if found is None:
-            return [f"undefined instruction '{plan.name}'{near(plan.name, [rule.name for rule in self._configured.rules])}"]
+            known = [rule.name for rule in self._configured.rules]
+            return [f"undefined instruction '{plan.name}'{near(plan.name, known)}"]
         rule, text = found
         if len(text) > LONGEST_TEXT:
             return [f"the instruction has {len(text)} characters: at most {LONGEST_TEXT}"]
@@ -138,8 +139,8 @@ class Person(dolphin.Vehicle):
 
     async def _post(self, open_: Instruction, kept: Mapping[str, Any]) -> None:
         """Posts the answer, if there is one. Notes before and after it, and one post at a time: so if this process dies
-        meanwhile, the input of the answer stands behind its note in the journal, or was not posted. `kept` is the latest
-        note of before such a death."""
+        meanwhile, the input of the answer stands behind its note in the journal, or was not posted. `kept` is the
+        latest note of before such a death."""
         answer = open_.rule.answer
         if answer is None or kept["state"] == POSTED:
             return

@@ -1,6 +1,6 @@
-"""The adapter as a process: the kit of situations, missions of `dolphin exec` whose adapter and console are killed, TLS and
-the terminal. All listen on loopback alone, at ports that the system chooses; each test ends the processes that it
-began."""
+"""The adapter as a process: the kit of situations, missions of `dolphin exec` whose adapter and console are killed, TLS
+and the terminal. All listen on loopback alone, at ports that the system chooses; each test ends the processes that it
+began. DOLPHIN_KILLED is the number of missions that are played with kills."""
 
 import json
 import os
@@ -201,7 +201,8 @@ class Terminals(Case):
         return terminal, once
 
     def play(self, link, *more):
-        self.write("one.dol", "input 'depth'\nv = pick { id 'ana'; timeout 50.seconds }\nexecute v: task('depth_quay')\n")
+        self.write(
+            "one.dol", "input 'depth'\nv = pick { id 'ana'; timeout 50.seconds }\nexecute v: task('depth_quay')\n")
         command = f"'{ADAPTER}' --config people.yaml --run m.run"
         console = self.start(
             "exec.txt", DOLPHIN, "exec", self.path("one.dol"), "--platform", command, "--journal", self.journal)

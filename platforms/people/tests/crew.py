@@ -1,6 +1,6 @@
-"""A person who answers by himself, by the requests of the page: python crew.py LINK ... takes part for each link, until it
-is ended. Instructions that begin with `long` are carried out until they are stopped, others are done after 0.2 s; the
-answer to the N-th instruction that takes a number is N. Each decision that was taken is a line of its standard output."""
+"""People who are programs, by the requests of the page: python crew.py LINK ... takes part for each link, until it is
+ended. Instructions that begin with `long` are carried out until they are stopped, others are done after 0.2 s; the
+answer to the N-th one is N. Each decision that was taken is a line of the standard output."""
 
 import sys
 import threading

@@ -42,10 +42,12 @@ FAULTS = [
     ("launch_${boat}", "launch_${boat}${boat}", ["6:3: the name 'launch_${boat}${boat}' has a parameter twice"]),
     ("within: 900", "within: 0", ["6:55: 'within' is a number from 1 to 604800; this is 0"]),
     ("answer: number", "answer: numbr", [
-        "7:47: an answer of the kind 'numbr' does not exist; did you mean 'number'?", "7:60: 'unit' needs 'answer: number'",
+        "7:47: an answer of the kind 'numbr' does not exist; did you mean 'number'?",
+        "7:60: 'unit' needs 'answer: number'",
         "7:69: 'from' needs 'answer: number'", "7:76: 'to' needs 'answer: number'"]),
     ("answer: number, ", "", [
-        "7:45: 'unit' needs 'answer: number'", "7:54: 'from' needs 'answer: number'", "7:61: 'to' needs 'answer: number'",
+        "7:45: 'unit' needs 'answer: number'", "7:54: 'from' needs 'answer: number'",
+        "7:61: 'to' needs 'answer: number'",
         "7:72: 'input' needs 'answer'"]),
     ("to: 50", "to: -1", ["7:77: 'to' is less than 'from', 0"]),
     (", input: seen", "", ["9:9: 'answer' needs the member 'input', under which the program gets it"]),
@@ -81,7 +83,8 @@ class Configuration(unittest.TestCase):
 
     def test_texts_of_any_kind(self):
         """Mutated texts are configurations or faults."""
-        pieces = ["{", "}", "[", "]", ": ", "- ", "\n", "  ", "&a ", "*a", "<<: ", "null", "1e999", "\\0", "\t", "${", "${x}",
+        pieces = ["{", "}", "[", "]", ": ", "- ", "\n", "  ", "&a ", "*a", "<<: ", "null", "1e999", "\\0", "\t", "${",
+                  "${x}",
                   "2020-01-01", "no", "\u00e9", "?", "|", ".inf", "!!binary x", "certificate: x, key: x, ", "photos: 3"]
         for seed in seeds(150):
             draw = random.Random(seed)
@@ -122,7 +125,8 @@ class Documents(unittest.TestCase):
                 self.assertIn(f"```{language}\n{file.read()}```", page)
         rows = re.findall(r"^\| (`\w+`(?:, `\w+`)*) \|", page, re.MULTILINE)
         listed = [name for row in rows for name in re.findall(r"\w+", row)]
-        self.assertEqual(listed, [*configuration.MEMBERS, *configuration.LISTEN, *configuration.PERSON, *configuration.RULE])
+        members = [configuration.MEMBERS, configuration.LISTEN, configuration.PERSON, configuration.RULE]
+        self.assertEqual(listed, [name for names in members for name in names])
 
 
 if __name__ == "__main__":

@@ -238,7 +238,8 @@ class Rules(unittest.IsolatedAsyncioTestCase):
         ends = {"done", "failed", "stopped"}
         for request, plan in plans.items():
             reports = [each for each in world.dolphin.about(request) if each in ends]
-            self.assertEqual(len(set(reports)), 1, (request, world.dolphin.reports))  # a stop is answered by the same end
+            # A stop that comes later is answered by the same end.
+            self.assertEqual(len(set(reports)), 1, (request, world.dolphin.reports))
             acts = taken.get(request, [])
             if request not in stopped:
                 wanted = "done" if "done" in acts else "failed"

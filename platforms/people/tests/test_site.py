@@ -65,7 +65,8 @@ class Case(unittest.IsolatedAsyncioTestCase):
         """The status and the object of a reply."""
         body = body if body is not None else b"" if members is None else json.dumps(members).encode()
         head = f"{method} {path} HTTP/1.1\r\nHost: x\r\nConnection: close\r\nAuthorization: Bearer {token}\r\n"
-        reply = await self.raw(head.encode() + f"Content-Type: {type_}\r\nContent-Length: {len(body)}\r\n\r\n".encode() + body)
+        head += f"Content-Type: {type_}\r\nContent-Length: {len(body)}\r\n\r\n"
+        reply = await self.raw(head.encode() + body)
         head, _, text = reply.partition(b"\r\n\r\n")
         return int(head.split()[1]), json.loads(text) if b"json" in head else text
 
@@ -107,7 +108,8 @@ class Replies(Case):
         self.assertEqual(await self.request("POST", "/act", act), (200, {"ok": True}))
         self.assertEqual((await self.request("POST", "/act", act, token="c" * 32))[0], 409)
         done = {**act, "act": "done"}
-        self.assertEqual(await self.request("POST", "/act", {**done, "value": 99}), (400, {"error": "give a number from 0 to 50"}))
+        refusal = (400, {"error": "give a number from 0 to 50"})
+        self.assertEqual(await self.request("POST", "/act", {**done, "value": 99}), refusal)
         self.assertEqual(await self.request("POST", "/act", {**done, "value": 9}), (200, {"ok": True}))
 
     async def test_an_adapter_that_was_started_again_does_not_yet_refuse(self):
@@ -137,7 +139,8 @@ class Replies(Case):
     async def test_photos(self):
         self.assertEqual((await self.request("POST", "/photo", body=JPEG, type_="image/jpeg"))[0], 409)
         await self.give("picture")
-        for type_, body in (("image/jpeg", b"<svg>"), ("image/svg+xml", b"<svg>"), ("text/html", JPEG), ("image/png", JPEG)):
+        for type_, body in (
+                ("image/jpeg", b"<svg>"), ("image/svg+xml", b"<svg>"), ("text/html", JPEG), ("image/png", JPEG)):
             self.assertEqual((await self.request("POST", "/photo", body=body, type_=type_))[0], 400)
         code, reply = await self.request("POST", "/photo", body=JPEG, type_="image/jpeg")
         self.assertEqual((code, os.listdir(self.photos)), (200, [reply["photo"]]))
@@ -155,9 +158,10 @@ class Replies(Case):
 
 class Strangers(Case):
     async def test_drawn_bytes(self):
-        pieces = [b"GET / HTTP/1.1\r\n", b"POST /act HTTP/1.1\r\n", b"Host: x\r\n", b"\r\n", b"Content-Length: 5\r\n", b"\0",
-                  b"Transfer-Encoding: chunked\r\n", b"5\r\nhello\r\n0\r\n\r\n", b"Content-Length: -1\r\n", b"{}", b"\xff" * 9,
-                  b"Expect: 100-continue\r\n", b"Authorization: Bearer " + b"a" * 32 + b"\r\n", b"GET //x:y@[/?after=%zz HTTP/1.1\r\n",
+        pieces = [b"GET / HTTP/1.1\r\n", b"POST /act HTTP/1.1\r\n", b"Host: x\r\n", b"\r\n", b"Content-Length: 5\r\n",
+                  b"\0", b"Transfer-Encoding: chunked\r\n", b"5\r\nhello\r\n0\r\n\r\n", b"Content-Length: -1\r\n", b"{}",
+                  b"\xff" * 9, b"Expect: 100-continue\r\n", b"Authorization: Bearer " + b"a" * 32 + b"\r\n",
+                  b"GET //x:y@[/?after=%zz HTTP/1.1\r\n",
                   b"GET /state?after=" + b"%C3" * 50 + b" HTTP/1.0\r\n"]
         for seed in seeds(60):
             draw = random.Random(seed)
@@ -173,8 +177,8 @@ class Strangers(Case):
     async def test_slow_strangers_are_cut_off(self):
         with mock.patch("dolphin_people.http.HEAD", 0.1), mock.patch("dolphin_people.http.BODY", 0.1):
             self.assertEqual(await self.raw(b"GET / HTT"), b"")
-            head = b"POST /act HTTP/1.1\r\nHost: x\r\nAuthorization: Bearer " + b"a" * 32 + b"\r\nContent-Length: 9\r\n\r\n{"
-            self.assertEqual(await self.raw(head), b"")
+            head = b"POST /act HTTP/1.1\r\nHost: x\r\nAuthorization: Bearer " + b"a" * 32
+            self.assertEqual(await self.raw(head + b"\r\nContent-Length: 9\r\n\r\n{"), b"")
 
     async def test_one_address_has_a_share_of_the_connections(self):
         with mock.patch("dolphin_people.http.OF_ONE_ADDRESS", 5):

@@ -159,8 +159,8 @@ class Replies(Case):
 class Strangers(Case):
     async def test_drawn_bytes(self):
         pieces = [b"GET / HTTP/1.1\r\n", b"POST /act HTTP/1.1\r\n", b"Host: x\r\n", b"\r\n", b"Content-Length: 5\r\n",
-                  b"\0", b"Transfer-Encoding: chunked\r\n", b"5\r\nhello\r\n0\r\n\r\n", b"Content-Length: -1\r\n", b"{}",
-                  b"\xff" * 9, b"Expect: 100-continue\r\n", b"Authorization: Bearer " + b"a" * 32 + b"\r\n",
+                  b"\0", b"Transfer-Encoding: chunked\r\n", b"5\r\nhello\r\n0\r\n\r\n", b"Content-Length: -1\r\n",
+                  b"{}", b"\xff" * 9, b"Expect: 100-continue\r\n", b"Authorization: Bearer " + b"a" * 32 + b"\r\n",
                   b"GET //x:y@[/?after=%zz HTTP/1.1\r\n",
                   b"GET /state?after=" + b"%C3" * 50 + b" HTTP/1.0\r\n"]
         for seed in seeds(60):

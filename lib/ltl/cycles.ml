@@ -38,9 +38,9 @@ type 'label frame = { node : int; mutable rest : (int * 'label) list }
 
 exception Found of int
 
-(* The path is the nodes whose components are not finished, in the order in which they came. [leaves ~is_cycle] is called
-   with each node of a component that is finished. A component that meets all sets is [Found] if there is one, unless
-   [to_end]; the path has its nodes then. *)
+(* The path is the nodes whose components are not finished, in the order in which they came. [leaves ~is_cycle] is
+   called with each node of a component that is finished. A component that meets all sets is [Found] if there is one,
+   unless [to_end]; the path has its nodes then. *)
 let search ~tick ~to_end ~leaves g starts =
   let seen = Seen.create () and places = Hashtbl.create 1_000 in
   let path = Stack.create () and roots = Stack.create () and frames = Stack.create () in

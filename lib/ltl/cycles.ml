@@ -26,7 +26,7 @@ module Seen = struct
 end
 
 (* A component as far as it is known: its nodes are those of the path from place [from] on, up to the next root. *)
-type root = { from : int; met : int list  (* sets, in order *) }
+type root = { from : int; met : int list;  (* sets, in order *) is_cycle : bool }
 
 let rec union xs ys =
   match xs, ys with
@@ -38,8 +38,10 @@ type 'label frame = { node : int; mutable rest : (int * 'label) list }
 
 exception Found of int
 
-(* The path is the nodes whose components are not finished, in the order in which they came. *)
-let find ?(tick = ignore) g starts =
+(* The path is the nodes whose components are not finished, in the order in which they came. [leaves ~is_cycle] is
+   called with each node of a component that is finished. A component that meets all sets is [Found] if there is one,
+   unless [to_end]; the path has its nodes then. *)
+let search ~tick ~to_end ~leaves g starts =
   let seen = Seen.create () and places = Hashtbl.create 1_000 in
   let path = Stack.create () and roots = Stack.create () and frames = Stack.create () in
   let all = List.init g.sets Fun.id in
@@ -47,7 +49,7 @@ let find ?(tick = ignore) g starts =
     tick ();
     Seen.add seen i;
     Hashtbl.replace places i (Stack.length path);
-    Stack.push { from = Stack.length path; met = List.filter (g.is_in i) all } roots;
+    Stack.push { from = Stack.length path; met = List.filter (g.is_in i) all; is_cycle = false } roots;
     Stack.push i path;
     Stack.push { node = i; rest = g.successors i } frames
   in
@@ -56,8 +58,8 @@ let find ?(tick = ignore) g starts =
     let met = union root.met met in
     if root.from > place then merge place met
     else begin
-      Stack.push { root with met } roots;
-      if List.compare_lengths met all = 0 then raise_notrace (Found root.from)
+      Stack.push { root with met; is_cycle = true } roots;
+      if (not to_end) && List.compare_lengths met all = 0 then raise_notrace (Found root.from)
     end
   in
   let leave i =
@@ -65,7 +67,9 @@ let find ?(tick = ignore) g starts =
     if Hashtbl.find places i = root.from then begin
       ignore (Stack.pop roots);
       while Stack.length path > root.from do
-        Hashtbl.remove places (Stack.pop path)
+        let j = Stack.pop path in
+        Hashtbl.remove places j;
+        leaves ~is_cycle:root.is_cycle j
       done
     end
   in
@@ -87,7 +91,11 @@ let find ?(tick = ignore) g starts =
       done
     end
   in
-  match List.iter explore starts with
+  (path, fun () -> List.iter explore starts)
+
+let find ?(tick = ignore) g starts =
+  let path, go = search ~tick ~to_end:false ~leaves:(fun ~is_cycle:_ _ -> ()) g starts in
+  match go () with
   | () -> None
   | exception Found from ->
     let members = Hashtbl.create 100 and first = ref max_int in
@@ -97,6 +105,13 @@ let find ?(tick = ignore) g starts =
       Hashtbl.replace members i ()
     done;
     Some { first = !first; members }
+
+let on_cycles ?(tick = ignore) g starts =
+  let found = Seen.create () in
+  let leaves ~is_cycle i = if is_cycle then Seen.add found i in
+  let _, go = search ~tick ~to_end:true ~leaves g starts in
+  go ();
+  Seen.mem found
 
 (* {1 Ways} *)
 

@@ -15,6 +15,11 @@ val find : ?tick:(unit -> unit) -> 'label graph -> int list -> component option
     (1999). Of a component's nodes it may be only some. It takes no stack, a bit for each node that is reached, and
     some words for each that may still turn out to be on a cycle. [tick] is called at each new node. *)
 
+val on_cycles : ?tick:(unit -> unit) -> 'label graph -> int list -> int -> bool
+(** [on_cycles g starts] is the nodes, among those reachable from [starts], that can reach themselves in one step or
+    more, whatever sets their cycles meet. All nodes are visited when [starts] is given. Time, space and [tick] are as
+    of {!find}. *)
+
 val first : component -> int
 (** The smallest node. *)
 

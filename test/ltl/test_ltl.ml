@@ -129,6 +129,33 @@ let pair_case expected (f, g) =
   let check () = Alcotest.(check bool) f expected (are_equivalent (formula_of f) (formula_of g)) in
   Alcotest.test_case (Printf.sprintf "%s %s %s" f (if expected then "is" else "is not") g) `Quick check
 
+(* {1 Cycles} *)
+
+let links =
+  let open Gen in
+  let* n = int_range 1 9 in
+  array_size (return n) (list_size (int_bound 3) (int_bound (n - 1)))
+
+(* By the definition: the nodes that are reached from one in one step or more. *)
+let reached links i =
+  let seen = Array.make (Array.length links) false in
+  let rec visit j =
+    if not seen.(j) then begin
+      seen.(j) <- true;
+      List.iter visit links.(j)
+    end
+  in
+  List.iter visit links.(i);
+  fun j -> seen.(j)
+
+let cycles_are_those_by_definition links =
+  let graph : unit Cycles.graph =
+    { successors = (fun i -> List.map (fun j -> (j, ())) links.(i)); sets = 0; is_in = (fun _ _ -> false) } in
+  let on_cycle = Cycles.on_cycles graph [ 0 ] and from_start = reached links 0 in
+  let is_right i = on_cycle i = ((i = 0 || from_start i) && reached links i i) in
+  List.for_all is_right (List.init (Array.length links) Fun.id)
+  && Option.is_some (Cycles.find graph [ 0 ]) = List.exists on_cycle (List.init (Array.length links) Fun.id)
+
 (* {1 Text} *)
 
 let reads =
@@ -167,6 +194,8 @@ let () =
           property "a monitor knows what can become of a word" ~count:3_000
             Gen.(pair (list_size (int_range 1 5) letter) formula)
             ~print:print_pair monitor_agrees;
+          property "the nodes on cycles are those that reach themselves" ~count:3_000 links
+            ~print:QCheck2.Print.(array (list int)) cycles_are_those_by_definition;
           property "no run is missed" ~count:2_000
             (Gen.triple graph formula Gen.(list_size (return 8) (int_bound 5)))
             ~print:print_triple no_run_is_missed ] ) ]

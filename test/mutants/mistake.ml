@@ -231,6 +231,12 @@ let all =
             {|(each (once_time_has_passed pair.moment :: later))|},
             {|(each (pair.moment :: later))|} );
         ];
+      in_file "lib/ltl/cycles.ml" ~noticed_by:"ltl/test_ltl"
+        [
+          ( "a node with an edge to itself is on no cycle",
+            {|Stack.push { root with met; is_cycle = true } roots|},
+            {|Stack.push { root with met; is_cycle = root.from < place } roots|} );
+        ];
       in_file "lib/explore/verdict/search.ml" ~noticed_by:"explore/test_looks"
         [
           ( "runs whose looks contradict each other are shown",

@@ -197,25 +197,34 @@ let components t (x : Expansion.source) =
     (Array.mapi component x.layout.leaves)
     (Array.of_list (List.filter_map nest (Array.to_list x.layout.nests)))
 
-let status_in t x components c k =
-  let { Stubborn.place; _ }, steps = components.(c) in
-  local_status t x place steps.(k)
+(* The statuses of the steps of [components], each computed once: a choice asks for them again and again. *)
+let statuses t x components =
+  let known = Array.map (fun (_, steps) -> Array.make (Array.length steps) None) components in
+  fun c k ->
+    match known.(c).(k) with
+    | Some status -> status
+    | None ->
+      let { Stubborn.place; _ }, steps = components.(c) in
+      let status = local_status t x place steps.(k) in
+      known.(c).(k) <- Some status;
+      status
 
 (* Which steps of [components] are enough, which depends on nothing but the configuration. *)
-let choose t (x : Expansion.source) components =
+let choose t (x : Expansion.source) components status =
   let posts = Expansion.upcoming t.expansion x.shared in
-  Stubborn.choose (Array.map fst components) ~posts (status_in t x components)
+  Stubborn.choose (Array.map fst components) ~posts status
 
 (* As [expand_all]. *)
 let expand_some t (x : Expansion.source) =
   let components = components t x in
-  let choice = choose t x components in
+  let status = statuses t x components in
+  let choice = choose t x components status in
   let taken = ref 0 in
   let go c ({ Stubborn.place; analysis }, steps) =
     let take k step =
       let is_chosen = (match choice with None -> true | Some chosen -> chosen c k) && is_followed t x step in
       if is_chosen || analysis.ends.(k) then begin
-        let status = status_in t x components c k in
+        let status = status c k in
         Encoding.check_fit t.encoding;
         match status with
         | Impossible -> ()
@@ -303,7 +312,8 @@ let examine t key ~possible ~taken visitor =
   let shared = Layouts.shared t.layouts key.(0) in
   let x : Expansion.source = { expansion = t.expansion; key; layout; shared; visitor } in
   let components = components t x in
-  let choice = if Reduction.by_order t.reduction then choose t x components else None in
+  let status = statuses t x components in
+  let choice = if Reduction.by_order t.reduction then choose t x components status else None in
   let follow here place ~is_chosen ~may_end (step : Component.step) layers =
     let each (outcome : outcome) =
       if is_chosen || Memoised_steps.ends_run outcome then begin
@@ -324,7 +334,7 @@ let examine t key ~possible ~taken visitor =
   let go c ({ Stubborn.place; analysis }, steps) =
     let position, layers = positions layout key place in
     let take k (step : Component.step) =
-      let status = status_in t x components c k in
+      let status = status c k in
       Encoding.check_fit t.encoding;
       match status with
       | Impossible -> ()

@@ -49,6 +49,7 @@ type t = {
   numbers : (int list, int) Hashtbl.t;
   steps : (int, Space.possible) Hashtbl.t;  (* by number *)
   nodes : (int, node) Hashtbl.t;  (* by state *)
+  on_cycle : (int -> bool) Lazy.t;  (* whether a state is on a cycle of the graph: no component has others *)
   automaton : Monitor.t option;  (* then what is searched is pairs: see {!Formulas} below *)
   moments : Moments.t;  (* nodes with moments, which have numbers below 0 *)
   is_open : bool;  (* whether sensors, or the date, may show several things *)
@@ -59,12 +60,19 @@ type t = {
   mutable unsure : bool;  (* whether omitted steps may matter to the property *)
 }
 
+(* The graph without what {!node} adds: it costs much less. *)
+let arrivals_of graph ~sets is_in : unit Cycles.graph =
+  let arrivals i = List.map (fun (a : State_graph.arrival) -> (a.into, ())) (State_graph.arrivals graph i) in
+  { successors = arrivals; sets; is_in }
+
 let create ?automaton ?(whole = true) ?(assumed = []) ?(strong = false) program graph =
   let reads = program.Core.reads_sensors || program.reads_now in
   let is_open = reads && World.is_open (Space.world (State_graph.system graph)) in
   let assumed = Array.of_list (if is_open then assumed else []) in
   let active = List.init (Array.length assumed) Fun.id in
+  let tick = State_graph.ticker graph "looking for cycles" in
   { program; graph; is_open; whole; assumed; strong; active; unsure = false; numbers = Hashtbl.create 100;
+    on_cycle = lazy (Cycles.on_cycles ~tick (arrivals_of graph ~sets:0 (fun _ _ -> false)) [ 0 ]);
     steps = Hashtbl.create 100; nodes = Hashtbl.create 1_000; automaton; moments = Moments.create () }
 
 let number t (p : Space.possible) =
@@ -290,7 +298,10 @@ let is_accepting t members = List.for_all (fun is_in -> List.exists is_in member
 (* A part of the graph: its nodes and edges. *)
 type part = { within : int -> bool; keeps : edge -> bool }
 
-let successors t part i = List.filter (fun e -> part.keeps e && part.within e.into) (node t i).edges
+let is_on_cycle t i = Lazy.force t.on_cycle (state_of t i)
+
+let successors t part i =
+  List.filter (fun e -> part.keeps e && part.within e.into && is_on_cycle t e.into) (node t i).edges
 let of_tasks t keeps = { within = executes t; keeps }
 
 (* {1 Components} *)
@@ -344,7 +355,7 @@ let components t ~tick part states =
       done
     end
   in
-  List.iter explore states;
+  List.iter explore (List.filter (is_on_cycle t) states);
   !found
 
 let inside members =
@@ -629,15 +640,12 @@ let script_cycle_that_lasts t ~tick =
 let first_script_cycle t ~tick =
   if not (Space.may_cycle_in_script (State_graph.system t.graph)) then None
   else
-    let arrivals i = List.map (fun (a : State_graph.arrival) -> (a.into, ())) (State_graph.arrivals t.graph i) in
-    let graph : unit Cycles.graph =
-      { successors = arrivals; sets = 1; is_in = (fun i _ -> not (executes t i)) }
-    in
+    let graph = arrivals_of t.graph ~sets:1 (fun i _ -> not (executes t i)) in
     let lasso component =
       let rec exact i = if Cycles.mem component i && not (executes t i) then i else exact (i + 1) in
       let start = exact (Cycles.first component) in
       let within i = Cycles.mem component i in
-      match Cycles.way graph ~within ~goal:(Int.equal start) (arrivals start) with
+      match Cycles.way graph ~within ~goal:(Int.equal start) (graph.successors start) with
       | Some way -> { stem = State_graph.path t.graph start; around = start :: List.map fst way }
       | None -> invalid_arg "Fair_cycles.script_cycle: a state that is on no cycle"
     in

@@ -62,7 +62,8 @@ class Adapter:
     # To be defined by derived classes.
 
     async def open(self) -> None:
-        """Opens links to vehicles, within 10 s. An exception is reported to Dolphin, and ends the adapter."""
+        """Opens links to vehicles, within 10 s. An exception is reported to Dolphin, and ends the adapter: `Failed`
+        with its reason alone, others also with their traceback on standard error."""
 
     async def run(self) -> None:
         """Discovers vehicles, with `add` and `remove`, for as long as the adapter lives. Here: nothing."""
@@ -162,6 +163,8 @@ class Adapter:
         self.program = hello.get("program")
         try:
             await self.open()
+        except Failed as failed:
+            return words_of(failed)
         except Exception as error:
             traceback.print_exc()
             return words_of(error)

@@ -10,6 +10,8 @@ import dolphin
 from dolphin.posting import AGAIN
 from dolphin.values import from_json, to_json
 
+from .person import POSTING
+
 
 class Answers:
     """For the run beside a journal; without one, instructions that take an answer cannot be given."""
@@ -17,6 +19,8 @@ class Answers:
     def __init__(self, journal: Optional[str]) -> None:
         self._journal = journal
         self._run = None if journal is None else dolphin.attach(journal)
+        self.turn = asyncio.Lock()
+        """Held while an answer is posted, and its notes are written."""
 
     async def undeclared(self, key: str) -> Optional[str]:
         """The reason why answers under this key cannot be posted; `None` if they can, or if that is not known yet."""
@@ -51,12 +55,12 @@ class Answers:
 
 
 def has_answer(journal: str, request: str, key: str, value: Any) -> bool:
-    """Whether the journal has the input `key: value` after the note that the instruction of the request is done."""
+    """Whether the journal has the input `key: value` after the note that the answer to a request is to be posted."""
     is_after = False
     for line in _lines(journal):
         if line.get("kind") == "platform":
             note = line.get("note") or {}
-            is_after = is_after or note.get("request") == request and _state(note) == "done"
+            is_after = is_after or note.get("request") == request and _state(note) == POSTING
         elif is_after and line.get("event") == "input" and line.get("key") == key:
             if from_json(line.get("value")) == from_json(json.loads(json.dumps(to_json(value)))):
                 return True

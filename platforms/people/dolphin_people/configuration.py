@@ -6,7 +6,7 @@ import os
 import ssl
 import unicodedata
 from dataclasses import dataclass
-from typing import Any, Dict, Mapping, Optional, Sequence, Tuple
+from typing import Any, Mapping, Optional, Sequence, Tuple
 
 import dolphin
 from dolphin import templates
@@ -111,7 +111,10 @@ def of_text(text: str, path: str) -> Configuration:
 
 
 MEMBERS = ("listen", "people", "instructions", "others", "accept", "seen", "declined", "photos")
+LISTEN = ("address", "port", "name", "certificate", "key")
+PERSON = ("skills", "position", "locate")
 OF_NUMBERS = ("unit", "from", "to")
+RULE = ("text", "within", "acknowledge", "answer", "input", "choices", *OF_NUMBERS)
 
 
 class _Reading:
@@ -141,8 +144,7 @@ class _Reading:
     # The server.
 
     def listen(self, value: Optional[Value]) -> Listen:
-        known = ("address", "port", "name", "certificate", "key")
-        members = {} if value is None else self.reader.members(value, "'listen'", known)
+        members = {} if value is None else self.reader.members(value, "'listen'", LISTEN)
         port = self.reader.number(members.get("port"), "'port'", PORT, 1, 65535)
         if "port" in members and port != int(port):
             self.reader.fault(members["port"].place, f"'port' is a whole number; this is {port}")
@@ -185,7 +187,7 @@ class _Reading:
     def person(self, name: str, value: Value, place: Place) -> Entry:
         if not is_plain(name, 64):
             self.reader.fault(place, "a name has 1 to 64 characters, and no control characters")
-        members = self.reader.members(value, f"the person '{name}'", ("skills", "position", "locate"))
+        members = self.reader.members(value, f"the person '{name}'", PERSON)
         locate = self.reader.truth(members.get("locate"), "'locate'")
         if "position" not in members and not locate:
             self.reader.fault(value.place, f"the person '{name}' needs the member 'position', or 'locate: true'")
@@ -206,8 +208,7 @@ class _Reading:
 
     def rule(self, name: str, value: Value, place: Place) -> Rule:
         templates.check_name(self.reader, name, place)
-        known = ("text", "within", "acknowledge", "answer", "input", "choices", *OF_NUMBERS)
-        members = self.reader.members(value, f"the instruction '{name}'", known, needed=("text",))
+        members = self.reader.members(value, f"the instruction '{name}'", RULE, needed=("text",))
         text = self.reader.text(members.get("text"), "'text'")
         if "text" in members:
             templates.check_template(self.reader, name, members["text"], "instruction")
@@ -229,7 +230,8 @@ class _Reading:
         if not kind:
             return None
         if kind not in KINDS:
-            self.reader.fault(members["answer"].place, f"an answer of the kind '{kind}' does not exist{near(kind, KINDS)}")
+            what = f"an answer of the kind '{kind}' does not exist{near(kind, KINDS)}"
+            self.reader.fault(members["answer"].place, what)
         if "input" not in members:
             self.reader.fault(place, "'answer' needs the member 'input', under which the program gets it")
         choices = self.reader.listed(
@@ -306,7 +308,8 @@ _PROBLEMS = {"number": _of_number, "text": _of_text, "choice": _of_choice, "posi
 
 def position_of(value: Any) -> Optional[dolphin.Position]:
     """The position of an object of JSON with `latitude`, `longitude`, and perhaps `height`; `None` if it is not one."""
-    if not isinstance(value, Dict) or not {"latitude", "longitude"} <= set(value) <= {"latitude", "longitude", "height"}:
+    needed = {"latitude", "longitude"}
+    if not isinstance(value, dict) or not needed <= set(value) <= {*needed, "height"}:
         return None
     numbers = [value["latitude"], value["longitude"], 0.0 if value.get("height") is None else value["height"]]
     limits = ((-90, 90), (-180, 180), (-20_000, 1_000_000))

@@ -129,14 +129,14 @@ class _Connection:
         while True:
             event = self._http.next_event()
             if event is not h11.NEED_DATA:
-                if isinstance(event, h11.Request) and not _has_body(event):
-                    self._http.next_event()  # the end of this request
                 return event
             self._http.receive_data(await self._reader.read(65_536))
 
     async def _reply(self, response: Response) -> None:
         headers: "list[Tuple[str, str]]" = [
             ("Content-Type", response.type), ("Content-Length", str(len(response.body))), *response.headers.items()]
+        if self._http.their_state is h11.SEND_BODY:
+            self._http.next_event()  # the end of the request, if it has no body
         if self._http.their_state is not h11.DONE:
             headers.append(("Connection", "close"))
         for event in (h11.Response(status_code=response.status, headers=headers), h11.Data(data=response.body),
@@ -154,8 +154,3 @@ class _Connection:
             return await asyncio.wait_for(work, seconds)
         except asyncio.TimeoutError:
             raise _Over() from None
-
-
-def _has_body(request: h11.Request) -> bool:
-    return any(name == b"transfer-encoding" or (name == b"content-length" and value != b"0")
-               for name, value in request.headers)

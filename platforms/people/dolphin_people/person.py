@@ -19,6 +19,8 @@ from .configuration import LONGEST_TEXT, Configuration, Entry, Rule, position_of
 
 OFFERED, ACCEPTED, STOPPING = "offered", "accepted", "stopping"
 DONE, FAILED, STOPPED, CLOSED = "done", "failed", "stopped", "closed"
+POSTING, POSTED = "posting", "posted"
+"""Of notes alone: the answer of an instruction that is done is about to be posted, and was posted."""
 OPEN = (OFFERED, ACCEPTED, STOPPING)
 """The states in which a page shows the instruction. After DONE and FAILED its end is being reported."""
 POLL = 10.0
@@ -39,6 +41,9 @@ class Gone(Exception):
 class Answers(Protocol):
     """`answers.Answers`, or that of a test."""
 
+    turn: asyncio.Lock
+    """Held while an answer is posted."""
+
     async def undeclared(self, key: str) -> Optional[str]: ...
 
     async def post(self, request: str, key: str, value: Any, is_repeated: bool) -> None: ...
@@ -56,6 +61,8 @@ class Instruction:
     """When the state ends by itself, by the clock of the person."""
     value: Any = None
     why: str = ""
+    kept: Mapping[str, Any] = field(default_factory=lambda: {"state": OFFERED})
+    """The latest note."""
     photos: List[str] = field(default_factory=list)
 
 
@@ -90,7 +97,8 @@ class Person(dolphin.Vehicle):
     async def problems(self, plan: dolphin.Plan) -> Sequence[str]:
         found = self._configured.rule(plan.name)
         if found is None:
-            return [f"undefined instruction '{plan.name}'{near(plan.name, [rule.name for rule in self._configured.rules])}"]
+            known = [rule.name for rule in self._configured.rules]
+            return [f"undefined instruction '{plan.name}'{near(plan.name, known)}"]
         rule, text = found
         if len(text) > LONGEST_TEXT:
             return [f"the instruction has {len(text)} characters: at most {LONGEST_TEXT}"]
@@ -110,6 +118,9 @@ class Person(dolphin.Vehicle):
         if not await self._once(lambda: open_.state != OFFERED, accept) and open_.state == OFFERED:
             self._close(open_, "No longer needed")
             raise dolphin.Failed(f"has not accepted in {accept:g} s")
+        if open_.state == FAILED:
+            self._close(open_)
+            raise dolphin.Failed(open_.why)
 
     async def finish(self, plan: dolphin.Plan) -> None:
         open_ = self._of(plan)
@@ -123,13 +134,23 @@ class Person(dolphin.Vehicle):
         if open_.state == FAILED:
             self._close(open_)
             raise dolphin.Failed(open_.why)
-        await self._post(open_, is_repeated=False)
+        await self._post(open_, open_.kept)
         self._close(open_)
 
-    async def _post(self, open_: Instruction, is_repeated: bool) -> None:
-        if open_.rule.answer is not None:
-            value = position_of(open_.value) if open_.rule.answer.kind == "position" else open_.value
-            await self._answers.post(open_.plan.request, open_.rule.answer.input, value, is_repeated)
+    async def _post(self, open_: Instruction, kept: Mapping[str, Any]) -> None:
+        """Posts the answer, if there is one. Notes before and after it, and one post at a time: so if this process dies
+        meanwhile, the input of the answer stands behind its note in the journal, or was not posted. `kept` is the
+        latest note of before such a death."""
+        answer = open_.rule.answer
+        if answer is None or kept["state"] == POSTED:
+            return
+        value = position_of(open_.value) if answer.kind == "position" else open_.value
+        async with self._answers.turn:
+            is_repeated = kept["state"] == POSTING
+            if not is_repeated:
+                await open_.plan.note({**kept, "state": POSTING})
+            await self._answers.post(open_.plan.request, answer.input, value, is_repeated)
+            await open_.plan.note({**kept, "state": POSTED})
 
     async def stop(self, plan: dolphin.Plan) -> None:
         open_ = self._open
@@ -161,8 +182,8 @@ class Person(dolphin.Vehicle):
             raise dolphin.Failed(str(kept.get("why", "")))
         open_ = self._put(plan, state)
         open_.value = kept.get("value")
-        if state == DONE:
-            await self._post(open_, is_repeated=True)
+        if state in (DONE, POSTING, POSTED):
+            await self._post(open_, kept)
             self._close(open_)
             raise dolphin.Done()
         if state == OFFERED:
@@ -256,6 +277,7 @@ class Person(dolphin.Vehicle):
         if act == "done" and value is not None:
             note["value"] = value
         await open_.plan.note(note)
+        open_.kept = note
         self._over.setdefault(open_.plan.request, set()).add(act)
         if open_.state not in from_:  # it was withdrawn while the note was written
             if to in (DONE, FAILED) and open_.state == STOPPING:

@@ -54,7 +54,8 @@ class People(dolphin.Adapter):
             try:
                 await self._server.open(listen.address, listen.port, context)
             except OSError as error:
-                raise dolphin.Failed(f"cannot listen at {listen.address}:{listen.port}: {error.strerror}") from error
+                why = os.strerror(error.errno) if error.errno and error.errno > 0 else str(error)
+                raise dolphin.Failed(f"cannot listen at {listen.address}:{listen.port}: {why}") from error
 
     async def run(self) -> None:
         try:
@@ -100,7 +101,8 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
         "--run", metavar="JOURNAL",
         help="the journal of the run, as dolphin exec --journal has it: answers are posted to this run")
     parser.add_argument("--links", action="store_true", help="print the link of each person, and end")
-    parser.add_argument("--check", action="store_true", help="only check the configuration, print all its faults, and end")
+    parser.add_argument(
+        "--check", action="store_true", help="only check the configuration, print all its faults, and end")
     parser.add_argument("--terminal", metavar="LINK", help="take part at this terminal, by the link of a person")
     parser.add_argument("--cafile", metavar="FILE", help="with --terminal: the certificates to trust")
     parser.add_argument("--version", action="version", version=f"dolphin-people {version}")
@@ -130,6 +132,6 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
     else:
         journal = None if options.run is None else os.path.abspath(options.run)
         if journal is None and any(rule.answer for rule in found.rules):
-            print("dolphin-people: instructions that take an answer are refused, as --run is not given", file=sys.stderr)
+            print("dolphin-people: without --run, instructions that take an answer are refused", file=sys.stderr)
         People(found, secret, journal).serve()
     return 0

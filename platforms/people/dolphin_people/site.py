@@ -20,7 +20,8 @@ LARGEST, LARGEST_PHOTO = 16_384, 16 << 20
 """Bytes of a request, and of a photo, at most."""
 STARTING = 10.0
 """Seconds in which an adapter that was started again may yet get to know the instructions of before."""
-_FILES = {"/": ("index.html", "text/html"), "/page.js": ("page.js", "text/javascript"), "/page.css": ("page.css", "text/css")}
+_FILES = {"/": ("index.html", "text/html"), "/page.js": ("page.js", "text/javascript"),
+          "/page.css": ("page.css", "text/css")}
 _PHOTOS = {"image/jpeg": ("jpg", rb"\xff\xd8\xff"), "image/png": ("png", rb"\x89PNG\r\n\x1a\n"),
            "image/webp": ("webp", rb"RIFF....WEBP"), "image/heic": ("heic", rb"....ftyp(?:heic|heix|mif1|msf1)")}
 _POLICY = ("default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self' blob: data:; "

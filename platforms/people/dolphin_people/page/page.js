@@ -28,7 +28,7 @@ function h(tag, attributes = {}, ...children) {
 }
 
 const read = (key) => { try { return JSON.parse(sessionStorage.getItem(key)); } catch { return null; } };
-const write = (key, value) => { try { sessionStorage.setItem(key, JSON.stringify(value)); } catch { /* no storage */ } };
+const write = (key, value) => { try { sessionStorage.setItem(key, JSON.stringify(value)); } catch { /* full */ } };
 
 // The person, by the link.
 const token = location.hash.slice(1) || read("token") || "";

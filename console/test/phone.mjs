@@ -99,6 +99,11 @@ export default async function phone({ home, dolphin, examples, environment, brow
   const page = await open(place), dark = await open({ colorScheme: "dark" });
   const shows = (p, state) => p.waitForSelector(`#state >> text=${state}`);
   const confirm = async () => { await page.tap("#send"); await page.waitForSelector("#check", { state: "hidden" }); };
+  const apart = async (words) => {
+    const button = await page.locator(`#acts >> text=${words}`).boundingBox();
+    const dialog = await page.locator("#check").boundingBox();
+    same(dialog.y + dialog.height <= button.y || dialog.y >= button.y + button.height, true, "another place");
+  };
   const pictures = async (name) => { await picture(page, name + "-light"); await picture(dark, name + "-dark"); };
 
   await test("an instruction is new on the person's pages, rings after a touch, and is accepted on both", async () => {
@@ -141,9 +146,7 @@ export default async function phone({ home, dolphin, examples, environment, brow
     await page.fill("#answer-number", "35,1");
     await page.locator("#acts >> text=Done").dblclick();
     await page.waitForSelector("#check-what >> text=Done: 35.1 g/kg");
-    const button = await page.locator("#acts >> text=Done").boundingBox();
-    const dialog = await page.locator("#check").boundingBox();
-    same(dialog.y + dialog.height <= button.y || dialog.y >= button.y + button.height, true, "another place");
+    await apart("Done");
     await page.waitForSelector("#send:not([disabled])");
     same(await serious(page), "", "found by axe");
     await picture(page, "phone-check");
@@ -227,6 +230,7 @@ export default async function phone({ home, dolphin, examples, environment, brow
     await page.tap("#acts >> text=Done");
     await page.waitForSelector("#trouble >> text=Choose one of them.");
     await page.check("text=green");
+    await page.waitForSelector("#trouble", { state: "hidden" });
     await picture(page, "phone-choice");
     await send("Done: green");
     await accept("your position");
@@ -249,7 +253,11 @@ export default async function phone({ home, dolphin, examples, environment, brow
 
   await test("Cannot needs a reason; a stop takes the buttons away, and the person confirms it", async () => {
     await page.tap("#acts >> text=Accept");
+    // With a small screen there is one place for the dialog.
+    await page.setViewportSize({ width: 360, height: 560 });
     await page.tap("#acts >> text=Cannot");
+    await apart("Cannot");
+    await page.setViewportSize(small.viewport);
     await page.tap("#send");
     await page.waitForSelector("#why-trouble >> text=Enter a reason.");
     // The stop takes the dialog away.

@@ -28,9 +28,7 @@ function h(tag, attributes = {}, ...children) {
 }
 
 const read = (key) => { try { return JSON.parse(sessionStorage.getItem(key)); } catch { return null; } };
-const write = (key, value) => {
-  try { sessionStorage.setItem(key, JSON.stringify(value)); } catch { /* kept in memory only */ }
-};
+const write = (key, value) => { try { sessionStorage.setItem(key, JSON.stringify(value)); } catch { /* full */ } };
 
 // The person, by the link.
 const token = location.hash.slice(1) || read("token") || "";
@@ -346,6 +344,7 @@ function press(act, from) {
 
 const close = () => { check = null; $("check").close(); };
 $("acts").addEventListener("click", (e) => { if (e.target.value) press(e.target.value, e.target); });
+$("answer").addEventListener("input", () => fault(""));
 $("answer").addEventListener("keydown", (e) => {
   if (e.key !== "Enter" || e.target.tagName !== "INPUT" || e.target.type === "file") return;
   e.preventDefault();

@@ -136,7 +136,7 @@ class Site:
         try:
             name = self._keep(person.name, ending, body)
         except OSError as error:
-            raise dolphin.Failed(f"the photo cannot be kept: {error.strerror}") from error
+            raise Refused(f"the photo cannot be kept: {error.strerror}") from error
         open_.photos.append(name)
         return {"photo": name}
 

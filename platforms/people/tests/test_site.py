@@ -152,7 +152,7 @@ class Replies(Case):
         await self.give("picture")
         with mock.patch("dolphin_people.site.os.fsync", side_effect=OSError(28, "No space left on device")):
             code, reply = await self.request("POST", "/photo", body=JPEG, type_="image/jpeg")
-        self.assertEqual((code, reply["error"]), (503, "the photo cannot be kept: No space left on device"))
+        self.assertEqual((code, reply["error"]), (400, "the photo cannot be kept: No space left on device"))
         self.assertEqual(os.listdir(self.photos), [])
 
 

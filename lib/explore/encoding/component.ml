@@ -95,10 +95,8 @@ and step = {
   successor : target;  (* if it goes well *)
   begins : Task_rules.round list;  (* the rounds that begin if it goes well *)
   looks : bool;  (* whether it depends on the vehicles held around it, or on ensured deeds around it *)
-  mutable looked :
-    ((int * int) * Core.vehicle list * Residual.timer list * Core.vehicle list list, outcome) Hashtbl.t option;
-  (* memoised by {!Memoised_steps}, by the number of the shared part and ensured deeds around it, and by the vehicles
-     held there *)
+  mutable looked : (int * int, outcome) Hashtbl.t option;
+  (* memoised by {!Memoised_steps}, by the numbers of the shared part and of the surroundings *)
   mutable free_action : int;  (* the action of a [Free] step, or -1 until it is computed *)
   mutable outcomes : outcome array;  (* memoised by {!Memoised_steps}, by the number of the shared part *)
 }

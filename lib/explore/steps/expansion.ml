@@ -59,7 +59,10 @@ type source = {
   layout : Layout.t;
   shared : int;
   visitor : Task_group.permutation option System.visitor;
+  mutable surroundings : (Layout.place * Memoised_steps.surroundings) list;
 }
+
+let source expansion ~key ~layout ~shared visitor = { expansion; key; layout; shared; visitor; surroundings = [] }
 
 (* {1 Visiting} *)
 
@@ -212,13 +215,20 @@ let owed x (place : Layout.place) =
   let inside = match place.inside with Some _ -> List.concat_map ensured place.children | None -> [] in
   { inside; beside = beside place }
 
-let outcome x place step =
-  if step.looks then
+let surroundings x place =
+  match List.assq_opt place x.surroundings with
+  | Some found -> found
+  | None ->
     let around = around x place in
     let asks_running = (Components.program x.expansion.components).asks_running in
     let around = if asks_running then around @ [ Residual.Around (standing x place) ] else around in
     let owed = if Components.ensures x.expansion.components then Some (owed x place) else None in
-    Memoised_steps.look x.expansion.steps step ~around ?owed x.shared
+    let found = Memoised_steps.surroundings x.expansion.steps ?owed around in
+    x.surroundings <- (place, found) :: x.surroundings;
+    found
+
+let outcome x place step =
+  if step.looks then Memoised_steps.look x.expansion.steps step (surroundings x place) x.shared
   else Memoised_steps.outcome x.expansion.steps step x.shared
 
 let take_outcome x place (outcome : outcome) =

@@ -31,7 +31,11 @@ type source = {
   layout : Layout.t;
   shared : int;  (** the number of its shared state *)
   visitor : Task_group.permutation option System.visitor;
+  mutable surroundings : (Layout.place * Memoised_steps.surroundings) list;  (** those that were asked for, by place *)
 }
+
+val source :
+  t -> key:int array -> layout:Layout.t -> shared:int -> Task_group.permutation option System.visitor -> source
 
 (** All of these visit states, or representatives of them with the permutation that leads there.
     @raise Layouts.Outgrown *)

@@ -12,14 +12,23 @@ module Owed = Hashtbl.Make (struct
       List.fold_left (List.fold_left (fun h d -> Order.mix h (Value.hash_ensured d))) (List.length dss) dss land max_int
   end)
 
+(* The parts around a step, as far as its effect depends on them: the number of the ensured deeds, vehicles that are
+   held, timers, and the vehicles and running tasks that some programs ask for. *)
+type seen = int * Core.vehicle list * Residual.timer list * Core.vehicle list list
+
+type surroundings = { around : Residual.surrounding list; owed : owed option; number : int }
+
 type t = {
   components : Components.t;
   encoding : Encoding.t;
   observe : (Local_step.t -> int) option;
   owed : int Owed.t;  (* numbered *)
+  seen : (seen, int) Hashtbl.t;  (* numbered *)
 }
 
-let create ?observe components encoding = { components; encoding; observe; owed = Owed.create 16 }
+let create ?observe components encoding =
+  { components; encoding; observe; owed = Owed.create 16; seen = Hashtbl.create 64 }
+
 let unknown = -1
 let impossible = -2
 let special = -3
@@ -166,15 +175,7 @@ let number_owed t (owed : owed option) =
         Owed.add t.owed all number;
         number)
 
-let look t step ~around ?owed s =
-  let table =
-    match step.looked with
-    | Some table -> table
-    | None ->
-      let table = Hashtbl.create 16 in
-      step.looked <- Some table;
-      table
-  in
+let surroundings t ?owed around =
   let needed =
     if Components.dismisses t.components then
       List.map Residual.needed_around (around :: Residual.beyond_watches around)
@@ -183,12 +184,28 @@ let look t step ~around ?owed s =
   let needed = if (program t).recruits then Residual.named_around around :: needed else needed in
   let beside_watches = List.map Residual.held (Residual.beyond_watches around) in
   let held = Residual.held around and timers = Residual.timers_around around in
-  let key = ((s, number_owed t owed), held, timers, beside_watches @ needed @ running t around) in
-  match Hashtbl.find_opt table key with
+  let seen = (number_owed t owed, held, timers, beside_watches @ needed @ running t around) in
+  match Hashtbl.find_opt t.seen seen with
+  | Some number -> { around; owed; number }
+  | None ->
+    let number = Hashtbl.length t.seen in
+    Hashtbl.add t.seen seen number;
+    { around; owed; number }
+
+let look t step { around; owed; number } s =
+  let table =
+    match step.looked with
+    | Some table -> table
+    | None ->
+      let table = Hashtbl.create 16 in
+      step.looked <- Some table;
+      table
+  in
+  match Hashtbl.find_opt table (s, number) with
   | Some outcome -> outcome
   | None ->
     let outcome = find ~around ?owed t step s in
-    Hashtbl.add table key outcome;
+    Hashtbl.add table (s, number) outcome;
     outcome
 
 let outcome t step s =

@@ -30,9 +30,15 @@ val action : t -> Component.step -> int -> int
 val outcome : t -> Component.step -> int -> Component.outcome
 (** [outcome t step s] is the effect of [step] in shared state [s]. *)
 
-val look : t -> Component.step -> around:Residual.surrounding list -> ?owed:Component.owed -> int -> Component.outcome
-(** [look t step ~around ?owed s] is the effect of [step], which depends on the vehicles held [around] and on what is
-    ensured there, [owed], in shared state [s]. *)
+type surroundings
+(** The parts around a step, as far as effects depend on them. *)
+
+val surroundings : t -> ?owed:Component.owed -> Residual.surrounding list -> surroundings
+(** [surroundings t ?owed around]: the ensured deeds there are [owed]. It takes time, so callers keep it for all steps
+    of one place. *)
+
+val look : t -> Component.step -> surroundings -> int -> Component.outcome
+(** [look t step around s] is the effect of [step], which depends on its surroundings, in shared state [s]. *)
 
 val ends_run : Component.outcome -> bool
 (** Whether the run ends by it. *)

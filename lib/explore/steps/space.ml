@@ -310,7 +310,7 @@ let inputs_at t outside = Environment.keys_of_inputs t.options t.program outside
 let examine t key ~possible ~taken visitor =
   let layout = Layouts.layout t.layouts (Layouts.number t.layouts key.(0)) in
   let shared = Layouts.shared t.layouts key.(0) in
-  let x : Expansion.source = { expansion = t.expansion; key; layout; shared; visitor } in
+  let x = Expansion.source t.expansion ~key ~layout ~shared visitor in
   let components = components t x in
   let status = statuses t x components in
   let choice = if Reduction.by_order t.reduction then choose t x components status else None in
@@ -401,7 +401,7 @@ let transitions t key (visitor : via System.visitor) =
   | 0 -> expand_script t (Layouts.shared t.layouts key.(0)) visitor
   | number ->
     let layout = Layouts.layout t.layouts number and shared = Layouts.shared t.layouts key.(0) in
-    let x : Expansion.source = { expansion = t.expansion; key; layout; shared; visitor } in
+    let x = Expansion.source t.expansion ~key ~layout ~shared visitor in
     let taken, posted =
       if Reduction.by_order t.reduction then expand_some t x
       else

@@ -126,8 +126,8 @@ let all =
       in_file "lib/explore/steps/memoised_steps.ml" ~noticed_by:"explore/test_agreement"
         [
           ( "steps are remembered without the ensured deeds around them",
-            {|(s, number_owed t owed)|},
-            {|(s, min 1 (number_owed t owed))|} );
+            {|(number_owed t owed, held|},
+            {|(min 1 (number_owed t owed), held|} );
         ];
       in_file "lib/explore/steps/recruiting.ml" ~noticed_by:"reduction/test_told_apart"
         [

@@ -42,20 +42,34 @@ module Table = Hashtbl.Make (struct
 
 exception Too_much
 
-(* Whether a graph has a cycle: [successors.(i)] follow state [i]. *)
-let is_cyclic successors =
-  let n = Array.length successors in
-  let entered = Array.make n false and left = Array.make n false in
-  let rec visit i =
-    (entered.(i) && not left.(i))
-    || (not entered.(i)) && begin
-        entered.(i) <- true;
-        let found = List.exists visit successors.(i) in
-        left.(i) <- true;
-        found
-      end
+(* Only nodes that follow a node, and are followed by one, again and again: what is left has a cycle. *)
+let rec core edges =
+  let follows = Hashtbl.create 100 and is_followed = Hashtbl.create 100 in
+  let note (i, _, j) =
+    Hashtbl.replace is_followed i ();
+    Hashtbl.replace follows j ()
   in
-  List.exists visit (List.init n Fun.id)
+  List.iter note edges;
+  let left = List.filter (fun (i, _, j) -> Hashtbl.mem follows i && Hashtbl.mem is_followed j) edges in
+  if List.compare_lengths left edges = 0 then edges else core left
+
+let contradiction edges =
+  let assumed = List.sort_uniq World.compare_assumption (List.concat_map (fun (_, assumed, _) -> assumed) edges) in
+  let pair a = Option.map (fun b -> (a, b)) (List.find_opt (World.contradict a) assumed) in
+  List.find_map pair assumed
+
+(* Whether a graph has a cycle whose assumptions some moment has. [edges] leads from a state to one that follows. All
+   cycles are at one second. *)
+let rec is_cyclic edges =
+  match core edges with
+  | [] -> false
+  | core -> (
+      match contradiction core with
+      | None -> true
+      | Some (a, b) ->
+        let is c a = World.compare_assumption c a = 0 in
+        let without c = is_cyclic (List.filter (fun (_, assumed, _) -> not (List.exists (is c) assumed)) core) in
+        without a || without b)
 
 let in_seconds : Bounds.t -> int * int = function
   | Within { least; most } -> (least / 1000, most / 1000)
@@ -225,19 +239,20 @@ let tick ~batteries s =
 let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _ _ world -> world) ?(look = ignore)
     (o : Clocked.options) =
   let seen = Table.create 1_000 and queue = Queue.create () in
-  let edges = ref [] and following = ref [] in
+  let edges = ref [] in
   let dates = Hashtbl.create 20 and most = Hashtbl.create 3 and worked = Hashtbl.create 3 and never_over = ref false in
   let note s moment =
     let least, most = Option.value (Hashtbl.find_opt dates moment) ~default:(s.now, s.now) in
     Hashtbl.replace dates moment (min least s.now, max most s.now)
   in
-  let reach s =
+  let reach ?from ?(assumed = [ [] ]) s =
     if s.now > seconds || Table.length seen > states then raise_notrace Too_much;
     if not (Table.mem seen s) then begin
       Table.add seen s (Table.length seen);
       Queue.add s queue
     end;
-    following := Table.find seen s :: !following
+    let edge from assumed = (Table.find seen from, assumed, Table.find seen s) in
+    Option.iter (fun from -> edges := List.map (edge from) assumed @ !edges) from
   in
   let note_step s (t : Transition.t) =
     let task v (p : Core.platform_task) : Timed_analysis.task = { name = p.name; vehicle = v; site = p.task_site } in
@@ -349,21 +364,22 @@ let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _
     in
     let take ((choice : Environment.choice), _) =
       note_step s choice.transition;
-      reach (after o s choice)
+      let t = choice.transition in
+      reach ~from:s ~assumed:(t.assumed :: t.otherwise) (after o s choice)
     in
     if not (waits && is_not_a_run ()) then begin
       look s.c;
       List.iter take (List.filter may_be_now possible);
       let end_unheard (v, errand, clock, least, most) =
         if waits && clock.since >= least && clock.since <= most then
-          reach { s with errands = List.sort compare ((v, errand) :: s.errands) }
+          reach ~from:s { s with errands = List.sort compare ((v, errand) :: s.errands) }
       in
       List.iter end_unheard unheard;
-      if is_next_there then reach (after_change o s (fst (Links.change (links o) s.changes)))
+      if is_next_there then reach ~from:s (after_change o s (fst (Links.change (links o) s.changes)))
     end;
     let reads_date = o.program.reads_now and is_over = match s.c.control with Ended _ -> true | _ -> false in
     if reads_date && waits && (not is_over) && s.date < s.now && not (is_not_a_run ()) then
-      reach { s with date = s.now };
+      reach ~from:s { s with date = s.now };
     let dates = Result.value o.dates ~default:Dated_code.no_dates in
     let is_dated = (not is_over) && Dated_code.following dates s.date <> None in
     (* A second passes, if for everything that is awaited something may still happen then. *)
@@ -378,7 +394,7 @@ let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _
       if is_something_to_come
       || List.exists (fun (choice, _) -> not (Environment.is_voluntary choice.Environment.transition)) possible
       || Environment.owes o.environment o.program s.e
-      then reach (tick ~batteries s)
+      then reach ~from:s (tick ~batteries s)
     end;
     match s.c.control with
     | Ended _ -> ()
@@ -398,13 +414,11 @@ let all ?(states = 20_000) ?(seconds = 60) ?(batteries = []) ?seen:(show = fun _
   match
     reach start;
     while not (Queue.is_empty queue) do
-      following := [];
-      expand (Queue.pop queue);
-      edges := !following :: !edges
+      expand (Queue.pop queue)
     done
   with
   | () ->
-    let never_over = !never_over || is_cyclic (Array.of_list (List.rev !edges)) in
+    let never_over = !never_over || is_cyclic !edges in
     let sorted table = List.sort compare (List.of_seq (Hashtbl.to_seq table)) in
     let works (v, _) = Hashtbl.mem worked v in
     Some { dates = sorted dates; never_over; most = List.filter works (sorted most) }

@@ -9,7 +9,7 @@ type moment = Ended of Timed_system.ending | Task of Timed_analysis.task * Timed
 
 type t = {
   dates : (moment * (int * int)) list;  (** the earliest and the latest second *)
-  never_over : bool;  (** some run gets stuck, or repeats without end in no time, sensors showing one thing all the way *)
+  never_over : bool;  (** some run gets stuck, or repeats without end in no time, while sensors show one thing *)
   most : (Core.vehicle * int) list;
   (** the most that is missing at any time in the battery of a vehicle that works in some run *)
 }

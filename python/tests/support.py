@@ -68,15 +68,6 @@ class Console(Channel):
         return last.get("why")
 
 
-async def until(condition: Callable[[], bool], seconds: float = 20.0) -> None:
-    """Waits for a condition; fails after a time that only a fault takes."""
-    for _ in range(int(seconds / 0.005)):
-        if condition():
-            return
-        await asyncio.sleep(0.005)
-    raise AssertionError("a condition did not become true")
-
-
 async def settled() -> None:
     """Lets all that is ready on the loop happen."""
     for _ in range(30):

@@ -9,8 +9,9 @@ import unittest
 import dolphin
 from dolphin import adapter as adapters
 from dolphin.adapter import Adapter
+from eventually import eventually
 from seeds import seeds
-from tests.support import ENDS, Console, converse, settled, until
+from tests.support import ENDS, Console, converse, settled
 
 
 class Board(dolphin.Vehicle):
@@ -47,7 +48,7 @@ class Board(dolphin.Vehicle):
 
     async def go(self, step, error=None):
         """Lets a step end, once it has begun."""
-        await until(lambda: step in self.gates and not self.gates[step].done())
+        await eventually(lambda: step in self.gates and not self.gates[step].done())
         if error is None:
             self.gates[step].set_result(None)
         else:
@@ -73,7 +74,7 @@ class Orders(unittest.TestCase):
         self.board.languages = ("mission",)
 
         async def script(console):
-            await until(lambda: len(console.reports) >= 2)
+            await eventually(lambda: len(console.reports) >= 2)
             hello, vehicle = console.reports[:2]
             self.assertEqual((hello["kind"], hello["protocol"], hello["plans"]), ("hello", 1, ["name", "mission"]))
             self.assertEqual(vehicle["kind"], "vehicle")
@@ -84,7 +85,7 @@ class Orders(unittest.TestCase):
     def test_another_version_is_an_error(self):
         async def script(console):
             console.hello(protocol=2)
-            await until(lambda: console.reports)
+            await eventually(lambda: console.reports)
             self.assertEqual([r["kind"] for r in console.reports], ["error"])
 
         self.run_script(script, hello=False)
@@ -97,7 +98,7 @@ class Orders(unittest.TestCase):
         self.adapter = Broken("test", [self.board])
 
         async def script(console):
-            await until(lambda: console.reports)
+            await eventually(lambda: console.reports)
             self.assertEqual(console.reports, [
                 {"kind": "error", "why": "OSError: serial port /dev/ttyUSB0: no such file"}])
 
@@ -117,11 +118,11 @@ class Orders(unittest.TestCase):
         async def script(console):
             console.keeps = False
             console.start("r")
-            await until(lambda: console.notes("r"))
+            await eventually(lambda: console.notes("r"))
             await settled()
             self.assertEqual(self.board.calls, [])
             console.stop("r")
-            await until(lambda: console.words("r"))
+            await eventually(lambda: console.words("r"))
             self.assertEqual(console.words("r"), ["stopped"])
             self.assertEqual(self.board.calls, [])
 
@@ -130,7 +131,7 @@ class Orders(unittest.TestCase):
     def test_a_request_without_a_note_is_absent_and_then_started(self):
         async def script(console):
             console.resume("r", [])
-            await until(lambda: console.words("r"))
+            await eventually(lambda: console.words("r"))
             self.assertEqual(console.words("r"), ["absent"])
             console.start("r")
             await self.board.go("start")
@@ -142,12 +143,12 @@ class Orders(unittest.TestCase):
     def test_a_stop_of_an_absent_request_is_stopped(self):
         async def script(console):
             console.resume("r", [])
-            await until(lambda: console.words("r") == ["absent"])
+            await eventually(lambda: console.words("r") == ["absent"])
             console.stop("r")
-            await until(lambda: console.words("r") == ["absent", "stopped"])
+            await eventually(lambda: console.words("r") == ["absent", "stopped"])
             console.resume("s", [])
             console.stop("s")
-            await until(lambda: console.words("s")[-1:] == ["stopped"])
+            await eventually(lambda: console.words("s")[-1:] == ["stopped"])
             self.assertEqual(self.board.calls, [])
 
         self.run_script(script)
@@ -174,7 +175,7 @@ class Orders(unittest.TestCase):
                 await self.board.go("resume", dolphin.Unknown("a plan of this name has run"))
                 self.assertEqual(console.words(f"r{n}"), ["unknown"])
             console.order("resume", request="s", vehicle="v", plan={"name": "p"}, notes=[], doubt=None)
-            await until(lambda: console.words("s") == ["absent"])
+            await eventually(lambda: console.words("s") == ["absent"])
 
         self.run_script(script)
 
@@ -188,7 +189,7 @@ class Orders(unittest.TestCase):
                 await self.board.go("resume", error)
                 self.assertEqual(console.words(f"r{n}"), [word])
                 console.resume(f"r{n}", [{"commanded": True}])
-                await until(lambda: len(console.words(f"r{n}")) == 2)
+                await eventually(lambda: len(console.words(f"r{n}")) == 2)
                 self.assertEqual(console.words(f"r{n}"), [word, word])
 
         self.run_script(script)
@@ -201,7 +202,7 @@ class Orders(unittest.TestCase):
 
         async def script(console):
             console.start("r")
-            await until(lambda: console.words("r") == ["taken"])
+            await eventually(lambda: console.words("r") == ["taken"])
             self.assertEqual(console.notes("r"), [{"note": {"items": 12}}, {"commanded": True}])
 
         self.run_script(script)
@@ -212,10 +213,10 @@ class Orders(unittest.TestCase):
             console.start("r")
             await self.board.go("start")
             console.start("r")
-            await until(lambda: console.words("r") == ["taken", "taken"])
+            await eventually(lambda: console.words("r") == ["taken", "taken"])
             await self.board.go("finish")
             console.start("r")
-            await until(lambda: console.words("r") == ["taken", "taken", "done", "done"])
+            await eventually(lambda: console.words("r") == ["taken", "taken", "done", "done"])
             self.assertEqual(self.board.commanded("r"), ["start", "finish"])
 
         self.run_script(script)
@@ -226,7 +227,7 @@ class Orders(unittest.TestCase):
             await self.board.go("start")
             console.stop("r")
             console.stop("r")
-            await until(lambda: self.board.commanded("r")[-1] == "stop")
+            await eventually(lambda: self.board.commanded("r")[-1] == "stop")
             self.assertEqual(console.words("r"), ["taken"])
             await self.board.go("stop")
             self.assertEqual(console.words("r"), ["taken", "stopped"])
@@ -263,7 +264,7 @@ class Orders(unittest.TestCase):
         async def script(console):
             console.stop("r")
             console.start("r")
-            await until(lambda: len(console.words("r")) == 2)
+            await eventually(lambda: len(console.words("r")) == 2)
             self.assertEqual(console.words("r"), ["stopped", "stopped"])
             self.assertEqual(self.board.calls, [])
 
@@ -286,9 +287,9 @@ class Orders(unittest.TestCase):
         async def script(console):
             console.start("r")
             await self.board.go("start")
-            await until(lambda: "finish" in self.board.gates)
+            await eventually(lambda: "finish" in self.board.gates)
             self.board.gates["finish"].cancel()
-            await until(lambda: console.words("r") == ["taken", "unknown"])
+            await eventually(lambda: console.words("r") == ["taken", "unknown"])
 
         self.run_script(script)
 
@@ -306,10 +307,10 @@ class Orders(unittest.TestCase):
             console.start("c", vehicle="w")
             self.board.report(unready="is flown by its pilot")
             console.start("d")
-            await until(lambda: all(console.words(r) for r in "abcd"))
+            await eventually(lambda: all(console.words(r) for r in "abcd"))
             self.board.problems = broken
             console.start("e")
-            await until(lambda: console.words("e"))
+            await eventually(lambda: console.words("e"))
             for request, why in [("a", "undefined plan 'bad'"),
                                  ("b", "plans in the language imcPlan are not for this vehicle"),
                                  ("c", "there is no vehicle w"), ("d", "is flown by its pilot"),
@@ -324,7 +325,7 @@ class Orders(unittest.TestCase):
             console.start("r")
             await self.board.go("start")
             console.start("s")
-            await until(lambda: console.words("s"))
+            await eventually(lambda: console.words("s"))
             self.assertEqual((console.words("s"), console.why("s")), (["failed"], "runs another plan"))
 
         self.run_script(script)
@@ -334,9 +335,9 @@ class Orders(unittest.TestCase):
             console.start("r")
             await self.board.go("start")
             console.stop("r")
-            await until(lambda: "stop" in self.board.gates)
+            await eventually(lambda: "stop" in self.board.gates)
             console.start("s")
-            await until(lambda: self.board.commanded("s") == ["start"])
+            await eventually(lambda: self.board.commanded("s") == ["start"])
             self.assertEqual(console.words("r"), ["taken"])
             await self.board.go("start")
             self.assertEqual((console.words("r"), console.words("s")), (["taken", "failed"], ["taken"]))
@@ -350,9 +351,9 @@ class Orders(unittest.TestCase):
             console.start("r")
             await self.board.go("start")
             console.stop("r")
-            await until(lambda: "stop" in self.board.gates)
+            await eventually(lambda: "stop" in self.board.gates)
             console.start("s")
-            await until(lambda: self.board.commanded("s") == ["start"])
+            await eventually(lambda: self.board.commanded("s") == ["start"])
             await self.board.go("start", dolphin.Failed("the battery is at 2 %"))
             self.assertEqual((console.words("r"), console.words("s")), (["taken"], ["failed"]))
             await self.board.go("stop")
@@ -365,11 +366,11 @@ class Orders(unittest.TestCase):
             console.start("r")
             await self.board.go("start")
             console.stop("r")
-            await until(lambda: "stop" in self.board.gates)
+            await eventually(lambda: "stop" in self.board.gates)
             console.start("s")
-            await until(lambda: self.board.commanded("s") == ["start"])
+            await eventually(lambda: self.board.commanded("s") == ["start"])
             console.stop("s")
-            await until(lambda: "stop" in self.board.commanded("s"))
+            await eventually(lambda: "stop" in self.board.commanded("s"))
             await self.board.go("stop")
             self.assertEqual((console.words("r"), console.words("s")), (["taken", "stopped"], ["stopped"]))
 
@@ -381,7 +382,7 @@ class Orders(unittest.TestCase):
             await self.board.go("start")
             console.order("close")
             await self.board.go("stop")
-            await until(lambda: [r["kind"] for r in console.reports[-1:]] == ["quiet"])
+            await eventually(lambda: [r["kind"] for r in console.reports[-1:]] == ["quiet"])
             self.assertEqual(console.words("r"), ["taken", "stopped"])
 
         self.assertTrue(self.run_script(script))
@@ -399,7 +400,7 @@ class Orders(unittest.TestCase):
             for kind in ("start", "stop", "resume", "check", "ping", "kept", "telemetry", "hold", "dance"):
                 console.order(kind)
             console.order("ping", id=7)
-            await until(lambda: {"kind": "pong", "id": 7} in console.reports)
+            await eventually(lambda: {"kind": "pong", "id": 7} in console.reports)
 
         self.run_script(script)
 
@@ -408,7 +409,7 @@ class Orders(unittest.TestCase):
             console.order("check", id=1, vehicle="v", plan={"name": "p"})
             console.order("check", id=2, plan={"name": "p", "language": "imcPlan", "body": {}})
             console.order("check", id=3, vehicle="w", plan={"name": "p"})
-            await until(lambda: len([r for r in console.reports if r["kind"] == "checked"]) == 3)
+            await eventually(lambda: len([r for r in console.reports if r["kind"] == "checked"]) == 3)
             found = {r["id"]: r["problems"] for r in console.reports if r["kind"] == "checked"}
             self.assertEqual(found, {1: [], 2: ["plans in the language imcPlan are not for this vehicle"],
                                      3: ["there is no vehicle w"]})
@@ -419,9 +420,9 @@ class Orders(unittest.TestCase):
     def test_vehicles_are_held_and_released(self):
         async def script(console):
             console.order("hold", vehicles=["v", "w"])
-            await until(lambda: self.board.held)
+            await eventually(lambda: self.board.held)
             console.order("release", vehicles=["v"])
-            await until(lambda: not self.board.held)
+            await eventually(lambda: not self.board.held)
 
         self.run_script(script)
 
@@ -439,7 +440,7 @@ class Telemetry(unittest.TestCase):
 
     def check(self, script):
         async def after_the_first(console):
-            await until(lambda: len(console.reports) >= 2)
+            await eventually(lambda: len(console.reports) >= 2)
             await script(console)
 
         with contextlib.redirect_stderr(io.StringIO()):
@@ -456,7 +457,7 @@ class Telemetry(unittest.TestCase):
                  "link": False}])
             console.order("telemetry", on=True)
             self.board.report(battery=0.4)
-            await until(lambda: len(self.sightings(console)) == 2)
+            await eventually(lambda: len(self.sightings(console)) == 2)
             self.assertEqual(self.sightings(console)[1], {"kind": "vehicle", "vehicle": "v", "battery": 0.4})
 
         self.check(script)
@@ -477,7 +478,7 @@ class Telemetry(unittest.TestCase):
         async def script(console):
             self.board.report(readings={"Temperature": 14.2, "Salinity": 35})
             console.order("refused", why="is not valid")
-            await until(lambda: self.sightings(console))
+            await eventually(lambda: self.sightings(console))
             again = self.sightings(console)[0]
             self.assertEqual((again["type"], again["link"], again["longitude"]), ("USV", True, -8.0))
             self.assertEqual(again["readings"], {"Temperature": 14.2, "Salinity": 35})
@@ -541,7 +542,7 @@ class Telemetry(unittest.TestCase):
     def test_reports_from_another_thread(self):
         async def script(console):
             await asyncio.get_running_loop().run_in_executor(None, lambda: self.board.report(link=False))
-            await until(lambda: self.sightings(console))
+            await eventually(lambda: self.sightings(console))
 
         self.check(script)
 
@@ -566,7 +567,7 @@ class Telemetry(unittest.TestCase):
         self.adapter = Adapter("test", [Deaf()])
 
         async def script(console):
-            await until(lambda: any(r.get("link") is False for r in console.reports))
+            await eventually(lambda: any(r.get("link") is False for r in console.reports))
             logs = [r for r in console.reports if r["kind"] == "log"]
             self.assertEqual(logs[0]["text"], "listening to v failed: OSError: the port is closed")
 
@@ -618,7 +619,7 @@ class Drawn(unittest.TestCase):
                         gate.set_result(None)
                 return [r["kind"] for r in console.reports[-1:]] == ["quiet"]
 
-            await until(quiet)
+            await eventually(quiet)
             for request in requests:
                 self.judge(console, board, request)
 

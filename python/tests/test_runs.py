@@ -8,7 +8,8 @@ import sys
 import unittest
 
 import dolphin
-from tests.support import HERE, InFolder, until
+from eventually import eventually
+from tests.support import HERE, InFolder
 
 MISSION = """
 input 'abort'
@@ -82,7 +83,7 @@ class Runs(InFolder):
             async with dolphin.run("m.dol", fleet=fakes) as run:
                 async for record in run:
                     if isinstance(record, dolphin.Transition) and record.label.startswith("start"):
-                        await until(lambda: fakes["uuv-1"].started)
+                        await eventually(lambda: fakes["uuv-1"].started)
                         await run.stop()
             self.assertEqual(run.end.ending, "interrupted")
             self.assertEqual(fakes["uuv-1"].stopped, ["long"])
@@ -96,7 +97,7 @@ class Runs(InFolder):
                 async with dolphin.run("m.dol", fleet=fakes) as run:
                     async for record in run:
                         if isinstance(record, dolphin.Transition) and record.label.startswith("start"):
-                            await until(lambda: fakes["uuv-1"].started)
+                            await eventually(lambda: fakes["uuv-1"].started)
                             raise ZeroDivisionError
             self.assertEqual(run.end.ending, "interrupted")
             self.assertEqual(fakes["uuv-1"].stopped, ["long"])
@@ -145,7 +146,7 @@ class Runs(InFolder):
                 async with dolphin.run("m.dol", fleet=fakes, journal="m.run") as run:
                     async for record in run:
                         if isinstance(record, dolphin.Transition) and record.label.startswith("start"):
-                            await until(lambda: fakes["uuv-1"].started)
+                            await eventually(lambda: fakes["uuv-1"].started)
                             os.kill(run._process.pid, signal.SIGKILL)
             async with dolphin.run("m.dol", fleet=fakes, journal="m.run", resume=True) as run:
                 await run.post(abort=True)

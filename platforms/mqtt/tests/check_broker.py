@@ -10,38 +10,19 @@ import signal
 import socket
 import subprocess
 import tempfile
-import time
 import unittest
 
 import paho.mqtt.client as mqtt
 
+from eventually import SECONDS, free_port, until
 from tests.support import beside
 
-SECONDS = 30.0
-"""After them a wait fails; only a fault takes that long."""
 
 MISSION = """input 'level', 'door', 'gone', 'stop'
 v = pick { type 'UUV' }
 execute v: until { poll stop: true } run task('survey')
 """
 FLEET = "vehicle 'n-1', { type 'UUV' }\nplan 'survey', { duration 10.hours }\n"
-
-
-def until(condition, what):
-    """Waits for a condition, and gives its value."""
-    end = time.monotonic() + SECONDS
-    while time.monotonic() < end:
-        value = condition()
-        if value:
-            return value
-        time.sleep(0.02)
-    raise AssertionError(f"in {SECONDS:g} s: {what()}")
-
-
-def free_port():
-    with socket.socket() as listener:
-        listener.bind(("127.0.0.1", 0))
-        return listener.getsockname()[1]
 
 
 class Case(unittest.TestCase):

@@ -108,15 +108,6 @@ class FakeBroker:
         self.is_open = False
 
 
-async def until(condition: Callable[[], bool], seconds: float = 20.0) -> None:
-    """Waits for a condition; fails after a time that only a fault takes."""
-    for _ in range(int(seconds / 0.01)):
-        if condition():
-            return
-        await asyncio.sleep(0.01)
-    raise AssertionError("a condition did not become true")
-
-
 def beside(name: str) -> str:
     """A file of the adapter."""
     return os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), name)

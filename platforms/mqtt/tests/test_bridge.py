@@ -12,7 +12,8 @@ import dolphin
 from dolphin import posting
 from dolphin_mqtt import configuration, shell
 
-from tests.support import TEXT, FakeBroker, FakeRun, until
+from eventually import eventually
+from tests.support import TEXT, FakeBroker, FakeRun
 
 
 class Bridges(unittest.TestCase):
@@ -41,7 +42,7 @@ class Bridges(unittest.TestCase):
 
     async def opened(self, run):
         await run.open()
-        await until(lambda: self.broker.is_open)
+        await eventually(lambda: self.broker.is_open)
 
     def test_messages_become_pairs_and_the_end_of_the_run_is_the_end(self):
         async def script(run):
@@ -50,7 +51,7 @@ class Bridges(unittest.TestCase):
             self.broker.hear("harbour/quay", b'{"smoke": {"level": 0.5}}', False)
             self.broker.hear("harbour/door", b"open", True)
             self.broker.hear("harbour/other", b"1", False)
-            await until(lambda: len(run.posts) == 2)
+            await eventually(lambda: len(run.posts) == 2)
             run.end()
             self.posts = run.posts
 
@@ -64,10 +65,10 @@ class Bridges(unittest.TestCase):
 
         async def script(run):
             await self.opened(run)
-            await until(lambda: run.posts == [("lost", "quay")])
+            await eventually(lambda: run.posts == [("lost", "quay")])
             for level in (1, 2, 3):
                 self.broker.hear("harbour/quay", b'{"smoke": {"level": %d}}' % level, False)
-            await until(lambda: run.posts[1:] == [("quay", 1), ("quay", 3), ("lost", "quay")])
+            await eventually(lambda: run.posts[1:] == [("quay", 1), ("quay", 3), ("lost", "quay")])
             run.end()
 
         self.assertEqual(self.run_one(script, text=text), 0)
@@ -113,7 +114,7 @@ class Bridges(unittest.TestCase):
             self.broker.hear("harbour/door", b"open", False)
             await asyncio.sleep(0.1)
             await run.open()
-            await until(lambda: run.posts == [("door", "open")])
+            await eventually(lambda: run.posts == [("door", "open")])
             run.end()
 
         self.assertEqual(self.run_one(script), 0)
@@ -158,7 +159,7 @@ class Bridges(unittest.TestCase):
             run.refusals["post"] = ("bad-value", "a latitude in numbers is expected")
             for _ in range(3):
                 self.broker.hear("harbour/door", b"open", False)
-            await until(lambda: any("is refused" in remark for remark in self.remarks))
+            await eventually(lambda: any("is refused" in remark for remark in self.remarks))
             await asyncio.sleep(0.05)
             run.end()
 
@@ -183,7 +184,7 @@ class Bridges(unittest.TestCase):
                 self.broker.hear("harbour/door", b"%d" % number, False)
             await asyncio.sleep(0.05)
             await run.open()
-            await until(lambda: run.posts == [("door", "2"), ("door", "3")])
+            await eventually(lambda: run.posts == [("door", "2"), ("door", "3")])
             run.end()
 
         self.assertEqual(self.run_one(script), 0)

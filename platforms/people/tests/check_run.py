@@ -15,11 +15,10 @@ import tempfile
 import time
 import unittest
 
+from eventually import SECONDS, free_port, until
 from seeds import seeds
 from tests.support import beside
 
-SECONDS = 60.0
-"""After them a wait fails; only a fault takes that long."""
 ADAPTER = beside("dolphin-people")
 DOLPHIN = os.environ["DOLPHIN"]
 
@@ -42,23 +41,6 @@ def measure(p, place) {
 def all(p, name) { measure(p, "$name-1") >> measure(p, "$name-2") >> measure(p, "$name-3") }
 execute all(people[0], 'a') | all(people[1], 'b')
 """
-
-
-def until(condition, what):
-    """Waits for a condition, and gives its value."""
-    end = time.monotonic() + SECONDS
-    while time.monotonic() < end:
-        value = condition()
-        if value:
-            return value
-        time.sleep(0.02)
-    raise AssertionError(f"in {SECONDS:g} s: {what()}")
-
-
-def free_port():
-    with socket.socket() as listener:
-        listener.bind(("127.0.0.1", 0))
-        return listener.getsockname()[1]
 
 
 class Case(unittest.TestCase):

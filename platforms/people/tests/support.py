@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import os
-from typing import Any, Callable, Dict, List, Optional, Tuple
+from typing import Any, Dict, List, Optional, Tuple
 
 import dolphin
 from dolphin_people import configuration
@@ -72,15 +72,6 @@ async def settled() -> None:
     """Returns when all that can go on without time has gone on."""
     for _ in range(20):
         await asyncio.sleep(0)
-
-
-async def until(condition: Callable[[], bool], seconds: float = 20.0) -> None:
-    """Waits for a condition; fails after a time that only a fault takes."""
-    for _ in range(int(seconds / 0.01)):
-        if condition():
-            return
-        await asyncio.sleep(0.01)
-    raise AssertionError("a condition did not become true")
 
 
 def beside(name: str) -> str:

@@ -12,8 +12,9 @@ from dolphin.channel import Channel
 from dolphin_people import configuration
 from dolphin_people.person import Gone, Person, Refused
 
+from eventually import eventually
 from seeds import seeds
-from tests.support import TEXT, Clock, FakeAnswers, settled, until
+from tests.support import TEXT, Clock, FakeAnswers, settled
 
 FOUND = configuration.of_text(TEXT, "people.yaml")
 VALUES = {"depth": 12.5, "colour": "red", "look": "a ray", "where": {"latitude": 41.2, "longitude": -8.7}}
@@ -138,13 +139,13 @@ class Rules(unittest.IsolatedAsyncioTestCase):
     async def test_what_is_not_accepted_or_not_done_in_time(self):
         world = World(accept=0.05)
         await world.start("r1", "depth")
-        await until(lambda: world.dolphin.about("r1") == ["failed"])
+        await eventually(lambda: world.dolphin.about("r1") == ["failed"])
         self.assertEqual(world.dolphin.last("r1")["why"], "has not accepted in 0.05 s")
         rules = tuple(dataclasses.replace(rule, within=0.05) for rule in FOUND.rules)
         world = World(rules=rules)
         await world.start("r2", "depth")
         await world.decide("r2", "accept")
-        await until(lambda: world.person._open is not None and world.person._open.state == "stopping")
+        await eventually(lambda: world.person._open is not None and world.person._open.state == "stopping")
         self.assertEqual(world.dolphin.about("r2"), ["taken"])  # the work may still go on
         self.assertTrue(await world.decide("r2", "stopped"))
         self.assertEqual(world.dolphin.last("r2")["why"], "is not done after 0.05 s")

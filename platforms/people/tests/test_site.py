@@ -12,8 +12,9 @@ from unittest import mock
 from dolphin_people import configuration, http, site
 from dolphin_people.person import Person
 
+from eventually import eventually
 from seeds import seeds
-from tests.support import TEXT, FakeAnswers, FakePlan, settled, until
+from tests.support import TEXT, FakeAnswers, FakePlan, settled
 
 JPEG = b"\xff\xd8\xff\xe0" + b"x" * 100
 
@@ -169,7 +170,7 @@ class Strangers(Case):
                 data = b"".join(draw.choice(pieces) for _ in range(draw.randint(1, 8)))
                 await self.raw(data, ends=True)
         self.assertEqual((await self.request("GET", "/state"))[0], 200)
-        await until(lambda: not self.server._open)
+        await eventually(lambda: not self.server._open)
 
     async def test_a_head_that_is_too_long(self):
         self.assertIn(b" 431 ", await self.raw(b"GET / HTTP/1.1\r\nX: " + b"x" * 100_000 + b"\r\n\r\n"))
@@ -183,11 +184,11 @@ class Strangers(Case):
     async def test_one_address_has_a_share_of_the_connections(self):
         with mock.patch("dolphin_people.http.OF_ONE_ADDRESS", 5):
             open_ = [await asyncio.open_connection("127.0.0.1", self.port) for _ in range(5)]
-            await until(lambda: sum(self.server._open.values()) == 5)
+            await eventually(lambda: sum(self.server._open.values()) == 5)
             self.assertEqual(await self.raw(b"GET / HTTP/1.1\r\nHost: x\r\n\r\n"), b"")
             for _, writer in open_:
                 writer.close()
-            await until(lambda: not self.server._open)
+            await eventually(lambda: not self.server._open)
             self.assertEqual((await self.request("GET", "/state"))[0], 200)
 
     async def test_secrets_are_for_their_owner_alone(self):

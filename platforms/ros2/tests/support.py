@@ -242,15 +242,6 @@ class Console(Channel):
         return found[-1] if found else ...
 
 
-async def until(condition: Callable[[], bool], seconds: float = 20.0) -> None:
-    """Waits for a condition; fails after a time that only a fault takes."""
-    for _ in range(int(seconds / 0.005)):
-        if condition():
-            return
-        await asyncio.sleep(0.005)
-    raise AssertionError("a condition did not become true")
-
-
 def found() -> configuration.Configuration:
     return configuration_file.of_text(TEXT, "robots.yaml")
 

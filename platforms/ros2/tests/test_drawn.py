@@ -8,8 +8,9 @@ import unittest
 import dolphin_ros2.robot as module
 from dolphin_ros2 import goals
 
+from eventually import eventually
 from seeds import seeds
-from tests.support import Console, FakeLinks, converse, until
+from tests.support import Console, FakeLinks, converse
 
 ENDS = ("done", "failed", "stopped", "absent")
 
@@ -70,7 +71,7 @@ class Drawn(unittest.TestCase):
         draw = world.draw
 
         async def script(console, robot):
-            await until(lambda: console.last("link") is not ...)
+            await eventually(lambda: console.last("link") is not ...)
             if world.open is not None:
                 request = world.open
                 console.task("resume", request, notes=world.notes.get(request, []))
@@ -88,7 +89,7 @@ class Drawn(unittest.TestCase):
                 world.calm()
                 if world.open is not None:
                     console.task("stop", world.open)
-                await until(lambda: world.open is None)
+                await eventually(lambda: world.open is None)
 
         converse(world.links, script, resumes=not first)
 

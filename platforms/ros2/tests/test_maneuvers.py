@@ -11,7 +11,8 @@ from dolphin.document import Faulty
 from dolphin_ros2 import configuration_file, goals, interfaces, maneuvers, outputs
 from dolphin_ros2.geo import Origin
 
-from tests.support import TEXT, converse, load, until
+from eventually import eventually
+from tests.support import TEXT, converse, load
 from tests.test_robot import Case
 
 MANEUVERS = """\
@@ -126,16 +127,16 @@ class Flying(Case):
             running = [goal for goal, _ in self.server.begun if self.server.states[goal] in goals.ACTIVE]
             if not running:
                 before = len(self.server.begun)
-                await until(lambda: len(self.server.begun) > before)
+                await eventually(lambda: len(self.server.begun) > before)
             self.server.end(self.server.last(), goals.SUCCEEDED)
 
     async def under_way(self, console, goals_done):
         """The tour is ordered, this many of its goals are done, and the next one runs."""
         await self.ready(console)
         console.task("start", "r-1", TOUR)
-        await until(lambda: console.words("r-1") == ["taken"])
+        await eventually(lambda: console.words("r-1") == ["taken"])
         await self.each_ends(goals_done)
-        await until(lambda: len(self.server.begun) == goals_done + 1)
+        await eventually(lambda: len(self.server.begun) == goals_done + 1)
 
     def test_goals_one_after_another(self):
         async def script(console, robot):
@@ -191,7 +192,7 @@ class Flying(Case):
                     async def script(console, robot):
                         console.task("resume", "r-1", TOUR, notes=notes)
                         await self.each_ends(4 - goals_done - is_over)
-                        await until(lambda: console.words("r-1")[-1:] == ["done"])
+                        await eventually(lambda: console.words("r-1")[-1:] == ["done"])
 
                     self.converse(script, resumes=True)
                     self.assertEqual(len(self.server.sent), 4)
@@ -206,9 +207,9 @@ class Flying(Case):
 
                 async def script(console, robot):
                     console.task("resume", "r-1", TOUR, notes=[], doubt="notes")
-                    await until(lambda: console.words("r-1") == ["unknown"])
+                    await eventually(lambda: console.words("r-1") == ["unknown"])
                     console.task("stop", "r-1", TOUR)
-                    await until(lambda: console.words("r-1") == ["unknown", "stopped"])
+                    await eventually(lambda: console.words("r-1") == ["unknown", "stopped"])
 
                 self.converse(script, resumes=True)
                 self.assertEqual(len(self.server.sent), goals_done + 1)
@@ -225,7 +226,7 @@ class Ready(Case):
 
         async def script(console, robot):
             self.links.tare.there = False
-            await until(lambda: console.last("unready") == "its node /carrier1/nav does not answer")
+            await eventually(lambda: console.last("unready") == "its node /carrier1/nav does not answer")
             self.links.tare.there = True
             for label, why in (("inactive", "its node /carrier1/nav is inactive"), ("active", None)):
                 state.current_state.label = label

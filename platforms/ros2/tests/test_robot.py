@@ -9,7 +9,8 @@ import dolphin_ros2.robot as module
 from dolphin import posting
 from dolphin_ros2 import configuration_file, goals, inputs
 
-from tests.support import TEXT, Drive, FakeLinks, converse, load, odometry, until
+from eventually import eventually
+from tests.support import TEXT, Drive, FakeLinks, converse, load, odometry
 
 
 class Case(unittest.TestCase):
@@ -27,7 +28,7 @@ class Case(unittest.TestCase):
         self.server = self.links.server
 
     def ready(self, console):
-        return until(lambda: console.last("link") is True and console.last("unready") is None)
+        return eventually(lambda: console.last("link") is True and console.last("unready") is None)
 
     def run_one(self, request, then, name="drive_3"):
         """Starts a plan, does something, and gives the reports on it."""
@@ -40,7 +41,7 @@ class Case(unittest.TestCase):
         return converse(self.links, script)
 
     def ended(self, console, request, *words):
-        return until(lambda: console.words(request) == list(words))
+        return eventually(lambda: console.words(request) == list(words))
 
 
 class Plans(Case):
@@ -53,7 +54,7 @@ class Plans(Case):
             feedback = Drive.Feedback(done=[1, 2, 3], left=SimpleNamespace(sec=5, nanosec=500000000))
             feedback.left.get_fields_and_field_types = lambda: {"sec": "int32", "nanosec": "uint32"}
             self.server.news[goal] = feedback
-            await until(lambda: any(report["kind"] == "progress" for report in console.reports))
+            await eventually(lambda: any(report["kind"] == "progress" for report in console.reports))
             self.server.end(goal, goals.SUCCEEDED, code=1)
             await self.ended(console, "r-1", "taken", "done")
 
@@ -115,7 +116,7 @@ class Plans(Case):
         async def then(console):
             await self.ended(console, "r-1", "unknown")
             console.task("stop", "r-1")
-            await until(lambda: len(self.server.cancelled) > 3)
+            await eventually(lambda: len(self.server.cancelled) > 3)
             self.assertEqual(console.words("r-1"), ["unknown"])  # the server may still accept the goal
             self.server.accepts = True
             await self.ended(console, "r-1", "unknown", "stopped")
@@ -128,7 +129,7 @@ class Plans(Case):
         self.server.accepts = None
 
         async def then(console):
-            await until(lambda: any(report["kind"] == "note" for report in console.reports))
+            await eventually(lambda: any(report["kind"] == "note" for report in console.reports))
             goal = goals.goal_id("carrier-1", "r-1")
             self.server.states[goal] = goals.EXECUTING
             await self.ended(console, "r-1", "taken")
@@ -193,9 +194,9 @@ class Stops(Case):
         self.server.there = False
 
         async def then(console):
-            await until(lambda: any(report["kind"] == "note" for report in console.reports))
+            await eventually(lambda: any(report["kind"] == "note" for report in console.reports))
             console.task("stop", "r-1")
-            await until(lambda: console.words("r-1") in (["stopped"], ["failed"]))
+            await eventually(lambda: console.words("r-1") in (["stopped"], ["failed"]))
 
         self.run_one("r-1", then)
         self.assertEqual(self.server.cancelled, [])
@@ -212,7 +213,7 @@ class Stops(Case):
         async def then(console):
             await self.ended(console, "r-1", "taken")
             console.task("stop", "r-1")
-            await until(lambda: len(self.server.cancelled) > 2)
+            await eventually(lambda: len(self.server.cancelled) > 2)
             self.assertEqual(console.words("r-1"), ["taken"])
             self.server.end(self.server.last(), goals.CANCELED)
             await self.ended(console, "r-1", "taken", "stopped")
@@ -322,7 +323,7 @@ class FromTopics(unittest.TestCase):
             for value in ("reef", "wreck", b"no text", ["a", 1, True]):
                 hears["/detections"](SimpleNamespace(data=value))
                 hears["/other"](SimpleNamespace(data=value))
-            await until(lambda: len(run.posts) == 3)
+            await eventually(lambda: len(run.posts) == 3)
             work.cancel()
 
         asyncio.run(go())
@@ -337,13 +338,13 @@ class Telemetry(Case):
             self.links.speak(
                 odom=odometry(0.0, 111.0), battery_state=SimpleNamespace(percentage=0.5),
                 load=SimpleNamespace(data=3.5))
-            await until(lambda: any(report.get("readings") == {"Load": 3.5} for report in console.reports))
+            await eventually(lambda: any(report.get("readings") == {"Load": 3.5} for report in console.reports))
             self.assertEqual((console.last("speed"), console.last("battery")), (5.0, 0.5))
             self.assertAlmostEqual(console.last("latitude"), 41.186, 5)
             self.links.speak(state=SimpleNamespace(data="charging"))
-            await until(lambda: console.last("unready") == "is charging")
+            await eventually(lambda: console.last("unready") == "is charging")
             self.links.speak(battery_state=SimpleNamespace(percentage=83.0))  # a fault of the robot: not believed
-            await until(lambda: console.last("unready") is None)
+            await eventually(lambda: console.last("unready") is None)
             self.assertEqual(robot.known["battery"], 0.5)
 
         converse(self.links, script)
@@ -352,9 +353,9 @@ class Telemetry(Case):
         async def script(console, robot):
             await self.ready(console)
             robot._clock = lambda: module.time.monotonic() + 3600
-            await until(lambda: console.last("link") is False)
+            await eventually(lambda: console.last("link") is False)
             self.links.speak()
-            await until(lambda: console.last("link") is True)
+            await eventually(lambda: console.last("link") is True)
 
         converse(self.links, script)
 
@@ -363,11 +364,11 @@ class Telemetry(Case):
             await self.ready(console)
             foreign = goals.goal_id("somebody", "else")
             self.server.states[foreign] = goals.EXECUTING
-            await until(lambda: console.last("unready") == "runs a goal of another client on its action drive")
+            await eventually(lambda: console.last("unready") == "runs a goal of another client on its action drive")
             console.task("start", "r-1")
             await self.ended(console, "r-1", "failed")
             self.server.states[foreign] = goals.SUCCEEDED
-            await until(lambda: console.last("unready") is None)
+            await eventually(lambda: console.last("unready") is None)
             console.task("start", "r-2")
             await self.ended(console, "r-2", "taken")
 

@@ -5,18 +5,16 @@ import contextlib
 import json
 import os
 import pwd
-import shutil
 import signal
 import socket
 import subprocess
-import tempfile
 import unittest
 
 import paho.mqtt.client as mqtt
 
 from eventually import SECONDS, free_port, until
+from in_folder import InFolder
 from tests.support import beside
-
 
 MISSION = """input 'level', 'door', 'gone', 'stop'
 v = pick { type 'UUV' }
@@ -25,40 +23,11 @@ execute v: until { poll stop: true } run task('survey')
 FLEET = "vehicle 'n-1', { type 'UUV' }\nplan 'survey', { duration 10.hours }\n"
 
 
-class Case(unittest.TestCase):
+class Case(InFolder):
     def setUp(self):
-        self.folder = tempfile.mkdtemp(prefix="dolphin-test-")
-        self.addCleanup(shutil.rmtree, self.folder)
+        super().setUp()
         self.port = free_port()
         self.journal = self.path("m.run")
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def write(self, name, text):
-        with open(self.path(name), "w", encoding="utf-8") as file:
-            file.write(text)
-        return self.path(name)
-
-    def text(self, name):
-        try:
-            with open(self.path(name), encoding="utf-8") as file:
-                return file.read()
-        except FileNotFoundError:
-            return ""
-
-    def start(self, name, *command):
-        """A process whose output is in a file of this name. It is ended with the test."""
-        with open(self.path(name), "wb") as output:
-            process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=output, stderr=output)
-
-        def end():
-            if process.poll() is None:
-                process.kill()
-            process.wait()
-
-        self.addCleanup(end)
-        return process
 
     # The broker.
 

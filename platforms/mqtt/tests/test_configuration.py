@@ -1,7 +1,6 @@
 """sensors.yaml: each fault with its place and remedy; a text of any kind leads to no other exception."""
 
 import os
-import random
 import re
 import shutil
 import tempfile
@@ -10,17 +9,13 @@ import unittest
 from dolphin.document import Faulty
 from dolphin_mqtt import configuration
 
-from seeds import seeds
+from configurations import faults_of, mutated
 from tests.support import TEXT, beside
 
 
 def faults(text, path="s.yaml"):
     """The faults of a text, without its path."""
-    try:
-        configuration.of_text(text, path)
-    except Faulty as faulty:
-        return [line[len(path) + 1:] for line in faulty.lines]
-    return []
+    return faults_of(configuration.of_text, text, path)
 
 
 FAULTS = [
@@ -131,12 +126,7 @@ class Reading(unittest.TestCase):
         pieces = ["{", "}", "[", "]", ": ", "- ", "'", "\n", "  ", "&a ", "*a", "<<: ", "null", "1e999", "\\0", "\t",
                   "2020-01-01", "no", "\u00e9", "?", "|", "#", "+", ".inf", "!!binary x", "...", "tls: true, ",
                   "cafile: x, ", "username: x, ", "password_file: x, "]
-        for seed in seeds(150):
-            draw = random.Random(seed)
-            text = TEXT
-            for _ in range(draw.randint(1, 6)):
-                at = draw.randrange(len(text) + 1)
-                text = text[:at] + draw.choice(pieces) + text[at + draw.choice([0, 0, 1, 5, 40]):]
+        for seed, text in mutated(TEXT, pieces):
             with self.subTest(seed=seed):
                 faults(text)
 

@@ -6,16 +6,15 @@ import json
 import os
 import random
 import re
-import shutil
 import signal
 import socket
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
 from eventually import SECONDS, free_port, until
+from in_folder import InFolder
 from seeds import seeds
 from tests.support import beside
 
@@ -43,40 +42,11 @@ execute all(people[0], 'a') | all(people[1], 'b')
 """
 
 
-class Case(unittest.TestCase):
+class Case(InFolder):
     def setUp(self):
-        self.folder = tempfile.mkdtemp(prefix="dolphin-test-")
-        self.addCleanup(shutil.rmtree, self.folder)
+        super().setUp()
         self.port = free_port()
         self.journal = self.path("m.run")
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def write(self, name, text):
-        with open(self.path(name), "w", encoding="utf-8") as file:
-            file.write(text)
-        return self.path(name)
-
-    def text(self, name):
-        try:
-            with open(self.path(name), encoding="utf-8") as file:
-                return file.read()
-        except FileNotFoundError:
-            return ""
-
-    def start(self, name, *command, stdin=subprocess.DEVNULL):
-        """A process whose output is added to a file of this name. It is ended with the test."""
-        with open(self.path(name), "ab") as output:
-            process = subprocess.Popen(command, stdin=stdin, stdout=output, stderr=output, cwd=self.folder)
-
-        def end():
-            if process.poll() is None:
-                process.kill()
-            process.wait()
-
-        self.addCleanup(end)
-        return process
 
     def configured(self, more=""):
         return self.write("people.yaml", PEOPLE.format(port=self.port, more=more))
@@ -89,21 +59,14 @@ class Case(unittest.TestCase):
 
     def crew(self):
         environment = {**os.environ, "PYTHONPATH": os.pathsep.join([beside("."), beside("../../python")])}
-        with open(self.path("crew.txt"), "ab") as output:
-            process = subprocess.Popen(
-                [sys.executable, "-B", beside("tests/crew.py"), *self.links().values()], stdin=subprocess.DEVNULL,
-                stdout=output, stderr=output, env=environment)
-
-        def end():
-            process.kill()
-            process.wait()
-
-        self.addCleanup(end)
+        self.start(
+            "crew.txt", sys.executable, "-B", beside("tests/crew.py"), *self.links().values(), env=environment)
 
     def exec(self, option="--journal"):
         command = f"echo $$ > pid; exec '{ADAPTER}' --config people.yaml --run m.run"
         return self.start(
-            "exec.txt", DOLPHIN, "exec", self.write("m.dol", MISSION), "--platform", command, option, self.journal)
+            "exec.txt", DOLPHIN, "exec", self.write("m.dol", MISSION), "--platform", command, option, self.journal,
+            adds=True, cwd=self.folder)
 
     def records(self):
         return [json.loads(line) for line in self.text("m.run").splitlines() if line.endswith("}")]
@@ -187,7 +150,8 @@ class Terminals(Case):
             "one.dol", "input 'depth'\nv = pick { id 'ana'; timeout 50.seconds }\nexecute v: task('depth_quay')\n")
         command = f"'{ADAPTER}' --config people.yaml --run m.run"
         console = self.start(
-            "exec.txt", DOLPHIN, "exec", self.path("one.dol"), "--platform", command, "--journal", self.journal)
+            "exec.txt", DOLPHIN, "exec", self.path("one.dol"), "--platform", command, "--journal", self.journal,
+            cwd=self.folder)
         terminal, once = self.converse(link, *more)
         once("NEW: Depth at quay", "accept")
         once("YOURS: Depth at quay", "done deep")

@@ -7,8 +7,6 @@ import os
 from typing import Any, Dict, List, Optional, Tuple
 
 import dolphin
-from dolphin_people import configuration
-from dolphin_people.person import Person
 
 TEXT = """listen: {port: 8470, name: ship.local}
 people:
@@ -58,14 +56,6 @@ class Clock:
 
     def __call__(self) -> float:
         return self.now
-
-
-def person(name: str = "ana", text: str = TEXT, clock: Optional[Clock] = None) -> Tuple[Person, FakeAnswers]:
-    """A person of a configuration, and the answers."""
-    found = configuration.of_text(text, "people.yaml")
-    answers = FakeAnswers()
-    entry = next(each for each in found.people if each.name == name)
-    return Person(entry, found, answers, clock or Clock()), answers
 
 
 async def settled() -> None:

@@ -1,24 +1,18 @@
 """people.yaml: each fault with its place and remedy; a text of any kind leads to no other exception."""
 
-import random
 import re
 import unittest
 
-from dolphin.document import Faulty
 from dolphin_people import configuration
 from dolphin_people.configuration import Answer, problem_of
 
-from seeds import seeds
+from configurations import faults_of, mutated
 from tests.support import TEXT, beside
 
 
 def faults(text, path="p.yaml"):
     """The faults of a text, without its path."""
-    try:
-        configuration.of_text(text, path)
-    except Faulty as faulty:
-        return [line[len(path) + 1:] for line in faulty.lines]
-    return []
+    return faults_of(configuration.of_text, text, path)
 
 
 FAULTS = [
@@ -86,12 +80,7 @@ class Configuration(unittest.TestCase):
         pieces = ["{", "}", "[", "]", ": ", "- ", "\n", "  ", "&a ", "*a", "<<: ", "null", "1e999", "\\0", "\t", "${",
                   "${x}",
                   "2020-01-01", "no", "\u00e9", "?", "|", ".inf", "!!binary x", "certificate: x, key: x, ", "photos: 3"]
-        for seed in seeds(150):
-            draw = random.Random(seed)
-            text = TEXT
-            for _ in range(draw.randint(1, 6)):
-                at = draw.randrange(len(text) + 1)
-                text = text[:at] + draw.choice(pieces) + text[at + draw.choice([0, 0, 1, 5, 40]):]
+        for seed, text in mutated(TEXT, pieces):
             with self.subTest(seed=seed):
                 faults(text)
 

@@ -13,9 +13,10 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
+
+from in_folder import InFolder
 
 FOLDER = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 DOLPHIN = os.environ.get("DOLPHIN", "dolphin")
@@ -51,29 +52,19 @@ robots:
 """
 
 
-class Case(unittest.TestCase):
+class Case(InFolder):
     robots = ROBOTS
     prefix = []
     """The words before each command."""
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
+        super().setUp()
         self.config, self.began = self.path("robots.yaml"), self.path("began")
         self.write("robots.yaml", self.robots)
         self.environment = dict(
             os.environ, ROS_DOMAIN_ID=str(DOMAIN), ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST",
             FASTDDS_BUILTIN_TRANSPORTS="UDPv4", DOLPHIN_ROS2=sys.executable, PYTHONPATH=FOLDER)
         self.adapter = f"{shlex.quote(os.path.join(FOLDER, 'dolphin-ros2'))} --config {shlex.quote(self.config)}"
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def write(self, name, text):
-        with open(self.path(name), "w", encoding="utf-8") as file:
-            file.write(text)
-        return self.path(name)
 
     def spawn(self, command, **more):
         process = subprocess.Popen([*self.prefix, *command], env=self.environment, start_new_session=True, **more)

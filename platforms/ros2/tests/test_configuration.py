@@ -1,13 +1,12 @@
 """robots.yaml: each fault with its place and remedy; a text of any kind leads to no other exception."""
 
 import os
-import random
 import unittest
 
 from dolphin.document import Faulty
 from dolphin_ros2 import configuration_file, interfaces
 
-from seeds import seeds
+from configurations import faults_of, mutated
 from tests.support import TEXT, load
 
 EXAMPLE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "example", "robots.yaml")
@@ -15,11 +14,11 @@ EXAMPLE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "exampl
 
 def faults(text):
     """The faults of a text, without its path, with those of its types."""
-    try:
-        interfaces.check(configuration_file.of_text(text, "r.yaml"), load)
-    except Faulty as faulty:
-        return [line[len("r.yaml:"):] for line in faulty.lines]
-    return []
+
+    def read(text, path):
+        interfaces.check(configuration_file.of_text(text, path), load)
+
+    return faults_of(read, text, "r.yaml")
 
 
 FAULTS = [
@@ -170,13 +169,7 @@ class Reading(unittest.TestCase):
         pieces = ["{", "}", "[", "]", ": ", "- ", "'", "\n", "  ", "&a ", "*a", "<<: ", "null", "1e999", "${x}", "\t",
                   "!!python/object", "2020-01-01", "no", "\u00e9", "?", "|", "#", "robots", "a: b", ".inf", "0x",
                   "!!binary x", "..."]
-        for seed in seeds(150):
-            draw = random.Random(seed)
-            text = TEXT
-            for _ in range(draw.randint(1, 6)):
-                at = draw.randrange(len(text) + 1)
-                until = at + draw.choice([0, 0, 1, 5, 40])
-                text = text[:at] + draw.choice(pieces) + text[until:]
+        for seed, text in mutated(TEXT, pieces):
             with self.subTest(seed=seed):
                 faults(text)
 

@@ -1,4 +1,4 @@
-"""people.yaml: who takes part, and the instructions that programs may give. docs/people.md describes it."""
+"""people.yaml: people, and the instructions that programs may give. docs/people.md describes it."""
 
 from __future__ import annotations
 
@@ -29,8 +29,12 @@ class Listen:
     port: int
     name: Optional[str]
     """The name or address under which phones reach it."""
-    certificate: Optional[str]
-    key: Optional[str]
+    pair: Optional[Tuple[str, str]]
+    """The files of a certificate and its key, for HTTPS."""
+
+    def tls(self) -> Optional[ssl.SSLContext]:
+        """The context of a server with the certificate. Raises `OSError`, `ssl.SSLError` or `ValueError`."""
+        return None if self.pair is None else tls(*self.pair)
 
 
 @dataclass(frozen=True)
@@ -76,13 +80,13 @@ class Configuration:
     people: Tuple[Entry, ...]
     rules: Tuple[Rule, ...]
     others: bool
-    """Names of plans that are no instruction of `rules` are shown as they are."""
+    """Names of plans without a rule are shown as they are."""
     accept: float
     """Seconds within which an instruction has to be accepted."""
     seen: float
     """Seconds without a word from a page after which its person has no link."""
     declined: float
-    """Seconds for which somebody who declined is not ready."""
+    """Seconds for which a person is not ready after declining."""
     photos: str
     """The folder for photos."""
 
@@ -152,11 +156,12 @@ class _Reading:
             if one in members and other not in members:
                 self.reader.fault(members[one].place, f"'{one}' needs the member '{other}'")
         certificate, key = (self.path(members.get(name), f"'{name}'") for name in ("certificate", "key"))
-        if certificate is not None and key is not None:
-            self.load(certificate, key, members["certificate"].place)
-        return Listen(
+        found = Listen(
             address=self.host(members.get("address"), "'address'") or "127.0.0.1", port=int(port),
-            name=self.host(members.get("name"), "'name'"), certificate=certificate, key=key)
+            name=self.host(members.get("name"), "'name'"),
+            pair=None if certificate is None or key is None else (certificate, key))
+        self.load(found, members.get("certificate"))
+        return found
 
     def host(self, value: Optional[Value], what: str) -> Optional[str]:
         host = self.reader.text(value, what)
@@ -167,14 +172,18 @@ class _Reading:
     def path(self, value: Optional[Value], what: str) -> Optional[str]:
         return None if value is None else os.path.join(self.folder, self.reader.text(value, what))
 
-    def load(self, certificate: str, key: str, place: Place) -> None:
+    def load(self, found: Listen, value: Optional[Value]) -> None:
+        """Reports a certificate that cannot be used."""
+        if found.pair is None or value is None:
+            return
+        certificate, key = found.pair
         try:
-            tls(certificate, key)
+            found.tls()
         except ssl.SSLError:
-            self.reader.fault(place, f"{certificate} and {key} are not a certificate and its key, both in PEM")
+            self.reader.fault(value.place, f"{certificate} and {key} are not a certificate and its key, both in PEM")
         except (OSError, ValueError) as error:
             why = getattr(error, "strerror", None) or str(error)
-            self.reader.fault(place, f"{certificate}, {key}: {why}")
+            self.reader.fault(value.place, f"{certificate}, {key}: {why}")
 
     # People.
 

@@ -8,11 +8,13 @@ import asyncio
 import collections
 import ssl
 from dataclasses import dataclass, field
-from typing import Awaitable, Callable, Counter, Mapping, Optional, Tuple
+from typing import Awaitable, Callable, Counter, Mapping, Optional, Tuple, TypeVar
 from urllib.parse import parse_qsl, urlsplit
 
 import h11
+from dolphin.waiting import within
 
+T = TypeVar("T")
 HEAD, BODY, REPLY = 75.0, 60.0, 30.0
 """Seconds for the head of a request, which includes the wait for it; for its body; for the client to take a reply."""
 CONNECTIONS, OF_ONE_ADDRESS = 512, 64
@@ -149,8 +151,13 @@ class _Connection:
             await self._reply(Response(status, why.encode() + b"\n", "text/plain; charset=utf-8", {}))
 
     @staticmethod
-    async def _within(work: "Awaitable[object]", seconds: float) -> "object":
-        try:
-            return await asyncio.wait_for(work, seconds)
-        except asyncio.TimeoutError:
-            raise _Over() from None
+    async def _within(work: Awaitable[T], seconds: float) -> T:
+        """The result of the work. Raises `_Over` if it takes longer."""
+
+        async def boxed() -> Tuple[T]:
+            return (await work,)
+
+        found = await within(boxed(), seconds)
+        if found is None:
+            raise _Over()
+        return found[0]

@@ -71,14 +71,14 @@ class Person(dolphin.Vehicle):
 
     type = "Human"
 
-    def __init__(self, entry: Entry, configured: Configuration, answers: Answers,
+    def __init__(self, entry: Entry, configured: Configuration, answers: Answers, program: Optional[str] = None,
                  clock: Callable[[], float] = time.monotonic) -> None:
         place = entry.position
         members = {} if place is None else {
             "latitude": place.latitude, "longitude": place.longitude, "height": place.height}
         super().__init__(entry.name, link=False, payload=entry.skills, **members)
         self.entry, self._configured, self._answers, self._clock = entry, configured, answers, clock
-        self.program: Optional[str] = None
+        self._program = program
         self._open: Optional[Instruction] = None
         self._over: Dict[str, Set[str]] = {}
         """The decisions that were taken, by request: a page repeats one whose reply it did not get."""
@@ -225,7 +225,7 @@ class Person(dolphin.Vehicle):
         open_ = self._open if self._open is not None and self._open.state in OPEN else None
         return {
             "version": self._version(), "person": self.name, "skills": list(self.entry.skills), "duty": self._duty,
-            "held": self.held, "program": self.program, "locate": self.entry.locate,
+            "held": self.held, "program": self._program, "locate": self.entry.locate,
             "instruction": None if open_ is None else self._shown(open_), "notices": list(self._notices),
         }
 
@@ -343,7 +343,7 @@ class Person(dolphin.Vehicle):
         return f"{self._boot}-{self._number}"
 
     def _touch(self) -> None:
-        """All who wait for a change go on."""
+        """Waits for a change go on."""
         self._number += 1
         self._changed.set()
         self._changed = asyncio.Event()

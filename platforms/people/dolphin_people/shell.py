@@ -18,7 +18,7 @@ from .answers import Answers
 from .configuration import Configuration, Listen
 from .http import Server
 from .person import Person
-from .site import Site, links, secret_of, token_of
+from .site import Site, secret_of, token_of
 
 DESCRIPTION = """People as vehicles of a mission, each with a page on a phone:
 dolphin exec mission.dol --journal mission.run \\
@@ -32,27 +32,22 @@ class People(dolphin.Adapter):
 
     def __init__(self, found: Configuration, secret: bytes, journal: Optional[str]) -> None:
         super().__init__("people", version=version, announce=5.0, patience=found.accept + 15)
-        answers = Answers(journal)
-        self._configuration = found
-        self._tokens: Dict[str, Person] = {}
-        for entry in found.people:
-            person = Person(entry, found, answers)
-            self.add(person)
-            self._tokens[token_of(secret, entry.name)] = person
+        self._configuration, self._secret, self._journal = found, secret, journal
         self._server: Optional[Server] = None
 
     async def open(self) -> None:
-        """Listens, unless plans are only to be checked."""
-        for person in self._tokens.values():
-            person.program = self.program
+        """Adds the people, and listens, unless plans are only to be checked. People are made here because, before
+        Python 3.10, locks of asyncio belong to the event loop in which they are made."""
+        found, listen = self._configuration, self._configuration.listen
+        answers = Answers(self._journal)
+        tokens: Dict[str, Person] = {}
+        for entry in found.people:
+            person = tokens[token_of(self._secret, entry.name)] = Person(entry, found, answers, self.program)
+            self.add(person)
         if self.purpose != "check":
-            listen = self._configuration.listen
-            site = Site(self._tokens, self._configuration.photos, lambda: self.resumes)
-            self._server = Server(site.reply)
-            is_secure = listen.certificate is not None and listen.key is not None
-            context = configuration.tls(listen.certificate, listen.key) if is_secure else None  # type: ignore[arg-type]
+            self._server = Server(Site(tokens, found.photos, lambda: self.resumes).reply)
             try:
-                await self._server.open(listen.address, listen.port, context)
+                await self._server.open(listen.address, listen.port, listen.tls())
             except OSError as error:
                 why = os.strerror(error.errno) if error.errno and error.errno > 0 else str(error)
                 raise dolphin.Failed(f"cannot listen at {listen.address}:{listen.port}: {why}") from error
@@ -67,7 +62,7 @@ class People(dolphin.Adapter):
 
 def base_of(listen: Listen) -> str:
     """The beginning of links."""
-    scheme = "http" if listen.certificate is None else "https"
+    scheme = "http" if listen.pair is None else "https"
     host = listen.name or (own_address() if listen.address in ("0.0.0.0", "::") else listen.address)
     return f"{scheme}://{f'[{host}]' if ':' in host else host}:{listen.port}"
 
@@ -84,8 +79,9 @@ def own_address() -> str:
 
 def print_links(found: Configuration, secret: bytes) -> None:
     """Prints the link of each person, on a terminal also as a QR code."""
-    for name, link in links(base_of(found.listen), secret, [entry.name for entry in found.people]).items():
-        print(f"{name}: {link}")
+    for entry in found.people:
+        link = f"{base_of(found.listen)}/#{token_of(secret, entry.name)}"
+        print(f"{entry.name}: {link}")
         if sys.stdout.isatty():
             import segno
 

@@ -8,7 +8,7 @@ import os
 import re
 import secrets
 import time
-from typing import Any, Callable, Dict, List, Mapping, Optional
+from typing import Any, Callable, Dict, Mapping, Optional
 
 import dolphin
 
@@ -179,8 +179,3 @@ def _json(status: int, value: Mapping[str, Any]) -> Response:
 
 def _error(status: int, why: str) -> Response:
     return _json(status, {"error": why})
-
-
-def links(base: str, secret: bytes, names: List[str]) -> Dict[str, str]:
-    """The links of people, by name."""
-    return {name: f"{base}/#{token_of(secret, name)}" for name in names}

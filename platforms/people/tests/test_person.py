@@ -55,7 +55,7 @@ class World:
     def __init__(self, answers=None, clock=time.monotonic, **changes):
         self.answers = answers or FakeAnswers()
         self.asked = set()
-        self.person = Person(FOUND.people[0], dataclasses.replace(FOUND, **changes), self.answers, clock)
+        self.person = Person(FOUND.people[0], dataclasses.replace(FOUND, **changes), self.answers, clock=clock)
         self.person.was_seen()
         self.adapter = dolphin.Adapter("people", [self.person])
         self.dolphin = FakeDolphin()

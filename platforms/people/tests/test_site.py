@@ -88,7 +88,7 @@ class Replies(Case):
         self.assertNotIn(b"<style", page)
         self.assertNotIn(b"onclick", page)
 
-    async def test_who_has_no_token_gets_nothing(self):
+    async def test_without_a_token_nothing_is_had(self):
         for token in ("", "b" * 32, "a" * 31, "é" * 32):
             for method, path in (("GET", "/state"), ("POST", "/act"), ("POST", "/photo"), ("GET", "/../people.yaml")):
                 self.assertEqual((await self.request(method, path, token=token))[0], 401)

@@ -14,7 +14,7 @@ Entry = TypeVar("Entry")
 
 
 def match(pattern: str, name: str) -> Optional[Dict[str, str]]:
-    """The values of the parameters of `pattern` that make it `name`; `None` if there are none.
+    """The values of the parameters of `pattern` that make it `name`; `None` if no values do.
 
     >>> match("drive_${bay}", "drive_3"), match("drive_${bay}", "load")
     ({'bay': '3'}, None)

@@ -36,7 +36,7 @@ type source = {
 
 val source :
   t -> key:int array -> layout:Layout.t -> shared:int -> Task_group.permutation option System.visitor -> source
-(** A state that begins to be expanded. *)
+(** The state [key], to be expanded: none of its surroundings is known yet. *)
 
 (** All of these visit states, or representatives of them with the permutation that leads there.
     @raise Layouts.Outgrown *)

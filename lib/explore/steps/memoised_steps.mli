@@ -34,8 +34,8 @@ type surroundings
 (** The parts around a step, as far as effects depend on them. *)
 
 val surroundings : t -> ?owed:Component.owed -> Residual.surrounding list -> surroundings
-(** [surroundings t ?owed around]: the ensured deeds there are [owed]. It takes time, so callers keep it for all steps
-    of one place. *)
+(** [surroundings t ?owed around] is those with the parts [around] and the ensured deeds [owed]. It takes time, so
+    callers keep it for all steps of one place. *)
 
 val look : t -> Component.step -> surroundings -> int -> Component.outcome
 (** [look t step around s] is the effect of [step], which depends on its surroundings, in shared state [s]. *)

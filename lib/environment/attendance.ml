@@ -12,10 +12,12 @@ type company = {
   unsure : Core.vehicle list;  (* others of them that may be late or missing *)
   is_new : Core.vehicle -> bool;  (* whether to be late is something new, which counts *)
   alike : Core.vehicle -> Core.vehicle option;  (* the same of all that may be exchanged with each other *)
+  only : Core.vehicle list option;  (* the list of bound vehicles that is looked for *)
   most_new : int;  (* how many of these there may be *)
 }
 
-let company ?(alike = fun _ -> None) (faults : Faults.t) ~may_be_late ~lost ~late ~bound world (pick : Settings.pick) =
+let company ?(alike = fun _ -> None) ?only (faults : Faults.t) ~may_be_late ~lost ~late ~bound world
+    (pick : Settings.pick) =
   let bound = Vehicle_set.of_list bound in
   let is_wanted (s : World.vehicle_state) =
     Settings.accepts { pick.filter with region = None } s && not (Vehicle_set.mem s.id bound)
@@ -39,9 +41,14 @@ let company ?(alike = fun _ -> None) (faults : Faults.t) ~may_be_late ~lost ~lat
     | At_most n -> min new_ones (max 0 (n - List.length late))
     | Any_number -> new_ones
   in
-  { wanted; always = ids (List.filter (is_seen_in List.for_all) states); silent; unsure; is_new; alike; most_new }
+  { wanted; always = ids (List.filter (is_seen_in List.for_all) states); silent; unsure; is_new; alike; only;
+    most_new }
 
 let unsure company = company.unsure
+
+let first_always company n =
+  if List.compare_length_with company.always n < 0 then None else Some (List.filteri (fun i _ -> i < n) company.always)
+
 let without vs = List.filter (fun v -> not (List.mem v vs))
 let number_of_new company vs = List.length (List.filter company.is_new vs)
 
@@ -79,6 +86,17 @@ let is_unsure company v = List.mem v company.unsure
 
 let rec until v = function u :: rest when not (String.equal u v) -> u :: until v rest | _ -> []
 
+(* Those that may be next: where a list is looked for, the next one of it, or one that may be seen outside. *)
+let next company l =
+  match company.only with
+  | None -> first_of_alike company l.left
+  | Some vs ->
+    let is_bound v = List.mem v vs in
+    let number = List.length (List.filter is_bound (l.on_time @ l.coming)) in
+    let is_next v =
+      if is_bound v then List.nth_opt vs number = Some v else not (List.mem v company.always) in
+    List.filter is_next l.left
+
 (* [l] with one more vehicle, in each way. *)
 let longer company l =
   let add v =
@@ -88,7 +106,7 @@ let longer company l =
     else if is_unsure company v then Some { l with coming = v :: l.coming; left; passed = without [ v ] l.passed }
     else None
   in
-  List.filter_map add (first_of_alike company l.left)
+  List.filter_map add (next company l)
 
 (* The lists of at most [most] vehicles, each after its beginnings; none that begins with one of which [is_hopeless]. *)
 let rec lists company ~is_hopeless most l : list_of_bound Seq.t =
@@ -118,6 +136,17 @@ let with_latecomers company n news : (Core.vehicle list * Core.vehicle list) Seq
   let is_right (_, coming) = number_of_new company coming = news in
   Seq.filter is_right (Seq.filter_map whole (lists company ~is_hopeless n (nobody company)))
 
+(* The lists of [n] of [vs], in their order; of those that differ in alike vehicles, the one with the first of these. *)
+let rec first_sublists company n vs () =
+  match vs with
+  | _ when n = 0 -> Seq.Cons ([], Seq.empty)
+  | _ when List.compare_length_with vs n < 0 -> Seq.Nil
+  | [] -> Seq.Nil
+  | v :: rest ->
+    let is_other u = company.alike v = None || company.alike u <> company.alike v in
+    let taken = Seq.map (List.cons v) (first_sublists company (n - 1) rest) in
+    Seq.append taken (first_sublists company n (List.filter is_other rest)) ()
+
 (* Too few of [n] come if this number are missing: those first whose absence counts for nothing. *)
 let too_few company n =
   let least = List.length company.always - (n - 1) in
@@ -128,15 +157,16 @@ let too_few company n =
   if least <= 0 || more > List.length unknown then Seq.empty
   else
     let for_nothing = List.filteri (fun i _ -> i < least) for_nothing in
-    Seq.map (fun counted -> for_nothing @ counted) (Sublists.of_length (max 0 more) unknown)
+    Seq.map (fun counted -> for_nothing @ counted) (first_sublists company (max 0 more) unknown)
 
 (* The vehicles that come to a pick of all vehicles, in their order. Those that are left are missing, and may be. *)
 let of_all company news =
   let may_miss v = is_unsure company v || List.mem v company.silent in
+  (* Those that are passed will be late or missing, and once one is late, so will all that are left. *)
   let is_hopeless l =
-    number_of_new company l.coming > news
-    || not (List.for_all may_miss l.passed)
-    || (l.coming <> [] && not (List.for_all may_miss l.left))
+    let absent = if l.coming = [] then l.passed else l.left in
+    let counted = number_of_new company l.coming + number_of_new company absent in
+    counted > news || (l.coming <> [] && counted < news) || not (List.for_all may_miss absent)
   in
   let attendance l =
     let silent, absent = List.partition (fun v -> List.mem v company.silent) l.left in

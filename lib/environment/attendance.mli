@@ -13,6 +13,7 @@ type company
 
 val company :
   ?alike:(Core.vehicle -> Core.vehicle option) ->
+  ?only:Core.vehicle list ->
   Faults.t ->
   may_be_late:(Core.vehicle -> bool) ->
   lost:Core.vehicle list ->
@@ -21,14 +22,19 @@ val company :
   World.t ->
   Settings.pick ->
   company
-(** [company ~alike faults ~may_be_late ~lost ~late ~bound w q] is those that [q] may look for in [w] while [bound]
-    are in B. The [lost] may be missing, others only as [faults] has it; [late] are those that were late before. Two
-    vehicles for which [alike] is the same [Some] may be exchanged: of attendances that differ only in these, one is
-    given. They are of the same kind, may both be late, neither is lost or was late, and no other stands between them
-    in [w]. *)
+(** [company ~alike ~only faults ~may_be_late ~lost ~late ~bound w q] is those that [q] may look for in [w] while
+    [bound] are in B. The [lost] may be missing, others only as [faults] has it; [late] are those that were late before.
+    Two vehicles for which [alike] is the same [Some] may be exchanged: of attendances that differ only in these, one is
+    given, with as few that are late as can be. They are of the same kind, may both be late, neither is lost or was
+    late, and no other stands between them in [w]. With [only], attendances in which other vehicles than [only] are
+    bound are left out, but for those that stand outside of the region where they may be seen. *)
 
 val unsure : company -> Core.vehicle list
 (** Those that are not lost, and may be late or missing. *)
+
+val first_always : company -> int -> Core.vehicle list option
+(** [first_always c n] is the first [n] of those that the pick would take wherever they may be seen; [None] if there are
+    fewer. *)
 
 val number_of_new : company -> Core.vehicle list -> int
 (** [number_of_new c vs] is how many of [vs] count if they are late or missing: the {!unsure} that never were before. *)

@@ -411,13 +411,11 @@ let assuming assumed choice =
   let otherwise = List.map (fun other -> assumed @ other) t.otherwise in
   { choice with transition = { t with assumed = assumed @ t.assumed; otherwise } }
 
-(* With remembered late vehicles, it matters which one of a class was late. *)
-let picking ?alike ~unclear options program world e (c : Configuration.t) (pick : Settings.pick) =
+let picking ?alike ?binding ~unclear options program world e (c : Configuration.t) (pick : Settings.pick) =
   let join = join_limit options e in
   let company_in world =
-    let alike = match join with At_most _ -> None | Never | Any_number -> alike in
-    Attendance.company ?alike { options.faults with join } ~may_be_late:options.may_be_late ~lost:e.lost ~late:e.late
-      ~bound:c.shared.bound world pick
+    Attendance.company ?alike ?only:binding { options.faults with join } ~may_be_late:options.may_be_late
+      ~lost:e.lost ~late:e.late ~bound:c.shared.bound world pick
   in
   let company = company_in world in
   let remember (a : Attendance.t) { transition; outside = e; on } =
@@ -448,6 +446,13 @@ let picking ?alike ~unclear options program world e (c : Configuration.t) (pick 
     let shown = World.suppose hidden world in
     let placed = List.filter (function World.Placed _ -> true | _ -> false) hidden in
     let seen = if hidden = [] then company else company_in shown in
+    let shown =
+      match binding, Attendance.first_always company n with
+      | None, _ | Some [], None -> shown
+      | Some [], Some vs | Some vs, _ ->
+        let ids = List.map (fun (s : World.vehicle_state) -> s.id) (World.vehicles shown) in
+        World.only (List.filter (fun v -> List.mem v vs) ids) shown
+    in
     fun news ->
       let bound (on_time, coming) =
         given { coming; missing = [] } (internal ~unclear program (World.only (on_time @ coming) world) e c)
@@ -494,11 +499,11 @@ let posts options program world e c : choice Seq.t =
   in
   List.to_seq (List.filter_map post (inputs options program e))
 
-let choices_on ?alike options program world e (c : Configuration.t) () =
+let choices_on ?alike ?binding options program world e (c : Configuration.t) () =
   let unclear = ref None in
   let by_itself () =
     match c.control with
-    | Waiting (_, Pick pick) -> picking ?alike ~unclear options program world e c pick ()
+    | Waiting (_, Pick pick) -> picking ?alike ?binding ~unclear options program world e c pick ()
     | Script _ | Waiting (_, (Ask _ | Pause _ | Execute _ | Host_call _)) | Executing _ | Ended _ ->
       in_world ~unclear options program world e c ()
   in
@@ -506,8 +511,13 @@ let choices_on ?alike options program world e (c : Configuration.t) () =
   let others () = match !unclear with Some fault -> raise (Unclear fault) | None -> Seq.Nil in
   Seq.append by_itself (Seq.append from_outside others) ()
 
-let choices ?alike options program world e c =
-  Seq.map (fun { transition; outside; _ } -> (transition, outside)) (choices_on ?alike options program world e c)
+let choices ?alike ?binding options program world e c =
+  let choices = choices_on ?alike ?binding options program world e c in
+  Seq.map (fun { transition; outside; _ } -> (transition, outside)) choices
+
+let choices_like (t : Transition.t) options program world e c =
+  let binding = match t.label with Bind vs -> vs | _ -> [] in
+  choices ~binding options program world e c
 
 let rec find p (choices : _ Seq.t) =
   match choices () with

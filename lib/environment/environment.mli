@@ -190,19 +190,25 @@ type choice = {
 }
 
 val choices_on :
-  ?alike:(Core.vehicle -> Core.vehicle option) -> options -> Core.program -> World.t -> t -> Configuration.t ->
-  choice Seq.t
+  ?alike:(Core.vehicle -> Core.vehicle option) -> ?binding:Core.vehicle list -> options -> Core.program -> World.t ->
+  t -> Configuration.t -> choice Seq.t
 (** [choices_on o p w e c] is {!choices}, each with its event. *)
 
 val choices :
-  ?alike:(Core.vehicle -> Core.vehicle option) -> options -> Core.program -> World.t -> t -> Configuration.t ->
-  (Transition.t * t) Seq.t
+  ?alike:(Core.vehicle -> Core.vehicle option) -> ?binding:Core.vehicle list -> options -> Core.program -> World.t ->
+  t -> Configuration.t -> (Transition.t * t) Seq.t
 (** [choices o p w e c] is every transition of [c], computed on demand: its own, leftmost first, then those on events,
     in the order of [Transition.awaited], the inputs, and last the interruption, if there are any. The assumptions of a
     transition, on sensors and on present vehicles, are among its [assumed]. At a pick, of those that differ only by
-    exchanging vehicles that are [alike] ({!Attendance.company}) one is given.
+    exchanging vehicles that are [alike] ({!Attendance.company}) one is given; with [binding], some of those that bind
+    other vehicles are left out.
     @raise Unclear (each time it is gone through, after those of all other steps) if [w] is open and the outcomes of a
       step cannot be listed. *)
+
+val choices_like :
+  Transition.t -> options -> Core.program -> World.t -> t -> Configuration.t -> (Transition.t * t) Seq.t
+(** [choices_like t o p w e c] is {!choices}, perhaps without some that bind other vehicles than [t] does: there may be
+    so many of these that [t] is better looked for among the rest. *)
 
 val find : ('choice -> bool) -> 'choice Seq.t -> 'choice option
 (** [find p choices] is the first of [choices] for which [p] holds, if there is one. The others after it are not

@@ -120,7 +120,7 @@ let waiting program world =
   from (Configuration.initial program)
 
 (* The late vehicles that a program with [else] remembers once it goes on without them: each minimal set. *)
-let late_without ?(who = fun v -> v <> "c") join text =
+let late_without ?(who = fun v -> v <> "c") ?alike join text =
   let options = { plain with may_be_late = who; faults = { Faults.none with join } } in
   let program = Pure_run.compile_exn text in
   let world = Pure_run.world (of_kind "UUV" [ "a"; "b"; "c"; "d" ]) in
@@ -128,17 +128,19 @@ let late_without ?(who = fun v -> v <> "c") join text =
     match t.label with No_vehicles _ -> Some (String.concat " " (Environment.late e)) | _ -> None
   in
   let c = waiting program world in
-  let choices = Environment.choices options program world Environment.initial c in
+  let choices = Environment.choices ?alike options program world Environment.initial c in
   List.sort compare (List.filter_map without (List.of_seq choices))
 
-let goes_on name join text expected =
+let goes_on ?alike name join text expected =
   Alcotest.test_case name `Quick (fun () ->
-      Alcotest.(check (list string)) "who was late" expected (late_without join text))
+      Alcotest.(check (list string)) "who was late" expected (late_without ?alike join text))
 
 let going_on_without =
   [
     goes_on "with a bound, each choice of the missing" (Faults.At_most 2) "v = pick { count 3 } else { null }"
       [ "a b"; "a d"; "b d" ];
+    goes_on "with a bound, of those that are alike the first" (Faults.At_most 2) "v = pick { count 3 } else { null }"
+      ~alike:(fun v -> if v = "a" || v = "b" then Some "a" else None) [ "a b"; "a d" ];
     goes_on "without a bound, one" Any_number "v = pick { count 3 } else { null }" [ "" ];
     goes_on "of an end, one" (At_most 2) "v = pick { count 3 }" [ "a b" ];
     goes_on "more would be missing than may be" (At_most 1) "v = pick { count 3 } else { null }" [];
@@ -177,6 +179,21 @@ let agrees_with_definition (vehicles, bound, text) =
   let defined = List.sort_uniq compare (outcomes (definition options most program world c)) in
   if found <> defined then
     QCheck2.Test.fail_reportf "found: %s@.defined: %s" (String.concat "; " found) (String.concat "; " defined);
+  (* The first among those like a transition that has its label is what it is among all. *)
+  let with_label (t : Transition.t) ((t' : Transition.t), _) = Label.equal t'.label t.label in
+  let is_kept ((t : Transition.t), _) =
+    let first choices =
+      let found = Environment.find (with_label t) choices in
+      Option.map (fun ((t : Transition.t), outside) -> (t.next, Environment.memory outside)) found
+    in
+    let like = Environment.choices_like t options program world Environment.initial c in
+    match first choices, first like with
+    | Some (c, e), Some (c', e') -> Configuration.equal c c' && e = e'
+    | Some _, None | None, _ -> false
+  in
+  (match List.find_opt (fun choice -> not (is_kept choice)) (List.of_seq choices) with
+   | Some (t, _) -> QCheck2.Test.fail_reportf "not among those like it: %a" Label.pp t.label
+   | None -> ());
   true
 
 let print_pick (vehicles, bound, text) =

@@ -232,12 +232,25 @@ let without_text (c : Configuration.t) =
   | Ended ((Completed | Interrupted) as ending) -> ended ending
   | Script _ | Waiting _ | Executing _ -> c
 
-module Script = Set.Make (struct
+module Script = Map.Make (struct
     type t = Configuration.t * Environment.t
 
     let compare (c, e) (c', e') =
       match Configuration.compare c c' with 0 -> Environment.compare e e' | order -> order
   end)
+
+(* Configurations, each with the least number of vehicles that were late before it, and no memory of which. *)
+let with_fewest_late canonical states =
+  let add found (c, e) =
+    let memory = Environment.memory e in
+    let number = List.length memory.late in
+    let others = max 0 (memory.spent - number) in
+    let c, e =
+      if number = 0 then (c, e) else canonical c (Environment.of_memory { memory with late = []; spent = others }) in
+    let fewest before = Some (Option.fold ~none:number ~some:(min number) before) in
+    Script.update (without_text c, e) fewest found
+  in
+  List.fold_left add Script.empty states
 
 let is_of_script (c : Configuration.t) =
   match c.control with Script _ | Waiting _ | Ended _ -> true | Executing _ -> false
@@ -249,24 +262,22 @@ let rec explored_up_to symmetry environment program world =
   | exception Symmetry.Broken symmetry -> explored_up_to symmetry environment program world
 
 let same_script program environment world (graph : Reference.t) =
+  let tell what c = Error (Format.asprintf "%s %a" what (Configuration.pp program) c) in
   let symmetry = Symmetry.without_tasks (Symmetry.find environment program ~asked:[] world) in
   let reduced = explored_up_to symmetry environment program world in
   let space = State_graph.system reduced in
-  let state (s : Reference.state) found =
-    if is_of_script s.configuration then
-      let c, e = Space.canonical space s.configuration s.outside in
-      Script.add (without_text c, e) found
-    else found
-  in
-  let expected = Array.fold_right state graph.states Script.empty in
-  let found = List.init (State_graph.count reduced) (State_graph.state reduced) in
-  let found = List.filter (fun (c, _) -> is_of_script c) found in
-  let found = Script.of_list (List.map (fun (c, e) -> (without_text c, e)) found) in
-  let tell what (c, _) = Error (Format.asprintf "%s %a" what (Configuration.pp program) c) in
-  match Script.choose_opt (Script.diff expected found), Script.choose_opt (Script.diff found expected) with
-  | Some missing, _ -> tell "the script never comes to" missing
-  | None, Some other -> tell "the script cannot come to" other
-  | None, None -> Ok (Space.used_vehicle_symmetry space)
+  let canonical = Space.canonical space in
+  let states = List.map (fun (s : Reference.state) -> (s.configuration, s.outside)) (Array.to_list graph.states) in
+  let of_script = List.filter (fun (c, _) -> is_of_script c) in
+  let expected = with_fewest_late canonical (List.map (fun (c, e) -> canonical c e) (of_script states)) in
+  let reached = List.init (State_graph.count reduced) (State_graph.state reduced) in
+  let found = with_fewest_late canonical (of_script reached) in
+  let differ _ fewest fewest' = if fewest = fewest' then None else Some (fewest, fewest') in
+  match Script.min_binding_opt (Script.merge differ expected found) with
+  | Some ((c, _), (Some _, None)) -> tell "the script never comes to" c
+  | Some ((c, _), (None, _)) -> tell "the script cannot come to" c
+  | Some ((c, _), (Some _, Some _)) -> tell "another number of vehicles were late before" c
+  | None -> Ok (Space.used_vehicle_symmetry space)
 
 (* Whether a condition is the same in all that is looked at as in all that there is. *)
 let same_invariant program environment world condition =

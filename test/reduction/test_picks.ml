@@ -40,6 +40,7 @@ let environments =
     ("with all faults", { answering with faults = { every with loss = Any_number } });
     ("with all faults, and losses counted", { answering with faults = { every with loss = At_most 2 } });
     ("with all faults, twice", { answering with faults = twice });
+    ("with two faults of any kind", { answering with faults = { every with loss = Any_number }; most_faults = Some 2 });
     ("with interruptions", { answering with faults = { Faults.none with interrupt = true } });
     ("vehicle b may fail", failing (fun v _ -> v = "b"));
     ("plan t may fail", failing (fun _ p -> p = "t"));
@@ -75,6 +76,43 @@ let test_agreement () =
     !invalid tally.skipped limit tally.reduced tally.whole tally.smaller !exchanged;
   Tally.print_broken tally
 
+(* {1 As few faults as can be} *)
+
+let counted = ref 0
+
+(* Of the numbers that are known to be the least, and the lengths that are known to be. *)
+let same_fewest ((p : Picking.t), (_, environment)) =
+  let fewest program reduction =
+    let limits = { Dolphin_checker.Limits.none with max_states = Some limit } in
+    let options = { Search.default with environment; reduction; limits; search_again = limit } in
+    (Fewest_faults.run options program (snd p.world)).verdicts
+  in
+  let agree (property, (plain : Search.verdict)) (_, (reduced : Search.verdict)) =
+    match plain, reduced with
+    | Violated { faults = Some { number; fewest = true }; steps; shortest; _ },
+      Violated { faults = Some { number = number'; fewest = true }; steps = steps'; shortest = shortest'; _ } ->
+      if number > 0 then Test_support.Property.count counted;
+      if number <> number' then
+        QCheck2.Test.fail_reportf "%a: %d faults, reduced %d" Property.pp property number number'
+      else if shortest && shortest' && List.compare_lengths steps steps' <> 0 then
+        QCheck2.Test.fail_reportf "%a: %d steps, reduced %d" Property.pp property (List.length steps)
+          (List.length steps')
+    | (Holds | Holds_if _ | By_design _ | Violated _ | Unreached _ | Inconclusive _), _ -> ()
+  in
+  match Pure_run.compile p.text with
+  | Error _ -> true
+  | Ok program ->
+    let program = Test_support.Posts.declared environment program in
+    List.iter2 agree (fewest program Whole) (fewest program All);
+    true
+
+let test_fewest () =
+  let programs = max 1 (programs / 4) in
+  let name = "as few faults with peers as without" in
+  let test = QCheck2.Test.make ~count:programs ~print ~name case same_fewest in
+  Test_support.Property.on_each_seed ~usual ~programs test;
+  if 20 * !counted < programs then Alcotest.failf "only %d with faults" !counted
+
 (* If nothing is violated, or nothing reduced, agreement means little. *)
 let test_variety () =
   Tally.check_broken tally;
@@ -108,6 +146,7 @@ let () =
       ( "random programs",
         [
           Alcotest.test_case "search with peers and plain search agree" `Quick test_agreement;
+          Alcotest.test_case "as few faults with peers as without" `Quick test_fewest;
           Alcotest.test_case "properties are broken by some, and states are saved" `Quick test_variety;
         ] );
     ]

@@ -10,7 +10,7 @@ let after_run ~tick (options : Environment.options) program world (c, outside) s
     let broken (t : Transition.t) = Property.broken_by_end program t.rules t.next in
     let is_same ((t' : Transition.t), _) = Label.equal t'.label t.label && Configuration.equal t'.next t.next in
     let ends_alike (t', _) = broken t <> None && broken t' = broken t in
-    let choices = Environment.choices options program world outside c in
+    let choices = Environment.choices_like t options program world outside c in
     match Environment.find is_same choices with
     | Some (_, outside) -> (t.next, outside)
     | None -> (

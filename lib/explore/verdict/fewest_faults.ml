@@ -46,7 +46,8 @@ let limited ?start (options : Search.options) = function
     ({ options with environment = { environment with faults } }, Option.map (fun (c, _) -> (c, outside)) start)
   | n ->
     let limits = { options.limits with max_states = Some (Search.most_again options) } in
-    ({ options with environment = { options.environment with most_faults = Some n }; reduction = Whole; limits }, start)
+    let reduction = if Reduction.by_symmetry options.reduction then Reduction.Vehicles else Whole in
+    ({ options with environment = { options.environment with most_faults = Some n }; reduction; limits }, start)
 
 (* A violation, and the run that shows it with its faults. *)
 type shown = { property : Property.t; run : Search.run; faults : Search.faults option }
@@ -64,7 +65,8 @@ let with_at_most ?start ~started (options : Search.options) program world ~count
     Gc.full_major ();
     let properties = List.map (fun s -> s.property) sought in
     let limited, start' = limited ?start (asking properties options) n in
-    let found = Search.run ?start:start' ~phase:"looking for fewer faults" ~started limited program world in
+    let phase = "looking for fewer faults" in
+    let found = Search.run ?start:start' ~phase ~sought:properties ~started limited program world in
     let is_open = function
       | property, Search.Inconclusive _ -> List.mem property properties
       | _, (Holds | Holds_if _ | Violated _ | By_design _ | Unreached _) -> false

@@ -11,7 +11,7 @@ let equal (c, e) (c', e') = Environment.compare e e' = 0 && Configuration.equal 
 
 (* Transitions may differ only in the environment's memory, so there may be several ways; almost always there is one. *)
 let step ~tick options world program ~image (t : Transition.t) pair =
-  let choices program (c, e) = List.of_seq (Environment.choices options program world e c) in
+  let choices program (c, e) = List.of_seq (Environment.choices_like t options program world e c) in
   let images = choices image pair.image and reals = choices program pair.real in
   if List.compare_lengths images reals <> 0 then raise_notrace Out_of_step;
   let follow ((t' : Transition.t), e) ((real : Transition.t), real_e) =

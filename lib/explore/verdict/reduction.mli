@@ -3,6 +3,9 @@
 
 type t =
   | Whole  (** every state *)
+  | Vehicles
+  (** one state of each class that exchanging vehicles identifies. All verdicts, and the lengths of shortest runs, are
+      as of the whole. *)
   | Partial_order
   (** one of the orders in which independent steps may come. All verdicts are as of the whole; a run that shows a
       violation may be longer than the shortest. *)

@@ -123,7 +123,7 @@ class Missions(Case):
         return self.exec("--resume" if self.text("m.run") else "--journal")
 
     def is_over(self, console):
-        """Waits until the console has ended. If its run is not over, it was killed, or its adapter before it greeted."""
+        """Whether the run is over, once its console has ended. If not, it was killed, or its adapter was early on."""
         until(lambda: console.poll() is not None, lambda: self.text("exec.txt") + self.text("crew.txt"))
         if self.endings():
             return True

@@ -338,6 +338,15 @@ let is_setting place =
   let opener = opener place in
   kind place opener = BLOCK && (match kind place (opener - 1) with BUILDER _ | RECRUIT -> true | _ -> false)
 
+(* [task('a') when { poll a: 1 } then task('b')]. *)
+let guard_behind place =
+  match this place, kind place (statement place) with
+  | WHEN, WHEN -> None
+  | WHEN, _ when place.acceptable SEPARATOR ->
+    Some ("unexpected 'when'",
+          "a guard stands before its task: waitFor { ... } then TASK, or in oneOf and allOf when { ... } then TASK")
+  | _, _ -> None
+
 (* [x = 1 y = 2]. *)
 let two_statements place =
   let begins =
@@ -429,7 +438,7 @@ let task_in_braces place =
 let rules = [
   after_rounds; task_in_braces; missing_parenthesis; missing_block; assigned_word; missing_brace;
   missing_parameters; negative_argument; greedy_bracket; assignment; missing_word; misplaced_word; command;
-  two_statements; unit_without_point; percent_sign; described_parameter; stray;
+  guard_behind; two_statements; unit_without_point; percent_sign; described_parameter; stray;
 ]
 
 let fault ~source ~tokens ~index ~acceptable =

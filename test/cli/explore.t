@@ -1090,6 +1090,22 @@ invariants, and from the middle of a run:
   $ dolphin explore twice.dol --fleet masked.fleet --faults fail=1 | grep ', with'
   [1]
 
+If the searches for fewer faults are cut short, the verdict has that. Of many vehicles any may be late or missing, in
+any order:
+
+  $ cat > two.dol << 'END'
+  > vs = pick { count 2 }
+  > execute task('p')[vs]
+  > END
+  $ printf "vehicle 'v%d', { type 'UUV' }\n" 1 2 3 > two.fleet
+  $ dolphin explore two.dol --faults join --max-states 4 2> errors | grep ', with'
+  vehicles for all picks: violated after 2 steps, with 2 faults (perhaps fewer): vehicles are missing
+  $ sed -i 's/count 2/count _/' two.dol
+  $ seq 1 30 | sed "s/.*/vehicle 'v&', { type 'UUV' }/" > two.fleet
+  $ dolphin explore two.dol --faults all | grep ', with'
+  no unhandled error: violated after 5 steps, with 1 fault: an unhandled error ends the program
+  vehicles for all picks: violated after 2 steps, with 30 faults: vehicles are missing
+
 A step of a task has the place of its own code, and labels are cut only where there is no room:
 
   $ cat > places.dol << 'END'

@@ -36,26 +36,70 @@ let count ~started (options : Search.options) program world start (property, (ru
 
 (* {1 Searching} *)
 
-(* The options and the start of runs with at most [n] faults. With faults to count, states are as many more: no more
-   of them are looked at than for shortest runs. *)
-let limited ?start (options : Search.options) = function
-  | 0 ->
-    let outside = Option.fold start ~none:Environment.initial ~some:snd in
-    let environment, outside = Environment.without_faults (options.environment, outside) in
-    let faults = { environment.faults with interrupt = options.environment.faults.interrupt } in
-    ({ options with environment = { environment with faults } }, Option.map (fun (c, _) -> (c, outside)) start)
-  | n ->
-    let limits = { options.limits with max_states = Some (Search.most_again options) } in
-    let reduction = if Reduction.by_symmetry options.reduction then Reduction.Vehicles else Whole in
-    ({ options with environment = { options.environment with most_faults = Some n }; reduction; limits }, start)
+let without_faults ?start (options : Search.options) =
+  let outside = Option.fold start ~none:Environment.initial ~some:snd in
+  let environment, outside = Environment.without_faults (options.environment, outside) in
+  let faults = { environment.faults with interrupt = options.environment.faults.interrupt } in
+  ({ options with environment = { environment with faults } }, Option.map (fun (c, _) -> (c, outside)) start)
+
+(* With faults to count, states are as many more: no more than [most] of them are looked at. *)
+let with_some ~most ~environment (options : Search.options) =
+  let reduction = if Reduction.by_symmetry options.reduction then Reduction.Vehicles else Whole in
+  { options with environment; reduction; limits = { options.limits with max_states = Some most } }
+
+(* Those in which at most [n] faults come. One fault is of one kind: the states of each kind are fewer than of all. *)
+let with_at_most_faults n (environment : Environment.options) =
+  let { Faults.fail; loss; join; interrupt } = environment.faults in
+  let limited faults = { environment with faults; most_faults = Some n } in
+  let none = { Faults.none with interrupt } in
+  if n > 1 then [ limited environment.faults ]
+  else
+    List.map limited
+      ((if Faults.is_possible fail then [ { none with fail } ] else [])
+       @ (if Faults.is_possible loss then [ { none with loss } ] else [])
+       @ if Faults.is_possible join then [ { none with join } ] else [])
 
 (* A violation, and the run that shows it with its faults. *)
 type shown = { property : Property.t; run : Search.run; faults : Search.faults option }
 
-type progress = { shown : shown list; whole : bool;  (* no search was cut short *) bytes : int }
+type progress = {
+  shown : shown list;
+  whole : bool;  (* no search was cut short *)
+  most : int;  (* the states of the next search: where one was cut short, so may be the next ones, which have more *)
+  bytes : int;
+}
 
 (* Where the number is not known, only runs without faults are looked for. *)
 let least_known s = match s.faults with Some { number; _ } -> number | None -> 1
+
+let phase = "looking for fewer faults"
+
+(* The searches of runs with at most [n] faults, and the number of states for the next ones. *)
+let searches ?start ~started options program world ~properties ~most n =
+  let asked = asking properties options in
+  let search ?start options = Search.run ?start ~phase ~sought:properties ~started options program world in
+  if n = 0 then
+    let options, start = without_faults ?start asked in
+    ([ search ?start options ], most)
+  else
+    let add (found, most) environment =
+      Gc.full_major ();
+      let (o : Search.outcome) = search ?start (with_some ~most ~environment asked) in
+      (o :: found, if o.stopped = None then most else most / 2)
+    in
+    List.fold_left add ([], most) (with_at_most_faults n options.environment)
+
+(* The shortest of the runs in [outcomes]; it is known to be if all of these are whole. *)
+let shortest_of property (outcomes : Search.outcome list) =
+  let runs = List.filter_map (fun o -> List.assoc_opt property (violated o)) outcomes in
+  let shorter (best : Search.run) (run : Search.run) =
+    if List.compare_lengths run.steps best.steps < 0 then run else best in
+  let are_all = match outcomes with [ _ ] -> true | _ -> List.for_all (fun o -> o.Search.stopped = None) outcomes in
+  match runs with
+  | [] -> None
+  | first :: others ->
+    let run = List.fold_left shorter first others in
+    Some { run with shortest = run.shortest && are_all }
 
 let with_at_most ?start ~started (options : Search.options) program world ~count n p =
   let is_sought s = least_known s > n in
@@ -64,25 +108,24 @@ let with_at_most ?start ~started (options : Search.options) program world ~count
   | sought ->
     Gc.full_major ();
     let properties = List.map (fun s -> s.property) sought in
-    let limited, start' = limited ?start (asking properties options) n in
-    let phase = "looking for fewer faults" in
-    let found = Search.run ?start:start' ~phase ~sought:properties ~started limited program world in
+    let outcomes, most = searches ?start ~started options program world ~properties ~most:p.most n in
     let is_open = function
       | property, Search.Inconclusive _ -> List.mem property properties
       | _, (Holds | Holds_if _ | Violated _ | By_design _ | Unreached _) -> false
     in
-    let whole = p.whole && found.stopped = None && not (List.exists is_open found.verdicts) in
-    let by_then = violated found in
+    let is_whole (o : Search.outcome) = o.stopped = None && not (List.exists is_open o.verdicts) in
+    let whole = p.whole && List.for_all is_whole outcomes in
     let counted ~fewest number = { Search.number; fewest } in
     let better s =
-      match List.assoc_opt s.property by_then with
+      match shortest_of s.property outcomes with
       | Some run when n = 0 -> { s with run; faults = Some (counted ~fewest:true 0) }
       | Some run -> { s with run; faults = Option.map (counted ~fewest:p.whole) (count (s.property, run)) }
       | None ->
         let perhaps (f : Search.faults) = { f with fewest = f.fewest && whole } in
         { s with faults = Option.map perhaps s.faults }
     in
-    { shown = List.map (fun s -> if is_sought s then better s else s) p.shown; whole; bytes = max p.bytes found.bytes }
+    let bytes = List.fold_left (fun most (o : Search.outcome) -> max most o.bytes) p.bytes outcomes in
+    { shown = List.map (fun s -> if is_sought s then better s else s) p.shown; whole; most; bytes }
 
 (* Numbers of faults are tried from 0 on; none is above those that were found. *)
 let rec from n ~most search p = if n >= most then p else from (n + 1) ~most search (search n p)
@@ -94,7 +137,8 @@ let improved ?start ~started options program world (found : Search.outcome) =
     let counted number = { Search.number; fewest = true } in
     { property; run; faults = Option.map counted (count (property, run)) }
   in
-  let p = { shown = List.map first (violated found); whole = true; bytes = found.bytes } in
+  let shown = List.map first (violated found) in
+  let p = { shown; whole = true; most = Search.most_again options; bytes = found.bytes } in
   let most = List.fold_left (fun most s -> max most (least_known s)) 0 p.shown in
   let p = from 0 ~most (with_at_most ?start ~started options program world ~count) p in
   let verdict (property, verdict) =

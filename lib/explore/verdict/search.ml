@@ -730,7 +730,10 @@ let pp_verdict ?(fairness = Weak) (program : Core.program) ppf (property, verdic
   in
   let by_fairness = if fairness = Strong && Property.is_of_fair_runs property then " " ^ strongly else "" in
   let steps n = if n = 1 then "1 step" else Printf.sprintf "%d steps" n in
-  let with_faults { faults; _ } = Option.fold faults ~none:"" ~some:(fun faults -> ", " ^ faults_text faults) in
+  let with_faults { faults; _ } =
+    let text f = Printf.sprintf ", %s%s" (faults_text f) (if f.fewest then "" else " (perhaps fewer)") in
+    Option.fold faults ~none:"" ~some:text
+  in
   print "%a: " Property.pp property;
   match verdict with
   | Holds -> print "holds%s" by_fairness

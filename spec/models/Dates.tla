@@ -20,10 +20,9 @@ Closures == << Reached, Operator(">", Operator("-", Date, W), NumberOf(300)) >>
 
 (* A comparison is known by its text, and is the same question as its opposite; its answers are 1 and 2, that it holds
    and that it does not. *)
-IsBefore == << "claim", "now() < 600" >>
-WasBefore == << "claim", "w < 600" >>
-IsLater == << "claim", "(now() - w) > 300" >>
-Seen(t, question, answer) == question \in DOMAIN t.S.sees /\ t.S.sees[question] = answer
+IsBefore == "now() < 600"
+WasBefore == "w < 600"
+IsLater == "(now() - w) > 300"
 
 (* Comparisons of dates at one step do not bind the next: they may seem to go back, but not within a step. *)
 Claim ==

@@ -12,9 +12,12 @@ Body ==
 
 Closures == << >>
 
+(* Without pairs a key is not there. *)
+Oldest(tuples) == IF "oldest" \in DOMAIN tuples.queue THEN tuples.queue["oldest"] ELSE << >>
+
 (* The oldest first; only bound vehicles are released. *)
 Claim ==
-  /\ By_("CONSUME", LAMBDA t : t.S.N.queue["oldest"] = Tail(N.queue["oldest"]))
+  /\ By_("CONSUME", LAMBDA t : Oldest(t.S.N) = Tail(Oldest(N)))
   /\ By_("RELEASE", LAMBDA t : B = << "u1" >> /\ t.S.B = << >>)
   /\ By_("SCRIPT", LAMBDA t : t.deeds = << >> /\ t.S.N = N)
 ==============================================================================

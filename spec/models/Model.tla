@@ -167,6 +167,9 @@ Rules(t) == Range(t.rules)
 (* Wherever this rule is used, P holds of the transition. *)
 By_(rule, P(_)) == \A ts \in { Known(vars) } : \A j \in DOMAIN ts : rule \in Rules(ts[j]) => P(ts[j])
 
+(* The comparison with this text was seen to have this answer. *)
+Seen(t, text, answer) == \E question \in Claims(t.S.sees) : question[2] = text /\ t.S.sees[question] = answer
+
 Fails_(t) == t.control.at = "end" /\ t.control.ending.how = "failed"
 RunsOf(S) == { S.A[v].name : v \in DOMAIN S.A }
 ==============================================================================

@@ -19,9 +19,8 @@ Body ==
 Closures == << Low(Battery(V)), Charged(Battery(V)) >>
 
 (* A comparison is known by its text; its answers are 1 and 2, that it holds and that it does not. *)
-IsLow == << "claim", "battery(u1) < 0.3" >>
-WasLow == << "claim", "w < 0.3" >>
-Seen(t, question, answer) == question \in DOMAIN t.S.sees /\ t.S.sees[question] = answer
+IsLow == "battery(u1) < 0.3"
+WasLow == "w < 0.3"
 
 Claim ==
   /\ By_("UNTIL-CUT", LAMBDA t : Seen(t, IsLow, 1))

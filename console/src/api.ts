@@ -11,7 +11,7 @@ export interface Diagnostic {
   message: string; code: string; hint?: string; file?: string;
 }
 export interface RunStatus {
-  id: string; state: "running" | "stopping" | "over"; speed: number | null; simulated: boolean; inputs: string[];
+  id: string; state: "running" | "stopping" | "over"; speed: number | null; simulated: boolean; inputs: string[]; vehicle_inputs: string[];
   question: Question | null; questions: OpenQuestion[]; progress: Progress[]; outcome: { how: string; text: string; diagnostics: Diagnostic[] } | null;
   program: string | null; journal: string | null; counterexample: string | null; outlook: Outlook | null;
 }

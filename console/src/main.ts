@@ -50,7 +50,8 @@ let operator: Operator | null = null;
 
 const map = new ChartMap($("map"), (id) => { $<HTMLSelectElement>("about").value = id; renderLog(true); look(id); });
 const table = new VehicleTable($("vehicles"), (id) => { map.focus(id); look(id); });
-const panel = new VehiclePanel(changed);
+const quoted = (text: string) => `'${text.replace(/[\\']/g, "\\$&")}'`;
+const panel = new VehiclePanel(changed, (key, vehicle) => void attempt(() => post("run/post", { pairs: `${key}: vehicles(${quoted(vehicle)})` }))());
 new Layout(changed);
 const readings = new Readings(tintOf, { changed, mark: (spots) => map.tracks.mark(spots), seek: (time) => { if (past) seek(past.tape.placeOf(time)); } });
 
@@ -566,7 +567,7 @@ function renderNow() {
   if (!past && run?.outcome?.diagnostics.length)
     parts.push(...run.outcome.diagnostics.map((d) => h("button", { class: "link trouble", click: () => goTo(placeOf(d), run.program) }, `${inWords(placeOf(d))}: ${d.message}`)));
   if (going) parts.push(...run.questions.map(openQuestion));
-  if (going && run.inputs.length) parts.push(inputs(run.inputs));
+  if (going && run.inputs.length) parts.push(inputs(run.inputs.filter((key) => !run.vehicle_inputs.includes(key)), run.vehicle_inputs));
   if (!going && !past && parameters.length) parts.push(fields());
   parts.push(list("Waits for", shown.waiting.map((w) => h("button", { class: "link", click: () => goTo(w.at, shownProgram()) }, w.what,
     w.lacking ? h("small", {}, ` ${w.lacking}`) : null, w.at ? h("small", {}, " " + inWords(w.at)) : null)), going ? "nothing but its vehicles" : "nothing"));
@@ -606,7 +607,7 @@ function renderTimeLeft() {
 // Values of the fleet file have buttons; others are typed.
 let suggested: Record<string, string[]> = {};
 
-function inputs(keys: string[]) {
+function inputs(keys: string[], ofVehicles: string[]) {
   const send = (key: string) => attempt(async () => {
     const field = $<HTMLInputElement>("input-" + key);
     await post("run/post", { pairs: field.value.trim() ? `${key}: ${field.value}` : key });
@@ -617,7 +618,8 @@ function inputs(keys: string[]) {
     h("label", { for: "input-" + key }, key),
     ...(suggested[key] ?? []).map((value) => h("button", { type: "button", "aria-label": `post ${key}: ${value}`,
       click: attempt(() => post("run/post", { pairs: `${key}: ${value}` })) }, value)),
-    h("input", { id: "input-" + key, placeholder: "true", autocomplete: "off" }), h("button", { "aria-label": `post ${key}` }, "Post"))));
+    h("input", { id: "input-" + key, placeholder: "true", autocomplete: "off" }), h("button", { "aria-label": `post ${key}` }, "Post"))),
+    ofVehicles.length ? h("p", {}, `In the panel of a vehicle: ${ofVehicles.join(", ")}`) : null);
 }
 
 function fields() {
@@ -706,6 +708,11 @@ function renderTimeline() {
   timeline($("timeline"), views, picked?.key ?? null, pick);
 }
 
+function commands() {
+  const run = past ? null : status?.run ?? null, takes = run !== null && run.state === "running" && (!watches || answers);
+  return { keys: takes ? run.vehicle_inputs : [], twice: run !== null && !run.simulated };
+}
+
 // Changes within a tenth of a second are drawn together.
 let due = false;
 function changed() {
@@ -718,7 +725,7 @@ function changed() {
     const { quantity, vehicles } = readings.show(shown, second);
     map.tracks.colour(quantity, vehicles);
     table.show(shown, past?.steps ?? false);
-    panel.show(shown, past ? [] : status?.run?.progress ?? []);
+    panel.show(shown, past ? [] : status?.run?.progress ?? [], commands());
     renderNow();
     renderTimeLeft();
     renderAbout();

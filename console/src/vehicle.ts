@@ -1,4 +1,5 @@
-// The panel of one vehicle: what it last reported, its task, and small plots of what it reported before.
+// The panel of one vehicle: what it last reported, its task, the commands that the program takes for it, and small plots
+// of what it reported before.
 
 import { $, h, svg } from "./dom";
 import { colour, courseOf } from "./map";
@@ -23,6 +24,9 @@ export function series(v: Vehicle): { name: string; unit: string; points: { time
     points: v.samples.flatMap((s) => { const value = of(s); return typeof value === "number" ? [{ time: s.time, value }] : []; }) }));
 }
 
+// The inputs of the run whose values are vehicles; none if it takes none now. On real vehicles a command is pressed twice.
+export interface Commands { keys: string[]; twice: boolean }
+
 const width = 120, height = 28;
 
 export function plot(points: { time: number; value: number }[], tint: string, name: string): SVGElement {
@@ -39,8 +43,9 @@ export class VehiclePanel {
   private key = "";
   private el = $("vehicle");
   private pressed = false;  // a button that is drawn again between press and release is not clicked
+  private armed: { vehicle: string; command: string; until: number } | null = null;
 
-  constructor(private closed: () => void) {
+  constructor(private closed: () => void, private command: (key: string, vehicle: string) => void) {
     this.el.addEventListener("pointerdown", () => { this.pressed = true; });
     for (const event of ["pointerup", "pointercancel"]) window.addEventListener(event, () => { this.pressed = false; });
     this.el.addEventListener("keydown", (e) => { if (e.key === "Escape") this.close(); });
@@ -54,26 +59,43 @@ export class VehiclePanel {
     this.closed();
   }
 
-  show(run: Run, progress: Progress[]) {
+  show(run: Run, progress: Progress[], commands: Commands) {
     const v = this.id === null ? undefined : run.vehicles.get(this.id);
     this.el.hidden = v === undefined;
     if (!v) return;
     const age = run.moves ? run.time - v.heard : 0, mine = progress.find((p) => p.vehicle === v.id) ?? null;
     // Drawn again once a second at most by the time alone.
-    const key = JSON.stringify([v.id, v.samples.length, v.samples[v.samples.length - 1], v.tasks.length, v.tasks[v.tasks.length - 1], Math.floor(run.time), run.waiting, mine]);
+    if (this.armed && (this.armed.vehicle !== v.id || this.armed.until < Date.now())) this.armed = null;
+    const key = JSON.stringify([commands, this.armed, v.id, v.samples.length, v.samples[v.samples.length - 1], v.tasks.length, v.tasks[v.tasks.length - 1], Math.floor(run.time), run.waiting, mine]);
     if (key === this.key || this.pressed) return;
     this.key = key;
     const tint = colour([...run.vehicles.keys()].indexOf(v.id)), s = v.samples[v.samples.length - 1];
     const dot = h("span", { class: "dot" });
     dot.style.background = tint;
-    const focused = this.el.contains(document.activeElement);
+    const focused = this.el.contains(document.activeElement), before = document.activeElement?.id;
     const close = h("button", { "aria-label": `close ${v.id}`, click: () => this.close() }, "✕");
     this.el.replaceChildren(h("div", { class: "head" }, dot, h("b", { id: "vehicle-title" }, v.id), ` ${v.kind} `, close),
       h("dl", {}, ...this.facts(run, v, s, age).flatMap(([name, text]) => [h("dt", {}, name), h("dd", {}, text)])),
       this.task(run, v, mine),
+      run.bound.has(v.id) && commands.keys.length ? this.commands(v, commands) : "",
       h("table", { class: "plots" }, h("tbody", {}, ...series(v).map(({ name, unit, points }) => h("tr", {}, h("th", { scope: "row" }, name),
         h("td", {}, plot(points, tint, name)), h("td", { class: "number" }, `${brief(points[points.length - 1].value)} ${unit}`))))));
-    if (focused) close.focus();
+    if (focused) (before?.startsWith("command-") ? document.getElementById(before) ?? close : close).focus();
+  }
+
+  // Posts of this vehicle.
+  private commands(v: Vehicle, { keys, twice }: Commands) {
+    const press = (key: string) => () => {
+      if (twice && this.armed?.command !== key) {
+        this.armed = { vehicle: v.id, command: key, until: Date.now() + 5000 };
+        setTimeout(this.closed, 5100);
+        return this.closed();
+      }
+      this.armed = null;
+      this.command(key, v.id);
+    };
+    return h("div", { class: "of-vehicle commands", role: "group", "aria-label": `commands for ${v.id}` }, ...keys.map((key) =>
+      h("button", { id: `command-${key}`, click: press(key) }, this.armed?.command === key ? `${key} ${v.id}: press again` : key)));
   }
 
   private facts(run: Run, v: Vehicle, s: Sample | undefined, age: number): [string, string][] {

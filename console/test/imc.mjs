@@ -16,8 +16,9 @@ export default async function imc({ pictures, home, dolphin, environment, browse
   const folder = join(home, "real"), children = [];
   mkdirSync(folder);
   writeFileSync(join(folder, "lost.dol"), `input 'over'
+input 'wake', of: 'vehicle'
 v = pick { type 'UUV'; timeout 5.min }
-execute until { poll over: true } run (watch task('survey')[v] onError { ignore() }) >> condition { poll never: 1 }
+execute until { poll over: true } run (watch task('survey')[v] onError { ignore() }) >> condition { poll wake: v, never: 1 }
 `);
   // The console has another fleet file, whose vehicle nobody hears.
   writeFileSync(join(folder, "lost.fleet"), "vehicle 'paper-1', { type 'UUV' }\nplan 'survey'\n");
@@ -58,6 +59,12 @@ execute until { poll over: true } run (watch task('survey')[v] onError { ignore(
     await page.waitForFunction(() => { const bar = document.querySelector("#vehicle progress"); return bar && bar.value >= 0.01 && bar.value < 1; });
     same(await text(page, "#vehicle .of-vehicle").then((t) => /survey for .* [1-9]\d? %, \d+:\d\d left/.test(t.replace(/\s+/g, " "))), true, "in words, too");
     if (pictures) await page.screenshot({ path: join(pictures, "progress.png") });
+    // A command for a real vehicle is pressed twice.
+    await page.click("#command-wake");
+    await page.waitForSelector("#command-wake >> text=wake lauv-1: press again");
+    same(await page.locator("#log pre >> text=gets wake").count(), 0, "posted by one press");
+    await page.click("#command-wake");
+    await page.waitForSelector("#log pre >> text=gets wake:lauv-1");
     // Another program: one question, which names the vehicle.
     await page.locator(".cm-content").click();
     await page.keyboard.press("Control+End");

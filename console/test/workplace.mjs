@@ -182,6 +182,37 @@ plan 'survey', { duration 3.hours; at 41.25, -8.60 }
     await phone.context().close();
   });
 
+  await test("a vehicle is commanded from its panel: it is held, and goes on where it was", async () => {
+    writeFileSync(join(folder, "steered.dol"), `include 'prelude'
+input 'hold', 'goOn', 'abort', of: 'vehicle'
+way = imcPlan { planName 'lane'; locate 41.185, -8.706; goTo speed: 0.5; locate 41.205, -8.706; goTo speed: 0.5 }
+vs = pick { type 'UUV'; count 2 }
+execute par((0..1).collect { n -> commanded(vs[n], way) })
+`);
+    writeFileSync(join(folder, "steered.fleet"), "vehicle 'boat-1', { type 'UUV'; at 41.185, -8.706 }\nvehicle 'boat-2', { type 'UUV'; at 41.185, -8.707 }\n");
+    await page.reload();
+    await choose(page, "steered.dol");
+    await page.selectOption("#speed", "10");
+    await page.click("#run");
+    await page.waitForSelector("#timeline .task");
+    await page.click("#vehicles button >> text=boat-1");
+    same(await page.locator("#vehicle .commands button").allInnerTexts().then((t) => t.join()), "hold,goOn,abort", "the commands that the program takes");
+    await page.click("#command-hold");
+    await page.waitForSelector("#log pre >> text=boat-1 stops lane");
+    await page.waitForSelector("#vehicle .of-vehicle >> text=/Last: lane, stopped/");
+    await picture(page, "commands");
+    await page.focus("#command-goOn");
+    await page.keyboard.press("Enter");
+    await page.waitForFunction(() => [...document.querySelector("#log pre").innerText.matchAll(/boat-1 +starts lane/g)].length === 2);
+    same(await page.evaluate(() => document.activeElement.id), "command-goOn", "the focus stays");
+    same(await page.locator("#log pre >> text=boat-2 stops").count(), 0, "stops of the other vehicle");
+    await page.click("#command-abort");
+    await page.waitForSelector("#log pre >> text=aborted by command");
+    await over(page);
+    same(await page.locator("#vehicle .commands").count(), 0, "commands after the end");
+    await page.click("[aria-label='close boat-1']");
+  });
+
   await test("vehicles near each other are one marker, which leads to them", async () => {
     const spots = Array.from({ length: 6 }, (_, i) => `vehicle 'near-${i}', { type 'UUV'; at ${41.185 + i * 2e-5}, -8.706${i % 2 ? "; battery 5.percent" : ""} }`);
     const same_ = Array.from({ length: 4 }, (_, i) => `vehicle 'same-${i}', { type 'UUV'; at 41.2, -8.7 }`);

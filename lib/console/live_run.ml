@@ -349,6 +349,7 @@ let to_json ~addressee r : Yojson.Safe.t =
       ("simulated", `Bool (Run.is_simulated r.order.settings));
       ("counterexample", Field.of_option (fun property -> `String property) r.enacts);
       ("inputs", Field.texts (if r.enacts = None then r.order.program.program.inputs else []));
+      ("vehicle_inputs", Field.texts (if r.enacts = None then r.order.program.program.vehicle_inputs else []));
       ("question", Field.of_option question r.question);
       ("questions", `List (List.map open_question (if goes_on r then Narrator.open_questions r.narrator else [])));
       ("progress", `List (if goes_on r then List.map progress (r.view.estimates ()) else []));

@@ -28,6 +28,43 @@ Targets. If the loop does not look whether it is to stop, it waits for a target 
   $ dolphin explore deaf.dol --fleet targets.fleet | head -1
   no deadlock: violated after 18 steps: nothing can happen any more, and the program has not ended
 
+Commands for single vehicles: a held vehicle goes on where it was, one that aborts comes home.
+
+  $ cp ../../examples/commanded.* .
+  $ dolphin exec commanded.dol | grep -E 'gets|starts|stops|ends '
+     0:00  noptilus-1  starts lane0
+     0:00  noptilus-2  starts lane1
+     2:00  program     gets hold:noptilus-1
+     2:00  noptilus-1  stops lane0
+     4:00  program     gets abort:noptilus-2
+     4:00  noptilus-2  stops lane1
+     4:00  noptilus-2  starts home
+     5:00  program     gets goOn:noptilus-1
+     5:00  noptilus-1  starts lane0
+     6:00  noptilus-2  ends home
+    12:17  noptilus-1  ends lane0
+  $ dolphin explore commanded.dol | grep -v note | sed 's/, [0-9.]* s,.*//'
+  no deadlock: holds
+  termination: holds
+  no unhandled error: holds
+  assertions: holds
+  vehicles for all tasks: holds
+  2700 states, 8472 transitions, depth 31
+  $ dolphin help commanded.dol | tail -n 4
+  Inputs, which dolphin post posts to a run:
+    'hold', of a vehicle
+    'goOn', of a vehicle
+    'abort', of a vehicle
+  $ sed "s/'vehicle'/'boat'/" commanded.dol > boat.dol
+  $ dolphin check boat.dol --fleet commanded.fleet
+  boat.dol:3:36: error: values of an input are any, or vehicles
+    3 | input 'hold', 'goOn', 'abort', of: 'boat'
+      |                                    ^^^^^^
+      hint: write input 'hold', of: 'vehicle'
+  boat.dol: 1 error
+  commanded.fleet: no errors
+  [2]
+
 An input that nobody need post is not waited for:
 
   $ sed "s/, after 20.min//" targets.fleet > perhaps.fleet

@@ -14,6 +14,33 @@ The socket of a run. A run whose time passes by itself has one, beside its journ
   input 'n'
   input 'over'
 
+An input may be one of a vehicle:
+
+  $ cat > calls.dol << 'END'
+  > input 'call', of: 'vehicle'
+  > v = pick { type 'UUV' }
+  > execute condition { poll call: v }
+  > END
+  $ dolphin help calls.dol
+  Inputs, which dolphin post posts to a run:
+    'call', of a vehicle
+  $ dolphin exec calls.dol --speed 100 --journal calls.run > called 2>&1 &
+  $ started calls.run
+  $ dolphin post ./calls.run call
+  dolphin: the input 'call' takes a vehicle, as in call: vehicles('x8-02')
+  [2]
+  $ dolphin post ./calls.run "call: vehicles('noptilus-1', 'noptilus-2')"
+  dolphin: the input 'call' takes a vehicle, as in call: vehicles('x8-02')
+  [2]
+  $ dolphin post ./calls.run "call: vehicles('noptilus-1')"
+  $ wait %2
+  $ sed 's/^ *[0-9:]* *//' called
+  program     picks noptilus-1
+  program     gets call:noptilus-1
+  program     sees that a condition holds
+  program     releases noptilus-1
+  program     ends
+
 What is wrong with a pair is told, and nothing is posted:
 
   $ dolphin post ./counts.run 'm: 1'

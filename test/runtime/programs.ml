@@ -53,6 +53,7 @@ let program ?(reads_sensors = false) ?(reads_now = false) ?(globals = 0) script 
     main = lambda "script" 0 (block script);
     ordered_keys = Dolphin_semantics.Tuple_space.no_key;
     inputs = [];
+    vehicle_inputs = [];
     on_interrupt = None;
     recruits = false;
     goes_round = false;

@@ -49,9 +49,12 @@ let parameters found =
        | None -> "  " ^ text)
     spelt found
 
+let input (program : Dolphin_semantics.Core.program) key =
+  Printf.sprintf "  '%s'%s" key (if List.mem key program.vehicle_inputs then ", of a vehicle" else "")
+
 let lines (p : Program_file.t) =
   let own = comment p.source in
-  let inputs = List.map (fun k -> Printf.sprintf "  '%s'" k) p.program.inputs in
+  let inputs = List.map (input p.program) p.program.inputs in
   let said =
     (if own = [] then [] else own @ [ "" ])
     @ section "Parameters, which --set NAME=VALUE gives other values:" (parameters p.parameters)

@@ -48,5 +48,9 @@ let declared (program : Core.program) ~questions key =
     Error (Printf.sprintf "the program declares no input '%s'%s" key known)
 
 let fits (program : Core.program) key (x : Core.value) =
-  if Answer.confirmation_of_value x <> None || List.mem key program.inputs then Ok ()
+  let is_vehicle = match x with Core.Vehicles [ _ ] -> true | _ -> false in
+  if List.mem key program.vehicle_inputs then
+    if is_vehicle then Ok ()
+    else Error (Printf.sprintf "the input '%s' takes a vehicle, as in %s: vehicles('x8-02')" key key)
+  else if Answer.confirmation_of_value x <> None || List.mem key program.inputs then Ok ()
   else Error (Printf.sprintf "the question '%s' takes yes or no" key)

@@ -81,17 +81,24 @@ let fresh env at arguments =
 
 let input env at arguments =
   let wrong at = error env Wrong_kind at "input takes keys in quotes" ~hint:"write input 'abort'" in
+  let is_of_vehicle = function
+    | Ast.Named ({ it = "of"; _ }, { it = Ast.String "vehicle"; _ }) -> true
+    | Named _ | Positional _ | Keyed _ -> false
+  in
+  let of_vehicle = List.exists is_of_vehicle arguments in
   let key = function
     | Ast.Positional { it = String key; at } when key <> "" ->
       Pairs.check_own env key at;
       if Scope.is_input env.program key then
         error env Defined_twice at "input '%s' is declared twice" key
-      else Scope.note_input env.program { Ast.it = key; at }
+      else Scope.note_input env.program ~of_vehicle { Ast.it = key; at }
     | Ast.Positional { at; _ } | Keyed ({ at; _ }, _) -> wrong at
+    | Ast.Named ({ it = "of"; _ }, { at; _ }) ->
+      error env Wrong_kind at "values of an input are any, or vehicles" ~hint:"write input 'hold', of: 'vehicle'"
     | Ast.Named (k, _) -> wrong k.Ast.at
   in
-  if arguments = [] then wrong at;
-  List.iter key arguments;
+  if List.for_all is_of_vehicle arguments then wrong at;
+  List.iter key (List.filter (fun a -> not (is_of_vehicle a)) arguments);
   null env at
 
 (* [{ vs -> T }] is called with the bound vehicles: the task that it gives is executed then. *)

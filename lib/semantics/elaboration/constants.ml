@@ -81,7 +81,8 @@ let elaborated constants (e : Ast.expression) =
 let run place (lambda, locations, global_names, values) =
   let program =
     { source_name = ""; locations; global_names; functions = []; main = lambda; ordered_keys = Tuple_space.no_key;
-      inputs = []; on_interrupt = None; recruits = false; goes_round = false; reads_sensors = false; reads_now = false;
+      inputs = []; vehicle_inputs = [];
+      on_interrupt = None; recruits = false; goes_round = false; reads_sensors = false; reads_now = false;
       reads_time_of_day = false; asks_running = false; fences = Fences.none; place; begins = None } in
   let store = snd (List.fold_left (fun (i, store) x -> (i + 1, Store.set i x store)) (0, Store.empty) values) in
   let context : Code.context =

@@ -252,6 +252,7 @@ let elaborated ?(chart = no_chart) ~source_name (ast : Ast.program) =
             main;
             ordered_keys = Scope.ordered_keys program;
             inputs = List.map (fun (k : string Ast.located) -> k.it) (Scope.inputs program);
+            vehicle_inputs = Scope.vehicle_inputs program;
             on_interrupt = Scope.on_interrupt program;
             recruits = Scope.recruits program;
             goes_round = Scope.goes_round program;

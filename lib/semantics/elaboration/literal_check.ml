@@ -26,7 +26,8 @@ let context : Code.context =
   in
   let program =
     { source_name = ""; locations = [||]; global_names = [||]; functions = []; main; ordered_keys = Tuple_space.no_key;
-      inputs = []; on_interrupt = None; recruits = false; goes_round = false; reads_sensors = false; reads_now = false;
+      inputs = []; vehicle_inputs = [];
+      on_interrupt = None; recruits = false; goes_round = false; reads_sensors = false; reads_now = false;
       reads_time_of_day = false; asks_running = false; fences = Fences.none; place = None; begins = None }
   in
   let tuples = Tuples.empty Tuple_space.no_key in

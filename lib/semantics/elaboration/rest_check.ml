@@ -2,7 +2,7 @@ open Dolphin_syntax
 module Ast = Ast
 
 (* The functions of the prelude that go on with their second argument. *)
-let of_prelude = [ "withBreaks"; "onlyWhile" ]
+let of_prelude = [ "withBreaks"; "onlyWhile"; "commanded" ]
 
 let has_prelude ast name =
   let is_it (s : Ast.statement) =

@@ -4,5 +4,5 @@
 module Ast = Dolphin_syntax.Ast
 
 val program : Constants.t Lazy.t -> Ast.program -> Dolphin_syntax.Diagnostic.t list
-(** [program constants ast] is the errors of the calls in [ast] of [p.rest(...)], and of [withBreaks] and [onlyWhile] of
-    the prelude, where the plan is known so. *)
+(** [program constants ast] is the errors of the calls in [ast] of [p.rest(...)], and of [withBreaks], [onlyWhile] and
+    [commanded] of the prelude, where the plan is known so. *)

@@ -25,6 +25,7 @@ type program = {
   mutable reports : Diagnostic.t list;
   ordered_keys : (string, unit) Hashtbl.t;
   mutable inputs : string Ast.located list;  (* latest first *)
+  mutable vehicle_inputs : string list;  (* latest first *)
   input_keys : (string, unit) Hashtbl.t;
   mutable on_interrupt : Core.lambda option;
   looked_at : (string, unit) Hashtbl.t;  (* the keys that code consumes or polls *)
@@ -77,6 +78,7 @@ let create ?(first_site = 0) ?(variables = Assigned.Names.empty) ?(parameters = 
       reports = [];
       ordered_keys = Hashtbl.create 16;
       inputs = [];
+      vehicle_inputs = [];
       input_keys = Hashtbl.create 16;
       on_interrupt = None;
       looked_at = Hashtbl.create 16;
@@ -131,14 +133,16 @@ let unknown program =
 
 let note_ordered_key program key = Hashtbl.replace program.ordered_keys key ()
 
-let note_input program (key : string Ast.located) =
+let note_input program ~of_vehicle (key : string Ast.located) =
   program.inputs <- key :: program.inputs;
+  if of_vehicle then program.vehicle_inputs <- key.it :: program.vehicle_inputs;
   Hashtbl.replace program.input_keys key.it ()
 
 let is_input program key = Hashtbl.mem program.input_keys key
 let note_interrupt program lambda = program.on_interrupt <- Some lambda
 let on_interrupt program = program.on_interrupt
 let inputs program = List.rev program.inputs
+let vehicle_inputs program = List.rev program.vehicle_inputs
 
 let note_looked_at program = function
   | Some key -> Hashtbl.replace program.looked_at key ()

@@ -75,14 +75,17 @@ val ordered_keys : program -> Tuple_space.order
 val computed_orders : program -> Location.t list
 (** The places of {!note_computed_order}. *)
 
-val note_input : program -> string Ast.located -> unit
-(** [input 'k'] declares this key. *)
+val note_input : program -> of_vehicle:bool -> string Ast.located -> unit
+(** [input 'k'] declares this key, and [input 'k', of: 'vehicle'] one whose values are single vehicles. *)
 
 val is_input : program -> string -> bool
 (** Whether an [input] that was noted has this key. *)
 
 val inputs : program -> string Ast.located list
 (** Those that were noted, in the order of the text. *)
+
+val vehicle_inputs : program -> string list
+(** Those of them whose values are single vehicles. *)
 
 val note_interrupt : program -> Core.lambda -> unit
 (** [onInterrupt] declares what an interruption executes. *)

@@ -220,6 +220,7 @@ type program = {
   main : lambda;
   ordered_keys : Tuple_space.order;             (* keys that some [_] or pattern of [consume] takes the oldest of *)
   inputs : string list;                         (* keys of the pairs that the outside may post *)
+  vehicle_inputs : string list;                 (* those of them whose values are single vehicles *)
   on_interrupt : lambda option;                 (* of the bound vehicles: the task executed on an interruption *)
   recruits : bool;                              (* some task may recruit *)
   goes_round : bool;                            (* some task may begin rounds without a number *)

@@ -65,6 +65,15 @@ Commands for single vehicles: a held vehicle goes on where it was, one that abor
   commanded.fleet: no errors
   [2]
 
+  $ sed "s/'hold', vehicles('noptilus-1')/'hold', true/" commanded.fleet > unfit.fleet
+  $ for command in exec explore check time; do dolphin $command commanded.dol --fleet unfit.fleet; done
+  dolphin: unfit.fleet: input 'hold' takes a vehicle, as in input 'hold', vehicles('x8-02')
+  dolphin: unfit.fleet: input 'hold' takes a vehicle, as in input 'hold', vehicles('x8-02')
+  dolphin: unfit.fleet: input 'hold' takes a vehicle, as in input 'hold', vehicles('x8-02')
+  unfit.fleet: no errors
+  dolphin: unfit.fleet: input 'hold' takes a vehicle, as in input 'hold', vehicles('x8-02')
+  [2]
+
 An input that nobody need post is not waited for:
 
   $ sed "s/, after 20.min//" targets.fleet > perhaps.fleet

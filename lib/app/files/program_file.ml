@@ -44,15 +44,28 @@ let load ?(set = []) ?(may_read = Text_file.anything) path =
        without_place = lazy (Dolphin_semantics.Elaborate.plans_without_place ~chart ast);
        plans = (fun ~place -> Dolphin_semantics.Elaborate.known_plans ~chart ~place ast) }
 
+(* Of the inputs of vehicles one to which the fleet gives another value. *)
+let unfit_input (fleet : Fleet_file.t) (program : Dolphin_semantics.Core.program) =
+  let is_unfit (i : Dolphin_scenario.Scenario.input) =
+    let is_vehicle = function Dolphin_semantics.Core.Vehicles [ _ ] -> true | _ -> false in
+    List.mem i.key program.vehicle_inputs && not (List.for_all (List.for_all is_vehicle) i.rounds)
+  in
+  let why (i : Dolphin_scenario.Scenario.input) =
+    Printf.sprintf "%s: input '%s' takes a vehicle, as in input '%s', vehicles('x8-02')"
+      (Option.value fleet.path ~default:"the fleet") i.key i.key
+  in
+  Option.map why (List.find_opt is_unfit fleet.scenario.inputs)
+
 let within (fleet : Fleet_file.t) p =
   let program, to_compare = Dolphin_scenario.Scenario.within fleet.scenario p.program in
   let p = { p with program; warnings = p.warnings @ fleet.warnings } in
   let plans = p.plans ~place:program.place in
   let broken =
     if to_compare = [] then [] else Dolphin_semantics.Fence_declarations.broken (Fences.make to_compare) plans in
-  match (if program.place = None then Lazy.force p.without_place else []) @ broken with
-  | [] -> Ok p
-  | found -> Error (Error.Bad_text { source = p.source; found })
+  match (if program.place = None then Lazy.force p.without_place else []) @ broken, unfit_input fleet program with
+  | [], None -> Ok p
+  | [], Some why -> Error (Error.Bad_input why)
+  | found, _ -> Error (Error.Bad_text { source = p.source; found })
 
 let load_recorded ~set ~recorded path =
   match set, recorded with

@@ -94,7 +94,7 @@ export class VehiclePanel {
       this.armed = null;
       this.command(key, v.id);
     };
-    return h("div", { class: "of-vehicle commands", role: "group", "aria-label": `commands for ${v.id}` }, ...keys.map((key) =>
+    return h("div", { class: "commands", role: "group", "aria-label": `commands for ${v.id}` }, ...keys.map((key) =>
       h("button", { id: `command-${key}`, click: press(key) }, this.armed?.command === key ? `${key} ${v.id}: press again` : key)));
   }
 

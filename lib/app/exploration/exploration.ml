@@ -70,6 +70,7 @@ let explore ?from ~interrupted ~progress s (program : Program_file.t) (fleet : F
     { environment;
       reduction = s.reduction; compress = s.compress; spill = s.spill; walks = s.walks; bitstate = s.bitstate;
       search_again = Search.default.search_again; workers = s.workers; fork_from = Search.default.fork_from;
+      properties = Search.default.properties;
       spare_bits = Search.default.spare_bits;
       limits =
         Search_limits.make ?max_states:s.max_states ?max_depth:s.max_depth ?max_memory:s.max_memory ?timeout:s.timeout

@@ -10,10 +10,11 @@ let violated (found : Search.outcome) =
   in
   List.filter_map run found.verdicts
 
-(* [options] that ask only for [properties], as far as there is a choice. *)
+(* [options] that ask only for [properties]. *)
 let asking properties (options : Search.options) =
   let is_asked property = List.mem property properties in
   { options with
+    properties = List.filter is_asked options.properties;
     invariants = List.filter (fun i -> is_asked (Property.Invariant (Condition.to_string i))) options.invariants;
     formulas = List.filter (fun f -> is_asked (Property.Formula (Temporal.to_string f))) options.formulas }
 
@@ -47,8 +48,8 @@ let with_some ~most ~environment (options : Search.options) =
   let reduction = if Reduction.by_symmetry options.reduction then Reduction.Vehicles else Whole in
   { options with environment; reduction; limits = { options.limits with max_states = Some most } }
 
-(* Those in which at most [n] faults come. One fault is of one kind: the states of each kind are fewer than of all. *)
-let with_at_most_faults n (environment : Environment.options) =
+(* Those in which, together, at most [n] faults come. One fault is of one kind, whose states are fewer than of all. *)
+let environments n (environment : Environment.options) =
   let { Faults.fail; loss; join; interrupt } = environment.faults in
   let limited faults = { environment with faults; most_faults = Some n } in
   let none = { Faults.none with interrupt } in
@@ -72,22 +73,22 @@ type progress = {
 (* Where the number is not known, only runs without faults are looked for. *)
 let least_known s = match s.faults with Some { number; _ } -> number | None -> 1
 
-let phase = "looking for fewer faults"
-
 (* The searches of runs with at most [n] faults, and the number of states for the next ones. *)
 let searches ?start ~started options program world ~properties ~most n =
   let asked = asking properties options in
-  let search ?start options = Search.run ?start ~phase ~sought:properties ~started options program world in
+  let search ?start options =
+    Gc.full_major ();
+    Search.run ?start ~phase:"looking for fewer faults" ~started options program world
+  in
   if n = 0 then
     let options, start = without_faults ?start asked in
     ([ search ?start options ], most)
   else
     let add (found, most) environment =
-      Gc.full_major ();
       let (o : Search.outcome) = search ?start (with_some ~most ~environment asked) in
       (o :: found, if o.stopped = None then most else most / 2)
     in
-    List.fold_left add ([], most) (with_at_most_faults n options.environment)
+    List.fold_left add ([], most) (environments n options.environment)
 
 (* The shortest of the runs in [outcomes]; it is known to be if all of these are whole. *)
 let shortest_of property (outcomes : Search.outcome list) =
@@ -106,7 +107,6 @@ let with_at_most ?start ~started (options : Search.options) program world ~count
   match List.filter is_sought p.shown with
   | [] -> p
   | sought ->
-    Gc.full_major ();
     let properties = List.map (fun s -> s.property) sought in
     let outcomes, most = searches ?start ~started options program world ~properties ~most:p.most n in
     let is_open = function

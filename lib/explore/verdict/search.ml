@@ -18,6 +18,7 @@ type options = {
   fork_from : int;
   spare_bits : int option;
   limits : Limits.t;
+  properties : Property.t list;
   invariants : Condition.t list;
   formulas : Temporal.t list;
   fairness : fairness;
@@ -39,6 +40,7 @@ let default =
     fork_from = 100_000;
     spare_bits = None;
     limits = Limits.none;
+    properties = Property.all;
     invariants = [];
     formulas = [];
     fairness = Weak;
@@ -100,7 +102,6 @@ type subject = {
   symmetry : Symmetry.t;
   started : float;
   phase : string option;  (* by default that of each search *)
-  sought : Property.t list option;  (* the properties of all programs that matter; by default all *)
 }
 
 let with_graph ?labelling ?phase x (options : options) f =
@@ -280,9 +281,8 @@ let verdicts x (options : options) graph invariants =
     (Property.Invariant (Condition.to_string (Invariant.condition i)), told verdict)
   in
   (* Code that a run has behind it is reached by none of those from there on. *)
-  let is_sought property = Option.fold ~none:true ~some:(List.mem property) x.sought in
-  let is_asked property = is_sought property && (property <> Property.All_reached || x.start = None) in
-  let asked = List.filter is_asked Property.all in
+  let is_asked property = property <> Property.All_reached || x.start = None in
+  let asked = List.filter is_asked options.properties in
   List.map (fun property -> (property, told (fun () -> verdict property))) asked @ List.map given invariants
 
 (* The faults that end runs, of each place in the text the first that was met; of no larger graphs. *)
@@ -618,7 +618,7 @@ let relevant program (options : options) =
 let reducible program (options : options) =
   if Environment.may_leave options.environment program then { options with reduction = Whole } else options
 
-let judged ?start ?phase ?sought ~started (options : options) program world =
+let judged ?start ?phase ~started (options : options) program world =
   let symmetry =
     if Reduction.by_symmetry options.reduction then
       Symmetry.find options.environment program ~asked:options.invariants world
@@ -629,7 +629,7 @@ let judged ?start ?phase ?sought ~started (options : options) program world =
     if options.invariants = [] && options.reduction <> Vehicles then (options, symmetry)
     else ({ options with reduction = Whole }, Symmetry.without_tasks symmetry)
   in
-  explore { program; world; start; symmetry; started; phase; sought } options
+  explore { program; world; start; symmetry; started; phase } options
 
 let without_symmetry (options : options) program =
   let options = relevant program (reducible program options) in
@@ -663,34 +663,33 @@ let in_step ~started options program world ~image (found : outcome) =
   if List.exists Option.is_none verdicts then None
   else Some { found with verdicts = List.filter_map Fun.id verdicts; alike_values = true }
 
-let judged_with_alike_values ?start ?phase ?sought ~started (options : options) program world =
+let judged_with_alike_values ?start ?phase ~started (options : options) program world =
   let unified =
     if Reduction.by_symmetry options.reduction && options.invariants = [] then
       Alike_values.unify options.environment program
     else None
   in
   match unified with
-  | None -> judged ?start ?phase ?sought ~started options program world
+  | None -> judged ?start ?phase ~started options program world
   | Some image -> (
-      match in_step ~started options program world ~image (judged ?phase ?sought ~started options image world) with
+      match in_step ~started options program world ~image (judged ?phase ~started options image world) with
       | Some found -> found
-      | None -> judged ?phase ?sought ~started options program world)
+      | None -> judged ?phase ~started options program world)
 
 (* In the middle of a run, vehicles and values that the whole program treats alike have parts of their own. *)
 let unlike (options : options) = { options with reduction = Reduction.without_symmetry options.reduction }
 
-let run ?start ?phase ?sought ?started (options : options) program world =
+let run ?start ?phase ?started (options : options) program world =
   let options = reducible program options in
   let options = if start = None then relevant program options else unlike options in
   let started = match started with Some started -> started | None -> options.limits.clock () in
-  let found = judged_with_alike_values ?start ?phase ?sought ~started options program world in
-  let x = { program; world; start; symmetry = Symmetry.none; started; phase; sought } in
+  let found = judged_with_alike_values ?start ?phase ~started options program world in
+  let x = { program; world; start; symmetry = Symmetry.none; started; phase } in
   apart x options (with_formulas x options found)
 
 let side_by_side (options : options) program world =
   let options = relevant program (reducible program options) in
-  let x = { program; world; start = None; symmetry = Symmetry.none; started = options.limits.clock (); phase = None;
-            sought = None } in
+  let x = { program; world; start = None; symmetry = Symmetry.none; started = options.limits.clock (); phase = None } in
   let pairs, all = beside x options in
   (pairs, all.stopped)
 

@@ -60,6 +60,7 @@ type options = {
   fork_from : int;
   spare_bits : int option;  (** as for {!Layouts.create} *)
   limits : Limits.t;
+  properties : Property.t list;  (** those of {!Property.all} that are judged, by default all *)
   invariants : Condition.t list;
   formulas : Temporal.t list;  (** for each, states are explored again, after all others are forgotten *)
   fairness : fairness;  (** [Weak] by default; [Strong] is for termination, too, and needs all states *)
@@ -153,13 +154,12 @@ val side_by_side : options -> Core.program -> World.t -> Side_by_side.pair list 
 (** [side_by_side o p w] is [beside] of {!run}, and the bound that was met, if not all states were visited. *)
 
 val run :
-  ?start:Configuration.t * Environment.t -> ?phase:string -> ?sought:Property.t list -> ?started:float -> options ->
-  Core.program -> World.t -> outcome
+  ?start:Configuration.t * Environment.t -> ?phase:string -> ?started:float -> options -> Core.program -> World.t ->
+  outcome
 (** [run ~start o p w] explores [p] in [w], from [start] on, by default from its beginning. With a [start], to which
     some run of [p] must lead and which is not an end, nothing is reduced by symmetry, and formulas are of the runs
     from there on. A property holds only if all states were visited; violations found before a bound was met are
-    real. Of the {!Property.all}, those of [sought] are judged, by default all. [phase] is the present phase in reports
-    of progress, and [started] as for {!Limits.guard}. *)
+    real. [phase] is the present phase in reports of progress, and [started] as for {!Limits.guard}. *)
 
 val reductions : outcome -> string list
 (** Those that were used: {!Reduction.names}, and ["symmetry of vehicles"] for [vehicle_symmetry],

@@ -11,9 +11,9 @@ type company = {
   silent : Core.vehicle list;  (* those of them that are lost *)
   unsure : Core.vehicle list;  (* others of them that may be late or missing *)
   is_new : Core.vehicle -> bool;  (* whether to be late is something new, which counts *)
+  most_new : int;  (* how many of these there may be *)
   alike : Core.vehicle -> Core.vehicle option;  (* the same of all that may be exchanged with each other *)
   only : Core.vehicle list option;  (* the list of bound vehicles that is looked for *)
-  most_new : int;  (* how many of these there may be *)
 }
 
 let company ?(alike = fun _ -> None) ?only (faults : Faults.t) ~may_be_late ~lost ~late ~bound world
@@ -41,8 +41,8 @@ let company ?(alike = fun _ -> None) ?only (faults : Faults.t) ~may_be_late ~los
     | At_most n -> min new_ones (max 0 (n - List.length late))
     | Any_number -> new_ones
   in
-  { wanted; always = ids (List.filter (is_seen_in List.for_all) states); silent; unsure; is_new; alike; only;
-    most_new }
+  { wanted; always = ids (List.filter (is_seen_in List.for_all) states); silent; unsure; is_new; most_new;
+    alike; only }
 
 let unsure company = company.unsure
 

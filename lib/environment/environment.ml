@@ -446,13 +446,13 @@ let picking ?alike ?binding ~unclear options program world e (c : Configuration.
     let shown = World.suppose hidden world in
     let placed = List.filter (function World.Placed _ -> true | _ -> false) hidden in
     let seen = if hidden = [] then company else company_in shown in
-    let shown =
-      match binding, Attendance.first_always company n with
-      | None, _ | Some [], None -> shown
-      | Some [], Some vs | Some vs, _ ->
-        let ids = List.map (fun (s : World.vehicle_state) -> s.id) (World.vehicles shown) in
-        World.only (List.filter (fun v -> List.mem v vs) ids) shown
+    (* Without a vehicle that may be missing, a pick fails only if fewer than [n] fit: [n] that fit stand for all. *)
+    let enough = function [] -> Attendance.first_always company n | vs -> Some vs in
+    let with_only vs =
+      let ids = List.map (fun (s : World.vehicle_state) -> s.id) (World.vehicles shown) in
+      World.only (List.filter (fun v -> List.mem v vs) ids) shown
     in
+    let shown = Option.fold (Option.bind binding enough) ~none:shown ~some:with_only in
     fun news ->
       let bound (on_time, coming) =
         given { coming; missing = [] } (internal ~unclear program (World.only (on_time @ coming) world) e c)
@@ -499,7 +499,7 @@ let posts options program world e c : choice Seq.t =
   in
   List.to_seq (List.filter_map post (inputs options program e))
 
-let choices_on ?alike ?binding options program world e (c : Configuration.t) () =
+let all_choices ?alike ?binding options program world e (c : Configuration.t) () =
   let unclear = ref None in
   let by_itself () =
     match c.control with
@@ -511,13 +511,13 @@ let choices_on ?alike ?binding options program world e (c : Configuration.t) () 
   let others () = match !unclear with Some fault -> raise (Unclear fault) | None -> Seq.Nil in
   Seq.append by_itself (Seq.append from_outside others) ()
 
-let choices ?alike ?binding options program world e c =
-  let choices = choices_on ?alike ?binding options program world e c in
-  Seq.map (fun { transition; outside; _ } -> (transition, outside)) choices
+let choices_on ?alike options program world e c = all_choices ?alike options program world e c
+let without_event choices = Seq.map (fun { transition; outside; _ } -> (transition, outside)) choices
+let choices ?alike options program world e c = without_event (all_choices ?alike options program world e c)
 
 let choices_like (t : Transition.t) options program world e c =
   let binding = match t.label with Bind vs -> vs | _ -> [] in
-  choices ~binding options program world e c
+  without_event (all_choices ~binding options program world e c)
 
 let rec find p (choices : _ Seq.t) =
   match choices () with

@@ -190,18 +190,17 @@ type choice = {
 }
 
 val choices_on :
-  ?alike:(Core.vehicle -> Core.vehicle option) -> ?binding:Core.vehicle list -> options -> Core.program -> World.t ->
-  t -> Configuration.t -> choice Seq.t
+  ?alike:(Core.vehicle -> Core.vehicle option) -> options -> Core.program -> World.t -> t -> Configuration.t ->
+  choice Seq.t
 (** [choices_on o p w e c] is {!choices}, each with its event. *)
 
 val choices :
-  ?alike:(Core.vehicle -> Core.vehicle option) -> ?binding:Core.vehicle list -> options -> Core.program -> World.t ->
-  t -> Configuration.t -> (Transition.t * t) Seq.t
+  ?alike:(Core.vehicle -> Core.vehicle option) -> options -> Core.program -> World.t -> t -> Configuration.t ->
+  (Transition.t * t) Seq.t
 (** [choices o p w e c] is every transition of [c], computed on demand: its own, leftmost first, then those on events,
     in the order of [Transition.awaited], the inputs, and last the interruption, if there are any. The assumptions of a
     transition, on sensors and on present vehicles, are among its [assumed]. At a pick, of those that differ only by
-    exchanging vehicles that are [alike] ({!Attendance.company}) one is given; with [binding], some of those that bind
-    other vehicles are left out.
+    exchanging vehicles that are [alike] ({!Attendance.company}) one is given.
     @raise Unclear (each time it is gone through, after those of all other steps) if [w] is open and the outcomes of a
       step cannot be listed. *)
 

@@ -47,9 +47,7 @@ let load ?(set = []) ?(may_read = Text_file.anything) path =
 (* Of the inputs of vehicles one to which the fleet gives another value. *)
 let unfit_input (fleet : Fleet_file.t) (program : Dolphin_semantics.Core.program) =
   let is_unfit (i : Dolphin_scenario.Scenario.input) =
-    let is_vehicle = function Dolphin_semantics.Core.Vehicles [ _ ] -> true | _ -> false in
-    List.mem i.key program.vehicle_inputs && not (List.for_all (List.for_all is_vehicle) i.rounds)
-  in
+    not (List.for_all (List.for_all (Typed_input.is_of_kind program i.key)) i.rounds) in
   let why (i : Dolphin_scenario.Scenario.input) =
     Printf.sprintf "%s: input '%s' takes a vehicle, as in input '%s', vehicles('x8-02')"
       (Option.value fleet.path ~default:"the fleet") i.key i.key

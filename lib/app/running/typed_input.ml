@@ -47,10 +47,11 @@ let declared (program : Core.program) ~questions key =
     in
     Error (Printf.sprintf "the program declares no input '%s'%s" key known)
 
+let is_of_kind (program : Core.program) key (x : Core.value) =
+  match x with Vehicles [ _ ] -> true | _ -> not (List.mem key program.vehicle_inputs)
+
 let fits (program : Core.program) key (x : Core.value) =
-  let is_vehicle = match x with Core.Vehicles [ _ ] -> true | _ -> false in
-  if List.mem key program.vehicle_inputs then
-    if is_vehicle then Ok ()
-    else Error (Printf.sprintf "the input '%s' takes a vehicle, as in %s: vehicles('x8-02')" key key)
+  if not (is_of_kind program key x) then
+    Error (Printf.sprintf "the input '%s' takes a vehicle, as in %s: vehicles('x8-02')" key key)
   else if Answer.confirmation_of_value x <> None || List.mem key program.inputs then Ok ()
   else Error (Printf.sprintf "the question '%s' takes yes or no" key)

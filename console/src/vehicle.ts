@@ -43,9 +43,10 @@ export class VehiclePanel {
   private key = "";
   private el = $("vehicle");
   private pressed = false;  // a button that is drawn again between press and release is not clicked
-  private armed: { vehicle: string; command: string; until: number } | null = null;
+  private armed: { vehicle: string; command: string } | null = null;  // pressed once
+  private disarm = 0;
 
-  constructor(private closed: () => void, private command: (key: string, vehicle: string) => void) {
+  constructor(private changed: () => void, private command: (key: string, vehicle: string) => void) {
     this.el.addEventListener("pointerdown", () => { this.pressed = true; });
     for (const event of ["pointerup", "pointercancel"]) window.addEventListener(event, () => { this.pressed = false; });
     this.el.addEventListener("keydown", (e) => { if (e.key === "Escape") this.close(); });
@@ -56,7 +57,7 @@ export class VehiclePanel {
   private close() {
     this.id = null;
     this.el.hidden = true;
-    this.closed();
+    this.changed();
   }
 
   show(run: Run, progress: Progress[], commands: Commands) {
@@ -65,7 +66,7 @@ export class VehiclePanel {
     if (!v) return;
     const age = run.moves ? run.time - v.heard : 0, mine = progress.find((p) => p.vehicle === v.id) ?? null;
     // Drawn again once a second at most by the time alone.
-    if (this.armed && (this.armed.vehicle !== v.id || this.armed.until < Date.now())) this.armed = null;
+    if (this.armed?.vehicle !== v.id) this.armed = null;
     const key = JSON.stringify([commands, this.armed, v.id, v.samples.length, v.samples[v.samples.length - 1], v.tasks.length, v.tasks[v.tasks.length - 1], Math.floor(run.time), run.waiting, mine]);
     if (key === this.key || this.pressed) return;
     this.key = key;
@@ -87,9 +88,10 @@ export class VehiclePanel {
   private commands(v: Vehicle, { keys, twice }: Commands) {
     const press = (key: string) => () => {
       if (twice && this.armed?.command !== key) {
-        this.armed = { vehicle: v.id, command: key, until: Date.now() + 5000 };
-        setTimeout(this.closed, 5100);
-        return this.closed();
+        this.armed = { vehicle: v.id, command: key };
+        clearTimeout(this.disarm);
+        this.disarm = window.setTimeout(() => { this.armed = null; this.changed(); }, 5000);
+        return this.changed();
       }
       this.armed = null;
       this.command(key, v.id);

@@ -192,7 +192,8 @@ let script = [
   row "input" ~parts:[ many "key" Text ] ~rules:[ "INPUT" ] ~example:"input 'goal'"
     ~words:[
       word Procedure "input" "input 'key', ..."
-        "At the top: pairs with these keys may be posted from outside at any time." ];
+        "At the top: pairs with these keys may be posted from outside at any time. With `of: 'vehicle'` behind them \
+         their values are single vehicles." ];
   row "end" ~rules:[ "END" ];
   row "halt" ~parts:[ one "text" Text ] ~rules:[ "HALT" ] ~example:"halt 'why'"
     ~words:[

@@ -77,8 +77,20 @@ let answered text =
 let answer_is text expected () = Alcotest.(check (result string string)) text (Ok expected) (answered text)
 let answer_is_bad text why () = Alcotest.(check (result string string)) text (Error why) (answered text)
 
+(* Most of these are no expression, or do what an answer may not: each is taken or refused. *)
+let words =
+  [ "r"; "n"; "y"; "v"; "it"; "1"; "2.km"; "'a'"; "true"; "null"; "++"; "--"; "+"; "-"; "!"; "="; "+="; "=="; "<"; "?";
+    ":"; ","; "."; "["; "]"; "("; ")"; "{"; "}"; "->"; "[0]"; ".size()"; "twice("; "task('p')"; "post(a: r)";
+    "poll(a: _)"; "ask('x')"; "now()"; "halt()"; "battery(v)"; "|"; ">>"; "def"; "\xe5\x8c\x97"; "\n" ]
+
+let any_answer =
+  let generator = QCheck2.Gen.(map (String.concat " ") (list_size (int_range 1 5) (oneofl words))) in
+  let is_judged text = match answered text with Ok _ | Error _ -> true in
+  Property.case ~count:5_000 "any words are taken or refused" ~print:(Printf.sprintf "%S") generator is_judged
+
 let answers =
-  [ case "a number" (answer_is "2" "2");
+  [ any_answer;
+    case "a number" (answer_is "2" "2");
     case "with a unit" (answer_is "2.km" "2000");
     case "a string" (answer_is "'a' + 'b'" "ab");
     case "with variables and functions" (answer_is "twice(r) + v.size()" "7");
@@ -97,13 +109,15 @@ let answers =
     case "a deed" (answer_is_bad "post(a: 1)" "an answer may only compute a value");
     case "halt" (answer_is_bad "halt('now')" "an answer may only compute a value");
     case "waiting" (answer_is_bad "ask('again?')" "ask may not stand in an answer");
+    case "a change of an unknown variable" (answer_is_bad "y++" "'y' may not be changed in an answer");
+    case "a change within" (answer_is_bad "[1, --y]" "'y' may not be changed in an answer");
     case "nothing" (fun () -> Alcotest.(check bool) "refused" true (Result.is_error (answered "")));
     case "no expression" (fun () -> Alcotest.(check bool) "refused" true (Result.is_error (answered "2 +")));
     case "an assignment" (fun () ->
         let program, c = waiting "r = 3\nn = ask 'n?'\npause 1" in
         match Result.bind (Answer.event program "r++") (Transition.accept program Pure_run.fleet c) with
         | Ok _ -> Alcotest.fail "accepted"
-        | Error (Bad_answer why) -> Alcotest.(check string) "why" "an answer may only compute a value" why
+        | Error (Bad_answer why) -> Alcotest.(check string) "why" "'r' may not be changed in an answer" why
         | Error Not_awaited -> Alcotest.fail "not awaited");
     case "a task that fails later has no place in the program" (fun () ->
         let program, c = waiting "v = pick { id 'noptilus-1' }\nexecute ask('what?')" in

@@ -34,6 +34,7 @@ let assign_variable env at name name_at e =
       ~hint:"make it a global variable, without def";
     e
   | None ->
+    if env.answer then error env Deed_in_answer name_at "'%s' may not be changed in an answer" name;
     check_assignable env name name_at;
     check_in_maker env ("an assignment to '" ^ name ^ "'") name_at;
     set_global env at name e

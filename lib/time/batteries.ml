@@ -51,7 +51,7 @@ let least system vs =
   let latest = List.filter_map (fun (n, date) -> match date with Timed_system.At ms -> Some (n, ms) | _ -> None) ends in
   let graph edges =
     let edge (e : Timed_system.edge) = (e.source, e.target, e) in
-    Longest.graph (Timed_system.count system) (List.map edge edges)
+    Longest.graph (Timed_system.count system) (List.rev (List.rev_map edge edges))
   in
   let graph = Option.bind (Timed_system.edges system) graph in
   let of_vehicle (v : Scenario.vehicle) =

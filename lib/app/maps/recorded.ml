@@ -118,12 +118,16 @@ let log_of_run ~started (run : Summary.t) =
   let each f = List.concat_map f run.vehicles in
   let hold words time (v : Summary.vehicle) =
     List.map (fun span -> said ~started (time span) info v.id words) v.held in
-  each (hold "is picked" (fun (s : Summary.span) -> s.from))
-  @ each (fun v -> List.concat_map (log_of_silence ~started run v) v.silent)
-  @ each (fun v -> List.concat_map (log_of_task ~started v) v.tasks)
-  @ List.map (log_of_program ~started) run.activities
-  @ each (hold "is released" (fun (s : Summary.span) -> s.until))
-  @ log_of_end ~started run
+  (* A long run has more activities than the stack has room for. *)
+  let joined = List.fold_left (Fun.flip List.rev_append) [] in
+  List.rev
+    (joined
+       [ each (hold "is picked" (fun (s : Summary.span) -> s.from));
+         each (fun v -> List.concat_map (log_of_silence ~started run v) v.silent);
+         each (fun v -> List.concat_map (log_of_task ~started v) v.tasks);
+         List.rev (List.rev_map (log_of_program ~started) run.activities);
+         each (hold "is released" (fun (s : Summary.span) -> s.until));
+         log_of_end ~started run ])
 
 let of_run ~started (run : Summary.t) =
   let of_vehicle (v : Summary.vehicle) =

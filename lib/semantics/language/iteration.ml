@@ -44,13 +44,16 @@ let same_kind subject items =
     Map (List.filter_map (function Map [ (_, String k); (_, x) ] -> Some (k, x) | _ -> None) items)
   | _ -> List (Vector.of_list items)
 
+(* Lists may be long: [List.combine] and [List.map] would need as much of the stack. *)
+let paired items results = List.rev (List.rev_map2 (fun x r -> (x, r)) (Array.to_list items) results)
+
 let by_result items results =
   let order (_, a) (_, b) =
     match Value.to_number a, Value.to_number b with
     | Some a, Some b -> Float.compare a b
     | _, _ -> Value.compare a b
   in
-  List.stable_sort order (List.combine (Array.to_list items) results)
+  List.stable_sort order (paired items results)
 
 let conclude iteration subject items gathered =
   let results = List.rev gathered in
@@ -58,15 +61,15 @@ let conclude iteration subject items gathered =
   | Each -> Ok subject
   | Collect -> Ok (List (Vector.of_list results))
   | Find_all ->
-    let kept = List.combine (Array.to_list items) results in
-    Ok (same_kind subject (List.filter_map (fun (x, r) -> if Value.truth r then Some x else None) kept))
+    let kept (x, r) = if Value.truth r then Some x else None in
+    Ok (same_kind subject (List.filter_map kept (paired items results)))
   | Find -> Ok Null
   | Any -> Ok (Boolean false)
   | Every -> Ok (Boolean true)
   | Count -> Ok (Integer (List.length (List.filter Value.truth results)))
   | Sum -> Results.fold (Operators.binary Add) (Integer 0) results
   | Inject -> Ok (match gathered with x :: _ -> x | [] -> Null)
-  | Sort -> Ok (same_kind subject (List.map fst (by_result items results)))
+  | Sort -> Ok (same_kind subject (List.rev (List.rev_map fst (by_result items results))))
   | Greatest -> Ok (match List.rev (by_result items results) with (x, _) :: _ -> x | [] -> Null)
   | Least -> Ok (match by_result items results with (x, _) :: _ -> x | [] -> Null)
 

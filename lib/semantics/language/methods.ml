@@ -244,7 +244,7 @@ let on_string s name arguments =
       | None -> None
       | Some characters ->
         let n = Array.length characters in
-        let join items = String (String.concat "" (List.map Value.to_string (Array.to_list items))) in
+        let join items = String (String.concat "" (Array.to_list (Array.map Value.to_string items))) in
         match name, rest with
         | "substring", [] when 0 <= a && a <= n -> Some (Ok (join (part characters a n)))
         | "substring", [ Integer b ] when 0 <= a && a <= b && b <= n ->
@@ -279,7 +279,7 @@ let on_items items name arguments =
     let separator = match arguments with [ String s ] -> s | _ -> "" in
     Some
       (if Array.length items * String.length separator > Value.most_items then Operators.too_long "a string"
-       else Ok (String (String.concat separator (List.map Value.to_string (Array.to_list items)))))
+       else Ok (String (String.concat separator (Array.to_list (Array.map Value.to_string items)))))
   | "sort", [] ->
     let order a b =
       match Value.to_number a, Value.to_number b with

@@ -167,8 +167,9 @@ module Make (Value : VALUE) = struct
 
   let values = function
     | Counted counts ->
-      By_value.fold (fun x count values -> List.init count (fun _ -> x) :: values) counts [] |> List.rev |> List.concat
-    | Queued queue -> List.map snd (By_arrival.bindings queue)
+      let rec add x count values = if count = 0 then values else add x (count - 1) (x :: values) in
+      List.rev (By_value.fold add counts [])
+    | Queued queue -> List.rev (By_arrival.fold (fun _ x values -> x :: values) queue [])
 
   let bindings n = List.map (fun (k, pairs) -> (k, values pairs)) (By_key.bindings n.pairs)
 

@@ -50,7 +50,7 @@ let read_order s = function
       match Order.of_line text with
       | Ok (Some order) -> obey s order
       | Ok None -> ()
-      | Error why -> prerr_endline ("dolphin sim: an order " ^ why))
+      | Error why -> prerr_endline ("dolphin sim: an order " ^ Dolphin_trace.Phrase.harmless why))
   | Too_long -> prerr_endline "dolphin sim: an order is too long"
   | End_of_input -> s.is_over <- true
 

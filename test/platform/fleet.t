@@ -57,3 +57,9 @@ named.
   {"kind":"error","why":"/dev/full: this is not the state of a simulated fleet: it is not a file"}
   dolphin: /dev/full: this is not the state of a simulated fleet: it is not a file
   [2]
+
+An order that is refused is quoted without characters that command the terminal.
+
+  $ echo '{"kind": "hello", "protocol": 1, "dolphin": "1", "purpose": "\u009b31m", "program": "m.dol", "resumes": false}' |
+  > dolphin sim vehicles.fleet --platform
+  dolphin sim: an order is not a valid 'hello': "purpose" is '?31m', not one of run, look, check

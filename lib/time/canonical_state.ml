@@ -218,11 +218,9 @@ and branches s bs =
 
 (* Without what is inert, but for tasks that move their vehicle. *)
 let root s ~is_inert (r : Residual.t) =
-  let is_gone : Residual.t -> bool = function
-    | Running (p, v) -> is_inert (Clocked.Task v) && not (Durations.moves p)
-    | Idle { timer; _ } -> is_inert (Clocked.Timer timer)
-    | _ -> false
-  in
+  let moves found : Residual.leaf -> bool = function Plan (p, _) -> found || Durations.moves p | _ -> found in
+  let is_gone r =
+    Option.fold (Inert.awaited r) ~none:false ~some:is_inert && not (Residual.fold_leaves moves false r) in
   let components = match r with Parallel bs -> Branches.to_list bs | r -> [ r ] in
   beside s (List.filter (fun r -> not (is_gone r)) components)
 

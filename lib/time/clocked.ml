@@ -314,13 +314,19 @@ let onwards o s ~outside ~now ~began ~seen =
 
 let moved elsewhere v place = List.sort Stdlib.compare ((v, place) :: List.remove_assoc v elsewhere)
 
-(* Where [v] is after its task, or some part of it. *)
+(* Where a vehicle is after a task, or some part of it, if the task has a place. *)
+let moved_by change here (p : Core.platform_task) =
+  match p.plan with Some plan when Durations.moves p -> Some (change here plan) | Some _ | None -> None
+
 let gone o s v change elsewhere =
   let task (p : pending) = if is_same p.item (Task v) then p.task else None in
-  match List.find_map task s.pending with
-  | Some ({ plan = Some plan; _ } as p) when Durations.moves p ->
-    moved elsewhere v (change (place o s.elsewhere v) plan)
-  | Some _ | None -> elsewhere
+  let there = Option.bind (List.find_map task s.pending) (moved_by change (place o s.elsewhere v)) in
+  Option.fold there ~none:elsewhere ~some:(moved elsewhere v)
+
+let in_turn o s v ps =
+  let add (here, found) p =
+    (Option.value (moved_by Whereabouts.after here p) ~default:here, o.durations.task v here p :: found) in
+  List.rev (snd (List.fold_left add (place o s.elsewhere v, []) ps))
 
 let elsewhere_after o s (t : Transition.t) (event : Transition.event option) =
   let stop elsewhere : Effect.t -> _ = function

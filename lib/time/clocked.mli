@@ -81,6 +81,10 @@ val may_do : options -> state -> Core.vehicle -> Dolphin_scenario.Battery.doing 
     one or not. A task that charges may be over already while the link is silent; then the vehicle rests. (A task that
     drains may be over too, but a lower bound that counts it to its latest end holds all the same.) *)
 
+val in_turn : options -> state -> Core.vehicle -> Core.platform_task list -> Bounds.t list
+(** [in_turn o s v ps] is the time that each of [ps] takes on [v], which carries them out one after the other from its
+    place in [s]. *)
+
 val compare : state -> state -> int
 (** A total order. *)
 

@@ -35,7 +35,5 @@ let missed (before : Clocked.state) (step : Clocked.step) =
     List.assoc_opt timer (deadlines before)
   | Some _ | None -> None
 
-let ending (next : Clocked.state) (i : Inert.item) =
-  match i.awaited with
-  | Task v -> Option.map (task v) (Vehicle_map.find_opt v next.configuration.shared.allocation)
-  | Timer _ | Question _ | Recruit _ | Answer | Reply | Posting _ | Links | Silence _ | Course _ | Date _ -> None
+let task_of_part (p : Inert.part) =
+  match p.event, p.task with Task v, Some t -> Some (task v t) | _, _ -> None

@@ -17,5 +17,5 @@ val tasks : Clocked.state -> Clocked.step -> (moment * task) list
 val missed : Clocked.state -> Clocked.step -> Core.site option
 (** [missed s step] is the [within] that is missed with [step] of [s]. *)
 
-val ending : Clocked.state -> Inert.item -> task option
-(** [ending s i] is the task that ends with [i], which has begun in [s]. *)
+val task_of_part : Inert.part -> task option
+(** [task_of_part p] is the task that [p] is; [None] for an [idle]. *)

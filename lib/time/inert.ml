@@ -2,7 +2,7 @@ open Dolphin_semantics
 open Dolphin_environment
 module Footprint = Dolphin_explore.Footprint
 
-type t = { options : Clocked.options; possible : bool }
+type t = { options : Clocked.options; possible : bool; code : Footprint.code; unread : string list  (* keys *) }
 
 let names_are_free (o : Clocked.options) =
   let { Environment.faults; inputs; _ } = o.environment in
@@ -13,14 +13,24 @@ let names_are_free (o : Clocked.options) =
   && (not (Clocked.may_change_during_tasks o))
   && not (Footprint.asks_held o.program)
 
-let create options = { options; possible = names_are_free options }
+let create (options : Clocked.options) =
+  { options; possible = names_are_free options; code = Footprint.code options.program;
+    unread = Unread_pairs.keys options.program }
 
-type item = { awaited : Clocked.item; least : int; most : int }
+type part = { event : Clocked.item; task : Core.platform_task option; least : int; most : int; follow : int }
+type item = { awaited : Clocked.item; parts : part list; least : int; most : int }
+
+let steps i = List.fold_left (fun n p -> n + 1 + p.follow) 0 i.parts
 
 let components : Residual.t -> Residual.t list = function Parallel bs -> Branches.to_list bs | r -> [ r ]
 
-(* Of a component that does nothing but end. *)
-let only_ends : Residual.t -> Clocked.item option = function
+let first_and_later : Residual.t -> Residual.t * Residual.t list = function
+  | Sequence (first, later) -> (first, later)
+  | r -> (r, [])
+
+(* The event that the first part of a component waits for, if that part does nothing but end. *)
+let awaited r : Clocked.item option =
+  match fst (first_and_later r) with
   | Running (_, v) -> Some (Task v)
   | Idle { timer; _ } -> Some (Timer timer)
   | _ -> None
@@ -30,25 +40,64 @@ let certainly_succeeds i v (p : Core.platform_task) = not (Environment.may_fail 
 (* [named] is the names in each component. *)
 let is_named_again v named = List.length (List.filter (String.equal v) named) > 1
 
+let part event task : Bounds.t -> part option = function
+  | Within { least; most } -> Some { event; task; least; most; follow = 0 }
+  | Some_time | Never -> None
+
+(* Apart from messages, and pairs that no code reads: no state has them. *)
+let does_nothing i code =
+  let f = Footprint.of_code i.code code in
+  let is_unread (k, _) = List.mem k i.unread in
+  let of_others = { f with posts = Footprint.Pairs.filter (fun p -> not (is_unread p)) f.posts } in
+  Footprint.touches_nothing of_others && not (f.breaks || f.halts || f.remembered)
+
+(* [parts], the latest first, if [r] may follow them; [bounds] is those of its task, if it is one of [v]. *)
+let followed_by i v parts (r : Residual.t) bounds =
+  let with_step = function p :: parts -> { p with follow = p.follow + 1 } :: parts | [] -> [] in
+  match r, bounds with
+  | Ready (p, w), Some bounds when v = Some w && certainly_succeeds i w p ->
+    Option.map (fun part -> part :: with_step parts) (part (Task w) (Some p) bounds)
+  | Idle { timer; seconds; _ }, _ ->
+    Option.map (fun part -> part :: parts) (part (Timer timer) None (Bounds.exactly seconds))
+  | Action code, _ when does_nothing i code -> Some (with_step parts)
+  | _, _ -> None
+
+(* [bounds] is those of the tasks of [later], in their order. *)
+let rec all_parts i v parts bounds (later : Residual.t list) =
+  match later, bounds with
+  | [], _ -> Some (List.rev parts)
+  | (Ready _ as r) :: later, b :: bounds ->
+    Option.bind (followed_by i v parts r (Some b)) (fun parts -> all_parts i v parts bounds later)
+  | r :: later, bounds -> Option.bind (followed_by i v parts r None) (fun parts -> all_parts i v parts bounds later)
+
+let tasks = List.filter_map (function Residual.Ready (p, _) -> Some p | _ -> None)
+
+let parts i (s : Clocked.state) named r =
+  let first, later = first_and_later r in
+  let first_part item task =
+    let pending = List.find_opt (fun (p : Clocked.pending) -> p.item = item) s.pending in
+    Option.bind pending (fun p -> part item task p.bounds) in
+  match first with
+  | Running (p, v) when certainly_succeeds i v p && not (is_named_again v named) ->
+    let bounds () = if later = [] then [] else List.tl (Clocked.in_turn i.options s v (p :: tasks later)) in
+    Option.bind (first_part (Task v) (Some p)) (fun part -> all_parts i (Some v) [ part ] (bounds ()) later)
+  | Idle { timer; _ } -> Option.bind (first_part (Timer timer) None) (fun part -> all_parts i None [ part ] [] later)
+  | _ -> None
+
+let item (parts : part list) =
+  let sum time = List.fold_left (fun n p -> n + time p) 0 parts in
+  { awaited = (List.hd parts).event; parts; least = sum (fun p -> p.least); most = sum (fun p -> p.most) }
+
 let of_state i (s : Clocked.state) =
-  let item named r =
-    match r, only_ends r with
-    | Residual.Running (p, v), Some _ when is_named_again v named || not (certainly_succeeds i v p) -> None
-    | _, Some awaited -> (
-        match List.find_opt (fun (p : Clocked.pending) -> p.item = awaited) s.pending with
-        | Some { bounds = Within { least; most }; _ } -> Some { awaited; least; most }
-        | Some { bounds = Some_time | Never; _ } | None -> None)
-    | _, None -> None
-  in
   match s.configuration.control with
   | Executing (_, r) when i.possible && not (Residual.makes_tasks r) ->
     let components = components r in
     let named = List.concat_map Residual.named components in
-    List.sort Stdlib.compare (List.filter_map (item named) components)
+    let items = List.filter_map (fun r -> Option.map item (parts i s named r)) components in
+    List.sort (fun a b -> Stdlib.compare a.awaited b.awaited) items
   | Executing _ | Script _ | Waiting _ | Ended _ -> []
 
-let is_one items r =
-  match only_ends r with Some awaited -> List.mem awaited items | None -> false
+let is_one items r = match awaited r with Some item -> List.mem item items | None -> false
 
 let is_rest (s : Clocked.state) items =
   match s.configuration.control with
@@ -59,10 +108,8 @@ let without items (c : Configuration.t) =
   match c.control with
   | Executing (m, r) -> (
       let ended, left = List.partition (is_one items) (components r) in
-      let remove allocation : Residual.t -> _ = function
-        | Running (_, v) -> Vehicle_map.remove v allocation
-        | _ -> allocation
-      in
+      let remove allocation r =
+        match fst (first_and_later r) with Running (_, v) -> Vehicle_map.remove v allocation | _ -> allocation in
       let allocation = List.fold_left remove c.shared.allocation ended in
       match left with
       | [] -> None

@@ -1,5 +1,5 @@
-(** Ends of tasks that nothing waits for but the end of the whole executed task. No other step depends on their
-    dates: docs/time.md shows why they need not be followed one by one. *)
+(** Tasks, and sequences of them, that nothing waits for but the end of the whole executed task. No other step depends
+    on their dates: docs/time.md shows why they need not be followed one by one. *)
 
 open Dolphin_semantics
 
@@ -12,14 +12,37 @@ val names_are_free : Clocked.options -> bool
 val create : Clocked.options -> t
 (** [create o] finds the inert ends in runs of [o]. Mutable: results are memoised. *)
 
-type item = { awaited : Clocked.item; least : int; most : int }
-(** Its bounds, from its beginning. *)
+(** A task that certainly succeeds, or an [idle]. *)
+type part = {
+  event : Clocked.item;  (** ends it *)
+  task : Core.platform_task option;
+  least : int;  (** in milliseconds from its beginning, as all bounds here *)
+  most : int;
+  follow : int;  (** the steps after its end that take no time: actions, and the start of the next part *)
+}
+
+(** A sequence of such parts, the first of which runs, all on one vehicle, with actions between them that nothing
+    depends on: [task('p') >> action { message 'p is over' } >> task('q')]. *)
+type item = {
+  awaited : Clocked.item;  (** the event of its first part *)
+  parts : part list;  (** at least one *)
+  least : int;  (** of all parts, from the beginning of the first: the sum *)
+  most : int;
+}
+
+val steps : item -> int
+(** [steps i] is the number of steps from the beginning of the first part to the end of all. *)
 
 val of_state : t -> Clocked.state -> item list
-(** [of_state i s] is the awaited events of [s] whose end only shortens [s], in ascending order. *)
+(** [of_state i s] is the parallel parts of [s] that are such sequences, in ascending order of their awaited events. *)
+
+val awaited : Residual.t -> Clocked.item option
+(** [awaited r] is the end that [r], a part of an executed task, waits for, if it begins with a task that runs, or with
+    an [idle]. *)
 
 val is_rest : Clocked.state -> item list -> bool
 (** [is_rest s items] is whether nothing is left of the executed task but [items], one at least. *)
 
 val without : Clocked.item list -> Configuration.t -> Configuration.t option
-(** [without items c] is [c] once [items], which are inert, have ended; [None] if nothing would be left of the task. *)
+(** [without items c] is [c] without those that await [items], which are inert; [None] if nothing would be left of the
+    task. *)

@@ -114,14 +114,19 @@ let note_step t execution zone (before : Clocked.state) (step : Clocked.step) =
   let date = date t zone in
   List.iter (fun (moment, task) -> note_task t execution date task moment) (Happening.tasks before step)
 
-(* An inert event ends within its bounds, in any context. *)
-let note_begun t execution zone next begun =
+(* Inert parts take their bounds, one after the other, in any context. *)
+let note_begun t execution zone begun =
   let after ms date = match date with At n -> At (n + ms) | Unbounded -> Unbounded in
-  let note (i : Inert.item) =
-    let date = after (match t.goal with Latest -> i.most | Earliest -> i.least) (date t zone) in
-    Option.iter (fun task -> note_task t execution date task Ends) (Happening.ending next i)
+  let note date (p : Inert.part) =
+    let over = after (match t.goal with Latest -> p.most | Earliest -> p.least) date in
+    let note_moments task =
+      note_task t execution date task Starts;
+      note_task t execution over task Ends
+    in
+    Option.iter note_moments (Happening.task_of_part p);
+    over
   in
-  List.iter note begun
+  List.iter (fun (i : Inert.item) -> ignore (List.fold_left note (date t zone) i.parts)) begun
 
 (* [arrow] is taken from state [n]. *)
 let note_missed t n zone before (arrow : Zone_node.arrow) =
@@ -335,7 +340,7 @@ let take t n (before : Zone_node.t) zone ({ step; inert; begun; spelled } as arr
     let execution = Zone_node.execution_after t.places before step.next in
     note_step t before.execution zone before.state step;
     note_missed t n zone before.state arrow;
-    note_begun t execution zone step.next begun;
+    note_begun t execution zone begun;
     if begun <> [] || execution <> None then note_reduced t;
     let lasts = Zone_node.lasts before begun in
     let has_rest = List.exists (fun (_, rest) -> rest <> Zone_node.No_rest) lasts in
@@ -527,12 +532,18 @@ let arrival_by t e =
 (* The state that is followed instead of state [n], if another one is. *)
 let rec standing_for t n = match t.nodes.(n).turn with Included_in m -> standing_for t m | To_come | Taken -> n
 
-let edges t = Option.map (List.map (fun e -> { e with target = standing_for t e.target })) t.edges
+let edges t =
+  let standing e = { e with target = standing_for t e.target } in
+  Option.map (fun edges -> List.rev (List.rev_map standing edges)) t.edges
+
 let along t edges = List.map (arrival_by t) edges
 
 let ends t =
-  let is_end n = Configuration.has_ended t.nodes.(n).place.state.configuration in
-  List.map (fun n -> (n, date t t.nodes.(n).zone)) (List.filter is_end (List.init t.count Fun.id))
+  let ended n =
+    let { place; zone; _ } = t.nodes.(n) in
+    if Configuration.has_ended place.state.configuration then Some (n, date t zone) else None
+  in
+  List.filter_map ended (List.init t.count Fun.id)
 
 let count t = t.count
 let state t n = t.nodes.(n).place.state

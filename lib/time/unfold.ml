@@ -1,6 +1,6 @@
 open Dolphin_semantics
 
-(* An inert end. The rest that it belongs to has a date of its own, when the last of it ends, and is over with move
+(* An inert sequence. The rest that it belongs to has a date of its own, when the last of it ends, and is over with move
    [over], if it is over. *)
 type ending = { item : Inert.item; began : int; rest : int; is_last : bool; mutable over : int option }
 
@@ -50,58 +50,101 @@ let add system (k, p) : Timed_system.move -> _ = function
 
 (* {1 In the order of dates} *)
 
-(* The moves, which are numbered from 1 to [n], and the inert ends, in the order in which they happen: those of one rest
-   after all that is not later, and before what follows it. *)
-type event = Followed of Timed_system.move | Inert_end of Inert.item
+(* The moves, which are numbered from 1 to [n], and the ends of inert parts, in the order in which they happen: those of
+   one rest after all that is not later, and before what follows it. *)
+type event = Followed of Timed_system.move | Part_ends of Inert.item * Inert.part
+
+(* When the parts of a sequence end, as late or as early as its whole time [lasts] allows. *)
+let ends (goal : Timed_system.goal) (item : Inert.item) lasts =
+  let end_of (ends, least, most) (p : Inert.part) =
+    let least = least + p.least and most = most + p.most in
+    let over =
+      match goal with
+      | Latest -> min most (lasts - (item.least - least))
+      | Earliest -> max least (lasts - (item.most - most))
+    in
+    ((p, over) :: ends, least, most)
+  in
+  let ends, _, _ = List.fold_left end_of ([], 0, 0) item.parts in
+  List.rev ends
 
 let in_order (goal : Timed_system.goal) moves n dates endings =
   let of_move k (move : Timed_system.move) = ((dates.(k + 1), 2 * (k + 1)), Followed move) in
   let of_ending e =
+    let began = dates.(e.began) in
     let over = Option.map (fun k -> (dates.(k), (2 * k) - 1)) e.over in
-    let date =
+    let lasts =
       match goal, over with
-      | _, Some _ when e.is_last -> dates.(e.rest)
-      | Earliest, _ -> dates.(e.began) + e.item.least
-      | Latest, Some (over, _) -> min over (dates.(e.began) + e.item.most)
-      | Latest, None -> dates.(e.began) + e.item.most
+      | _, Some _ when e.is_last -> dates.(e.rest) - began
+      | Earliest, _ -> e.item.least
+      | Latest, Some (over, _) -> min (over - began) e.item.most
+      | Latest, None -> e.item.most
     in
-    match over with
-    | Some (_, place) -> Some ((date, place), Inert_end e.item)
-    | None when date <= dates.(n) -> Some ((date, 2 * n), Inert_end e.item)
-    | None -> None
+    let of_part (part, after) =
+      let date = began + after in
+      match over with
+      | Some (_, place) -> Some ((date, place), Part_ends (e.item, part))
+      | None when date <= dates.(n) -> Some ((date, 2 * n), Part_ends (e.item, part))
+      | None -> None
+    in
+    List.filter_map of_part (ends goal e.item lasts)
   in
   let compare ((a : int * int), _) (b, _) = Stdlib.compare a b in
-  List.stable_sort compare (List.mapi of_move moves @ List.filter_map of_ending endings)
+  List.stable_sort compare (List.mapi of_move moves @ List.concat_map of_ending endings)
 
 (* {1 Again, step by step} *)
 
 let same_event (a : Clocked.step) (b : Clocked.step) =
   Label.equal a.transition.label b.transition.label && Option.map fst a.due = Option.map fst b.due
 
-(* The step of [state] that is [step], though the inert [ended] are over. *)
-let as_followed successors state ended (step : Clocked.step) =
+(* The step of [state] that is [step], though inert sequences have gone on: each of [under_way] awaits its first event
+   in [step], and another one, or none, in [state]. *)
+let as_followed successors state under_way (step : Clocked.step) =
+  let others = Inert.without (List.map fst under_way) step.next.configuration in
   let is_it (s : Clocked.step) =
-    same_event s step
-    && match Inert.without ended step.next.configuration with
-    | Some c -> Configuration.equal c s.next.configuration
-    | None -> true
+    let here () = Inert.without (List.filter_map snd under_way) s.next.configuration in
+    same_event s step && (others = None || Option.equal Configuration.equal others (here ()))
   in
   List.find_opt is_it (List.map (fun (s : Successors.successor) -> s.step) (Successors.all successors state))
 
-let at_end successors state (item : Inert.item) =
-  List.find_opt (fun (s : Clocked.step) -> Option.map fst s.due = Some item.awaited) (Successors.steps successors state)
+(* The end of [part] in [state], and the steps that follow it. They come before all else, as nothing else is urgent
+   where a part ends. *)
+let end_of_part successors (state : Clocked.state) (part : Inert.part) =
+  let is_end (s : Clocked.step) = Option.map fst s.due = Some part.event in
+  let rec follow taken n (step : Clocked.step) =
+    if n = 0 then Some (step :: taken)
+    else
+      match Successors.steps successors step.next with
+      | next :: _ when next.urgent -> follow (step :: taken) (n - 1) next
+      | _ -> None
+  in
+  Option.bind (List.find_opt is_end (Successors.steps successors state)) (follow [] part.follow)
+
+(* The event that [item] awaits after [part]. *)
+let awaited_after part (item : Inert.item) =
+  let rec next = function
+    | p :: rest when p == part -> (match rest with (q : Inert.part) :: _ -> Some q.event | [] -> None)
+    | _ :: rest -> next rest
+    | [] -> None
+  in
+  next item.parts
 
 let steps successors start events =
-  let rec go taken state ended = function
+  let rec go taken state under_way = function
     | [] -> Some (List.rev taken)
     | (_, event) :: rest -> (
         match event with
         | Followed (Rest _) -> go taken state [] rest
-        | Followed (Step { step; _ }) -> continue taken state ended rest (as_followed successors state ended step)
-        | Inert_end item -> continue taken state (item.awaited :: ended) rest (at_end successors state item))
-  and continue taken _ ended rest = function
-    | Some (step : Clocked.step) -> go (step :: taken) step.next ended rest
-    | None -> None
+        | Followed (Step { step; _ }) -> (
+            match as_followed successors state under_way step with
+            | Some step -> go (step :: taken) step.next under_way rest
+            | None -> None)
+        | Part_ends (item, part) -> (
+            match end_of_part successors state part with
+            | Some (last :: _ as steps) ->
+              let others = List.remove_assoc item.awaited under_way in
+              go (steps @ taken) last.next ((item.awaited, awaited_after part item) :: others) rest
+            | Some [] | None -> None))
   in
   go [] start [] events
 

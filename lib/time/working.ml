@@ -62,9 +62,9 @@ let ended (before : Zone_node.t) zone (step : Clocked.step) (p : Clocked.pending
   | ( Task _ | Timer _ | Question _ | Recruit _ | Answer | Reply | Posting _ | Links | Silence _ | Course _ | Date _ ),
     _ -> None
 
-let begun execution (step : Clocked.step) (i : Inert.item) =
-  match Happening.ending step.next i with
-  | Some task when not (is_mapped execution task) -> Some (task.vehicle, i.most)
+let begun execution (p : Inert.part) =
+  match Happening.task_of_part p with
+  | Some task when not (is_mapped execution task) -> Some (task.vehicle, p.most)
   | Some _ | None -> None
 
 let of_step o (before : Zone_node.t) zone ({ step; begun = begins; _ } : Zone_node.arrow) execution =
@@ -74,6 +74,8 @@ let of_step o (before : Zone_node.t) zone ({ step; begun = begins; _ } : Zone_no
     | _, _ -> []
   in
   let over = List.filter_map (ended before zone step) before.state.pending in
-  let counted = whole @ over @ List.filter_map (begun execution step) begins in
+  let counted = whole @ over @
+                List.filter_map (begun execution) (List.concat_map (fun (i : Inert.item) -> i.parts) begins)
+  in
   let add found (v, ms) = (v, ms ++ Option.value (List.assoc_opt v found) ~default:0) :: List.remove_assoc v found in
   List.filter (fun (_, ms) -> ms > 0) (List.fold_left add [] counted)

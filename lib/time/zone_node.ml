@@ -92,11 +92,12 @@ let different e before clocks arrows =
       let color item = if List.mem item step.fresh then -1 else clock item in
       let form = Canonical_state.form ~color ~colored:true (spelled e) in
       let orbit = Canonical_state.orbit e in
-      let ends (i : Inert.item) = (i.least, i.most, Option.map orbit (Happening.ending step.next i)) in
+      let part (p : Inert.part) = (p.least, p.most, Option.map orbit (Happening.task_of_part p)) in
+      let parts (i : Inert.item) = List.map part i.parts in
       let due = Option.map (fun (item, bounds) -> (clock item, bounds)) step.due in
       let happens = List.map (fun (moment, task) -> (moment, orbit task)) (Happening.tasks before step) in
       let what = (step.transition.rules, List.sort Stdlib.compare happens, Happening.missed before step) in
-      let key = (due, step.urgent, what, List.sort Stdlib.compare (List.map ends begun), form.number) in
+      let key = (due, step.urgent, what, List.sort Stdlib.compare (List.map parts begun), form.number) in
       let is_new = not (Hashtbl.mem seen key) in
       Hashtbl.replace seen key ();
       is_new
@@ -272,20 +273,15 @@ let lasts place begun =
   | Said, _ -> [ (None, Said) ]
   | (No_rest | Unsaid), _ -> (None, Unsaid) :: List.map (fun (i : Inert.item) -> (Some i.awaited, Said)) begun
 
-(* All that is inert ends. *)
-let ends_of_rest t (state : Clocked.state) =
-  let inert = Successors.inert t.successors state in
-  let rec go steps (state : Clocked.state) =
-    let is_end (step : Clocked.step) =
-      match step.due with
-      | Some (item, _) -> List.exists (fun (i : Inert.item) -> i.awaited = item) inert
-      | None -> false
-    in
-    match List.find_opt is_end (Successors.steps t.successors state) with
-    | Some step when List.length steps < List.length inert -> go (step :: steps) step.next
-    | Some _ | None -> List.rev steps
+(* All that is inert ends, where nothing else is left: any order will do. *)
+let ends_of_rest t state =
+  let rec go steps n (state : Clocked.state) =
+    match Successors.steps t.successors state with
+    | step :: _ when n > 0 -> go (step :: steps) (n - 1) step.next
+    | _ -> List.rev steps
   in
-  go [] state
+  let inert = Successors.inert t.successors state in
+  go [] (List.fold_left (fun n i -> n + Inert.steps i) 0 inert) state
 
 (* When all that is inert is over in a state with nothing else left: now, or when the last of it ends. *)
 let ends_now clock zone = Option.map (fun zone -> (zone, false)) (Zone.at_least clock 0 zone)

@@ -550,7 +550,19 @@ let all =
         ];
       in_file "lib/time/working.ml" ~noticed_by:"time/test_exact"
         [
-          ("inert ends take nothing", {|Some (task.vehicle, i.most)|}, {|Some (task.vehicle, 0)|});
+          ("inert ends take nothing", {|Some (task.vehicle, p.most)|}, {|Some (task.vehicle, 0)|});
+        ];
+      in_file "lib/time/inert.ml" ~noticed_by:"time/test_reductions"
+        [
+          ( "an action that others see is part of an inert sequence",
+            {|Action code, _ when does_nothing i code|},
+            {|Action code, _ when (ignore (does_nothing i code); true)|} );
+        ];
+      in_file "lib/time/clocked.ml" ~noticed_by:"time/test_missions"
+        [
+          ( "each way of a sequence begins where the first does",
+            {|(moved_by Whereabouts.after here p) ~default:here, |},
+            {|(Option.map (fun _ -> here) (moved_by Whereabouts.after here p)) ~default:here, |} );
         ];
       in_file "lib/time/working.ml" ~noticed_by:"time/test_missions"
         [

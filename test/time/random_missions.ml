@@ -28,7 +28,7 @@ let bounds (seed, by) v (p : Dolphin_semantics.Core.platform_task) : Bounds.t =
 
 (* {1 Missions} *)
 
-(* Copies of one task, in which # is the number of the copy, and one that may wait for each. *)
+(* Copies of one task, in which # is the number of the copy, or several tasks, and one that may wait for each. *)
 let copy =
   let open QCheck2.Gen in
   let part =
@@ -40,7 +40,9 @@ let copy =
         (1, "(repeat 3, (task('r') >> idle(1)))"); (1, "(repeat 2, (task('r#') >> idle(2)))");
         (1, "(task('e#') ensure { post ready: # })"); (1, "((idle(1) | task('e')) ensure { post any: 0 })");
         (1, "((task('s#') within 2) ensure { last = # })"); (1, "(using lock: _ run task('u#'))");
-        (1, "(using lock: 1 run idle(1))"); (1, "(task('e') ensure { last = 5; post any: # })") ]
+        (1, "(using lock: 1 run idle(1))"); (1, "(task('e') ensure { last = 5; post any: # })");
+        (2, "action { message 'copy #' }"); (1, "action { message last + # }"); (2, "task('l#') >> idle(1) >> task('m')");
+        (1, "action { message 6 / (last - 5) }") ]
   in
   map (String.concat " >> ") (list_size (int_range 1 4) part)
 
@@ -58,7 +60,11 @@ let visitor n =
 let mission =
   let open QCheck2.Gen in
   let* n = int_range 2 3 in
-  let* copy = copy in
+  let* copies =
+    frequency
+      [ (3, map (fun copy -> numbered n " | " ("(" ^ copy ^ ")")) copy);
+        (1, map (fun all -> String.concat " | " (List.map (fun copy -> numbered 1 "" ("(" ^ copy ^ ")")) all))
+           (list_repeat n copy)) ] in
   let* visitor = visitor n in
   let* beside =
     oneofl [ ""; ""; " | idle(4)"; " | action { post ready: 1 }"; " | (idle(1) >> action { consume any: 0 })" ] in
@@ -72,7 +78,7 @@ let mission =
     (Printf.sprintf
        "last = 0\npost lock: 1, lock: 2\nUUVs = pick { count 3; type 'UUV' }\nUAV = pick { type 'UAV' }\n\
         execute UUVs: (%s%s)%s%s\n%s"
-       (numbered n " | " ("(" ^ copy ^ ")")) beside around visits after)
+       copies beside around visits after)
 
 type program = Mission of string | Any of Dolphin_syntax.Ast.program
 

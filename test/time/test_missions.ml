@@ -19,10 +19,10 @@ let fleet text =
   | Ok scenario -> scenario
   | Error _ -> Alcotest.fail "the fleet is wrong"
 
-let outcome ?(limits = Dolphin_checker.Limits.none) ?(faults = "") program scenario =
+let outcome ?reduction ?(limits = Dolphin_checker.Limits.none) ?(faults = "") program scenario =
   let faults = if faults = "" then Faults.none else Result.get_ok (Faults.of_string faults) in
   let program = Test_support.Pure_run.compile_exn ?place:scenario.Scenario.plans_at program in
-  Timed_analysis.run limits
+  Timed_analysis.run ?reduction ~vehicles:scenario.vehicles limits
     { environment = Scenario_world.environment ~answers:[] ~faults program scenario; program;
       world = Scenario_world.world scenario; durations = Durations.of_scenario scenario;
       dates = Dolphin_semantics.Dated_code.named program }
@@ -429,6 +429,49 @@ let test_meeting () =
   let posting = meeting ~post:"; post here: i" 10 in
   Alcotest.(check int) "pairs that no code reads cost nothing" o.states posting.states
 
+(* Sequences of tasks side by side, all of other durations, on which nothing depends but the end: each costs no more
+   states than one task. *)
+let test_sequences () =
+  let n = 5 in
+  let each separator f = String.concat separator (List.init n f) in
+  let task i j = Printf.sprintf "task('p_%d_%d') >> action { message 'p_%d_%d' }" i j i j in
+  let program =
+    Printf.sprintf "vs = pick { count %d }\nexecute vs: %s\n" n
+      (each " | " (fun i -> "(" ^ each " >> " (task i) ^ ")")) in
+  let plan i j = Printf.sprintf "plan 'p_%d_%d', { duration %d, %d }\n" i j (10 + i + j) (20 + (2 * i) + (3 * j)) in
+  let vehicles = each "" (Printf.sprintf "vehicle 'v%d', { type 'UUV' }\n") in
+  let o = outcome program (fleet (vehicles ^ each "" (fun i -> each "" (plan i)))) in
+  Alcotest.check window "ends" (80., 170.) (ends o);
+  Alcotest.check window "a third task starts" (25., 51.) (of_task o "p_2_2" Starts);
+  Alcotest.check window "a third task ends" (39., 81.) (of_task o "p_2_2" Ends);
+  Alcotest.(check bool) (Printf.sprintf "%d states" o.states) true (o.states < 100)
+
+(* The duration of a way depends on where the one before has ended, and its vehicle may go on from there later. *)
+let test_sequence_of_ways () =
+  let fleet =
+    fleet
+      "vehicle 'a', { type 'UUV'; at 41, -8 }\nvehicle 'b', { type 'UUV'; at 41, -8 }\nplan 'x', { duration 9, 30 }\n"
+  in
+  let program =
+    "a = pick { id 'a' }\nb = pick { id 'b' }\nhere = location(41, -8)\n\
+     def to(n) { imcPlan { planName 'to' + n\n speed 1, Speed.Units.METERS_PS\n locate here.displace(n, 0)\n goTo() } }\n\
+     execute (to(60)[a] >> to(90)[a] >> to(30)[a]) | (task('x')[b] >> to(20)[b] >> idle(5) >> task('x')[b])\n\
+     execute to(0)[a] | to(40)[b]\n" in
+  let outcome reduction = outcome ~reduction program fleet in
+  let plain = outcome Timed_analysis.Nothing in
+  let check name reduction =
+    let o = outcome reduction in
+    let answers (o : Timed_analysis.outcome) =
+      let batteries = List.map (fun (b : Timed_analysis.battery) -> (b.vehicle, b.least)) o.batteries in
+      (List.sort compare o.tasks, o.endings, batteries) in
+    Alcotest.(check bool) (name ^ ": the same dates and batteries") true (answers o = answers plain);
+    Alcotest.(check bool) (name ^ ": in fewer states") true (o.states < plain.states)
+  in
+  Alcotest.check window "the second way" (27., 33.) (
+    match of_task plain "to90" Starts, of_task plain "to90" Ends with (s, s'), (e, e') -> (e -. s, e' -. s'));
+  check "sequences" Inert_ends;
+  check "sequences and likeness" Inert_ends_and_canonical_states
+
 (* 3 km at 10 m/s, and 10 m at 1 m/s: a rest in the slow part is gone to at 1 m/s, so it may take longer than the whole.
    10 percent more are granted for ways. *)
 let test_rest () =
@@ -456,6 +499,7 @@ let () =
          case "faults" test_faults; case "runs without end" test_endless; case "unknown durations" test_unknown;
          case "deadlines" test_deadline; case "slack" test_slack; case "batteries" test_batteries;
          case "batteries without a link" test_batteries_without_link; case "picks" test_picks; case "joins" test_joins;
-         case "places" test_places; case "growth of a meeting" test_meeting;
+         case "places" test_places; case "growth of a meeting" test_meeting; case "sequences" test_sequences;
+         case "sequences of ways" test_sequence_of_ways;
          case "a date set by an end" test_date_of_end; case "interrupted at the start" test_interrupted;
          case "the rest of a plan" test_rest ]) ]

@@ -109,9 +109,10 @@ let test_left () =
 
 let of_text text = (Mission text, (5, By_plan), ("as planned", answering))
 
+(* All that is posted or assigned is read. *)
 let states copy =
   let pick = "last = 0\npost lock: 1\nUUVs = pick { count 3; type 'UUV' }\n" in
-  let text = Printf.sprintf "%sexecute UUVs: %s\n" pick (numbered 3 " | " copy) in
+  let text = Printf.sprintf "%sexecute UUVs: %s\nx = [poll(ready: 1), last]\n" pick (numbered 3 " | " copy) in
   let found = Timed_analysis.run Dolphin_checker.Limits.none (options (of_text text)) in
   Alcotest.(check bool) (copy ^ ": likeness is used") true (found.reduction = Inert_ends_and_canonical_states);
   found.states
@@ -137,6 +138,24 @@ let test_ends_in_order () =
   check (cut (Printf.sprintf "last = %d") "if (last == 2) { execute idle(7) }");
   check (cut (Printf.sprintf "post any: %d") "first = 1\nif (consume(any: 1)) { execute idle(7) }");
   check (cut (Printf.sprintf "post any: %d") "consume any: _\nif (poll(any: 2)) { execute idle(7) }")
+
+(* {1 Sequences} *)
+
+let test_sequences () =
+  let check task =
+    let text = Printf.sprintf "a = pick { id 'a' }\nb = pick { id 'b' }\nexecute %s\n" task in
+    let agree seed = agrees (Mission text, (seed, By_plan), ("as planned", answering)) in
+    Alcotest.(check bool) (task ^ ": the same is found") true (List.for_all agree (List.init 30 Fun.id))
+  in
+  List.iter check
+    [ "(task('p')[a] >> task('q')[a]) | (task('r')[b] >> task('s')[b])";
+      "task('p')[a] >> task('q')[b] >> task('r')[a]";
+      "(idle(1) >> task('p')[b]) | (task('q')[a] >> idle(3))";
+      "(task('p')[a] >> idle(2) >> task('q')[a]) | task('r')[b]";
+      "(task('p')[a] >> idle(2) >> task('q')[a]) | (repeat 2, task('r')[b])";
+      "(task('p')[a] >> task('q')[a]) | ((idle(2) >> task('r')[b]) during 1)";
+      "((task('p')[a] >> task('q')[a]) | task('r')[b]) during 3";
+      "(task('p')[a] >> action { message 1 / 0 } >> task('q')[a]) | (task('r')[b] >> task('s')[b])" ]
 
 (* {1 How times are written} *)
 
@@ -260,6 +279,7 @@ let () =
                             Alcotest.test_case "variety" `Quick test_variety ]);
       ("by hand",
        [ Alcotest.test_case "what is left in N" `Quick test_left;
+         Alcotest.test_case "sequences" `Quick test_sequences;
          Alcotest.test_case "ends of tasks are alike" `Quick test_ends_alike;
          Alcotest.test_case "ends of tasks in their order" `Quick test_ends_in_order;
          Alcotest.test_case "how times are written" `Quick test_spellings;

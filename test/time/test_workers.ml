@@ -30,7 +30,7 @@ let test_random () =
   in
   Test_support.Property.on_each_seed ~usual:20_261_127 ~programs test;
   Printf.printf "%d compared with more than one slack\n" !compared;
-  Alcotest.(check bool) "variety" true (!compared * 12 > programs)
+  Alcotest.(check bool) "variety" true (!compared * 15 > programs)
 
 (* {1 Ends} *)
 

@@ -10,12 +10,13 @@ BATCH = 100_000
 PROPERTIES = {
     1: "no unhandled error",
     2: "assertions",
-    3: "vehicles for all tasks",
-    4: "no halt",
-    5: "no leftover tuples",
+    3: "vehicles for all picks",
+    4: "vehicles for all tasks",
+    5: "no halt",
+    6: "no leftover tuples",
 }
-DEADLOCK = 6
-INVARIANTS = 7
+DEADLOCK = 7
+INVARIANTS = 8
 
 
 def broken(number, depth, conditions):

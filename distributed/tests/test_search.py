@@ -250,6 +250,30 @@ class Agreement(unittest.TestCase):
             self.assertIn("%d states, %d transitions, depth %d," % tuple(
                 expected[what] for what in ("states", "transitions", "depth")), found.stdout)
 
+    def test_verdicts(self):
+        """A violation of each property is of the property that `dolphin explore` names."""
+        programs = ["v = pick { count 2; timeout 1.second }\n", "v = pick { count 1 }\nexecute task('a') | task('b')\n",
+                    "x = 1 / 0\n", "assert { false }, 'no'\n", "execute waitFor { poll a: 1 } then idle(1)\n",
+                    "halt 'here'\n", "post a: 1\n", "message 'fine'\n"]
+        with tempfile.TemporaryDirectory() as folder:
+            program, fleet = os.path.join(folder, "m.dol"), os.path.join(folder, "m.fleet")
+            with open(fleet, "w") as text:
+                text.write("vehicle 'a', { type 'UUV' }\n")
+            for source in programs:
+                with self.subTest(source):
+                    with open(program, "w") as text:
+                        text.write(source)
+                    found = subprocess.run([sys.executable, EXPLORE, program, "--dolphin", DOLPHIN],
+                                           stdout=subprocess.PIPE, text=True)
+                    lines = found.stdout.split("\n\n", maxsplit=1)[0].splitlines()
+                    here = {line.split(":")[0] for line in lines if ": violated" in line}
+                    verdicts = explored(program, ["--reduction", "none"])["verdicts"]
+                    there = {v["property"] for v in verdicts if v["verdict"] == "violated"}
+                    self.assertEqual({name for name in here if "note" not in name},
+                                     there - {"no halt", "no leftover tuples", "all code reached"})
+                    self.assertEqual(any(line.startswith("vehicles for all picks") for line in lines),
+                                     "vehicles for all picks" in there)
+
     def test_unsettled(self):
         """Successors that cannot be listed stop the search, and are reported."""
         with tempfile.TemporaryDirectory() as folder:

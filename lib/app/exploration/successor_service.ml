@@ -92,7 +92,7 @@ let codec program : Portable.codec =
 
 (* {1 Beginning} *)
 
-let protocol = 2
+let protocol = 3
 
 let greeting_of ~version (settings : settings) program fleet =
   let options =
@@ -136,9 +136,10 @@ let number_of_property : Property.t option -> int = function
   | None -> 0
   | Some No_error -> 1
   | Some Assertions -> 2
-  | Some (Vehicles | Allocation) -> 3
-  | Some No_halt -> 4
-  | Some No_leftover -> 5
+  | Some Vehicles -> 3
+  | Some Allocation -> 4
+  | Some No_halt -> 5
+  | Some No_leftover -> 6
   | Some (No_deadlock | Termination | All_reached | Invariant _ | Formula _ | Apart _) -> 0
 
 let kind ~is_end broken = number_of_property broken + if is_end then end_bit else 0
@@ -416,9 +417,9 @@ let add_all buffer add items =
 
 (* As kinds number them; deadlocks and invariants, which have no kind, come after these. *)
 let number_of_breach = function
-  | Breaks No_deadlock -> 6
+  | Breaks No_deadlock -> 7
   | Breaks property -> number_of_property (Some property)
-  | Makes_false i -> 7 + i
+  | Makes_false i -> 8 + i
 
 let add_batch buffer (b : batch) =
   Buffer.add_char buffer '\000';

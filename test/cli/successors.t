@@ -9,7 +9,7 @@ States in, what follows them out.
   > vehicle 'noptilus-1', { type 'UUV' }
   > END
   $ dolphin successors relay.dol --greeting | sed 's/"version":"[^"]*"/"version":"..."/; s/"[0-9a-f]\{32\}"/"<digest>"/g'
-  {"dolphin":"successors","protocol":2,"version":"...","program":"<digest>","fleet":"<digest>","set":{},"options":{"answers":[],"faults":"","reduction":"none","invariants":[]}}
+  {"dolphin":"successors","protocol":3,"version":"...","program":"<digest>","fleet":"<digest>","set":{},"options":{"answers":[],"faults":"","reduction":"none","invariants":[]}}
 
 A search in a few lines finds what the explorer finds, and a run through the states that it met.
 

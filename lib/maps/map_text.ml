@@ -65,8 +65,10 @@ let geojson features =
 
 type xml = Element of string * (string * string) list * xml list | Data of string
 
-(* XML has no words for most control characters. *)
-let readable text = String.map (fun c -> if c < ' ' && c <> '\n' && c <> '\t' then ' ' else c) text
+(* XML does not have most control characters, nor U+FFFE and U+FFFF. *)
+let readable text =
+  let spaced = String.map (fun c -> if c < ' ' && c <> '\n' then ' ' else c) text in
+  String.concat "\n" (List.map Dolphin_utf8.Utf8.line (String.split_on_char '\n' spaced))
 
 let document root =
   let buffer = Buffer.create 65536 in

@@ -81,6 +81,7 @@ type t = {
   constants : int Constants.t;
   executions : execution option Clocked.Table.t;
   apart : Core.vehicle option;  (* it is like no other vehicle *)
+  inert : Inert.t;
   possible : bool;
 }
 
@@ -88,7 +89,8 @@ let create ?apart (options : Clocked.options) =
   let numbering = Dolphin_checker.Numbering.create () in
   { options; apart; skeletons = Skeleton.context numbering options.program; heads = Heads.create numbering;
     values = Values.create numbering; numbers = Form.numbers numbering; unread = Unread_pairs.keys options.program;
-    constants = Constants.create 64; executions = Clocked.Table.create 8; possible = Inert.names_are_free options }
+    constants = Constants.create 64; executions = Clocked.Table.create 8; inert = Inert.create options;
+    possible = Inert.names_are_free options }
 
 let orbit e label =
   match Hashtbl.find_opt e.orbits label with Some orbit -> List.rev (Hashtbl.find e.members orbit) | None -> [ label ]
@@ -265,7 +267,7 @@ let spell t e inert (s : Clocked.state) =
   match s.configuration.control with
   | Executing (m, r) ->
     let orbit l = Option.value (Hashtbl.find_opt e.orbits l) ~default:(-1) in
-    { likeness = t; execution = e; parts = parts t ~orbit ~pairs:e.pairs inert s m r }
+    { likeness = t; execution = e; parts = parts t ~orbit ~pairs:e.pairs inert s m (Inert.handled t.inert r) }
   | Script _ | Waiting _ | Ended _ -> invalid_arg "Canonical_state.spell: nothing is executed"
 
 let execution_of spelled = spelled.execution
@@ -355,11 +357,13 @@ let find_execution ~tick t (s : Clocked.state) m r =
 
 let execution ~tick t (s : Clocked.state) =
   match s.configuration.control with
-  | Executing (m, r) when t.possible && not (Residual.makes_tasks r || Residual.may_go_round r) -> (
+  | Executing (m, r) when t.possible -> (
       match Clocked.Table.find_opt t.executions s with
       | Some found -> found
       | None ->
-        let found = find_execution ~tick t s m r in
+        let r = Inert.handled t.inert r in
+        let has_other_tasks = Residual.makes_tasks r || Residual.may_go_round r in
+        let found = if has_other_tasks then None else find_execution ~tick t s m r in
         Clocked.Table.add t.executions s found;
         found)
   | Executing _ | Script _ | Waiting _ | Ended _ -> None

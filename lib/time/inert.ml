@@ -1,8 +1,15 @@
 open Dolphin_semantics
 open Dolphin_environment
 module Footprint = Dolphin_explore.Footprint
+module Step_footprints = Dolphin_explore.Step_footprints
 
-type t = { options : Clocked.options; possible : bool; code : Footprint.code; unread : string list  (* keys *) }
+type t = {
+  options : Clocked.options;
+  possible : bool;
+  code : Footprint.code;
+  steps : Step_footprints.context;
+  unread : string list;  (* keys *)
+}
 
 let names_are_free (o : Clocked.options) =
   let { Environment.faults; inputs; _ } = o.environment in
@@ -15,6 +22,7 @@ let names_are_free (o : Clocked.options) =
 
 let create (options : Clocked.options) =
   { options; possible = names_are_free options; code = Footprint.code options.program;
+    steps = Step_footprints.context options.environment options.program;
     unread = Unread_pairs.keys options.program }
 
 type part = { event : Clocked.item; task : Core.platform_task option; least : int; most : int; follow : int }
@@ -22,11 +30,18 @@ type item = { awaited : Clocked.item; parts : part list; least : int; most : int
 
 let steps i = List.fold_left (fun n p -> n + 1 + p.follow) 0 i.parts
 
-let components : Residual.t -> Residual.t list = function Parallel bs -> Branches.to_list bs | r -> [ r ]
+let rec components : Residual.t -> Residual.t list = function
+  | Parallel bs -> Branches.to_list bs
+  | Watch (r, _) -> components r
+  | r -> [ r ]
 
-let first_and_later : Residual.t -> Residual.t * Residual.t list = function
-  | Sequence (first, later) -> (first, later)
-  | r -> (r, [])
+(* Handlers around parts that do not fail do nothing. *)
+let rec in_sequence : Residual.t -> Residual.t list = function
+  | Sequence (first, later) -> List.concat_map in_sequence (first :: later)
+  | Watch (r, _) -> in_sequence r
+  | r -> [ r ]
+
+let first_and_later r = match in_sequence r with first :: later -> (first, later) | [] -> assert false
 
 (* The event that the first part of a component waits for, if that part does nothing but end. *)
 let awaited r : Clocked.item option =
@@ -36,6 +51,18 @@ let awaited r : Clocked.item option =
   | _ -> None
 
 let certainly_succeeds i v (p : Core.platform_task) = not (Environment.may_fail i.options.environment v p.name)
+
+(* Whether no error comes out of [r]. *)
+let never_fails i r = not (Step_footprints.of_residual i.steps r).breaks
+
+let rec handled i : Residual.t -> Residual.t = function
+  | Watch (r, _) when never_fails i r -> handled i r
+  | r ->
+    Residual.map
+      { part = handled i; code = Fun.id; handler = Fun.id; maker = Fun.id; value = Fun.id; term = Fun.id;
+        vehicle = Fun.id } r
+
+let may_make_tasks i r = Residual.makes_tasks r && Residual.makes_tasks (handled i r)
 
 (* [named] is the names in each component. *)
 let is_named_again v named = List.length (List.filter (String.equal v) named) > 1
@@ -88,10 +115,16 @@ let item (parts : part list) =
   let sum time = List.fold_left (fun n p -> n + time p) 0 parts in
   { awaited = (List.hd parts).event; parts; least = sum (fun p -> p.least); most = sum (fun p -> p.most) }
 
+(* The parts of a task under a handler are no components if the handler may be called. *)
+let rec components_of i : Residual.t -> Residual.t list = function
+  | Watch (r, _) when never_fails i r -> components_of i r
+  | Watch _ -> []
+  | r -> components r
+
 let of_state i (s : Clocked.state) =
   match s.configuration.control with
-  | Executing (_, r) when i.possible && not (Residual.makes_tasks r) ->
-    let components = components r in
+  | Executing (_, r) when i.possible && not (may_make_tasks i r) ->
+    let components = components_of i r in
     let named = List.concat_map Residual.named components in
     let items = List.filter_map (fun r -> Option.map item (parts i s named r)) components in
     List.sort (fun a b -> Stdlib.compare a.awaited b.awaited) items

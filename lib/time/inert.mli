@@ -12,6 +12,10 @@ val names_are_free : Clocked.options -> bool
 val create : Clocked.options -> t
 (** [create o] finds the inert ends in runs of [o]. Mutable: results are memoised. *)
 
+val handled : t -> Residual.t -> Residual.t
+(** [handled i r] is [r] without the handlers to which no error comes: none comes out of tasks that certainly succeed,
+    and code that cannot be faulty. *)
+
 (** A task that certainly succeeds, or an [idle]. *)
 type part = {
   event : Clocked.item;  (** ends it *)
@@ -22,7 +26,7 @@ type part = {
 }
 
 (** A sequence of such parts, the first of which runs, all on one vehicle, with actions between them that nothing
-    depends on: [task('p') >> action { message 'p is over' } >> task('q')]. *)
+    depends on, and handlers around them: [task('p') >> action { message 'p is over' } >> task('q')]. *)
 type item = {
   awaited : Clocked.item;  (** the event of its first part *)
   parts : part list;  (** at least one *)

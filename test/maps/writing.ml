@@ -58,6 +58,24 @@ let xml () =
 |})
     (Map_text.kml ~title:"m" [ List.nth features 1 ])
 
+(* Names of files and properties may be any bytes. *)
+let any_names =
+  let part =
+    QCheck2.Gen.oneofl
+      [ "a"; "\000"; "\027"; "\n"; "\t"; "<"; "&"; "]]>"; "\xff"; "\xc2\x80"; "\xed\xa0\x80"; "\xef\xbf\xbe"; "\xef\xbf\xbf";
+        "\xe2\x80\xae"; "\xf0\x9f\x90\xac" ] in
+  let name = QCheck2.Gen.(map (String.concat "") (list_size (int_bound 6) part)) in
+  let is_well_formed text =
+    let input = Xmlm.make_input (`String (0, text)) in
+    let rec read () = Xmlm.eoi input || (ignore (Xmlm.input input); read ()) in
+    match read () with read -> read | exception Xmlm.Error (_, error) -> failwith (Xmlm.error_message error)
+  in
+  let agrees name =
+    let all = List.map (fun (f : Feature.t) -> { f with name; properties = [ ("p", Feature.Text name) ] }) features in
+    is_well_formed (Map_text.gpx ~title:name all) && is_well_formed (Map_text.kml ~title:name all)
+  in
+  Test_support.Property.case ~count:500 "any names in XML" ~print:(Printf.sprintf "%S") name agrees
+
 let csv () =
   check "quotes" "a,b\r\n\"x,\"\"y\"\"\",0.25\r\n" (Map_text.csv [ "a"; "b" ] [ [ Text "x,\"y\""; Number 0.25 ] ])
 
@@ -73,5 +91,6 @@ let cases =
     case "the meridian of 180 degrees" cutting;
     case "GeoJSON" geojson;
     case "XML" xml;
+    any_names;
     case "CSV" csv;
     case "long tracks" long_tracks ]

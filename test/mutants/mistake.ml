@@ -557,6 +557,9 @@ let all =
           ( "an action that others see is part of an inert sequence",
             {|Action code, _ when does_nothing i code|},
             {|Action code, _ when (ignore (does_nothing i code); true)|} );
+          ( "a handler that may be called is left out",
+            {|let never_fails i r = not (Step_footprints.of_residual i.steps r).breaks|},
+            {|let never_fails i r = ignore (Step_footprints.of_residual i.steps r); true|} );
         ];
       in_file "lib/time/clocked.ml" ~noticed_by:"time/test_missions"
         [

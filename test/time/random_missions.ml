@@ -42,7 +42,8 @@ let copy =
         (1, "((task('s#') within 2) ensure { last = # })"); (1, "(using lock: _ run task('u#'))");
         (1, "(using lock: 1 run idle(1))"); (1, "(task('e') ensure { last = 5; post any: # })");
         (2, "action { message 'copy #' }"); (1, "action { message last + # }"); (2, "task('l#') >> idle(1) >> task('m')");
-        (1, "action { message 6 / (last - 5) }") ]
+        (1, "action { message 6 / (last - 5) }"); (1, "(watch (task('f') >> task('s#')) onError { task('h') })");
+        (1, "(watch task('f#') onError { e -> last = # })"); (1, "(watch (task('s') >> idle(1)) onError { retry() })") ]
   in
   map (String.concat " >> ") (list_size (int_range 1 4) part)
 
@@ -72,13 +73,13 @@ let mission =
     oneofl [ ""; "execute idle(1)\n"; "execute UUVs: task('z') | task('z')\n"; "clear = poll(ready: 1)\n";
              "if (last == 2) { execute idle(7) }\n"; "if (poll(any: 2)) { execute idle(7) }\n";
              "if (consume(lock: _) == 2) { execute idle(7) }\n" ] in
-  let* around = frequencyl [ (6, ""); (1, " during 3"); (1, " within 4") ] in
+  let* around = frequencyl [ (6, ""); (1, " during 3"); (1, " within 4"); (2, " onError { task('home') }") ] in
   let visits = if visitor = "" then "" else Printf.sprintf ", UAV: allOf {\n%s\n}" visitor in
   return
     (Printf.sprintf
        "last = 0\npost lock: 1, lock: 2\nUUVs = pick { count 3; type 'UUV' }\nUAV = pick { type 'UAV' }\n\
-        execute UUVs: (%s%s)%s%s\n%s"
-       copies beside around visits after)
+        execute UUVs: %s(%s%s)%s%s\n%s"
+       (if String.contains around 'E' then "watch " else "") copies beside around visits after)
 
 type program = Mission of string | Any of Dolphin_syntax.Ast.program
 

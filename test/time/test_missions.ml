@@ -446,6 +446,26 @@ let test_sequences () =
   Alcotest.check window "a third task ends" (39., 81.) (of_task o "p_2_2" Ends);
   Alcotest.(check bool) (Printf.sprintf "%d states" o.states) true (o.states < 100)
 
+(* Handlers that are never called cost nothing, whatever they would do; they count where plans may fail. *)
+let test_handlers () =
+  let each n separator f = String.concat separator (List.init n f) in
+  let work n =
+    let branch i = Printf.sprintf "work(vs[%d])" i in
+    Printf.sprintf
+      "vs = pick { count %d }\n\
+       def work(v) { (watch (task('a') >> task('b') >> task('c')) onError { task('home')[v] })[v] }\n\
+       execute watch (%s) onError { retry() }\n" n (each n " | " branch) in
+  let plan name = Printf.sprintf "plan '%s', { duration 10, 20 }\n" name in
+  let fleet n = fleet (each n "" (Printf.sprintf "vehicle 'v%d', { type 'UUV' }\n")
+                       ^ String.concat "" (List.map plan [ "a"; "b"; "c"; "home" ])) in
+  let o = outcome (work 6) (fleet 6) in
+  Alcotest.check window "ends" (30., 60.) (ends o);
+  Alcotest.(check bool) (Printf.sprintf "%d states" o.states) true (o.states < 200);
+  let faulty = outcome ~faults:"fail=1" (work 2) (fleet 2) in
+  Alcotest.check window "one comes home" (30., 80.) (ends faulty);
+  let plain = outcome ~reduction:Nothing ~faults:"fail=1" (work 2) (fleet 2) in
+  Alcotest.(check bool) "the same dates" true (faulty.endings = plain.endings)
+
 (* The duration of a way depends on where the one before has ended, and its vehicle may go on from there later. *)
 let test_sequence_of_ways () =
   let fleet =
@@ -500,6 +520,7 @@ let () =
          case "deadlines" test_deadline; case "slack" test_slack; case "batteries" test_batteries;
          case "batteries without a link" test_batteries_without_link; case "picks" test_picks; case "joins" test_joins;
          case "places" test_places; case "growth of a meeting" test_meeting; case "sequences" test_sequences;
+         case "handlers" test_handlers;
          case "sequences of ways" test_sequence_of_ways;
          case "a date set by an end" test_date_of_end; case "interrupted at the start" test_interrupted;
          case "the rest of a plan" test_rest ]) ]

@@ -35,17 +35,24 @@ let rec components : Residual.t -> Residual.t list = function
   | Watch (r, _) -> components r
   | r -> [ r ]
 
-(* Handlers around parts that do not fail do nothing. *)
+(* More would cost too much in each state. *)
+let most_rounds = 1_000
+
+(* Handlers around parts that do not fail do nothing, and the next round begins as the one before ends. *)
 let rec in_sequence : Residual.t -> Residual.t list = function
   | Sequence (first, later) -> List.concat_map in_sequence (first :: later)
   | Watch (r, _) -> in_sequence r
+  | Repeat { round = Some r; again = { left = Some n; until = None; each; _ } } when n <= most_rounds ->
+    in_sequence r @ List.concat (List.init n (fun _ -> in_sequence each))
   | r -> [ r ]
 
-let first_and_later r = match in_sequence r with first :: later -> (first, later) | [] -> assert false
+let rec first : Residual.t -> Residual.t = function
+  | Sequence (r, _) | Watch (r, _) | Repeat { round = Some r; _ } -> first r
+  | r -> r
 
 (* The event that the first part of a component waits for, if that part does nothing but end. *)
 let awaited r : Clocked.item option =
-  match fst (first_and_later r) with
+  match first r with
   | Running (_, v) -> Some (Task v)
   | Idle { timer; _ } -> Some (Timer timer)
   | _ -> None
@@ -100,7 +107,7 @@ let rec all_parts i v parts bounds (later : Residual.t list) =
 let tasks = List.filter_map (function Residual.Ready (p, _) -> Some p | _ -> None)
 
 let parts i (s : Clocked.state) named r =
-  let first, later = first_and_later r in
+  let first, later = match in_sequence r with first :: later -> (first, later) | [] -> (r, []) in
   let first_part item task =
     let pending = List.find_opt (fun (p : Clocked.pending) -> p.item = item) s.pending in
     Option.bind pending (fun p -> part item task p.bounds) in
@@ -142,7 +149,7 @@ let without items (c : Configuration.t) =
   | Executing (m, r) -> (
       let ended, left = List.partition (is_one items) (components r) in
       let remove allocation r =
-        match fst (first_and_later r) with Running (_, v) -> Vehicle_map.remove v allocation | _ -> allocation in
+        match first r with Running (_, v) -> Vehicle_map.remove v allocation | _ -> allocation in
       let allocation = List.fold_left remove c.shared.allocation ended in
       match left with
       | [] -> None

@@ -20,6 +20,8 @@ Lists of a program, and the pairs of N:
   completed after 0:00
     tasks    none
     journal  lists.run
+  $ dolphin trace check lists.dol lists.run
+  lists.run: a run, of 60043 transitions in 0:00; completed
   $ dolphin trace export lists.run --to mcap --output lists.mcap
 
 States and steps of the analysis of time:

@@ -153,6 +153,8 @@ let test_sequences () =
       "(idle(1) >> task('p')[b]) | (task('q')[a] >> idle(3))";
       "(task('p')[a] >> idle(2) >> task('q')[a]) | task('r')[b]";
       "(task('p')[a] >> idle(2) >> task('q')[a]) | (repeat 2, task('r')[b])";
+      "(repeat 3, (task('p')[a] >> idle(2))) | (task('q')[b] >> (repeat 2, (task('r')[b] >> action { message 1 })))";
+      "(watch (repeat 2, (watch task('p')[a] onError { ignore() })) onError { retry() }) | task('q')[b]";
       "(task('p')[a] >> task('q')[a]) | ((idle(2) >> task('r')[b]) during 1)";
       "((task('p')[a] >> task('q')[a]) | task('r')[b]) during 3";
       "(task('p')[a] >> action { message 1 / 0 } >> task('q')[a]) | (task('r')[b] >> task('s')[b])" ]

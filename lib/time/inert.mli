@@ -26,7 +26,7 @@ type part = {
 }
 
 (** A sequence of such parts, the first of which runs, all on one vehicle, with actions between them that nothing
-    depends on, in rounds, and under handlers: [repeat 3, (task('p') >> action { message 'p is over' } >> task('q'))]. *)
+    depends on, in rounds, and under handlers: [repeat 3, (task('p') >> action { message 'p ends' } >> task('q'))]. *)
 type item = {
   awaited : Clocked.item;  (** the event of its first part *)
   parts : part list;  (** at least one *)

@@ -118,16 +118,14 @@ let log_of_run ~started (run : Summary.t) =
   let each f = List.concat_map f run.vehicles in
   let hold words time (v : Summary.vehicle) =
     List.map (fun span -> said ~started (time span) info v.id words) v.held in
-  (* A long run has more activities than the stack has room for. *)
-  let joined = List.fold_left (Fun.flip List.rev_append) [] in
-  List.rev
-    (joined
-       [ each (hold "is picked" (fun (s : Summary.span) -> s.from));
-         each (fun v -> List.concat_map (log_of_silence ~started run v) v.silent);
-         each (fun v -> List.concat_map (log_of_task ~started v) v.tasks);
-         List.rev (List.rev_map (log_of_program ~started) run.activities);
-         each (hold "is released" (fun (s : Summary.span) -> s.until));
-         log_of_end ~started run ])
+  (* A long run has more activities than the stack has room for: neither [List.map] nor [@]. *)
+  List.concat_map Fun.id
+    [ each (hold "is picked" (fun (s : Summary.span) -> s.from));
+      each (fun v -> List.concat_map (log_of_silence ~started run v) v.silent);
+      each (fun v -> List.concat_map (log_of_task ~started v) v.tasks);
+      List.concat_map (fun activity -> [ log_of_program ~started activity ]) run.activities;
+      each (hold "is released" (fun (s : Summary.span) -> s.until));
+      log_of_end ~started run ]
 
 let of_run ~started (run : Summary.t) =
   let of_vehicle (v : Summary.vehicle) =

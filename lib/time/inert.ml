@@ -28,8 +28,10 @@ let create (options : Clocked.options) =
 type part = { event : Clocked.item; task : Core.platform_task option; least : int; most : int; follow : int }
 type item = { awaited : Clocked.item; parts : part list; least : int; most : int }
 
+let is_awaited items event = List.exists (fun i -> i.awaited = event) items
 let steps i = List.fold_left (fun n p -> n + 1 + p.follow) 0 i.parts
 
+(* Under handlers, too. *)
 let rec components : Residual.t -> Residual.t list = function
   | Parallel bs -> Branches.to_list bs
   | Watch (r, _) -> components r
@@ -38,10 +40,9 @@ let rec components : Residual.t -> Residual.t list = function
 (* More would cost too much in each state. *)
 let most_rounds = 1_000
 
-(* Handlers around parts that do not fail do nothing, and the next round begins as the one before ends. *)
+(* The next round begins as the one before ends. *)
 let rec in_sequence : Residual.t -> Residual.t list = function
   | Sequence (first, later) -> List.concat_map in_sequence (first :: later)
-  | Watch (r, _) -> in_sequence r
   | Repeat { round = Some r; again = { left = Some n; until = None; each; _ } } when n <= most_rounds ->
     in_sequence r @ List.concat (List.init n (fun _ -> in_sequence each))
   | r -> [ r ]
@@ -68,8 +69,6 @@ let rec handled i : Residual.t -> Residual.t = function
     Residual.map
       { part = handled i; code = Fun.id; handler = Fun.id; maker = Fun.id; value = Fun.id; term = Fun.id;
         vehicle = Fun.id } r
-
-let may_make_tasks i r = Residual.makes_tasks r && Residual.makes_tasks (handled i r)
 
 (* [named] is the names in each component. *)
 let is_named_again v named = List.length (List.filter (String.equal v) named) > 1
@@ -122,19 +121,18 @@ let item (parts : part list) =
   let sum time = List.fold_left (fun n p -> n + time p) 0 parts in
   { awaited = (List.hd parts).event; parts; least = sum (fun p -> p.least); most = sum (fun p -> p.most) }
 
-(* The parts of a task under a handler are no components if the handler may be called. *)
-let rec components_of i : Residual.t -> Residual.t list = function
-  | Watch (r, _) when never_fails i r -> components_of i r
-  | Watch _ -> []
-  | r -> components r
+let of_components i (s : Clocked.state) components =
+  let named = List.concat_map Residual.named components in
+  let items = List.filter_map (fun r -> Option.map item (parts i s named r)) components in
+  List.sort (fun a b -> Stdlib.compare a.awaited b.awaited) items
 
 let of_state i (s : Clocked.state) =
   match s.configuration.control with
-  | Executing (_, r) when i.possible && not (may_make_tasks i r) ->
-    let components = components_of i r in
-    let named = List.concat_map Residual.named components in
-    let items = List.filter_map (fun r -> Option.map item (parts i s named r)) components in
-    List.sort (fun a b -> Stdlib.compare a.awaited b.awaited) items
+  | Executing (_, r) when i.possible -> (
+      match handled i r with
+      | Watch _ -> []  (* an error may cut all of it off *)
+      | r when Residual.makes_tasks r -> []
+      | r -> of_components i s (components r))
   | Executing _ | Script _ | Waiting _ | Ended _ -> []
 
 let is_one items r = match awaited r with Some item -> List.mem item items | None -> false

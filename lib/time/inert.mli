@@ -34,6 +34,9 @@ type item = {
   most : int;
 }
 
+val is_awaited : item list -> Clocked.item -> bool
+(** [is_awaited items e] is whether one of [items] awaits [e], so that [e] is not followed. *)
+
 val steps : item -> int
 (** [steps i] is the number of steps from the beginning of the first part to the end of all. *)
 

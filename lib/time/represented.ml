@@ -56,8 +56,8 @@ let take system here (a : Timed_system.arrival) : (Timed_system.move * here) opt
       Option.map (fun items -> (successor, items)) (correspondence here known form items successor) in
     let arrive ({ Successors.step; inert; spelled = _ }, items) : Timed_system.move * here =
       let before = Successors.inert successors here.state in
-      let had_begun (i : Inert.item) = List.exists (fun (j : Inert.item) -> i.awaited = j.awaited) before in
-      let begun = List.filter (fun i -> not (had_begun i)) (Lazy.force inert) in
+      let has_begun (i : Inert.item) = not (Inert.is_awaited before i.awaited) in
+      let begun = List.filter has_begun (Lazy.force inert) in
       let is_like (i : Inert.item) =
         let is_it (j : Inert.item) = last = Some j.awaited && i.least = j.least && i.most = j.most in
         List.exists is_it known_begun

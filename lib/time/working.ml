@@ -48,11 +48,10 @@ let at_start (o : Clocked.options) execution (c : Configuration.t) =
 
 let ended (before : Zone_node.t) zone (step : Clocked.step) (p : Clocked.pending) =
   let is_awaited item = List.exists (fun (p : Clocked.pending) -> p.item = item) step.next.pending in
-  let is_inert item = List.exists (fun (i : Inert.item) -> i.awaited = item) before.inert in
   match p.item, p.task with
   | Task v, Some task
     when ((not (is_awaited p.item)) || List.mem p.item step.fresh)
-      && not (is_inert p.item || is_mapped before.execution (label v task)) ->
+      && not (Inert.is_awaited before.inert p.item || is_mapped before.execution (label v task)) ->
     let since = Option.bind (List.assoc_opt p.item before.clocks) (fun clock -> Zone.most clock zone) in
     let since = Option.value since ~default:unknown in
     (match p.progress, p.bounds with

@@ -60,9 +60,8 @@ let add place number = place.here <- number :: place.here
 let remove place number = place.here <- List.filter (( <> ) number) place.here
 
 let with_clocks (s : Clocked.state) inert =
-  let is_inert (p : Clocked.pending) = List.exists (fun (i : Inert.item) -> i.awaited = p.item) inert in
   let has_clock (p : Clocked.pending) =
-    match p.bounds with Within _ -> not (is_inert p) | Some_time | Never -> false in
+    match p.bounds with Within _ -> not (Inert.is_awaited inert p.item) | Some_time | Never -> false in
   List.map (fun (p : Clocked.pending) -> p.item) (List.filter has_clock s.pending)
 
 let course_item t = Option.map (fun c -> Clocked.Course (Course.vehicle c)) (Successors.course t.successors)
@@ -71,7 +70,7 @@ let fresh t before (step : Clocked.step) =
   match Successors.course t.successors with
   | Some c when Course.turns c before step -> Clocked.Course (Course.vehicle c) :: step.fresh
   | Some _ | None -> step.fresh
-let is_among items (i : Inert.item) = List.exists (fun (j : Inert.item) -> j.awaited = i.awaited) items
+let is_among items (i : Inert.item) = Inert.is_awaited items i.awaited
 
 (* An inert item stays so until all is over, and is so from its beginning. *)
 let arrow inert_before { Successors.step; inert; spelled } =
@@ -107,7 +106,7 @@ let different e before clocks arrows =
 let arrows_of t state inert =
   let is_followed (s : Successors.successor) =
     match s.step.due with
-    | Some (item, _) -> not (List.exists (fun (i : Inert.item) -> i.awaited = item) inert)
+    | Some (item, _) -> not (Inert.is_awaited inert item)
     | None -> true
   in
   List.map (arrow inert) (List.filter is_followed (Successors.followed t.successors state))
